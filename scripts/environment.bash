@@ -1,0 +1,36 @@
+# Sourced by the scripts beside it: where things are, and an environment in which ROS's tools work.
+# shellcheck disable=SC2034  # the variables are used where this is sourced
+
+afm_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+afm_build=${AFM_BUILD_DIR:-$afm_root/build}
+
+# another python3 may be first on PATH (pyenv, conda); ROS's modules belong to the system's
+export PATH=/usr/bin:/bin:$PATH
+
+# everything talks over loopback unless the user has said otherwise; a host's own name may not resolve
+if [[ -z ${ROS_IP:-} ]]; then
+  export ROS_HOSTNAME=${ROS_HOSTNAME:-localhost}
+fi
+export ROS_MASTER_URI=${ROS_MASTER_URI:-http://localhost:11311}
+
+# logs and bags need a home that can be written to
+if [[ ! -w ${HOME:-/nonexistent} ]]; then
+  export ROS_HOME=${ROS_HOME:-$afm_build/ros_home}
+fi
+
+# the comment at the head of a script is its help
+print_help() {
+  awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
+}
+
+# ROS's and our own setup files use unset variables
+source_setup() {
+  set +u
+  # shellcheck disable=SC1090
+  source "$1"
+  set -u
+}
+
+if [[ -f /opt/ros/noetic/setup.bash ]]; then
+  source_setup /opt/ros/noetic/setup.bash
+fi
