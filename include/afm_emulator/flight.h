@@ -1,0 +1,178 @@
+// Exact flight (Eq. 9-10) and the gap along it. Times s count from the start of the flight [tau].
+// X = x - xc and Y = y - y0 turn by their own angles; U = u - eta and W = w are their rates.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm_emulator/model.h"
+#include "afm_emulator/state.h"
+#include "afm_emulator/surface.h"
+#include "afm_emulator/turns.h"
+
+namespace afm {
+
+// The constants of one model in the number type of the computation.
+template <class T>
+struct Mechanics {
+  explicit Mechanics(const Model& model)
+      : ratio(model.frequency_ratio), omega_v(two_pi<T>()), omega_h(omega_v * ratio), H(model.H), y0(model.y0) {}
+
+  T ratio, omega_v, omega_h, H, y0;
+};
+
+// The comoving state at one time, with the surface phase.
+template <class T>
+struct FlightState {
+  T phase, X, U, Y, W;
+};
+
+// The gap y - h(x) and its time derivatives, with the state they belong to.
+template <class T>
+struct GapJet {
+  T g, g1, g2;
+  FlightState<T> state;
+};
+
+template <class T>
+class Flight {
+ public:
+  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start);
+
+  // Within a few ulp of the larger terms; for small turns, within a few ulp of the change since the start.
+  GapJet<T> gap(const T& s) const;
+  FlightState<T> at(const T& s) const;
+
+  TipState tip_state(const T& s) const;
+
+  // Bound of the rounding error of gap(s).g.
+  T gap_error(const T& s) const;
+
+  const GapJet<T>& start() const { return start_; }
+  const T& eta() const { return eta_; }
+  const Mechanics<T>& mechanics() const { return m_; }
+
+  // Bounds that hold for the whole flight: amplitudes of X and Y, and |g'''|.
+  const T& amplitude_X() const { return amplitude_X_; }
+  const T& amplitude_Y() const { return amplitude_Y_; }
+  const T& third_derivative_bound() const { return bound3_; }
+
+ private:
+  void set_bounds();
+  GapJet<T> small_gap(const T& s) const;
+  GapJet<T> jet_at(const FlightState<T>& state) const;
+
+  Mechanics<T> m_;
+  T eta_;
+  GapJet<T> start_;
+  SurfaceJet<T> surface_;  // at the start
+  T amplitude_X_, amplitude_Y_, bound2_, bound3_;
+  T small_until_;          // up to here every turn is at most 1/8
+};
+
+template <class T>
+Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
+    : m_(mechanics), eta_(eta), surface_(surface_jet(mechanics.H, T(start.phase))) {
+  const T W = T(start.g1) + surface_.h1 * T(start.u);
+  const T Y = (surface_.h - mechanics.y0) + T(start.g);
+  const T X = T(start.X), u = T(start.u);
+  const T g2 = -m_.omega_v * m_.omega_v * Y - surface_.h2 * u * u + surface_.h1 * (m_.omega_h * m_.omega_h * X);
+  start_ = {T(start.g), T(start.g1), g2, {T(start.phase), X, u - eta, Y, W}};
+  set_bounds();
+}
+
+template <class T>
+void Flight<T>::set_bounds() {
+  using std::abs;
+  using std::max;
+  using std::sqrt;
+  const Mechanics<T>& m = m_;
+  const FlightState<T>& o = start_.state;
+  const T k = two_pi<T>();
+  amplitude_X_ = sqrt(o.X * o.X + (o.U * o.U) / (m.omega_h * m.omega_h));
+  amplitude_Y_ = sqrt(o.Y * o.Y + (o.W * o.W) / (m.omega_v * m.omega_v));
+  const T u_max = abs(eta_) + m.omega_h * amplitude_X_;
+  const T a_max = m.omega_h * m.omega_h * amplitude_X_;
+  const T slope = k * m.H;
+  bound2_ = m.omega_v * m.omega_v * amplitude_Y_ + slope * (k * u_max * u_max + a_max);
+  // g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x'''
+  bound3_ = m.omega_v * m.omega_v * m.omega_v * amplitude_Y_ +
+            slope * (k * k * u_max * u_max * u_max + T(3.0) * k * u_max * a_max + m.omega_h * a_max);
+  small_until_ = T(0.125) / max(max(T(1.0), m.ratio), u_max);
+}
+
+template <class T>
+FlightState<T> Flight<T>::at(const T& s) const {
+  const Mechanics<T>& m = m_;
+  const FlightState<T>& o = start_.state;
+  const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s));
+  const SinCos<T> v = sin_cos_turns(s);
+  const T X = o.X * h.cos + o.U / m.omega_h * h.sin;
+  const T U = o.U * h.cos - m.omega_h * o.X * h.sin;
+  const T Y = o.Y * v.cos + o.W / m.omega_v * v.sin;
+  const T W = o.W * v.cos - m.omega_v * o.Y * v.sin;
+  return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
+}
+
+template <class T>
+GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
+  const Mechanics<T>& m = m_;
+  const SurfaceJet<T> surface = surface_jet(m.H, q.phase);
+  const T u = eta_ + q.U;
+  // x'' = -omega_h^2 X, y'' = -omega_v^2 Y
+  const T g2 = -m.omega_v * m.omega_v * q.Y - surface.h2 * u * u + surface.h1 * (m.omega_h * m.omega_h * q.X);
+  return {q.Y + m.y0 - surface.h, q.W - surface.h1 * u, g2, q};
+}
+
+template <class T>
+GapJet<T> Flight<T>::gap(const T& s) const {
+  return s <= small_until_ ? small_gap(s) : jet_at(at(s));
+}
+
+// The terms linear in s cancel on paper, into start_.g1 s: what is left is small of second order, each term to a few ulp.
+template <class T>
+GapJet<T> Flight<T>::small_gap(const T& s) const {
+  const Mechanics<T>& m = m_;
+  const FlightState<T>& o = start_.state;
+  const T k = two_pi<T>();
+  const T u0 = eta_ + o.U;
+  const SmallTurn<T> h = small_turn(T(m.ratio * s)), v = small_turn(s);
+
+  // dx = u0 s + dx2, u = u0 + du
+  const T dx2 = o.U / m.omega_h * h.sin_minus_angle - o.X * h.versine;
+  const T du = -o.U * h.versine - m.omega_h * o.X * h.sin;
+  const T dx = u0 * s + dx2;
+  const SmallTurn<T> d = small_turn(dx);
+
+  const T rise = surface_.h * d.versine - surface_.h1 * (dx2 + d.sin_minus_angle / k);
+  const T g = start_.g + start_.g1 * (v.sin / m.omega_v) + surface_.h1 * u0 * (v.sin_minus_angle / m.omega_v) - o.Y * v.versine + rise;
+  const T u = u0 + du;
+  const T g1 = start_.g1 * (T(1.0) - v.versine) - surface_.h1 * u0 * v.versine - m.omega_v * o.Y * v.sin -
+               surface_.h1 * (du - u * d.versine) + k * surface_.h * u * d.sin;
+
+  const T cos_d = T(1.0) - d.versine;
+  const T h_now = surface_.h * cos_d + surface_.h1 * d.sin / k;
+  const T h1_now = surface_.h1 * cos_d - k * surface_.h * d.sin;
+  const T X = o.X * (T(1.0) - h.versine) + o.U / m.omega_h * h.sin;
+  const FlightState<T> q{o.phase + dx, X, o.U + du, h_now + g - m.y0, h1_now * u + g1};
+  const T g2 = -m.omega_v * m.omega_v * q.Y + k * k * h_now * u * u + h1_now * (m.omega_h * m.omega_h * q.X);
+  return {g, g1, g2, q};
+}
+
+template <class T>
+TipState Flight<T>::tip_state(const T& s) const {
+  const GapJet<T> jet = gap(s);
+  const T u = eta_ + jet.state.U;
+  return {wrap_phase(static_cast<double>(jet.state.phase)), static_cast<double>(jet.state.X), static_cast<double>(u),
+          static_cast<double>(jet.g), static_cast<double>(jet.g1)};
+}
+
+template <class T>
+T Flight<T>::gap_error(const T& s) const {
+  using std::abs;
+  const T small = epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bound2_ * s));
+  if (s <= small_until_) return small;
+  return epsilon<T>() * (T(4.0) * amplitude_Y_ + T(16.0) * m_.H);
+}
+
+}  // namespace afm

@@ -1,0 +1,41 @@
+// The oscillator's parameters in natural units: length a (lattice spacing), time tau = 2 pi / omega_v, mass m (tip).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace afm {
+
+constexpr double kTwoPi = 6.283185307179586476925286766559;
+
+// What is wrong with one parameter: its name, the value given, and why that value cannot be used.
+class ParameterError : public std::invalid_argument {
+ public:
+  ParameterError(std::string name, double value, std::string reason);
+
+  std::string name;
+  double value;
+  std::string reason;
+};
+
+// Defaults are the paper's mica values (section V). The drag velocity eta is not here: it is commanded while running.
+struct Model {
+  double frequency_ratio = 6.25;  // omega_h / omega_v
+  double H = 0.05 / 0.52;         // surface amplitude [a]: h(x) = H cos(2 pi x), crest at x = 0
+  double y0 = 0.0;                // height of the harmonic centre [a]; below H, or the tip would hover
+  double gamma = 0.7;             // restitution at and above the cutoff
+  double v_c = 0.05;              // cutoff of the restitution law [a/tau]; 0: gamma at every speed
+};
+
+constexpr double kMaxEta = 1e3;              // above it a flight crosses more cells than the search is tested for
+constexpr double kMaxFrequencyRatio = 1e3;   // likewise for turns of the horizontal spring
+constexpr double kMaxAmplitude = 10.0;       // [a]: a hundred times mica
+
+// Every fault of the set, not only the first; empty when the model can be run.
+std::vector<ParameterError> find_faults(const Model& model);
+
+// All faults in one text, a line each: "name = value: reason".
+std::string describe(const std::vector<ParameterError>& faults);
+
+}  // namespace afm

@@ -1,0 +1,29 @@
+// The mica surface h(x) = H cos(2 pi x), crest at x = 0 [a].
+#pragma once
+
+#include "afm_emulator/turns.h"
+
+namespace afm {
+
+// Height and its derivatives by x at one phase.
+template <class T>
+struct SurfaceJet {
+  T h, h1, h2, h3;
+};
+
+template <class T>
+SurfaceJet<T> surface_jet(const T& H, const T& phase) {
+  const SinCos<T> turn = sin_cos_turns(phase);
+  const T k = two_pi<T>();
+  const T h = H * turn.cos;
+  const T h1 = -k * H * turn.sin;
+  return {h, h1, -k * k * h, -k * k * h1};
+}
+
+// x mod 1 in [0, 1).
+inline double wrap_phase(double x) {
+  const double phase = x - std::floor(x);
+  return phase < 1.0 ? phase : 0.0;
+}
+
+}  // namespace afm

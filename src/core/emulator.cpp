@@ -1,0 +1,137 @@
+#include "afm_emulator/emulator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace afm {
+
+std::vector<ParameterError> find_faults(const EmulatorSettings& s) {
+  std::vector<ParameterError> faults = find_faults(s.model);
+  const auto require = [&](bool holds, const char* name, double value, const char* reason) {
+    if (!holds) faults.emplace_back(name, value, reason);
+  };
+  require(std::abs(s.eta) <= kMaxEta, "eta", s.eta, "the drag velocity must be finite and at most 1000 lattice spacings per tau");
+  require(s.sample_period > 0.0 && s.sample_period <= 1e6, "sample_period", s.sample_period, "must be above 0 and at most 1e6 tau");
+  require(s.samples_per_batch >= 1, "samples_per_batch", static_cast<double>(s.samples_per_batch), "must be at least 1");
+  require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window, "must be positive and finite");
+  require(s.impact_budget >= 1, "impact_budget", static_cast<double>(s.impact_budget), "must be at least 1");
+  const FreeState& i = s.initial;
+  const auto require_within = [&](const char* name, double value, double most, const char* reason) {
+    require(std::abs(value) <= most, name, value, reason);
+  };
+  require_within("initial_phase", i.phase, 1e6, "must be finite");
+  require_within("initial_extension", i.X, 10.0, "must be within 10 lattice spacings");
+  require_within("initial_height", i.y, 100.0, "must be within 100 lattice spacings");
+  require_within("initial_u", i.u, kMaxEta, "must be within 1000 lattice spacings per tau");
+  require_within("initial_w", i.w, kMaxEta, "must be within 1000 lattice spacings per tau");
+  if (faults.empty()) {
+    require(to_tip_state(s.model.H, i).g >= 0.0, "initial_height", i.y, "the tip would start below the surface");
+  }
+  return faults;
+}
+
+namespace {
+
+const EmulatorSettings& checked(const EmulatorSettings& settings) {
+  const auto faults = find_faults(settings);
+  if (!faults.empty()) throw faults.front();
+  return settings;
+}
+
+}  // namespace
+
+Emulator::Emulator(const EmulatorSettings& settings)
+    : settings_(checked(settings)),
+      eta_(settings.eta),
+      tip_(settings.model, settings.eta, settings.initial),
+      friction_(settings.friction_window) {
+  friction_.restart(now_, eta_);
+}
+
+void Emulator::reset() { *this = Emulator(settings_); }
+
+void Emulator::drag(double eta) {
+  // the same velocity again is no change: the flight under way stays whole, only the friction estimate starts anew
+  if (eta != eta_) tip_.drag(eta);
+  eta_ = eta;
+  friction_.restart(now_, eta);
+}
+
+void Emulator::reserve(Batch& batch) const {
+  batch.vertical.reserve(settings_.samples_per_batch);
+  batch.lateral.reserve(settings_.samples_per_batch);
+  batch.impacts.reserve(settings_.impact_budget);
+}
+
+ModelTime Emulator::next_boundary() const {
+  // a boundary is the time of every samples_per_batch-th sample; the one just reached is behind us
+  const std::uint64_t n = settings_.samples_per_batch;
+  return multiply((next_sample_ / n + 1) * n, settings_.sample_period);
+}
+
+Outcome Emulator::run_batch(Batch& batch) { return run_until(next_boundary(), batch); }
+
+Outcome Emulator::run_until(const ModelTime& time, Batch& batch) {
+  const Outcome outcome = run(time, settings_.impact_budget, batch);
+  if (outcome == Outcome::time_limit) return outcome;
+  ++counters_.budget_exhausted;
+  return Outcome::budget_spent;
+}
+
+Outcome Emulator::run_impacts(std::uint64_t n, Batch& batch) {
+  return run(next_boundary(), std::min(n, settings_.impact_budget), batch);
+}
+
+void Emulator::begin(Batch& batch) const {
+  batch.begin = now_;
+  batch.eta = eta_;
+  batch.first_sample = next_sample_;
+  batch.first_sample_time = multiply(next_sample_, settings_.sample_period);
+  batch.first_impact = impact_index_;
+  batch.vertical.clear();
+  batch.lateral.clear();
+  batch.impacts.clear();
+}
+
+void Emulator::sample_until(const ModelTime& time, Batch& batch) {
+  for (;; ++next_sample_) {
+    const ModelTime t = multiply(next_sample_, settings_.sample_period);
+    if (!(t < time)) return;
+    const Deflection d = tip_.deflection(t);
+    batch.vertical.push_back(d.vertical);
+    batch.lateral.push_back(d.lateral);
+    counters_.worst_penetration = std::max(counters_.worst_penetration, -d.gap);
+  }
+}
+
+// Samples are taken arc by arc, before the arc's end replaces it.
+Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
+  constexpr std::uint64_t kFailureCost = 100;  // a failed search takes about as long as so many impacts
+  for (std::uint64_t spent = 0; spent < impacts;) {
+    const ModelTime arc_end = tip_.arc_end();
+    sample_until(arc_end < end ? arc_end : end, batch);
+    const Outcome outcome = tip_.advance_arc(end);
+    if (outcome == Outcome::time_limit) return outcome;
+    if (outcome == Outcome::search_failed) {
+      ++counters_.search_failures;
+      spent += kFailureCost;
+    }
+    if (outcome != Outcome::impact) continue;
+    batch.impacts.push_back(tip_.last_impact());
+    friction_.add(tip_.last_impact());
+    ++impact_index_;
+    ++spent;
+  }
+  return Outcome::impact;
+}
+
+Outcome Emulator::run(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
+  begin(batch);
+  const Outcome outcome = run_arcs(end, impacts, batch);
+  now_ = tip_.now();
+  batch.end = now_;
+  batch.friction = friction_.estimate(now_);
+  return outcome;
+}
+
+}  // namespace afm

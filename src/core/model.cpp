@@ -1,0 +1,48 @@
+#include "afm_emulator/model.h"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace afm {
+namespace {
+
+std::string to_text(const std::string& name, double value, const std::string& reason) {
+  std::ostringstream out;
+  out.precision(17);
+  out << name << " = " << value << ": " << reason;
+  return out.str();
+}
+
+}  // namespace
+
+ParameterError::ParameterError(std::string name_, double value_, std::string reason_)
+    : std::invalid_argument(to_text(name_, value_, reason_)),
+      name(std::move(name_)),
+      value(value_),
+      reason(std::move(reason_)) {}
+
+std::vector<ParameterError> find_faults(const Model& m) {
+  std::vector<ParameterError> faults;
+  // written so that NaN fails every condition
+  const auto require = [&](bool holds, const char* name, double value, const char* reason) {
+    if (!holds) faults.emplace_back(name, value, reason);
+  };
+  require(m.frequency_ratio > 0.0 && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio", m.frequency_ratio,
+          "omega_h/omega_v must be above 0 and at most 1000");
+  require(m.H > 0.0 && m.H <= kMaxAmplitude, "H", m.H, "the surface amplitude must be above 0 and at most 10 lattice spacings");
+  require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
+          "the harmonic centre must be finite and below the crest, or the tip hovers and never touches");
+  require(m.y0 >= -kMaxAmplitude, "y0", m.y0, "the harmonic centre must be at most 10 lattice spacings down");
+  require(m.gamma >= 0.0 && m.gamma <= 1.0, "gamma", m.gamma, "the restitution must be between 0 and 1");
+  require(m.v_c >= 0.0 && std::isfinite(m.v_c), "v_c", m.v_c, "the cutoff speed must be finite and not negative");
+  return faults;
+}
+
+std::string describe(const std::vector<ParameterError>& faults) {
+  std::string text;
+  for (const ParameterError& fault : faults) text += std::string(text.empty() ? "" : "\n") + fault.what();
+  return text;
+}
+
+}  // namespace afm

@@ -1,0 +1,50 @@
+#include "afm_emulator/units.h"
+
+#include <cmath>
+
+namespace afm {
+
+std::vector<ParameterError> find_faults(const SiModel& si) {
+  std::vector<ParameterError> faults;
+  const auto require_positive = [&](const char* name, double value) {
+    if (!(value > 0.0 && std::isfinite(value))) faults.emplace_back(name, value, "must be positive and finite");
+  };
+  require_positive("omega_v_rad_per_s", si.omega_v_rad_per_s);
+  require_positive("omega_h_rad_per_s", si.omega_h_rad_per_s);
+  require_positive("tip_mass_kg", si.tip_mass_kg);
+  require_positive("lattice_spacing_m", si.lattice_spacing_m);
+  const bool scaled = faults.empty();
+  const auto rename = [&](const ParameterError& fault) {
+    if (fault.name == "H") return faults.emplace_back("surface_amplitude_m", si.surface_amplitude_m, fault.reason);
+    if (fault.name == "y0") return faults.emplace_back("rest_height_m", si.rest_height_m, fault.reason);
+    if (fault.name == "gamma") return faults.emplace_back("restitution_gamma", si.restitution_gamma, fault.reason);
+    if (fault.name == "v_c") return faults.emplace_back("cutoff_speed", si.cutoff_speed, fault.reason);
+    return faults.emplace_back("omega_h_rad_per_s", si.omega_h_rad_per_s, fault.reason);
+  };
+  // without scales the rest cannot be judged in cells and tau: judge it against mica's, so that it is judged at all
+  const SiModel mica;
+  SiModel judged = si;
+  if (!scaled) {
+    judged.omega_v_rad_per_s = mica.omega_v_rad_per_s;
+    judged.omega_h_rad_per_s = mica.omega_h_rad_per_s;
+    judged.lattice_spacing_m = mica.lattice_spacing_m;
+    judged.tip_mass_kg = mica.tip_mass_kg;
+  }
+  for (const ParameterError& fault : find_faults(Units(judged).to_natural(judged))) rename(fault);
+  return faults;
+}
+
+Units::Units(const SiModel& si)
+    : a_(si.lattice_spacing_m), tau_(kTwoPi / si.omega_v_rad_per_s), m_(si.tip_mass_kg) {}
+
+Model Units::to_natural(const SiModel& si) const {
+  Model model;
+  model.frequency_ratio = si.omega_h_rad_per_s / si.omega_v_rad_per_s;
+  model.H = si.surface_amplitude_m / a_;
+  model.y0 = si.rest_height_m / a_;
+  model.gamma = si.restitution_gamma;
+  model.v_c = si.cutoff_speed / velocity();
+  return model;
+}
+
+}  // namespace afm
