@@ -48,6 +48,7 @@ class Flight {
   // Bound of the rounding error of gap(s).g.
   T gap_error(const T& s) const;
 
+  const TipState& launch() const { return launch_; }  // the state it began with, as given
   const GapJet<T>& start() const { return start_; }
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
@@ -64,6 +65,7 @@ class Flight {
 
   Mechanics<T> m_;
   T eta_;
+  TipState launch_;
   GapJet<T> start_;
   SurfaceJet<T> surface_;  // at the start
   T amplitude_X_, amplitude_Y_, bound2_, bound3_;
@@ -72,7 +74,7 @@ class Flight {
 
 template <class T>
 Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
-    : m_(mechanics), eta_(eta), surface_(surface_jet(mechanics.H, T(start.phase))) {
+    : m_(mechanics), eta_(eta), launch_(start), surface_(surface_jet(mechanics.H, T(start.phase))) {
   const T W = T(start.g1) + surface_.h1 * T(start.u);
   const T Y = (surface_.h - mechanics.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);

@@ -81,4 +81,8 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
   return {SearchOutcome::cap, s, f.gap(s), kMaxSearchSteps};
 }
 
+// In double, and where rounding hides a graze, on the same start in twice the digits; one that even they cannot tell from
+// a touch is a touch. So an impact or a miss is what exact arithmetic on the given doubles says, down to 1e-30.
+Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
+
 }  // namespace afm

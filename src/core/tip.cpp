@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "afm_emulator/double_double.h"
+#include "afm_emulator/multiversion.h"
 #include "afm_emulator/reflection.h"
 
 namespace afm {
@@ -23,23 +23,15 @@ const FreeState& checked(const Model& model, const FreeState& start) {
   return start;
 }
 
-Landing<double> rounded(const Landing<DoubleDouble>& landing) {
-  const auto d = [](const DoubleDouble& x) { return static_cast<double>(x); };
-  const FlightState<DoubleDouble>& q = landing.jet.state;
-  const GapJet<double> jet{d(landing.jet.g), d(landing.jet.g1), d(landing.jet.g2),
-                           {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)}};
-  return {landing.outcome, d(landing.s), jet, landing.evaluations};
+AFM_MULTIVERSION Flight<double> launch(const Mechanics<double>& mechanics, double eta, const TipState& state) {
+  return Flight<double>(mechanics, eta, state);
 }
 
-// A graze closer than double can tell is decided on the same start in twice the digits; one that even they cannot
-// tell from a touch is a touch.
-Landing<double> decide_graze(const Model& model, double eta, const TipState& start) {
-  const Mechanics<DoubleDouble> mechanics(model);
-  const Flight<DoubleDouble> flight(mechanics, DoubleDouble(eta), start);
-  Landing<double> landing = rounded(find_impact(flight, DoubleDouble(kHorizon)));
-  if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
-  return landing;
+AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<double>& incident) {
+  return reflect(model, eta, incident.state, std::fmin(incident.g1, 0.0));
 }
+
+AFM_MULTIVERSION GapJet<double> jet_of(const Flight<double>& flight, double s) { return flight.gap(s); }
 
 }  // namespace
 
@@ -51,7 +43,7 @@ Tip::Tip(const Model& model, double eta, const FreeState& start, const ModelTime
       now_(time) {}
 
 void Tip::start_flight(double eta, const TipState& start, const ModelTime& time) {
-  flight_ = Flight<double>(mechanics_, eta, start);
+  flight_ = launch(mechanics_, eta, start);
   start_ = time;
   landing_known_ = false;
 }
@@ -65,20 +57,17 @@ TipState Tip::tip_state() const {
 }
 
 Deflection Tip::deflection(const ModelTime& t) const {
-  const GapJet<double> jet = flight_.gap(t - start_);
+  const GapJet<double> jet = jet_of(flight_, t - start_);
   return {jet.state.Y, jet.state.X, jet.g};
 }
 
 void Tip::find_landing() {
-  landing_ = find_impact(flight_, kHorizon);
-  if (landing_.outcome == SearchOutcome::undecided) {
-    landing_ = decide_graze(model_, flight_.eta(), flight_.tip_state(0.0));
-  }
+  landing_ = afm::find_landing(model_, flight_, kHorizon);
   landing_known_ = true;
 }
 
 Outcome Tip::land() {
-  const Reflection r = reflect(model_, flight_.eta(), landing_.jet.state, std::fmin(landing_.jet.g1, 0.0));
+  const Reflection r = bounce(model_, flight_.eta(), landing_.jet);
   now_ = start_ + landing_.s;
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
   start_flight(flight_.eta(), r.after, now_);
