@@ -1,0 +1,76 @@
+#include "bag_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+namespace afm::node {
+namespace {
+
+// rosbag writes a chunk when it is full: one may be under way, and its index follows it
+constexpr std::uint64_t kChunkSlack = 2 * 1024 * 1024;
+
+bool exists(const std::string& path) {
+  struct stat status {};
+  return lstat(path.c_str(), &status) == 0;
+}
+
+// Takes the name for us alone; rosbag then opens a file that is there.
+void create_exclusively(const std::string& path) {
+  const int file = open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0644);
+  if (file < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
+  ::close(file);
+}
+
+// Not every file system can refuse to overwrite while renaming; there we look first.
+bool rename_without_overwriting(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno != EINVAL && errno != ENOSYS) return false;
+  return !exists(to) && std::rename(from.c_str(), to.c_str()) == 0;
+}
+
+}  // namespace
+
+BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes)
+    : path_(path), active_path_(path + ".active"), reserve_bytes_(reserve_bytes) {
+  if (exists(path_)) throw std::runtime_error(path_ + ": there is such a bag already");
+  create_exclusively(active_path_);
+  if (!has_room(0)) {
+    unlink(active_path_.c_str());
+    throw std::runtime_error(path_ + ": less than " + std::to_string(reserve_bytes_ / 1000000) +
+                             " MB (disk_reserve_mb) are free on the disk");
+  }
+  auto bag = std::make_unique<rosbag::Bag>();
+  bag->open(active_path_, rosbag::bagmode::Write);
+  bag_ = std::move(bag);
+}
+
+BagFile::~BagFile() { close(); }
+
+bool BagFile::has_room(std::uint64_t bytes) const {
+  struct statvfs disk {};
+  if (statvfs(active_path_.c_str(), &disk) != 0) return false;
+  return disk.f_bavail * disk.f_frsize >= reserve_bytes_ + kChunkSlack + bytes;
+}
+
+std::string BagFile::close() {
+  if (!bag_) return {};
+  try {
+    bag_->close();
+  } catch (const std::exception& error) {
+    // The destructor would try again, throw again, and end the process: the bag is left to the process's end instead.
+    static_cast<void>(bag_.release());
+    return active_path_ + ": " + error.what() + "; rosbag reindex recovers what is in it";
+  }
+  bag_.reset();
+  if (rename_without_overwriting(active_path_, path_)) return {};
+  return active_path_ + " is complete but could not be renamed: " + std::strerror(errno);
+}
+
+}  // namespace afm::node

@@ -1,0 +1,52 @@
+// A bag that is being written: NAME.bag.active until it is closed, then NAME.bag. It keeps a reserve on its disk free,
+// and no failure of the disk takes the process down.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <boost/shared_ptr.hpp>
+#include <ros/datatypes.h>
+#include <ros/time.h>
+#include <rosbag/bag.h>
+
+namespace afm::node {
+
+// Where a message goes in the bag. The connection header says what rosbag play must know, such as latching.
+struct BagTopic {
+  std::string name;
+  boost::shared_ptr<ros::M_string> connection_header;
+};
+
+class BagFile {
+ public:
+  // Throws std::runtime_error with the reason.
+  BagFile(const std::string& path, std::uint64_t reserve_bytes);
+  ~BagFile();  // closes, whatever happens
+  BagFile(const BagFile&) = delete;
+  BagFile& operator=(const BagFile&) = delete;
+
+  // Throws rosbag::BagException.
+  template <class Message>
+  void write(const BagTopic& topic, const ros::Time& stamp, const Message& message) {
+    bag_->write(topic.name, stamp, message, topic.connection_header);
+    ++messages_;
+  }
+
+  // Whether the disk has room for so much more beside the reserve. False too when it cannot be asked.
+  bool has_room(std::uint64_t bytes) const;
+
+  std::string close();  // returns what went wrong, or nothing
+
+  const std::string& path() const { return path_; }  // NAME.bag, where it will be
+  std::uint64_t messages() const { return messages_; }
+
+ private:
+  std::string path_, active_path_;
+  std::uint64_t reserve_bytes_;
+  std::uint64_t messages_ = 0;
+  std::unique_ptr<rosbag::Bag> bag_;
+};
+
+}  // namespace afm::node

@@ -1,0 +1,88 @@
+#include "broadcaster.h"
+
+#include "arithmetic_digest.h"
+#include "topics.h"
+#include "version.h"
+
+namespace afm::node {
+namespace {
+
+constexpr std::chrono::milliseconds kStatusPeriod{100};
+constexpr std::chrono::milliseconds kDiagnosticsPeriod{1000};  // as diagnostic aggregators expect
+
+}  // namespace
+
+Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, Sources sources)
+    : parameters_(parameters),
+      units_(parameters.si),
+      digest_(arithmetic_digest()),
+      sources_(std::move(sources)),
+      deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize),
+      impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
+      friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize),
+      applied_drag_(node, sources_.recorder, kAppliedDragTopic, kCommandQueueSize, true),
+      status_(node, sources_.recorder, kStatusTopic, kStatusQueueSize),
+      configuration_(node, sources_.recorder, kConfigurationTopic, kConfigurationQueueSize, true) {
+  diagnostics_.setHardwareID("none");
+  using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
+  diagnostics_.add("emulation", [this](Wrapper& out) { diagnose_emulation(latest_status_, out); });
+  diagnostics_.add("recording", [this](Wrapper& out) { diagnose_recording(latest_status_, out); });
+}
+
+void Broadcaster::start(const std::string& scheduler) {
+  tracker_ = std::make_unique<StatusTracker>(units_, parameters_.model, scheduler);
+  thread_ = std::thread([this] { run(); });
+}
+
+void Broadcaster::stop() {
+  stopping_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void Broadcaster::run() {
+  Event event;
+  Batch batch;
+  for (bool last = false; !last;) {
+    last = stopping_;  // look once more after being told to stop: nothing handed over before it is lost
+    if (!last) sources_.hand_over.wait_for(kStatusPeriod);
+    while (sources_.hand_over.take(event, batch)) {
+      publish(event, batch);
+      tell_status();
+    }
+    tell_status();
+  }
+}
+
+void Broadcaster::publish(const Event& event, const Batch& batch) {
+  const Label label{to_stamp(event.wall_ns), event.state.epoch};
+  tracker_->observe(event);
+  switch (event.kind) {
+    case Event::Kind::reset: configuration_.send(to_configuration(parameters_, kVersion, digest_, label)); break;
+    case Event::Kind::drag_applied:
+      applied_drag_.send(to_applied_drag(event.state.time, event.drag_velocity, label));
+      break;
+    case Event::Kind::batch: publish_batch(event, batch, label); break;
+    case Event::Kind::answer: sources_.deliver(event.answer); break;
+  }
+}
+
+void Broadcaster::publish_batch(const Event& event, const Batch& batch, const Label& label) {
+  deflection_.send(to_deflection(batch, 1.0 / parameters_.sample_rate_hz, units_, label));
+  impacts_.send(to_impacts(batch, units_, label));
+  friction_.send(to_friction(batch, event.drag_velocity, units_, label));
+}
+
+void Broadcaster::tell_status() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now >= status_due_) {
+    status_due_ = now + kStatusPeriod;
+    latest_status_ = tracker_->make(sources_.recorder.status(), sources_.refused_commands);
+    status_.send(afm_emulator::EmulatorStatus(latest_status_));
+  }
+  if (now >= diagnostics_due_) {
+    diagnostics_due_ = now + kDiagnosticsPeriod;
+    diagnostics_.force_update();
+  }
+}
+
+}  // namespace afm::node

@@ -1,0 +1,80 @@
+// The configuration of a run as a message, and back: what it takes to simulate it again.
+#include "message_conversion.h"
+
+namespace afm::node {
+namespace {
+
+void write_model(const SiModel& si, afm_emulator::Configuration& message) {
+  message.omega_v_rad_per_s = si.omega_v_rad_per_s;
+  message.omega_h_rad_per_s = si.omega_h_rad_per_s;
+  message.tip_mass_kg = si.tip_mass_kg;
+  message.lattice_spacing_m = si.lattice_spacing_m;
+  message.surface_amplitude_m = si.surface_amplitude_m;
+  message.rest_height_m = si.rest_height_m;
+  message.restitution_gamma = si.restitution_gamma;
+  message.cutoff_speed = si.cutoff_speed;
+}
+
+void write_initial_state(const FreeState& initial, afm_emulator::Configuration& message) {
+  message.initial_phase = initial.phase;
+  message.initial_extension = initial.X;
+  message.initial_height = initial.y;
+  message.initial_u = initial.u;
+  message.initial_w = initial.w;
+}
+
+}  // namespace
+
+afm_emulator::Configuration to_configuration(const Parameters& p, const std::string& version, const std::string& digest,
+                                             const Label& label) {
+  const EmulatorSettings settings = emulator_settings(p);
+  afm_emulator::Configuration message;
+  message.header.stamp = label.stamp;
+  message.epoch = label.epoch;
+  message.version = version;
+  message.arithmetic_digest = digest;
+  message.model = p.model;
+  write_model(p.si, message);
+  write_initial_state(p.initial, message);
+  message.drag_velocity = p.drag_velocity;
+  message.max_drag_velocity = p.max_drag_velocity;
+  message.time_scale = p.time_scale;
+  message.batch_rate_hz = p.batch_rate_hz;
+  message.sample_rate_hz = p.sample_rate_hz;
+  message.samples_per_batch = settings.samples_per_batch;
+  message.sample_period = 1.0 / p.sample_rate_hz;
+  message.sample_period_tau = settings.sample_period;
+  message.friction_window_tau = p.friction_window_tau;
+  message.impact_budget = p.impact_budget;
+  message.contact_tolerance = p.contact_tolerance;
+  return message;
+}
+
+SiModel si_model(const afm_emulator::Configuration& message) {
+  SiModel si;
+  si.omega_v_rad_per_s = message.omega_v_rad_per_s;
+  si.omega_h_rad_per_s = message.omega_h_rad_per_s;
+  si.tip_mass_kg = message.tip_mass_kg;
+  si.lattice_spacing_m = message.lattice_spacing_m;
+  si.surface_amplitude_m = message.surface_amplitude_m;
+  si.rest_height_m = message.rest_height_m;
+  si.restitution_gamma = message.restitution_gamma;
+  si.cutoff_speed = message.cutoff_speed;
+  return si;
+}
+
+EmulatorSettings emulator_settings(const afm_emulator::Configuration& message) {
+  const SiModel si = si_model(message);
+  EmulatorSettings settings;
+  settings.model = Units(si).to_natural(si);
+  settings.eta = to_eta(message.drag_velocity, si);
+  settings.initial = {message.initial_phase, message.initial_extension, message.initial_height, message.initial_u,
+                      message.initial_w};
+  settings.sample_period = message.sample_period_tau;
+  settings.samples_per_batch = message.samples_per_batch;
+  settings.friction_window = message.friction_window_tau;
+  settings.impact_budget = message.impact_budget;
+  return settings;
+}
+
+}  // namespace afm::node

@@ -1,0 +1,121 @@
+#include "emulator_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <ros/console.h>
+#include <ros/transport_hints.h>
+
+#include "topics.h"
+
+namespace afm::node {
+namespace {
+
+constexpr double kHandOverSeconds = 2.0;           // how far publishing may fall behind before batches are dropped
+constexpr std::size_t kMaxHandOverSamples = 2000000;  // 32 MB, if the batches themselves are not larger
+constexpr std::size_t kMinBatches = 4;
+
+HandOver::Capacity hand_over_capacity(const Parameters& p) {
+  const std::size_t batch = samples_per_batch(p);
+  const double seconds_per_batch = std::chrono::duration<double>(batch_period(p)).count();
+  const auto wanted = static_cast<std::size_t>(kHandOverSeconds / seconds_per_batch);
+  const std::size_t batches = std::max(kMinBatches, std::min(wanted, kMaxHandOverSamples / batch));
+  // twice the budget: a batch that spends it all does not have to wait for the one before it
+  return {batches, batches * batch, 2 * static_cast<std::size_t>(p.impact_budget)};
+}
+
+Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Parameters& p) {
+  return {p.bag_directory, static_cast<std::uint64_t>(p.disk_reserve_mb * 1e6),
+          make_bag_topic<afm_emulator::Configuration>(node.resolveName(kConfigurationTopic), true),
+          make_bag_topic<afm_emulator::AppliedDrag>(node.resolveName(kAppliedDragTopic), true)};
+}
+
+}  // namespace
+
+EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
+    : parameters_(parameters),
+      recorder_(recorder_settings(node, parameters)),
+      hand_over_(hand_over_capacity(parameters)),
+      stepper_(parameters, hand_over_),
+      control_(stepper_) {
+  if (parameters.record) {
+    const Recorder::Reply reply = recorder_.start("");
+    if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
+  }
+  broadcaster_.emplace(node, parameters,
+                       Broadcaster::Sources{hand_over_, recorder_, refused_commands_,
+                                            [this](const Answer& answer) { control_.deliver(answer); }});
+  stepper_.start();
+  broadcaster_->start(stepper_.scheduler());
+  accept_commands(node);
+}
+
+EmulatorNode::~EmulatorNode() {
+  control_.close();  // services that wait for an answer return, and can then be shut down
+  drag_velocity_.shutdown();
+  for (ros::ServiceServer& service : services_) service.shutdown();
+  stepper_.stop();
+  if (broadcaster_) broadcaster_->stop();
+}
+
+void EmulatorNode::accept_commands(ros::NodeHandle& node) {
+  drag_velocity_ = node.subscribe(kDragVelocityTopic, kCommandQueueSize, &EmulatorNode::on_drag_velocity, this,
+                                  ros::TransportHints().tcpNoDelay());
+  services_.push_back(node.advertiseService(kPauseService, &EmulatorNode::on_pause, this));
+  services_.push_back(node.advertiseService(kResetService, &EmulatorNode::on_reset, this));
+  services_.push_back(node.advertiseService(kStepService, &EmulatorNode::on_step, this));
+  services_.push_back(node.advertiseService(kStartRecordingService, &EmulatorNode::on_start_recording, this));
+  services_.push_back(node.advertiseService(kStopRecordingService, &EmulatorNode::on_stop_recording, this));
+}
+
+void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
+  Request request;
+  request.kind = Request::Kind::drag;
+  request.value = command.data;
+  const bool possible = std::abs(command.data) <= parameters_.max_drag_velocity;  // false for NaN
+  if (possible && stepper_.submit(request)) return;
+  ++refused_commands_;
+  ROS_WARN_THROTTLE(1.0, "drag_velocity = %g m/s refused: %s", command.data,
+                    possible ? "too many commands are waiting" : "must be finite and within max_drag_velocity");
+}
+
+bool EmulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  const ControlReply reply = control_.pause(request.data != 0);
+  response.success = reply.success;
+  response.message = reply.message;
+  return true;
+}
+
+bool EmulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const ControlReply reply = control_.reset();
+  response.success = reply.success;
+  response.message = reply.message;
+  return true;
+}
+
+bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response) {
+  const ControlReply reply = control_.step(request.tau, request.impacts);
+  response.success = reply.success;
+  response.message = reply.message;
+  response.time = to_message(reply.time);
+  return true;
+}
+
+bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& request,
+                                      afm_emulator::StartRecording::Response& response) {
+  const Recorder::Reply reply = recorder_.start(request.name);
+  response.success = reply.success;
+  response.message = reply.message;
+  response.path = reply.path;
+  return true;
+}
+
+bool EmulatorNode::on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const Recorder::Reply reply = recorder_.stop();
+  response.success = reply.success;
+  response.message = reply.message;
+  return true;
+}
+
+}  // namespace afm::node

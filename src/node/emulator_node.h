@@ -1,0 +1,52 @@
+// The node: wires between ROS and the threads that step, publish and record.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <afm_emulator/StartRecording.h>
+#include <afm_emulator/Step.h>
+#include <ros/node_handle.h>
+#include <std_msgs/Float64.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include "broadcaster.h"
+#include "control.h"
+#include "hand_over.h"
+#include "parameters.h"
+#include "recorder.h"
+#include "stepper.h"
+
+namespace afm::node {
+
+class EmulatorNode {
+ public:
+  // Starts recording before anything else if that is asked for. Throws std::runtime_error if it cannot.
+  EmulatorNode(ros::NodeHandle node, const Parameters& parameters);
+  ~EmulatorNode();  // in order: no more commands, the last batch, all published, the bag closed
+
+ private:
+  void accept_commands(ros::NodeHandle& node);
+  void on_drag_velocity(const std_msgs::Float64& command);
+  bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response);
+  bool on_start_recording(afm_emulator::StartRecording::Request& request,
+                          afm_emulator::StartRecording::Response& response);
+  bool on_stop_recording(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+
+  const Parameters parameters_;
+  std::atomic<std::uint64_t> refused_commands_{0};
+  Recorder recorder_;
+  HandOver hand_over_;
+  Stepper stepper_;
+  Control control_;
+  std::optional<Broadcaster> broadcaster_;  // advertises, so it is made after all that can fail
+  ros::Subscriber drag_velocity_;
+  std::vector<ros::ServiceServer> services_;
+};
+
+}  // namespace afm::node

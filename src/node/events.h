@@ -1,0 +1,57 @@
+// What the stepping thread is asked and what it tells: plain values, so that both travel through lock-free queues.
+#pragma once
+
+#include <cstdint>
+
+#include "afm_emulator/emulator.h"
+
+namespace afm::node {
+
+struct Request {
+  enum class Kind : std::uint8_t { drag, pause, resume, reset, step_time, step_impacts };
+  Kind kind = Kind::drag;
+  std::uint64_t ticket = 0;   // names the answer; 0: nobody waits for one
+  double value = 0.0;         // drag velocity [m/s] or time to step [tau]
+  std::uint64_t impacts = 0;  // to step
+};
+
+struct Answer {
+  enum class Result : std::uint8_t { done, not_paused, time_ran_out, shutting_down };
+  Result result = Result::done;
+  std::uint64_t ticket = 0;
+  ModelTime time;             // reached
+  std::uint64_t impacts = 0;  // taken by a step
+};
+
+// How the stepping thread is doing.
+struct StepperState {
+  std::uint32_t epoch = 0;
+  ModelTime time;
+  double real_time_factor = 1.0;
+  double lag = 0.0, worst_lag = 0.0;  // [s]
+  std::uint64_t late_batches = 0;
+  std::uint64_t dropped_batches = 0;  // emulated, but the publishing thread had no room for them
+  Counters counters;
+  bool paused = false;
+};
+
+// The part of a Batch that is not its samples and impacts, of which it holds the numbers.
+struct BatchHead {
+  ModelTime begin, end, first_sample_time;
+  std::uint64_t first_sample = 0, samples = 0;
+  std::uint64_t first_impact = 0, impacts = 0;
+  FrictionEstimate friction;
+  double eta = 0.0;
+};
+
+struct Event {
+  enum class Kind : std::uint8_t { reset, drag_applied, batch, answer };
+  Kind kind = Kind::batch;
+  std::int64_t wall_ns = 0;    // wall clock [ns since 1970]
+  double drag_velocity = 0.0;  // in force [m/s], to the bit as it was commanded
+  StepperState state;
+  BatchHead batch;             // of kind batch
+  Answer answer;               // of kind answer
+};
+
+}  // namespace afm::node

@@ -1,0 +1,78 @@
+#include "hand_over.h"
+
+namespace afm::node {
+namespace {
+
+// Batches leave this much room to the other events: however far publishing is behind, commands can be told of.
+constexpr std::size_t kReservedEvents = 256;
+
+// A page touched for the first time costs the toucher a fault: touch them all before the stepping thread does.
+template <class T>
+void touch(boost::lockfree::spsc_queue<T>& queue) {
+  while (queue.push(T{})) {
+  }
+  queue.reset();
+}
+
+BatchHead head_of(const Batch& batch) {
+  return {batch.begin,        batch.end,            batch.first_sample_time, batch.first_sample, batch.vertical.size(),
+          batch.first_impact, batch.impacts.size(), batch.friction,          batch.eta};
+}
+
+template <class T>
+void take_all(boost::lockfree::spsc_queue<T>& queue, std::size_t n, std::vector<T>& out) {
+  out.resize(n);
+  queue.pop(out.data(), n);
+}
+
+}  // namespace
+
+HandOver::HandOver(const Capacity& capacity)
+    : events_(capacity.batches + kReservedEvents),
+      vertical_(capacity.samples),
+      lateral_(capacity.samples),
+      impacts_(capacity.impacts) {
+  touch(events_);
+  touch(vertical_);
+  touch(lateral_);
+  touch(impacts_);
+}
+
+bool HandOver::offer(Event event, const Batch& batch) {
+  const std::size_t samples = batch.vertical.size();
+  if (events_.write_available() <= kReservedEvents || lateral_.write_available() < samples ||
+      vertical_.write_available() < samples || impacts_.write_available() < batch.impacts.size()) {
+    return false;
+  }
+  vertical_.push(batch.vertical.data(), samples);
+  lateral_.push(batch.lateral.data(), samples);
+  impacts_.push(batch.impacts.data(), batch.impacts.size());
+  event.kind = Event::Kind::batch;
+  event.batch = head_of(batch);
+  return offer(event);  // last, as it is what makes the rest visible
+}
+
+bool HandOver::offer(const Event& event) {
+  if (!events_.push(event)) return false;
+  available_.post();
+  return true;
+}
+
+bool HandOver::take(Event& event, Batch& batch) {
+  if (!events_.pop(event)) return false;
+  if (event.kind != Event::Kind::batch) return true;
+  const BatchHead& head = event.batch;
+  batch.begin = head.begin;
+  batch.end = head.end;
+  batch.first_sample_time = head.first_sample_time;
+  batch.first_sample = head.first_sample;
+  batch.first_impact = head.first_impact;
+  batch.friction = head.friction;
+  batch.eta = head.eta;
+  take_all(vertical_, head.samples, batch.vertical);
+  take_all(lateral_, head.samples, batch.lateral);
+  take_all(impacts_, head.impacts, batch.impacts);
+  return true;
+}
+
+}  // namespace afm::node

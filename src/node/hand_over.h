@@ -1,0 +1,38 @@
+// From the stepping thread to the publishing thread: a queue of events in order, bounded in memory. The stepping side
+// never blocks, locks or allocates; what finds no room is refused there, and the caller decides what that means.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+#include <boost/lockfree/spsc_queue.hpp>
+
+#include "events.h"
+#include "semaphore.h"
+
+namespace afm::node {
+
+class HandOver {
+ public:
+  struct Capacity {
+    std::size_t batches, samples, impacts;
+  };
+  explicit HandOver(const Capacity& capacity);
+
+  // The stepping side. False: there is no room, and nothing was taken.
+  bool offer(Event event, const Batch& batch);
+  bool offer(const Event& event);
+  std::size_t room() const { return events_.write_available(); }  // for events other than batches
+
+  // The publishing side. take: false when there is nothing; `batch` is filled for an event of that kind.
+  void wait_for(std::chrono::milliseconds timeout) { available_.wait_for(timeout); }
+  bool take(Event& event, Batch& batch);
+
+ private:
+  boost::lockfree::spsc_queue<Event> events_;
+  boost::lockfree::spsc_queue<double> vertical_, lateral_;
+  boost::lockfree::spsc_queue<Impact> impacts_;
+  Semaphore available_;
+};
+
+}  // namespace afm::node

@@ -1,0 +1,65 @@
+// emulator_node: the AFM tip on the wire. Exits 1 if its parameters are faulty, 0 when it is told to end.
+#include <atomic>
+#include <csignal>
+#include <exception>
+
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/spinner.h>
+
+#include "emulator_node.h"
+#include "semaphore.h"
+
+namespace {
+
+// A step may hold one service for seconds: others, and commands, must come through meanwhile.
+constexpr unsigned kSpinnerThreads = 3;
+// How soon a shutdown that ROS was told of (rosnode kill) is noticed.
+constexpr std::chrono::milliseconds kShutdownLook{100};
+
+std::atomic<bool> g_running{false}, g_stop{false};
+afm::node::Semaphore g_signalled;
+
+// roscpp handles SIGINT alone and tears the connections down at once; we end in our own order, on SIGTERM too.
+extern "C" void on_signal(int) {
+  g_stop = true;
+  g_signalled.post();
+  if (!g_running) ros::requestShutdown();  // it may be waiting for a master
+}
+
+void handle_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void run(const ros::NodeHandle& handle, const afm::node::Parameters& parameters) {
+  ros::AsyncSpinner spinner(kSpinnerThreads);  // outlives the node: its services end while they can still be served
+  afm::node::EmulatorNode node(handle, parameters);
+  spinner.start();
+  g_running = true;
+  while (ros::ok() && !g_stop) g_signalled.wait_for(kShutdownLook);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
+  handle_signals();
+  const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle
+  afm::node::Faults faults;
+  const auto parameters = afm::node::load_parameters(handle, faults);
+  if (!faults.empty()) {
+    ROS_FATAL_STREAM("faulty parameters:\n" << describe(faults));
+    return 1;
+  }
+  try {
+    run(handle, parameters);
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

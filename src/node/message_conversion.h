@@ -1,0 +1,52 @@
+// The core's figures in natural units to messages in SI: the only place, so that a checker gets the same bits as the
+// node. Pure functions; times, phases and indices pass as they are.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <ros/time.h>
+
+#include <afm_emulator/AppliedDrag.h>
+#include <afm_emulator/Configuration.h>
+#include <afm_emulator/Deflection.h>
+#include <afm_emulator/EmulatorStatus.h>
+#include <afm_emulator/Friction.h>
+#include <afm_emulator/ImpactArray.h>
+
+#include "afm_emulator/emulator.h"
+#include "afm_emulator/units.h"
+#include "events.h"
+#include "parameters.h"
+
+namespace afm::node {
+
+// What every message starts with. The sequence number is the publisher's.
+struct Label {
+  ros::Time stamp;
+  std::uint32_t epoch = 0;
+};
+
+// Wall clock in nanoseconds since 1970, as a stamp: never the simulated time of /clock.
+ros::Time to_stamp(std::int64_t wall_ns);
+
+afm_emulator::ModelTime to_message(const ModelTime& time);
+ModelTime from_message(const afm_emulator::ModelTime& time);
+
+afm_emulator::Deflection to_deflection(const Batch& batch, double sample_period_s, const Units& units, const Label& label);
+afm_emulator::Impact to_message(const Impact& impact, const Units& units);
+afm_emulator::ImpactArray to_impacts(const Batch& batch, const Units& units, const Label& label);
+afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, const Units& units, const Label& label);
+afm_emulator::AppliedDrag to_applied_drag(const ModelTime& time, double drag_velocity, const Label& label);
+
+// Those fields of the status that the stepping thread knows.
+afm_emulator::EmulatorStatus to_status(const StepperState& state, const Units& units, const Label& label);
+
+// version and digest are of the program that runs.
+afm_emulator::Configuration to_configuration(const Parameters& parameters, const std::string& version,
+                                             const std::string& digest, const Label& label);
+// The run again: exactly the settings that the configuration was made from.
+SiModel si_model(const afm_emulator::Configuration& configuration);
+EmulatorSettings emulator_settings(const afm_emulator::Configuration& configuration);
+
+}  // namespace afm::node

@@ -1,0 +1,151 @@
+// What values the parameters may have, and what follows from them.
+#include <cmath>
+#include <sstream>
+
+#include "parameters.h"
+
+namespace afm::node {
+namespace {
+
+constexpr double kMaxSampleRate = 1e6;       // [1/s]: ten samples a turn of the fastest spring of interest
+constexpr double kMaxBatchRate = 1e3;        // [1/s]: above it the wake-ups of the system are what one measures
+constexpr double kMaxWallSampleRate = 1e7;   // [1/s]: at time scales above 1, what subscribers can take
+constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
+constexpr double kMaxImpactBudget = 1e6;     // 56 MB a batch
+constexpr double kMinReserveMb = 16.0;       // room for the last chunk and the index of a long recording
+constexpr double kMaxReserveMb = 1e9;
+
+std::string text_of(double value) {
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  return out.str();
+}
+
+class Check {
+ public:
+  void require(bool holds, const char* name, double value, const std::string& reason) {
+    if (!holds) faults_.push_back({name, text_of(value), reason});
+  }
+  // NaN is within nothing
+  void within(const char* name, double value, double least, double most) {
+    require(value >= least && value <= most, name, value,
+            "must be between " + text_of(least) + " and " + text_of(most));
+  }
+  void add(const ParameterError& fault) { faults_.push_back({fault.name, text_of(fault.value), fault.reason}); }
+  void add(Fault fault) { faults_.push_back(std::move(fault)); }
+  bool none() const { return faults_.empty(); }
+  Faults faults() const { return faults_; }
+
+ private:
+  Faults faults_;
+};
+
+void check_model(const Parameters& p, Check& check) {
+  for (const ParameterError& fault : find_faults(p.si)) check.add(fault);
+  if (p.model == "hammer") {
+    check.add({"model", "\"hammer\"", "is not emulated live yet: use oscillator"});
+  } else if (p.model != "oscillator") {
+    check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator"});
+  }
+  check.require(p.contact_tolerance == 0.0, "contact_tolerance", p.contact_tolerance,
+                "must be 0: every bounce is simulated, contact is not taken as a state yet");
+}
+
+void check_rates(const Parameters& p, Check& check) {
+  check.within("time_scale", p.time_scale, 1e-6, 100.0);
+  check.within("batch_rate_hz", p.batch_rate_hz, 1.0, kMaxBatchRate);
+  check.within("sample_rate_hz", p.sample_rate_hz, 1.0, kMaxSampleRate);
+  if (!check.none()) return;
+  const double wall_rate = p.sample_rate_hz * p.time_scale;
+  check.require(p.time_scale < 1.0 || wall_rate >= p.batch_rate_hz, "sample_rate_hz", p.sample_rate_hz,
+                "is below batch_rate_hz: a batch would hold no sample");
+  check.require(wall_rate >= 1.0, "time_scale", p.time_scale,
+                "leaves less than one sample a second of wall time: raise it or sample_rate_hz");
+  check.require(wall_rate <= kMaxWallSampleRate, "time_scale", p.time_scale,
+                "makes more than 1e7 samples a second of wall time: lower it or sample_rate_hz");
+  check.require(wall_rate / p.batch_rate_hz <= kMaxSamplesPerBatch, "batch_rate_hz", p.batch_rate_hz,
+                "makes batches of more than 1e6 samples: raise it or lower sample_rate_hz");
+}
+
+void check_recording(const Parameters& p, Check& check) {
+  check.within("disk_reserve_mb", p.disk_reserve_mb, kMinReserveMb, kMaxReserveMb);
+  if (p.bag_directory.empty()) check.add({"bag_directory", "\"\"", "must name a directory"});
+}
+
+void check_drag(const Parameters& p, Check& check) {
+  const double most = kMaxEta * Units(p.si).velocity();
+  check.require(p.max_drag_velocity > 0.0 && p.max_drag_velocity <= most, "max_drag_velocity", p.max_drag_velocity,
+                "must be above 0 and at most " + text_of(most) + " m/s, a thousand lattice spacings per tau");
+  check.require(std::isfinite(p.drag_velocity), "drag_velocity", p.drag_velocity, "must be finite");
+  check.require(!(std::abs(p.drag_velocity) > p.max_drag_velocity), "drag_velocity", p.drag_velocity,
+                "is beyond max_drag_velocity");
+}
+
+// The core judges its settings in natural units: tell its faults by the names and values that were given.
+void check_settings(const Parameters& p, Check& check) {
+  check.within("friction_window_tau", p.friction_window_tau, 1.0, 1e9);
+  check.within("impact_budget", static_cast<double>(p.impact_budget), 1.0, kMaxImpactBudget);
+  EmulatorSettings settings = emulator_settings(p);
+  // told of already, in the user's terms
+  settings.eta = 0.0;
+  settings.friction_window = 1.0;
+  settings.impact_budget = 1;
+  for (const ParameterError& fault : afm::find_faults(settings)) {
+    if (fault.name == "sample_period") {
+      check.require(false, "sample_rate_hz", p.sample_rate_hz, "the time between two samples " + fault.reason);
+    } else {
+      check.add(fault);
+    }
+  }
+}
+
+}  // namespace
+
+Faults find_faults(const Parameters& parameters) {
+  Check model, rates, rest;
+  check_model(parameters, model);
+  check_rates(parameters, rates);
+  check_recording(parameters, rest);
+  // the rest is measured in the model's units, by the sample rate
+  Parameters judged = parameters;
+  if (!find_faults(parameters.si).empty()) judged.si = SiModel{};
+  if (!rates.none()) {
+    judged.time_scale = Parameters{}.time_scale;
+    judged.batch_rate_hz = Parameters{}.batch_rate_hz;
+    judged.sample_rate_hz = Parameters{}.sample_rate_hz;
+  }
+  check_drag(judged, rest);
+  check_settings(judged, rest);
+  Faults faults = model.faults();
+  for (const Check* check : {&rates, &rest}) {
+    for (const Fault& fault : check->faults()) faults.push_back(fault);
+  }
+  return faults;
+}
+
+std::uint64_t samples_per_batch(const Parameters& p) {
+  return static_cast<std::uint64_t>(std::max(1.0, std::round(p.sample_rate_hz * p.time_scale / p.batch_rate_hz)));
+}
+
+std::chrono::nanoseconds batch_period(const Parameters& p) {
+  const double seconds = static_cast<double>(samples_per_batch(p)) / (p.sample_rate_hz * p.time_scale);
+  return std::chrono::nanoseconds(std::llround(seconds * 1e9));
+}
+
+double to_eta(double drag_velocity, const SiModel& si) { return drag_velocity / Units(si).velocity(); }
+
+EmulatorSettings emulator_settings(const Parameters& p) {
+  const Units units(p.si);
+  EmulatorSettings settings;
+  settings.model = units.to_natural(p.si);
+  settings.eta = to_eta(p.drag_velocity, p.si);
+  settings.initial = p.initial;
+  settings.sample_period = 1.0 / (p.sample_rate_hz * units.time());
+  settings.samples_per_batch = samples_per_batch(p);
+  settings.friction_window = p.friction_window_tau;
+  settings.impact_budget = p.impact_budget;
+  return settings;
+}
+
+}  // namespace afm::node

@@ -1,0 +1,59 @@
+// Everything the node is told at start: read once, checked as a whole, const afterwards.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "afm_emulator/emulator.h"
+#include "afm_emulator/units.h"
+
+namespace afm::node {
+
+// Named as on the parameter server. The defaults are those of config/emulator.yaml.
+struct Parameters {
+  SiModel si;
+  std::string model = "oscillator";
+  double drag_velocity = 1.1255437575458838e-05;  // at start and after a reset [m/s]: eta = 3.4
+  double max_drag_velocity = 1e-4;                // faster commands are refused [m/s]: eta = 30.2
+  FreeState initial{0.25, 0.0, 0.2, 3.4, 0.0};
+  double time_scale = 1.0;                        // model time per wall time
+  double batch_rate_hz = 100.0;                   // of wall time
+  double sample_rate_hz = 200000.0;               // of model time
+  double friction_window_tau = 1000.0;
+  std::uint64_t impact_budget = 20000;            // a batch
+  double contact_tolerance = 0.0;                 // [a]
+  bool record = false;
+  std::string bag_directory = "~/afm_bags";
+  double disk_reserve_mb = 200.0;                 // left free on the disk that is recorded to
+};
+
+// What is wrong with one parameter, told as given.
+struct Fault {
+  std::string name, value, reason;
+};
+using Faults = std::vector<Fault>;
+
+std::string describe(const Faults& faults);  // a line each: "name = value: reason"
+
+// Reads the private parameters of `node`: the only place that asks the parameter server. Finds every fault there is.
+Parameters load_parameters(const ros::NodeHandle& node, Faults& faults);
+
+// The same from a tree of values, as a YAML file gives it.
+Parameters read_parameters(XmlRpc::XmlRpcValue tree, Faults& faults);
+
+// Faults of values that have the right types.
+Faults find_faults(const Parameters& parameters);
+
+// What follows from them. A batch holds whole samples, so its length gives way to the sample rate, not the other way.
+std::uint64_t samples_per_batch(const Parameters& parameters);
+std::chrono::nanoseconds batch_period(const Parameters& parameters);  // of wall time
+EmulatorSettings emulator_settings(const Parameters& parameters);
+
+// The one place that turns a drag velocity into natural units, as its bits decide those of a run.
+double to_eta(double drag_velocity, const SiModel& si);
+
+}  // namespace afm::node

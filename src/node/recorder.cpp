@@ -1,0 +1,160 @@
+#include "recorder.h"
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+
+#include <ros/console.h>
+
+#include "bag_name.h"
+
+namespace afm::node {
+namespace {
+
+// Eight seconds at 1 MHz of samples: longer than a disk stalls to flush its caches.
+constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
+constexpr std::chrono::seconds kCloseDeadline{30};
+
+// The first name from the time that is not taken.
+std::string free_name(const std::filesystem::path& directory) {
+  const std::string base = name_from_time(std::time(nullptr));
+  for (int i = 0;; ++i) {
+    const std::string name = i == 0 ? base : base + "_" + std::to_string(i);
+    const auto path = directory / with_bag_ending(name);
+    if (!exists(path) && !std::filesystem::exists(path.string() + ".active")) return name;
+  }
+}
+
+}  // namespace
+
+Recorder::Recorder(const Settings& settings) : settings_(settings), thread_([this] { write_loop(); }) {}
+
+Recorder::~Recorder() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = quitting_ = true;
+  }
+  work_.notify_all();
+  thread_.join();
+}
+
+std::unique_ptr<BagFile> Recorder::open(const std::string& name) const {
+  const std::string fault = name.empty() ? "" : find_name_fault(name);
+  if (!fault.empty()) throw std::runtime_error("name = \"" + name + "\": " + fault);
+  const std::filesystem::path directory = std::filesystem::absolute(expand_home(settings_.directory));
+  std::filesystem::create_directories(directory);
+  const std::string chosen = name.empty() ? free_name(directory) : name;
+  return std::make_unique<BagFile>((directory / with_bag_ending(chosen)).string(), settings_.reserve_bytes);
+}
+
+Recorder::Reply Recorder::start(const std::string& name) {
+  const std::lock_guard<std::mutex> one_at_a_time(starting_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (bag_) return {false, "already recording " + bag_->path(), bag_->path()};
+  }
+  try {
+    auto bag = open(name);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    bag_ = std::move(bag);
+    error_.clear();
+    enqueue_history();
+    return {true, "recording " + bag_->path(), bag_->path()};
+  } catch (const std::exception& error) {
+    return {false, error.what(), ""};
+  }
+}
+
+Recorder::Reply Recorder::stop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!bag_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
+  stopping_ = true;
+  work_.notify_all();
+  if (!closed_.wait_for(lock, kCloseDeadline, [this] { return !bag_; })) {
+    return {false, bag_->path() + " is still being written to a slow disk", bag_->path()};
+  }
+  if (!error_.empty()) return {false, error_, last_path_};
+  return {true, last_path_ + ": " + std::to_string(last_messages_) + " messages", last_path_};
+}
+
+Recorder::Status Recorder::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {bag_ ? bag_->path() : "", error_, dropped_messages_};
+}
+
+void Recorder::enqueue_history() {
+  if (!history_.configuration()) return;  // nothing has happened yet
+  enqueue(settings_.configuration, history_.configuration());
+  for (const auto& command : history_.commands()) {
+    enqueue(settings_.applied_drag, boost::make_shared<const afm_emulator::AppliedDrag>(command));
+  }
+}
+
+// In the order of arrival even if the wall clock is set back, as readers of bags sort by this.
+ros::Time Recorder::next_stamp() {
+  const ros::WallTime now = ros::WallTime::now();
+  last_stamp_ = std::max(last_stamp_, ros::Time(now.sec, now.nsec));
+  return last_stamp_;
+}
+
+void Recorder::push(Item item) {
+  if (queue_bytes_ + item.bytes > kMaxQueueBytes) {
+    ++dropped_messages_;
+    return;
+  }
+  queue_bytes_ += item.bytes;
+  queue_.push_back(std::move(item));
+  work_.notify_one();
+}
+
+void Recorder::write_loop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (bag_ || !quitting_) {
+    work_.wait(lock, [this] { return !queue_.empty() || stopping_; });
+    if (queue_.empty()) {
+      finish(lock, {});
+      continue;
+    }
+    const Item item = std::move(queue_.front());
+    queue_.pop_front();
+    queue_bytes_ -= item.bytes;
+    lock.unlock();
+    std::string error = write(item);
+    lock.lock();
+    if (!error.empty()) finish(lock, std::move(error));
+  }
+}
+
+std::string Recorder::write(const Item& item) {
+  if (!bag_->has_room(item.bytes)) {
+    return bag_->path() + ": stopped, as only " + std::to_string(settings_.reserve_bytes / 1000000) +
+           " MB (disk_reserve_mb) are left on the disk";
+  }
+  try {
+    item.write(*bag_);
+  } catch (const std::exception& error) {
+    return bag_->path() + ": " + error.what();
+  }
+  return {};
+}
+
+void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
+  stopping_ = true;  // nothing more is queued while we close
+  queue_.clear();
+  queue_bytes_ = 0;
+  if (bag_) {
+    lock.unlock();
+    const std::string close_error = bag_->close();
+    lock.lock();
+    if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;
+    last_path_ = bag_->path();
+    last_messages_ = bag_->messages();
+    bag_.reset();
+    if (!error.empty()) ROS_ERROR_STREAM("recording ended early: " << error);
+  }
+  error_ = std::move(error);
+  stopping_ = quitting_;
+  closed_.notify_all();
+}
+
+}  // namespace afm::node

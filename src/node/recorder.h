@@ -1,0 +1,91 @@
+// Writes every message it is given to a bag, in a thread of its own. Start and stop at any time; a disk that fills up
+// or fails ends the recording, never the node.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <ros/serialization.h>
+
+#include "bag_file.h"
+#include "run_history.h"
+
+namespace afm::node {
+
+class Recorder {
+ public:
+  struct Settings {
+    std::string directory;
+    std::uint64_t reserve_bytes;
+    BagTopic configuration, applied_drag;  // of the history that a recording begins with
+  };
+  struct Reply {
+    bool success = false;
+    std::string message, path;
+  };
+  struct Status {
+    std::string recording;             // path of the bag being written, or empty
+    std::string error;                 // why the last recording ended early, or empty
+    std::uint64_t dropped_messages = 0;
+  };
+
+  explicit Recorder(const Settings& settings);
+  ~Recorder();  // writes what waits and closes
+
+  Reply start(const std::string& name);  // empty: a name from the time
+  Reply stop();
+  Status status() const;
+
+  // Never waits for the disk. What finds no room in the queue is counted.
+  template <class Message>
+  void record(const BagTopic& topic, const boost::shared_ptr<const Message>& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    history_.remember(message);
+    if (recording()) enqueue(topic, message);
+  }
+
+ private:
+  struct Item {
+    std::size_t bytes;
+    std::function<void(BagFile&)> write;
+  };
+
+  bool recording() const { return bag_ != nullptr && !stopping_; }
+  template <class Message>
+  void enqueue(const BagTopic& topic, const boost::shared_ptr<const Message>& message) {
+    const ros::Time stamp = next_stamp();
+    push({ros::serialization::serializationLength(*message),
+          [topic, stamp, message](BagFile& bag) { bag.write(topic, stamp, *message); }});
+  }
+  void push(Item item);
+  ros::Time next_stamp();
+  void enqueue_history();
+  std::unique_ptr<BagFile> open(const std::string& name) const;
+
+  void write_loop();
+  std::string write(const Item& item);  // returns why the recording must end, or nothing
+  void finish(std::unique_lock<std::mutex>& lock, std::string error);
+
+  const Settings settings_;
+  mutable std::mutex mutex_;
+  std::mutex starting_;                 // one start at a time, as opening a bag takes its time
+  std::condition_variable work_, closed_;
+  RunHistory history_;
+  std::deque<Item> queue_;
+  std::size_t queue_bytes_ = 0;
+  std::unique_ptr<BagFile> bag_;        // written and closed by the thread alone
+  ros::Time last_stamp_;
+  std::string last_path_, error_;
+  std::uint64_t last_messages_ = 0;
+  std::uint64_t dropped_messages_ = 0;
+  bool stopping_ = false, quitting_ = false;
+  std::thread thread_;
+};
+
+}  // namespace afm::node

@@ -1,0 +1,61 @@
+#include "scheduling.h"
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
+namespace afm::node {
+namespace {
+
+// above every normal thread, below the kernel's own threads (50) that serve timers and disks
+constexpr int kPriority = 40;
+
+int processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+// With a limit on locked memory, MCL_FUTURE would let later allocations of the whole process fail: all or nothing.
+bool lock_memory() {
+  const rlimit unlimited{RLIM_INFINITY, RLIM_INFINITY};
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur != RLIM_INFINITY && setrlimit(RLIMIT_MEMLOCK, &unlimited) != 0) return false;
+  // on fault: what is reserved and never touched (stacks, the impact budget) stays out of memory
+  return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
+}
+
+}  // namespace
+
+std::string claim_real_time() {
+  prctl(PR_SET_TIMERSLACK, 1);  // the normal scheduler may otherwise wake us 50 us late
+  if (processors() < 2) return "normal: on one processor a real-time thread would starve the rest";
+  sched_param parameter{};
+  parameter.sched_priority = kPriority;
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+  if (error != 0) return std::string("normal: SCHED_FIFO: ") + std::strerror(error);
+  return lock_memory() ? "fifo" : "fifo, memory not locked: RLIMIT_MEMLOCK";
+}
+
+std::chrono::nanoseconds monotonic_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+}
+
+void sleep_until(std::chrono::nanoseconds deadline) {
+  timespec end{};
+  end.tv_sec = deadline.count() / 1000000000;
+  end.tv_nsec = deadline.count() % 1000000000;
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &end, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace afm::node

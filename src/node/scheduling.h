@@ -1,0 +1,17 @@
+// What the operating system lets a real-time thread have.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace afm::node {
+
+// Raises the calling thread to SCHED_FIFO with locked memory where that is permitted. Returns what came of it:
+// "fifo", "fifo, ..." with what is missing, or "normal: " and the reason.
+std::string claim_real_time();
+
+// Time on the monotonic clock.
+std::chrono::nanoseconds monotonic_now();
+void sleep_until(std::chrono::nanoseconds deadline);
+
+}  // namespace afm::node

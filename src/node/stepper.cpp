@@ -1,0 +1,152 @@
+#include "stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scheduling.h"
+
+namespace afm::node {
+namespace {
+
+// More commands than anyone sends within a batch; beyond them a command is refused rather than delayed further.
+constexpr std::size_t kMaxWaitingRequests = 1024;
+// A request tells of itself by at most three events: reset, drag applied, answer.
+constexpr std::size_t kEventsPerRequest = 3;
+// While paused: how soon a stop is noticed without a request.
+constexpr std::chrono::milliseconds kPausedLook{100};
+
+std::int64_t wall_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+Stepper::Stepper(const Parameters& parameters, HandOver& hand_over)
+    : parameters_(parameters),
+      emulator_(emulator_settings(parameters)),
+      hand_over_(hand_over),
+      pacer_(batch_period(parameters), monotonic_now()),
+      drag_velocity_(parameters.drag_velocity),
+      requests_(kMaxWaitingRequests) {
+  emulator_.reserve(batch_);
+}
+
+void Stepper::start() {
+  thread_ = std::thread([this] { run(); });
+  scheduler_ = running_.get_future().get();
+}
+
+void Stepper::stop() {
+  stopping_ = true;
+  asked_.post();
+  if (thread_.joinable()) thread_.join();
+}
+
+bool Stepper::submit(const Request& request) {
+  const std::lock_guard<std::mutex> lock(submitting_);
+  if (!requests_.push(request)) return false;
+  asked_.post();
+  return true;
+}
+
+void Stepper::run() {
+  running_.set_value(claim_real_time());
+  publish(Event::Kind::reset);
+  publish(Event::Kind::drag_applied);
+  pacer_.resume(monotonic_now());
+  while (!stopping_) {
+    wait_for_work();
+    serve_requests();
+    if (!paused_ && !stopping_) run_batch();
+  }
+}
+
+void Stepper::wait_for_work() {
+  if (paused_) {
+    asked_.wait_for(kPausedLook);
+  } else {
+    sleep_until(pacer_.deadline());  // at once if that is past: behind, we run as fast as we can
+  }
+}
+
+// A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
+void Stepper::serve_requests() {
+  Request request;
+  while (!stopping_ && hand_over_.room() >= kEventsPerRequest && requests_.pop(request)) serve(request);
+}
+
+void Stepper::serve(const Request& request) {
+  Answer told = answer(Answer::Result::done, 0);
+  switch (request.kind) {
+    case Request::Kind::drag: apply_drag(request.value); break;
+    case Request::Kind::pause: pause(true); break;
+    case Request::Kind::resume: pause(false); break;
+    case Request::Kind::reset: reset(); break;
+    case Request::Kind::step_time: told = step_time(request.value); break;
+    case Request::Kind::step_impacts: told = step_impacts(request.impacts); break;
+  }
+  told.ticket = request.ticket;
+  told.time = emulator_.now();
+  if (told.ticket != 0) publish(Event::Kind::answer, told);
+}
+
+void Stepper::apply_drag(double drag_velocity) {
+  drag_velocity_ = drag_velocity;
+  emulator_.drag(to_eta(drag_velocity, parameters_.si));
+  publish(Event::Kind::drag_applied);
+}
+
+void Stepper::pause(bool paused) {
+  if (paused_ && !paused) pacer_.resume(monotonic_now());
+  paused_ = paused;
+}
+
+void Stepper::reset() {
+  emulator_.reset();
+  drag_velocity_ = parameters_.drag_velocity;
+  ++epoch_;
+  publish(Event::Kind::reset);
+  publish(Event::Kind::drag_applied);
+}
+
+void Stepper::run_batch() {
+  // A batch cut short by its budget is told of, but its period is not over: the rest follows at once, and lag grows.
+  const Outcome outcome = emulator_.run_batch(batch_);
+  if (outcome != Outcome::budget_spent) pacer_.batch_done(monotonic_now());
+  if (!hand_over_.offer(event(Event::Kind::batch), batch_)) ++dropped_batches_;
+}
+
+void Stepper::publish(Event::Kind kind, const Answer& told) {
+  Event told_of = event(kind);
+  told_of.answer = told;
+  hand_over_.offer(told_of);
+}
+
+Event Stepper::event(Event::Kind kind) {
+  Event event;
+  event.kind = kind;
+  event.wall_ns = wall_now_ns();
+  event.drag_velocity = drag_velocity_;
+  event.state = state();
+  return event;
+}
+
+StepperState Stepper::state() {
+  // an unfinished batch is late already when its deadline is past
+  const double overdue = paused_ ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
+  StepperState state;
+  state.epoch = epoch_;
+  state.time = emulator_.now();
+  state.real_time_factor = paused_ ? 0.0 : pacer_.real_time_factor();
+  state.lag = std::max(pacer_.lag(), overdue);
+  worst_lag_ = std::max({worst_lag_, pacer_.worst_lag(), overdue});
+  state.worst_lag = worst_lag_;
+  state.late_batches = pacer_.late_batches();
+  state.dropped_batches = dropped_batches_;
+  state.counters = emulator_.counters();
+  state.paused = paused_;
+  return state;
+}
+
+}  // namespace afm::node

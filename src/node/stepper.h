@@ -1,0 +1,76 @@
+// The stepping thread: advances the emulator batch by batch at absolute deadlines, obeys requests between batches, and
+// hands everything over. It never blocks but to wait for the next deadline, and neither locks nor allocates.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <future>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <boost/lockfree/spsc_queue.hpp>
+
+#include "afm_emulator/emulator.h"
+#include "afm_emulator/pacer.h"
+#include "events.h"
+#include "hand_over.h"
+#include "parameters.h"
+#include "semaphore.h"
+
+namespace afm::node {
+
+class Stepper {
+ public:
+  Stepper(const Parameters& parameters, HandOver& hand_over);
+  ~Stepper() { stop(); }
+
+  void start();  // returns when the thread runs
+  void stop();   // at the next batch boundary; requests still waiting are not served
+
+  // Any thread. False: too many requests wait already, and this one was not taken.
+  bool submit(const Request& request);
+
+  const std::string& scheduler() const { return scheduler_; }  // after start(): "fifo", or "normal" with the reason
+
+ private:
+  void run();
+  void wait_for_work();
+  void serve_requests();
+  void serve(const Request& request);
+  void apply_drag(double drag_velocity);
+  void pause(bool paused);
+  void reset();
+  void run_batch();
+  void publish(Event::Kind kind, const Answer& answer = {});
+
+  // long steps, chopped into batches
+  Answer step_time(double tau);
+  Answer step_impacts(std::uint64_t impacts);
+  bool hand_over_step();  // waits for room, as a step owes nothing to the clock; false: shutting down
+  Answer answer(Answer::Result result, std::uint64_t impacts) const;
+
+  Event event(Event::Kind kind);
+  StepperState state();
+
+  const Parameters parameters_;
+  Emulator emulator_;
+  Batch batch_;
+  HandOver& hand_over_;
+  Pacer pacer_;
+  double drag_velocity_;  // in force [m/s]
+  std::uint32_t epoch_ = 0;
+  std::uint64_t dropped_batches_ = 0;
+  double worst_lag_ = 0.0;
+  bool paused_ = false;
+
+  std::mutex submitting_;  // between those who ask; the stepping thread does not take it
+  boost::lockfree::spsc_queue<Request> requests_;
+  Semaphore asked_;
+  std::atomic<bool> stopping_{false};
+  std::promise<std::string> running_;
+  std::string scheduler_;
+  std::thread thread_;
+};
+
+}  // namespace afm::node
