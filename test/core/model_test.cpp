@@ -1,0 +1,101 @@
+#include "afm_emulator/model.h"
+
+#include <limits>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace afm {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::multiset<std::string> names(const std::vector<ParameterError>& faults) {
+  std::multiset<std::string> result;
+  for (const ParameterError& fault : faults) result.insert(fault.name);
+  return result;
+}
+
+TEST(Model, DefaultsAreThePapersMica) {
+  const Model mica;
+  EXPECT_TRUE(find_faults(mica).empty());
+  EXPECT_EQ(mica.frequency_ratio, 6.25);
+  EXPECT_EQ(mica.H, 0.05 / 0.52);
+  EXPECT_EQ(mica.y0, 0.0);
+  EXPECT_EQ(mica.gamma, 0.7);
+}
+
+TEST(Model, EveryFaultIsListedAtOnce) {
+  Model model;
+  model.frequency_ratio = 0.0;
+  model.H = -0.1;
+  model.y0 = kInfinity;
+  model.gamma = 1.5;
+  model.v_c = -1.0;
+  EXPECT_EQ(names(find_faults(model)), (std::multiset<std::string>{"frequency_ratio", "H", "y0", "gamma", "v_c"}));
+}
+
+TEST(Model, NothingIsHiddenByNotANumber) {
+  const Model model{kNaN, kNaN, kNaN, kNaN, kNaN};
+  const std::multiset<std::string> faulty = names(find_faults(model));
+  for (const char* name : {"frequency_ratio", "H", "y0", "gamma", "v_c"}) EXPECT_GE(faulty.count(name), 1u) << name;
+}
+
+TEST(Model, NothingIsHiddenByInfinity) {
+  for (const double infinity : {kInfinity, -kInfinity}) {
+    const Model model{infinity, infinity, infinity, infinity, infinity};
+    const std::multiset<std::string> faulty = names(find_faults(model));
+    for (const char* name : {"frequency_ratio", "H", "y0", "gamma", "v_c"}) EXPECT_GE(faulty.count(name), 1u) << name;
+  }
+}
+
+struct Limit {
+  const char* name;
+  double Model::*member;
+  double good, bad;
+};
+
+TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
+  const double H = Model().H;
+  const Limit limits[] = {
+      {"frequency_ratio", &Model::frequency_ratio, 1e-6, 0.0},
+      {"frequency_ratio", &Model::frequency_ratio, kMaxFrequencyRatio, kMaxFrequencyRatio * 1.001},
+      {"H", &Model::H, 1e-6, 0.0},
+      {"H", &Model::H, kMaxAmplitude, kMaxAmplitude * 1.001},
+      {"y0", &Model::y0, H * 0.999, H},
+      {"y0", &Model::y0, -kMaxAmplitude, -kMaxAmplitude * 1.001},
+      {"gamma", &Model::gamma, 0.0, -1e-9},
+      {"gamma", &Model::gamma, 1.0, 1.0 + 1e-9},
+      {"v_c", &Model::v_c, 0.0, -1e-9},
+  };
+  for (const Limit& limit : limits) {
+    Model model;
+    model.y0 = -1.0;  // below any crest
+    model.*limit.member = limit.good;
+    EXPECT_TRUE(find_faults(model).empty()) << describe(find_faults(model));
+    model.*limit.member = limit.bad;
+    EXPECT_EQ(names(find_faults(model)), std::multiset<std::string>{limit.name}) << limit.bad;
+  }
+}
+
+TEST(Model, AFaultSaysNameValueAndReason) {
+  Model model;
+  model.gamma = 1.25;
+  const std::vector<ParameterError> faults = find_faults(model);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].name, "gamma");
+  EXPECT_EQ(faults[0].value, 1.25);
+  EXPECT_FALSE(faults[0].reason.empty());
+  EXPECT_EQ(faults[0].what(), "gamma = 1.25: " + faults[0].reason);
+}
+
+TEST(Model, ADescriptionHasALineForEachFault) {
+  EXPECT_EQ(describe({}), "");
+  EXPECT_EQ(describe({{"H", -1.0, "too low"}}), "H = -1: too low");
+  EXPECT_EQ(describe({{"H", -1.0, "too low"}, {"v_c", 0.5, "odd"}}), "H = -1: too low\nv_c = 0.5: odd");
+}
+
+}  // namespace
+}  // namespace afm

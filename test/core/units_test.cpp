@@ -1,0 +1,99 @@
+#include "afm_emulator/units.h"
+
+#include <limits>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace afm {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::multiset<std::string> names(const std::vector<ParameterError>& faults) {
+  std::multiset<std::string> result;
+  for (const ParameterError& fault : faults) result.insert(fault.name);
+  return result;
+}
+
+TEST(Units, MicaIsThePapersMica) {
+  const SiModel mica;
+  ASSERT_TRUE(find_faults(mica).empty());
+  const Units units(mica);
+  EXPECT_DOUBLE_EQ(units.time(), kTwoPi / 40e3);
+  EXPECT_NEAR(units.time(), 0.157e-3, 0.001e-3);        // tau
+  EXPECT_NEAR(units.velocity(), 3.31e-6, 0.005e-6);     // a/tau
+  EXPECT_EQ(units.length(), 0.52e-9);
+}
+
+TEST(Units, DefaultsInSiAreTheDefaultsInNaturalUnits) {
+  const SiModel si;
+  const Model model = Units(si).to_natural(si), natural;
+  EXPECT_DOUBLE_EQ(model.frequency_ratio, natural.frequency_ratio);
+  EXPECT_DOUBLE_EQ(model.H, natural.H);
+  EXPECT_EQ(model.y0, natural.y0);
+  EXPECT_EQ(model.gamma, natural.gamma);
+  EXPECT_NEAR(model.v_c, natural.v_c, 0.003 * natural.v_c);  // the paper rounds it to 0.166 um/s
+}
+
+TEST(Units, FactorsFitTogether) {
+  SiModel si;
+  si.omega_v_rad_per_s = 1e4;
+  si.lattice_spacing_m = 0.3e-9;
+  si.tip_mass_kg = 1e-10;
+  const Units units(si);
+  EXPECT_DOUBLE_EQ(units.velocity(), 0.3e-9 / (kTwoPi * 1e-4));
+  EXPECT_DOUBLE_EQ(units.energy(), 1e-10 * units.velocity() * units.velocity());
+  EXPECT_DOUBLE_EQ(units.force() * units.length(), units.energy());
+  EXPECT_DOUBLE_EQ(units.friction() * units.velocity(), units.force());
+}
+
+TEST(Units, ThereAndBackIsTheSame) {
+  SiModel si;
+  si.surface_amplitude_m = 0.07e-9;
+  si.rest_height_m = -0.02e-9;
+  si.cutoff_speed = 0.3e-6;
+  const Units units(si);
+  const Model model = units.to_natural(si);
+  EXPECT_DOUBLE_EQ(model.H * units.length(), si.surface_amplitude_m);
+  EXPECT_DOUBLE_EQ(model.y0 * units.length(), si.rest_height_m);
+  EXPECT_DOUBLE_EQ(model.v_c * units.velocity(), si.cutoff_speed);
+  EXPECT_DOUBLE_EQ(model.frequency_ratio * si.omega_v_rad_per_s, si.omega_h_rad_per_s);
+  EXPECT_EQ(model.gamma, si.restitution_gamma);
+}
+
+TEST(Units, EveryFaultIsListedAtOnceByItsSiName) {
+  SiModel si;
+  si.omega_v_rad_per_s = 0.0;
+  si.tip_mass_kg = -1.0;
+  si.lattice_spacing_m = kNaN;
+  si.surface_amplitude_m = kNaN;
+  si.restitution_gamma = 2.0;
+  si.cutoff_speed = -1.0;
+  si.rest_height_m = kNaN;
+  const std::multiset<std::string> faulty = names(find_faults(si));
+  for (const char* name : {"omega_v_rad_per_s", "tip_mass_kg", "lattice_spacing_m", "surface_amplitude_m",
+                           "restitution_gamma", "cutoff_speed", "rest_height_m"}) {
+    EXPECT_GE(faulty.count(name), 1u) << name;
+  }
+  EXPECT_EQ(faulty.count("omega_h_rad_per_s"), 0u);
+}
+
+TEST(Units, AFaultShowsTheValueAsItWasGiven) {
+  SiModel si;
+  si.rest_height_m = 0.06e-9;  // above the crest
+  const std::vector<ParameterError> faults = find_faults(si);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].name, "rest_height_m");
+  EXPECT_EQ(faults[0].value, 0.06e-9);
+}
+
+TEST(Units, ARatioOutOfRangeBlamesTheHorizontalFrequency) {
+  SiModel si;
+  si.omega_h_rad_per_s = 2e3 * si.omega_v_rad_per_s;
+  EXPECT_EQ(names(find_faults(si)), std::multiset<std::string>{"omega_h_rad_per_s"});
+}
+
+}  // namespace
+}  // namespace afm
