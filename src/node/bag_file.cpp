@@ -15,6 +15,8 @@ namespace {
 
 // rosbag writes a chunk when it is full: one may be under way, and its index follows it
 constexpr std::uint64_t kChunkSlack = 2 * 1024 * 1024;
+// a second of an ordinary run: with less room a recording is not begun
+constexpr std::uint64_t kLeastRecording = 4 * 1024 * 1024;
 
 bool exists(const std::string& path) {
   struct stat status {};
@@ -41,10 +43,10 @@ BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes)
     : path_(path), active_path_(path + ".active"), reserve_bytes_(reserve_bytes) {
   if (exists(path_)) throw std::runtime_error(path_ + ": there is such a bag already");
   create_exclusively(active_path_);
-  if (!has_room(0)) {
+  if (!has_room(kLeastRecording)) {
     unlink(active_path_.c_str());
-    throw std::runtime_error(path_ + ": less than " + std::to_string(reserve_bytes_ / 1000000) +
-                             " MB (disk_reserve_mb) are free on the disk");
+    throw std::runtime_error(path_ + ": the disk has no room beside the " + std::to_string(reserve_bytes_ / 1000000) +
+                             " MB that stay free (disk_reserve_mb)");
   }
   auto bag = std::make_unique<rosbag::Bag>();
   bag->open(active_path_, rosbag::bagmode::Write);

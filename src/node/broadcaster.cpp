@@ -10,6 +10,15 @@ namespace {
 constexpr std::chrono::milliseconds kStatusPeriod{100};
 constexpr std::chrono::milliseconds kDiagnosticsPeriod{1000};  // as diagnostic aggregators expect
 
+// Due at whole periods, so that the rate is right whenever we look; periods that went by are not made up for.
+bool is_due(std::chrono::steady_clock::time_point& due, std::chrono::milliseconds period) {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < due) return false;
+  due += period;
+  if (due < now) due = now + period;
+  return true;
+}
+
 }  // namespace
 
 Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, Sources sources)
@@ -73,16 +82,11 @@ void Broadcaster::publish_batch(const Event& event, const Batch& batch, const La
 }
 
 void Broadcaster::tell_status() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now >= status_due_) {
-    status_due_ = now + kStatusPeriod;
+  if (is_due(status_due_, kStatusPeriod)) {
     latest_status_ = tracker_->make(sources_.recorder.status(), sources_.refused_commands);
     status_.send(afm_emulator::EmulatorStatus(latest_status_));
   }
-  if (now >= diagnostics_due_) {
-    diagnostics_due_ = now + kDiagnosticsPeriod;
-    diagnostics_.force_update();
-  }
+  if (is_due(diagnostics_due_, kDiagnosticsPeriod)) diagnostics_.force_update();
 }
 
 }  // namespace afm::node

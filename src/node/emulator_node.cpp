@@ -12,17 +12,19 @@
 namespace afm::node {
 namespace {
 
-constexpr double kHandOverSeconds = 2.0;           // how far publishing may fall behind before batches are dropped
+constexpr double kHandOverSeconds = 2.0;              // how far publishing may fall behind before batches are dropped
 constexpr std::size_t kMaxHandOverSamples = 2000000;  // 32 MB, if the batches themselves are not larger
 constexpr std::size_t kMinBatches = 4;
+constexpr std::size_t kMinHandOverImpacts = 200000;   // 11 MB: hundreds of batches of an ordinary run
 
 HandOver::Capacity hand_over_capacity(const Parameters& p) {
   const std::size_t batch = samples_per_batch(p);
   const double seconds_per_batch = std::chrono::duration<double>(batch_period(p)).count();
   const auto wanted = static_cast<std::size_t>(kHandOverSeconds / seconds_per_batch);
   const std::size_t batches = std::max(kMinBatches, std::min(wanted, kMaxHandOverSamples / batch));
-  // twice the budget: a batch that spends it all does not have to wait for the one before it
-  return {batches, batches * batch, 2 * static_cast<std::size_t>(p.impact_budget)};
+  // batches that spend their budget come in rows
+  const std::size_t impacts = std::max<std::size_t>(kMinHandOverImpacts, 2 * p.impact_budget);
+  return {batches, batches * batch, impacts};
 }
 
 Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Parameters& p) {

@@ -1,6 +1,8 @@
 // What values the parameters may have, and what follows from them.
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "parameters.h"
 

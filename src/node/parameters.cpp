@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
+#include <utility>
 #include <variant>
 
 namespace afm::node {
@@ -50,8 +52,10 @@ using Value = XmlRpc::XmlRpcValue;
 
 std::string text_of(Value& value) {
   if (value.getType() == Value::TypeString) return '"' + static_cast<std::string&>(value) + '"';
-  if (value.getType() == Value::TypeInvalid) return "nothing";
-  return value.toXml();
+  std::ostringstream text;
+  text.precision(17);
+  text << value;
+  return text.str();
 }
 
 // Each returns what is wrong with the value, or nothing.

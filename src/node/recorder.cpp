@@ -127,8 +127,8 @@ void Recorder::write_loop() {
 
 std::string Recorder::write(const Item& item) {
   if (!bag_->has_room(item.bytes)) {
-    return bag_->path() + ": stopped, as only " + std::to_string(settings_.reserve_bytes / 1000000) +
-           " MB (disk_reserve_mb) are left on the disk";
+    return bag_->path() + ": stopped and closed, as the disk is full but for the " +
+           std::to_string(settings_.reserve_bytes / 1000000) + " MB that stay free (disk_reserve_mb)";
   }
   try {
     item.write(*bag_);

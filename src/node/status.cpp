@@ -85,8 +85,10 @@ void diagnose_recording(const afm_emulator::EmulatorStatus& status, diagnostic_u
   if (!status.recorder_error.empty()) {
     out.summary(Level::ERROR, status.recorder_error);
   } else {
-    out.summary(Level::OK, status.recording.empty() ? "not recording" : "recording " + status.recording);
+    out.summary(Level::OK, status.recording.empty() ? "not recording" : "recording");
   }
+  out.add("bag", status.recording);
+  out.add("dropped messages", status.dropped_messages);
 }
 
 }  // namespace afm::node
