@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""A recording on a small disk ends cleanly before the disk is full, says why, and the node goes on."""
+import os
+import subprocess
+import tempfile
+
+from afm_emulator.srv import StartRecording
+
+import bags
+from emulator_under_test import EmulatorTest, run
+from topics import Topic
+
+DISK_MB, RESERVE_MB = 24, 16  # a second of the run takes 3 MB
+
+
+class FullDisk(EmulatorTest):
+    def setUp(self):
+        self.disk = tempfile.mkdtemp()
+        self.addCleanup(os.rmdir, self.disk)
+        mount = ['mount', '-t', 'tmpfs', '-o', 'size=%dm' % DISK_MB, 'tmpfs', self.disk]
+        if subprocess.run(mount, stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest('not permitted to mount a small disk here: what happens on a full one was not tested')
+        self.addCleanup(subprocess.run, ['umount', '--lazy', self.disk], check=True)
+        self.parameters = {'bag_directory': self.disk, 'disk_reserve_mb': float(RESERVE_MB)}
+        super().setUp()
+        self.status, self.deflection = Topic('status'), Topic('deflection')
+
+    def free_bytes(self):
+        disk = os.statvfs(self.disk)
+        return disk.f_bavail * disk.f_frsize
+
+    def fill_up_to(self, free_bytes):
+        with open(os.path.join(self.disk, 'of_others'), 'wb') as file:
+            os.posix_fallocate(file.fileno(), 0, self.free_bytes() - free_bytes)
+
+    def begin(self, name):
+        return self.emulator.call('start_recording', StartRecording, name=name)
+
+    def begin_recording(self):
+        self.answer = self.begin('small.bag')
+        self.assertTrue(self.answer.success, self.answer.message)
+        self.status.wait_for(lambda m: m.recording, 'recording')
+
+    def wait_for_error(self):
+        ended = self.status.wait_for(lambda m: not m.recording and m.recorder_error, 'ended by itself')
+        self.deflection.wait_for_next(what='the run goes on')
+        return ended.recorder_error
+
+    def test_ends_cleanly_before_the_disk_is_full(self):
+        self.begin_recording()
+        self.assertIn('disk_reserve_mb', self.wait_for_error())
+        self.assertGreaterEqual(self.free_bytes(), RESERVE_MB * 1e6)
+        self.assertEqual(os.listdir(self.disk), ['small.bag'])
+        bags.assert_sound(self, self.answer.path)
+
+    def test_does_not_start_without_room(self):
+        self.fill_up_to(RESERVE_MB * 1000000)
+        answer = self.begin('none.bag')
+        self.assertFalse(answer.success)
+        self.assertIn('disk_reserve_mb', answer.message)
+        self.assertEqual(os.listdir(self.disk), ['of_others'])
+
+    def test_survives_a_disk_that_others_fill(self):
+        self.begin_recording()
+        self.fill_up_to(0)
+        self.assertTrue(self.wait_for_error())
+
+
+if __name__ == '__main__':
+    run(FullDisk)

@@ -1,0 +1,113 @@
+#!/usr/bin/python3
+"""emulator.launch starts a node that publishes everything, without a gap, as fast as time passes."""
+import time
+import unittest
+from fractions import Fraction
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+
+from emulator_under_test import SPEED_UNIT, TAU_S, pid_of_node, run
+from topics import NAMESPACE, TOPICS, Topic, tau_between, wait_until
+
+WATCHED_S = 5.0
+
+
+def batch_indices(messages, first, content):
+    return [(getattr(m, first), len(getattr(m, content))) for m in messages]
+
+
+class Publishes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.arrival, topics = [], {name: Topic(name) for name in TOPICS}
+        topics['deflection'].wait_for()
+        cls.pid = pid_of_node()
+        begin, first = time.monotonic(), topics['deflection'].messages[-1]
+        wait_until(lambda: time.monotonic() - begin >= WATCHED_S, 'time passes', 2 * WATCHED_S)
+        cls.wall_s, last = time.monotonic() - begin, topics['deflection'].messages[-1]
+        cls.model_s = tau_between(first.time, last.time) * TAU_S
+        cls.topics = {name: topic.messages for name, topic in topics.items()}
+        Topic.close_all()
+
+    @classmethod
+    def tearDownClass(cls):
+        before = Topic('deflection').wait_for()
+        Topic('deflection').wait_for(lambda m: m.first_sample > before.first_sample, 'still counting')
+        assert pid_of_node() == cls.pid, 'the node was started anew'
+
+    def configuration(self):
+        return self.topics['configuration'][-1]
+
+    def assert_no_gap(self, name, first, content):
+        messages = batch_indices(self.topics[name], first, content)
+        self.assertGreater(len(messages), 10)
+        for (index, length), (following, _) in zip(messages, messages[1:]):
+            self.assertEqual(index + length, following)
+
+    def test_topics_have_their_types(self):
+        published = dict(rospy.get_published_topics(NAMESPACE))
+        self.assertEqual(published, {NAMESPACE + '/' + name: kind._type for name, kind in TOPICS.items()})
+
+    def test_every_topic_speaks(self):
+        for name, messages in self.topics.items():
+            self.assertTrue(messages, name)
+            for message in messages:
+                self.assertGreater(message.header.stamp.to_sec(), 0.0, name)
+
+    def test_batches_hold_their_samples(self):
+        samples = round(self.configuration().sample_rate_hz / self.configuration().batch_rate_hz)
+        self.assertEqual(self.configuration().samples_per_batch, samples)
+        for message in self.topics['deflection']:
+            self.assertEqual((len(message.vertical), len(message.lateral)), (samples, samples))
+
+    def test_no_sample_and_no_impact_is_lost(self):
+        self.assert_no_gap('deflection', 'first_sample', 'vertical')
+        self.assert_no_gap('impacts', 'first_index', 'impacts')
+
+    def test_batches_tell_their_exact_time(self):
+        period = Fraction(self.configuration().sample_period_tau)
+        for message in self.topics['deflection']:
+            told = message.time.tau + Fraction(message.time.phase)
+            self.assertLess(abs(told - message.first_sample * period), Fraction('1e-9'))
+            self.assertEqual(message.sample_period, self.configuration().sample_period)
+
+    def test_impacts_are_ordered_and_within_their_batch(self):
+        impacts = [impact for message in self.topics['impacts'] for impact in message.impacts]
+        self.assertGreater(len(impacts), 1000)
+        for impact, following in zip(impacts, impacts[1:]):
+            self.assertGreaterEqual(tau_between(impact.time, following.time), 0.0)
+        for impact in impacts:
+            self.assertTrue(0.0 <= impact.surface_phase < 1.0 and 0.0 <= impact.time.phase < 1.0)
+            self.assertTrue(impact.energy_loss >= 0.0 and impact.normal_speed >= 0.0)
+
+    def test_deflection_is_of_the_surface_size(self):
+        heights = [y for message in self.topics['deflection'] for y in message.vertical]
+        self.assertGreater(min(heights), -0.06e-9)
+        self.assertTrue(0.05e-9 < max(heights) < 10e-9, max(heights))
+
+    def test_model_time_keeps_up_with_wall_time(self):
+        self.assertGreaterEqual(self.wall_s, WATCHED_S)
+        self.assertAlmostEqual(self.model_s / self.wall_s, 1.0, delta=0.05)
+        self.assertAlmostEqual(self.topics['status'][-1].real_time_factor, 1.0, delta=0.05)
+
+    def test_nothing_that_must_stay_zero_has_happened(self):
+        status = self.topics['status'][-1]
+        self.assertEqual((status.search_failures, status.refused_commands, status.dropped_messages), (0, 0, 0))
+        self.assertLess(status.worst_penetration, 1e-20)
+
+    def test_latched_topics_reach_late_subscribers(self):
+        configuration = Topic('configuration').wait_for()
+        self.assertEqual(configuration.tip_mass_kg, 408e-12)
+        self.assertAlmostEqual(Topic('applied_drag').wait_for().drag_velocity, 3.4 * SPEED_UNIT, delta=1e-15)
+
+    def test_diagnostics_tell_of_the_node(self):
+        diagnostics = Topic('/diagnostics', DiagnosticArray)
+        # the updater's first entries only say that the node starts
+        for name in ('emulation', 'recording'):
+            entry = diagnostics.wait_for(lambda m, n=name: any(s.name == 'afm: ' + n for s in m.status), name)
+            self.assertEqual([s.level for s in entry.status], [DiagnosticStatus.OK] * len(entry.status))
+
+
+if __name__ == '__main__':
+    run(Publishes)

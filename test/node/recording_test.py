@@ -1,0 +1,90 @@
+#!/usr/bin/python3
+"""What is recorded is what was published, message for message; names that lead elsewhere are refused."""
+import os
+
+from afm_emulator.srv import StartRecording
+from std_srvs.srv import Trigger
+
+import bags
+from emulator_under_test import EmulatorTest, run
+from topics import wait_until
+
+SINCE_THE_EPOCH_BEGAN = ('configuration', 'applied_drag')  # of these a bag holds all, whenever it was begun
+
+
+def position(sequence, part):
+    """Where `part` begins in `sequence`, as one piece; None if it is not in it."""
+    starts = [i for i, item in enumerate(sequence) if item == part[0]]
+    return next((i for i in starts if sequence[i:i + len(part)] == part), None)
+
+
+class Recording(EmulatorTest):
+    def setUp(self):
+        self.directory = self.temporary_directory()
+        self.parameters = {'bag_directory': self.directory}
+        super().setUp()
+
+    def begin(self, name=''):
+        return self.emulator.call('start_recording', StartRecording, name=name)
+
+    def end(self):
+        return self.emulator.call('stop_recording', Trigger)
+
+    def assert_holds(self, recorded, published, begin, end):
+        """The recorded messages are one piece of the published ones, and contain those from begin to end."""
+        self.assertTrue(recorded)
+        wait_until(lambda: position(published.raw, recorded) is not None, published.name + ': was all published')
+        first = position(published.raw, recorded)
+        self.assertLessEqual(first, begin, published.name)
+        self.assertGreaterEqual(first + len(recorded), end, published.name)
+
+    def test_records_what_is_published(self):
+        published = bags.listen()
+        published['deflection'].wait_for_more(10)
+        answer = self.begin('run.bag')
+        self.assertTrue(answer.success, answer.message)
+        published['status'].wait_for_next(lambda m: m.recording == answer.path, 'recording')
+        # all that is published from now on must be in the bag, but what comes in first may be older
+        published['deflection'].wait_for_more(50)
+        begin = dict(bags.count(published), **dict.fromkeys(SINCE_THE_EPOCH_BEGAN, 0))
+        self.emulator.drag(6.6e-6)
+        published['applied_drag'].wait_for(lambda m: m.drag_velocity == 6.6e-6, 'the command')
+        published['deflection'].wait_for_more(150)
+        end = bags.count(published)
+        self.assertTrue(self.end().success)
+        self.assertEqual(os.listdir(self.directory), ['run.bag'])
+        bags.assert_sound(self, answer.path)
+        for name, recorded in bags.read_raw(answer.path).items():
+            self.assert_holds(recorded, published[name], begin[name], end[name])
+        status = published['status'].wait_for_next(lambda m: not m.recording, 'no longer recording')
+        self.assertEqual((status.recorder_error, status.dropped_messages), ('', 0))
+
+    def test_paths_are_refused(self):
+        for name in ('/tmp/away.bag', '../away.bag', 'sub/away.bag', '..', '.', 'sub/'):
+            answer = self.begin(name)
+            self.assertFalse(answer.success, name)
+            self.assertTrue(answer.message, name)
+        self.assertEqual(os.listdir(self.directory), [])
+
+    def test_names_itself_and_refuses_what_makes_no_sense(self):
+        self.assertFalse(self.end().success)
+        first = self.begin()
+        self.assertTrue(first.success, first.message)
+        self.assertEqual(os.path.dirname(os.path.realpath(first.path)), os.path.realpath(self.directory))
+        self.assertFalse(self.begin('second.bag').success)
+        self.assertTrue(self.end().success)
+        self.assertFalse(self.end().success)
+        self.assertEqual(os.listdir(self.directory), [os.path.basename(first.path)])
+        self.assertEqual(bags.info_exit_code(first.path), 0)
+
+    def test_does_not_overwrite(self):
+        path = os.path.join(self.directory, 'kept.bag')
+        with open(path, 'w') as kept:
+            kept.write('mine')
+        self.assertFalse(self.begin('kept.bag').success)
+        with open(path) as kept:
+            self.assertEqual(kept.read(), 'mine')
+
+
+if __name__ == '__main__':
+    run(Recording)

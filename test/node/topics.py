@@ -1,0 +1,73 @@
+"""Shared by the tests of the node: its topics, and waiting with deadlines."""
+import threading
+import time
+
+import rospy
+from afm_emulator.msg import AppliedDrag, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray
+
+NAMESPACE = '/afm'
+TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied_drag': AppliedDrag,
+          'status': EmulatorStatus, 'configuration': Configuration}
+
+_news = threading.Condition()
+
+
+def wait_until(condition, what, deadline_s=15.0):
+    """What condition() returns as soon as that is true. Looks again at every message, and 20 times a second."""
+    end = time.monotonic() + deadline_s
+    with _news:
+        while True:
+            result = condition()
+            if result:
+                return result
+            if time.monotonic() > end:
+                raise AssertionError('not within %g s: %s' % (deadline_s, what))
+            _news.wait(0.05)
+
+
+def key(model_time):
+    """Orders model times; equal only when they are equal to the bit."""
+    return (model_time.tau, model_time.phase)
+
+
+def tau_between(begin, end):
+    return (end.tau - begin.tau) + (end.phase - begin.phase)
+
+
+class Topic:
+    """Keeps every message in order of arrival, as it came over the wire and decoded."""
+    _open = []
+
+    def __init__(self, name, kind=None):
+        self.name, self.kind = name, kind or TOPICS[name]
+        self.raw, self.messages = [], []
+        path = name if name.startswith('/') else NAMESPACE + '/' + name
+        self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
+        Topic._open.append(self)
+
+    def close(self):
+        self._subscriber.unregister()
+        Topic._open.remove(self)
+
+    @staticmethod
+    def close_all():
+        for topic in list(Topic._open):
+            topic.close()
+
+    def _take(self, message):
+        decoded = self.kind().deserialize(message._buff)
+        with _news:
+            self.raw.append(message._buff)
+            self.messages.append(decoded)
+            _news.notify_all()
+
+    def wait_for(self, wanted=lambda message: True, what='a message', begin=0):
+        """The first message from the `begin`-th on that is wanted."""
+        return wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), self.name + ': ' + what)
+
+    def wait_for_next(self, wanted=lambda message: True, what='a message'):
+        return self.wait_for(wanted, what, begin=len(self.messages))
+
+    def wait_for_more(self, count):
+        target = len(self.messages) + count
+        wait_until(lambda: len(self.messages) >= target, '%s: %d more' % (self.name, count))
