@@ -1,0 +1,82 @@
+// The drag works only through the springs: what is lost in impacts is what it put in, less what is stored.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "afm_emulator/surface.h"
+#include "afm_emulator/tip.h"
+
+namespace afm {
+namespace {
+
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+
+// In the springs and in motion over the ground [m a^2/tau^2].
+double stored_energy(const Model& m, const FreeState& s) {
+  const double omega_h = kTwoPi * m.frequency_ratio, Y = s.y - m.y0;
+  return 0.5 * (s.u * s.u + s.w * s.w + omega_h * omega_h * s.X * s.X + kTwoPi * kTwoPi * Y * Y);
+}
+
+// Horizontal velocity before an impact.
+double incident_u(const Model& m, const Impact& impact) {
+  const double slope = surface_jet(m.H, impact.surface_phase).h1;
+  return (impact.tangential_velocity + slope * impact.normal_speed) / std::sqrt(1.0 + slope * slope);
+}
+
+struct Balance {
+  double work, lost, stored;
+};
+
+Balance run(const Model& model, double eta, int impacts) {
+  Tip tip(model, eta, {0.25, 0.0, 0.2, eta, 0.0});
+  const double before = stored_energy(model, tip.state());
+  long double work = 0.0L, lost = 0.0L;
+  for (int i = 0; i < impacts;) {
+    const double u = tip.state().u;
+    if (tip.advance(kNever) != Outcome::impact) continue;
+    ++i;
+    // the work on the springs in a flight: eta times the force, which is the change of u
+    work += eta * (incident_u(model, tip.last_impact()) - u);
+    lost += tip.last_impact().energy_loss;
+  }
+  return {static_cast<double>(work), static_cast<double>(lost), stored_energy(model, tip.state()) - before};
+}
+
+class EnergyAtEta : public testing::TestWithParam<double> {};
+
+TEST_P(EnergyAtEta, WhatIsLostIsTheWorkOfTheDragLessWhatIsStored) {
+  Model model;
+  model.v_c = 0.1 * std::abs(GetParam());
+  const Balance balance = run(model, GetParam(), 100000);
+  EXPECT_NEAR(balance.lost, balance.work - balance.stored, 1e-12 * balance.lost);
+  EXPECT_GT(balance.lost, 0.0);
+}
+
+TEST_P(EnergyAtEta, TheBalanceHoldsWhateverTheRestitution) {
+  for (const double gamma : {0.3, 0.9, 0.99}) {
+    Model model;
+    model.gamma = gamma;
+    model.v_c = 0.1 * std::abs(GetParam());
+    const Balance balance = run(model, GetParam(), 10000);
+    EXPECT_NEAR(balance.lost, balance.work - balance.stored, 1e-12 * balance.lost) << gamma;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(DragSpeeds, EnergyAtEta, testing::Values(0.5, 1.5, 2.0, 2.75, 3.4, -3.4, 5.0, 8.0));
+
+TEST(Energy, OfAnElasticTipAtRestDoesNotDrift) {
+  Model model;
+  model.gamma = 1.0;
+  Tip tip(model, 0.0, {0.25, 0.03, 0.2, 0.5, 0.0});
+  const double energy = stored_energy(model, tip.state());
+  int impacts = 0;
+  for (; impacts < 1000000; ++impacts) {
+    if (tip.advance(kNever) != Outcome::impact) break;
+    ASSERT_EQ(tip.last_impact().energy_loss, 0.0);
+  }
+  EXPECT_EQ(impacts, 1000000);
+  EXPECT_NEAR(stored_energy(model, tip.state()), energy, 1e-11 * energy);
+}
+
+}  // namespace
+}  // namespace afm
