@@ -11,7 +11,7 @@ namespace afm {
 namespace {
 
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-constexpr double kDragSpeeds[] = {0.0, 0.5, 1.0, 2.25, 3.4, -3.4, 5.0, 50.0};
+constexpr double kDragSpeeds[] = {0.5, 2.0, 2.25, 3.4, -3.4, 4.5, 9.0, 50.0};
 
 FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
 
