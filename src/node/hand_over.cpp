@@ -3,8 +3,11 @@
 namespace afm::node {
 namespace {
 
-// Batches leave this much room to the other events: however far publishing is behind, commands can be told of.
-constexpr std::size_t kReservedEvents = 256;
+// A request causes at most three events beside batches: reset, drag applied, answer. Batches leave room for them, as a
+// step tells of its batches first and answers last.
+constexpr std::size_t kEventsPerRequest = 3;
+// Commands that may wait for publication, beside all the batches that may.
+constexpr std::size_t kWaitingCommands = 1024;
 
 // A page touched for the first time costs the toucher a fault: touch them all before the stepping thread does.
 template <class T>
@@ -28,7 +31,8 @@ void take_all(boost::lockfree::spsc_queue<T>& queue, std::size_t n, std::vector<
 }  // namespace
 
 HandOver::HandOver(const Capacity& capacity)
-    : events_(capacity.batches + kReservedEvents),
+    : room_for_request_(capacity.batches + kEventsPerRequest),
+      events_(room_for_request_ + kWaitingCommands),
       vertical_(capacity.samples),
       lateral_(capacity.samples),
       impacts_(capacity.impacts) {
@@ -40,7 +44,7 @@ HandOver::HandOver(const Capacity& capacity)
 
 bool HandOver::offer(Event event, const Batch& batch) {
   const std::size_t samples = batch.vertical.size();
-  if (events_.write_available() <= kReservedEvents || lateral_.write_available() < samples ||
+  if (events_.write_available() <= kEventsPerRequest || lateral_.write_available() < samples ||
       vertical_.write_available() < samples || impacts_.write_available() < batch.impacts.size()) {
     return false;
   }

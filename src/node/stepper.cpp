@@ -10,8 +10,6 @@ namespace {
 
 // More commands than anyone sends within a batch; beyond them a command is refused rather than delayed further.
 constexpr std::size_t kMaxWaitingRequests = 1024;
-// A request tells of itself by at most three events: reset, drag applied, answer.
-constexpr std::size_t kEventsPerRequest = 3;
 // While paused: how soon a stop is noticed without a request.
 constexpr std::chrono::milliseconds kPausedLook{100};
 
@@ -52,9 +50,9 @@ bool Stepper::submit(const Request& request) {
 
 void Stepper::run() {
   running_.set_value(claim_real_time());
+  pacer_.resume(monotonic_now());
   publish(Event::Kind::reset);
   publish(Event::Kind::drag_applied);
-  pacer_.resume(monotonic_now());
   while (!stopping_) {
     wait_for_work();
     serve_requests();
@@ -73,7 +71,7 @@ void Stepper::wait_for_work() {
 // A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
 void Stepper::serve_requests() {
   Request request;
-  while (!stopping_ && hand_over_.room() >= kEventsPerRequest && requests_.pop(request)) serve(request);
+  while (!stopping_ && hand_over_.has_room_for_request() && requests_.pop(request)) serve(request);
 }
 
 void Stepper::serve(const Request& request) {

@@ -19,8 +19,9 @@ constexpr char kStopRecordingService[] = "stop_recording";
 
 // A message every batch: 0.1 s at the fastest batch rate; a queue of 10 lost nothing, one of 1 lost 2 %.
 constexpr unsigned kBatchQueueSize = 100;
-// Commands, of which none may be lost on the way, neither in nor out, however many come at once.
-constexpr unsigned kCommandQueueSize = 1000;
+// Commands, of which none may be lost on the way in or out, as nobody would count it. Ten times what the stepping thread
+// takes before it refuses more, which is counted.
+constexpr unsigned kCommandQueueSize = 10000;
 // A second of status.
 constexpr unsigned kStatusQueueSize = 10;
 // Only the latest matters.
