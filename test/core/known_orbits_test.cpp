@@ -43,7 +43,7 @@ Known even(double eta) {
 
 const Known kKnown[] = {
     even(2.0), even(4.0), even(6.0), even(8.0),
-    // the map of one impact iterated in 34 digits (Python's mpmath, on the closed form of the flight) until K_f stood still
+    // the map of one impact iterated in 34 digits (Python's mpmath, on the flight's closed form) until K_f stood still
     {1.5, 0.2507777307734768407203532},
     {2.25, 1.603774408582840476679226},
     {4.5, 0.445730537638223617016902}};
@@ -61,7 +61,8 @@ TEST(KnownOrbits, TheSimulatedFrictionIsTheKnownOne) {
 TEST(KnownOrbits, TheMapReturnsThePeriodOneOrbitOfThePaper) {
   const Model model;
   const double eta = 3.4, phase = 0.5290552555567710;
-  const FreeState start{phase, 0.0036110865500110, surface_jet(model.H, phase).h, 3.1709737711578348, 2.0880897958488404};
+  const double height = surface_jet(model.H, phase).h;
+  const FreeState start{phase, 0.0036110865500110, height, 3.1709737711578348, 2.0880897958488404};
   Tip tip(model, eta, start);
   ASSERT_EQ(tip.advance(kNever), Outcome::impact);
   EXPECT_NEAR(tip.now() - ModelTime{}, 2.0 / 3.4, 1e-14);

@@ -1,0 +1,92 @@
+#include "single_flight.h"
+
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "afm_emulator/double_double.h"
+#include "afm_emulator/emulator.h"
+#include "afm_emulator/flight.h"
+#include "afm_emulator/impact_search.h"
+#include "afm_emulator/reflection.h"
+#include "afm_emulator/surface.h"
+
+namespace afm {
+namespace {
+
+Model model_of(const FlightInput& input) {
+  Model model;
+  model.gamma = input.gamma;
+  model.v_c = input.cutoff;
+  return model;
+}
+
+// By the column's name.
+std::string column(const std::string& parameter) {
+  static const std::map<std::string, std::string> names{{"v_c", "cutoff"},
+                                                        {"initial_phase", "phase"},
+                                                        {"initial_extension", "extension"},
+                                                        {"initial_u", "u"},
+                                                        {"initial_w", "w"}};
+  const auto found = names.find(parameter);
+  return found == names.end() ? parameter : found->second;
+}
+
+void check(const FlightInput& input) {
+  EmulatorSettings settings;
+  settings.model = model_of(input);
+  settings.eta = input.eta;
+  const double height = surface_jet(settings.model.H, std::isfinite(input.phase) ? input.phase : 0.0).h;
+  settings.initial = {input.phase, input.extension, height, input.u, input.w};
+  std::string text;
+  for (const ParameterError& fault : find_faults(settings)) {
+    const ParameterError renamed(column(fault.name), fault.value, fault.reason);
+    text += std::string(text.empty() ? "" : "; ") + renamed.what();
+  }
+  if (!text.empty()) throw std::invalid_argument(text);
+}
+
+// w - h'(phase) u is a small difference of velocities after a slow impact: taken in twice the digits.
+TipState start_of(const FlightInput& input) {
+  const DoubleDouble slope = surface_jet(DoubleDouble(model_of(input).H), DoubleDouble(input.phase)).h1;
+  const double gap_rate = static_cast<double>(DoubleDouble(input.w) - slope * DoubleDouble(input.u));
+  if (gap_rate > 0.0) return {input.phase, input.extension, input.u, 0.0, gap_rate};
+  std::ostringstream text;
+  text << "the tip does not leave the surface: w - h'(phase) u = " << gap_rate << " is not above 0";
+  throw std::invalid_argument(text.str());
+}
+
+// A search that gives up on a long flight is begun again from where it is certified free of impacts.
+Landing<double> land(const Model& model, double eta, TipState start) {
+  constexpr int kAttempts = 100;
+  const Mechanics<double> mechanics(model);
+  double flown = 0.0;
+  for (int attempt = 0; attempt < kAttempts && flown < kLongestFlight; ++attempt) {
+    const Flight<double> flight(mechanics, eta, start);
+    Landing<double> landing = find_landing(model, flight, kLongestFlight - flown);
+    const double s = landing.s;
+    landing.s = flown += s;
+    if (landing.outcome == SearchOutcome::impact) return landing;
+    start = flight.tip_state(s);
+  }
+  std::ostringstream text;
+  text << "no impact within " << flown << " tau";
+  if (flown < kLongestFlight) text << ", where the search gave up";
+  throw std::runtime_error(text.str());
+}
+
+}  // namespace
+
+FlightResult fly_to_next_impact(const FlightInput& input) {
+  check(input);
+  const Model model = model_of(input);
+  const Landing<double> landing = land(model, input.eta, start_of(input));
+  const Reflection r = reflect(model, input.eta, landing.jet.state, std::fmin(landing.jet.g1, 0.0));
+  const FreeState after = to_free_state(model.H, r.after);
+  return {landing.s, after.phase,    after.X,               after.u,
+          after.w,   r.normal_speed, r.tangential_velocity, r.energy_loss};
+}
+
+}  // namespace afm

@@ -1,0 +1,23 @@
+// From one impact to the next, in lab coordinates and natural units.
+#pragma once
+
+#include <stdexcept>
+
+namespace afm {
+
+// A post-impact state on the surface, and the model it flies in.
+struct FlightInput {
+  double eta, gamma, cutoff, phase, extension, u, w;
+};
+
+// The next impact; velocities u and w after it, normal speed and tangential velocity before it.
+struct FlightResult {
+  double dt, phase, extension, u, w, normal_speed, tangential_velocity, energy_loss;
+};
+
+constexpr double kLongestFlight = 1000.0;  // [tau]
+
+// Throws std::invalid_argument with every fault of the input, std::runtime_error where there is no impact to be found.
+FlightResult fly_to_next_impact(const FlightInput& input);
+
+}  // namespace afm
