@@ -28,7 +28,7 @@ struct Balance {
 };
 
 Balance run(const Model& model, double eta, int impacts) {
-  Tip tip(model, eta, {0.25, 0.0, 0.2, eta, 0.0});
+  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
   const double before = stored_energy(model, tip.state());
   long double work = 0.0L, lost = 0.0L;
   for (int i = 0; i < impacts;) {
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(DragSpeeds, EnergyAtEta, testing::Values(0.5, 1.5, 2.0,
 TEST(Energy, OfAnElasticTipAtRestDoesNotDrift) {
   Model model;
   model.gamma = 1.0;
-  Tip tip(model, 0.0, {0.25, 0.03, 0.2, 0.5, 0.0});
+  Tip tip(model, 0.0, FreeState{0.25, 0.03, 0.2, 0.5, 0.0});
   const double energy = stored_energy(model, tip.state());
   int impacts = 0;
   for (; impacts < 1000000; ++impacts) {

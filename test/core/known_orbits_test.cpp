@@ -19,7 +19,7 @@ Model mica_with_cutoff(double v_c) {
 
 // K_f over `impacts` impacts after a transient. On an orbit of one impact that is a whole number of its periods.
 double simulated_K_f(const Model& model, double eta, int transient, int impacts) {
-  Tip tip(model, eta, {0.25, 0.0, 0.2, eta, 0.0});
+  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
   for (int i = 0; i < transient; ++i) tip.advance(kNever);
   const ModelTime begin = tip.now();
   double energy = 0.0;
@@ -79,7 +79,7 @@ TEST(KnownOrbits, AtEvenEtaTheImpactsAreThoseOfTheClosedForm) {
   const Model model;
   const double s = kTwoPi * model.H;
   for (const double eta : {2.0, 4.0, 6.0, 8.0}) {
-    Tip tip(model, eta, {0.25, 0.0, 0.2, eta, 0.0});
+    Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
     for (int i = 0; i < 2000; ++i) tip.advance(kNever);
     const Impact& impact = tip.last_impact();
     EXPECT_NEAR(impact.surface_phase, 0.75, 1e-9) << eta;

@@ -146,7 +146,8 @@ TEST(Tip, AfterADragCommandItFliesAsIfStartedThere) {
 TEST(Tip, DraggedTheOtherWayItIsItsMirrorImage) {
   for (const double eta : {2.0, 2.25, 4.5}) {  // where small differences die out
     const Model model = model_at(eta);
-    Tip right(model, eta, {0.25, 0.01, 0.2, eta, 0.3}), left(model, -eta, {0.75, -0.01, 0.2, -eta, 0.3});
+    Tip right(model, eta, FreeState{0.25, 0.01, 0.2, eta, 0.3});
+    Tip left(model, -eta, FreeState{0.75, -0.01, 0.2, -eta, 0.3});
     for (int i = 0; i < 3000; ++i) {
       ASSERT_EQ(right.advance(kNever), left.advance(kNever));
       const Impact &r = right.last_impact(), &l = left.last_impact();
@@ -179,8 +180,8 @@ TEST(Tip, AnImpactIsWhatTheStatesOnEitherSideSay) {
 }
 
 TEST(Tip, RefusesAStartBelowTheSurface) {
-  EXPECT_THROW(Tip(Model(), 1.0, {0.0, 0.0, 0.0, 1.0, 0.0}), ParameterError);
-  EXPECT_NO_THROW(Tip(Model(), 1.0, {0.5, 0.0, 0.0, 1.0, 0.0}));
+  EXPECT_THROW(Tip(Model(), 1.0, FreeState{0.0, 0.0, 0.0, 1.0, 0.0}), ParameterError);
+  EXPECT_NO_THROW(Tip(Model(), 1.0, FreeState{0.5, 0.0, 0.0, 1.0, 0.0}));
 }
 
 TEST(Tip, RefusesAFaultyModel) {
