@@ -51,6 +51,9 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
   stepper_.start();
   broadcaster_->start(stepper_.scheduler());
   accept_commands(node);
+  ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
+           to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
+           static_cast<unsigned long>(samples_per_batch(parameters)), stepper_.scheduler().c_str());
 }
 
 EmulatorNode::~EmulatorNode() {

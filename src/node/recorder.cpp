@@ -59,6 +59,7 @@ Recorder::Reply Recorder::start(const std::string& name) {
     bag_ = std::move(bag);
     error_.clear();
     enqueue_history();
+    ROS_INFO_STREAM("recording " << bag_->path());
     return {true, "recording " + bag_->path(), bag_->path()};
   } catch (const std::exception& error) {
     return {false, error.what(), ""};
@@ -150,7 +151,11 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
     last_path_ = bag_->path();
     last_messages_ = bag_->messages();
     bag_.reset();
-    if (!error.empty()) ROS_ERROR_STREAM("recording ended early: " << error);
+    if (error.empty()) {
+      ROS_INFO_STREAM("recorded " << last_path_ << ": " << last_messages_ << " messages");
+    } else {
+      ROS_ERROR_STREAM("recording ended early: " << error);
+    }
   }
   error_ = std::move(error);
   stopping_ = quitting_;
