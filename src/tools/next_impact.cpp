@@ -1,4 +1,5 @@
 // A filter: states after an impact in, the next impact out.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fstream>
 #include <iostream>
@@ -6,8 +7,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #include "csv.h"
 #include "single_flight.h"
@@ -23,7 +22,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const char kDescription[] =
     "Computes the next impact of each state of a table.\n"
     "In:  CSV with the header eta,gamma,cutoff,phase,extension,u,w: drag velocity, restitution and its cutoff speed,\n"
-    "     and a state just after an impact: surface phase, extension x - xc, lab velocity (units: a, tau, m of the tip).\n"
+    "     and a state just after an impact: surface phase, extension x - xc, lab velocity (units a, tau, tip mass).\n"
     "Out: the same columns, then dt,phase_next,extension_next,u_next,w_next (after the impact), normal_speed,\n"
     "     tangential_velocity (before it) and energy_loss. A row that cannot be computed gives nan and a message, and\n"
     "     exit code 1 at the end.";

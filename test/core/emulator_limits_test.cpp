@@ -1,11 +1,11 @@
 // What an emulator does at its limits: a spent budget, a faulty parameter, memory.
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <limits>
 #include <new>
 #include <set>
 #include <string>
-
-#include <gtest/gtest.h>
 
 #include "afm_emulator/emulator.h"
 #include "recorded_run.h"

@@ -1,8 +1,8 @@
 #include "afm_emulator/emulator.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "recorded_run.h"
 

@@ -1,7 +1,7 @@
 // The drag works only through the springs: what is lost in impacts is what it put in, less what is stored.
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "afm_emulator/surface.h"
 #include "afm_emulator/tip.h"

@@ -1,10 +1,10 @@
 #include "afm_emulator/friction.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 namespace afm {
 namespace {

@@ -1,8 +1,8 @@
 // Flights built to pass a crest at a given depth: deeper than rounding, and within it.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "afm_emulator/impact_search.h"
 #include "quad.h"
@@ -30,8 +30,7 @@ Graze build_graze(RandomLaunches& random, double clearance) {
   if (!(back.start().g2 > 1)) return {};
   const Quad clear = sqrt(Quad(0.01) / back.start().g2);  // by then the gap is beyond any rounding
   if (!(back.gap(clear).g > Quad(0.001))) return {};
-  const Landing<Quad> before =
-      find_impact(Flight<Quad>(kQuadMechanics, -eta, back.tip_state(clear)), Quad(kHorizon));
+  const Landing<Quad> before = find_impact(Flight<Quad>(kQuadMechanics, -eta, back.tip_state(clear)), Quad(kHorizon));
   if (before.outcome != SearchOutcome::impact) return {};
   const FlightState<Quad>& q = before.jet.state;
   const TipState start{wrap_phase(static_cast<double>(q.phase)), static_cast<double>(q.X),

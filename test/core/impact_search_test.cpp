@@ -1,9 +1,9 @@
 #include "afm_emulator/impact_search.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "quad.h"
 #include "random_launches.h"

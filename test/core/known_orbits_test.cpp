@@ -1,7 +1,7 @@
 // Flight, search, reflection and the tip together, against orbits that are known otherwise.
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "afm_emulator/surface.h"
 #include "afm_emulator/tip.h"
@@ -42,7 +42,10 @@ Known even(double eta) {
 }
 
 const Known kKnown[] = {
-    even(2.0), even(4.0), even(6.0), even(8.0),
+    even(2.0),
+    even(4.0),
+    even(6.0),
+    even(8.0),
     // the map of one impact iterated in 34 digits (Python's mpmath, on the flight's closed form) until K_f stood still
     {1.5, 0.2507777307734768407203532},
     {2.25, 1.603774408582840476679226},

@@ -1,10 +1,10 @@
 #include "afm_emulator/model.h"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <set>
 #include <string>
-
-#include <gtest/gtest.h>
 
 namespace afm {
 namespace {

@@ -1,9 +1,8 @@
 // The core's templates in 113 bits: the truth that tests compare with.
 #pragma once
 
-#include <limits>
-
 #include <boost/multiprecision/float128.hpp>
+#include <limits>
 
 #include "afm_emulator/double_double.h"
 #include "afm_emulator/turns.h"

@@ -1,10 +1,10 @@
 // What a run produced, put together from its batches, to compare runs bit for bit.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "afm_emulator/emulator.h"
 

@@ -44,11 +44,13 @@ inline ReferenceFlight parse_reference_flight(const std::string& line) {
   std::string field;
   std::size_t n = 0;
   for (; std::getline(fields, field, ','); ++n) {
-    if (n < kInputs) in[n] = std::stod(field);
-    else if (n < kInputs + kOutputs) out[n - kInputs] = Quad(field);
+    if (n < kInputs)
+      in[n] = std::stod(field);
+    else if (n < kInputs + kOutputs)
+      out[n - kInputs] = Quad(field);
   }
   if (n != kInputs + kOutputs) throw std::runtime_error("reference flight with " + std::to_string(n) + " fields");
-  return {in[0], in[1],  in[2],  in[3],  in[4],  in[5],  in[6], out[0],
+  return {in[0],  in[1],  in[2],  in[3],  in[4],  in[5],  in[6], out[0],
           out[1], out[2], out[3], out[4], out[5], out[6], out[7]};
 }
 

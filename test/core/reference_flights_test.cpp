@@ -1,10 +1,10 @@
 // Flight, search and reflection together, against flights computed elsewhere in 128-bit floats.
 #include "reference_flights.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <tuple>
-
-#include <gtest/gtest.h>
 
 #include "afm_emulator/flight.h"
 #include "afm_emulator/impact_search.h"

@@ -1,9 +1,9 @@
 #include "afm_emulator/reflection.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "quad.h"
 
@@ -47,8 +47,8 @@ Model model_with(double gamma, double v_c) {
   return model;
 }
 
-const Model kModels[] = {model_with(0.7, 0.05), model_with(0.7, 0.0), model_with(0.0, 0.05), model_with(0.0, 0.0),
-                         model_with(1.0, 0.05), model_with(0.3, 3.0)};
+const Model kModels[] = {model_with(0.7, 0.05), model_with(0.7, 0.0),  model_with(0.0, 0.05),
+                         model_with(0.0, 0.0),  model_with(1.0, 0.05), model_with(0.3, 3.0)};
 
 Quad exact_restitution(const Model& m, const Quad& speed) {
   return speed >= m.v_c ? Quad(m.gamma) : 1 - (1 - Quad(m.gamma)) * speed / m.v_c;
@@ -110,8 +110,8 @@ TEST(Reflection, TheEnergyLostIsTheKineticEnergyThatIsMissing) {
       const Quad lost = (i.u * i.u + i.w * i.w - u * u - w * w) / 2;
       const double rounding = 1e-31 * static_cast<double>(i.u * i.u + i.w * i.w);
       ASSERT_LE(static_cast<double>(abs(r.energy_loss - lost)), 2e-15 * static_cast<double>(lost) + rounding);
-      ASSERT_LE(static_cast<double>(abs(r.after.u - u)), 1e-15 * (1.0 + std::abs(static_cast<double>(i.u - u))
-                                                                   + static_cast<double>(abs(i.u))));
+      ASSERT_LE(static_cast<double>(abs(r.after.u - u)),
+                1e-15 * (1.0 + std::abs(static_cast<double>(i.u - u)) + static_cast<double>(abs(i.u))));
     }
   }
 }

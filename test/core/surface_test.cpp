@@ -1,9 +1,9 @@
 #include "afm_emulator/surface.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "afm_emulator/model.h"
 #include "quad.h"

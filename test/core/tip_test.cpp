@@ -1,9 +1,9 @@
 #include "afm_emulator/tip.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "afm_emulator/surface.h"
 
@@ -31,6 +31,12 @@ void expect_same(const Impact& a, const Impact& b) {
   EXPECT_EQ(a.energy_loss, b.energy_loss);
   EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.count, b.count);
+}
+
+void run_to(Tip& tip, const ModelTime& time) {
+  Outcome outcome;
+  do outcome = tip.advance(time);
+  while (outcome != Outcome::time_limit);
 }
 
 bool is_event(Outcome outcome) { return outcome != Outcome::time_limit && outcome != Outcome::flying; }
@@ -91,7 +97,7 @@ TEST(Tip, TheDeflectionIsThatOfTheState) {
   const Model model = model_at(3.4);
   for (int i = 1; i < 1000; ++i) {
     const ModelTime t = multiply(static_cast<std::uint64_t>(i), 0.0171);
-    while (tip.advance(t) != Outcome::time_limit) {}
+    run_to(tip, t);
     const FreeState state = tip.state();
     const Deflection deflection = tip.deflection(t);
     ASSERT_NEAR(deflection.vertical, state.y - model.y0, 1e-14);
@@ -104,7 +110,7 @@ TEST(Tip, ADragCommandMovesNothing) {
   for (const double eta : kDragSpeeds) {
     Tip tip = tip_at(eta);
     for (int i = 1; i < 200; ++i) {
-      while (tip.advance(multiply(static_cast<std::uint64_t>(i), 0.237)) != Outcome::time_limit) {}
+      run_to(tip, multiply(static_cast<std::uint64_t>(i), 0.237));
       const FreeState before = tip.state();
       const ModelTime now = tip.now();
       tip.drag(kDragSpeeds[i % 8]);
@@ -134,7 +140,7 @@ TEST(Tip, TheSameDragAgainOnlySplitsTheFlight) {
 
 TEST(Tip, AfterADragCommandItFliesAsIfStartedThere) {
   Tip tip = tip_at(3.4);
-  while (tip.advance({5, 0.3}) != Outcome::time_limit) {}
+  run_to(tip, {5, 0.3});
   tip.drag(-2.25);
   Tip fresh(model_at(3.4), -2.25, tip.state());
   ASSERT_EQ(tip.advance(kNever), Outcome::impact);

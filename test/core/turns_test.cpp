@@ -1,9 +1,9 @@
 #include "afm_emulator/turns.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "quad.h"
 

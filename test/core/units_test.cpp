@@ -1,10 +1,10 @@
 #include "afm_emulator/units.h"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <set>
 #include <string>
-
-#include <gtest/gtest.h>
 
 namespace afm {
 namespace {
@@ -22,8 +22,8 @@ TEST(Units, MicaIsThePapersMica) {
   ASSERT_TRUE(find_faults(mica).empty());
   const Units units(mica);
   EXPECT_DOUBLE_EQ(units.time(), kTwoPi / 40e3);
-  EXPECT_NEAR(units.time(), 0.157e-3, 0.001e-3);        // tau
-  EXPECT_NEAR(units.velocity(), 3.31e-6, 0.005e-6);     // a/tau
+  EXPECT_NEAR(units.time(), 0.157e-3, 0.001e-3);     // tau
+  EXPECT_NEAR(units.velocity(), 3.31e-6, 0.005e-6);  // a/tau
   EXPECT_EQ(units.length(), 0.52e-9);
 }
 
