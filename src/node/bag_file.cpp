@@ -1,14 +1,14 @@
 #include "bag_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
-
 #include <fcntl.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
 
 namespace afm::node {
 namespace {

@@ -2,14 +2,14 @@
 // and no failure of the disk takes the process down.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <string>
-
-#include <boost/shared_ptr.hpp>
 #include <ros/datatypes.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
+
+#include <boost/shared_ptr.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
 
 namespace afm::node {
 

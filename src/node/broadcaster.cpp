@@ -66,12 +66,18 @@ void Broadcaster::publish(const Event& event, const Batch& batch) {
   const Label label{to_stamp(event.wall_ns), event.state.epoch};
   tracker_->observe(event);
   switch (event.kind) {
-    case Event::Kind::reset: configuration_.send(to_configuration(parameters_, kVersion, digest_, label)); break;
+    case Event::Kind::reset:
+      configuration_.send(to_configuration(parameters_, kVersion, digest_, label));
+      break;
     case Event::Kind::drag_applied:
       applied_drag_.send(to_applied_drag(event.state.time, event.drag_velocity, label));
       break;
-    case Event::Kind::batch: publish_batch(event, batch, label); break;
-    case Event::Kind::answer: sources_.deliver(event.answer); break;
+    case Event::Kind::batch:
+      publish_batch(event, batch, label);
+      break;
+    case Event::Kind::answer:
+      sources_.deliver(event.answer);
+      break;
   }
 }
 

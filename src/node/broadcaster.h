@@ -1,15 +1,15 @@
 // The publishing thread: takes what the stepping thread hands over, publishes and records it, and tells how it goes.
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <thread>
-
-#include <diagnostic_updater/diagnostic_updater.h>
-#include <ros/node_handle.h>
 
 #include "channel.h"
 #include "hand_over.h"

@@ -1,14 +1,14 @@
 // One outgoing topic: what is sent goes to its subscribers and to the recorder, as one and the same message.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <utility>
-
-#include <boost/make_shared.hpp>
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
 #include <ros/this_node.h>
+
+#include <boost/make_shared.hpp>
+#include <cstdint>
+#include <string>
+#include <utility>
 
 #include "recorder.h"
 

@@ -14,10 +14,14 @@ constexpr std::chrono::seconds kDeadline{12};
 
 std::string to_text(const Answer& answer, const std::string& done) {
   switch (answer.result) {
-    case Answer::Result::done: return done;
-    case Answer::Result::not_paused: return "the emulator is running: pause it first";
-    case Answer::Result::shutting_down: return "the emulator is shutting down";
-    case Answer::Result::time_ran_out: break;
+    case Answer::Result::done:
+      return done;
+    case Answer::Result::not_paused:
+      return "the emulator is running: pause it first";
+    case Answer::Result::shutting_down:
+      return "the emulator is shutting down";
+    case Answer::Result::time_ran_out:
+      break;
   }
   return "gave up after " + std::to_string(answer.impacts) + " impacts, at the time given";
 }

@@ -1,11 +1,11 @@
 #include "emulator_node.h"
 
+#include <ros/console.h>
+#include <ros/transport_hints.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include <ros/console.h>
-#include <ros/transport_hints.h>
 
 #include "topics.h"
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double kHandOverSeconds = 2.0;              // how far publishing may fall behind before batches are dropped
 constexpr std::size_t kMaxHandOverSamples = 2000000;  // 32 MB, if the batches themselves are not larger
 constexpr std::size_t kMinBatches = 4;
-constexpr std::size_t kMinHandOverImpacts = 200000;   // 11 MB: hundreds of batches of an ordinary run
+constexpr std::size_t kMinHandOverImpacts = 200000;  // 11 MB: hundreds of batches of an ordinary run
 
 HandOver::Capacity hand_over_capacity(const Parameters& p) {
   const std::size_t batch = samples_per_batch(p);

@@ -1,17 +1,17 @@
 // The node: wires between ROS and the threads that step, publish and record.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 #include <afm_emulator/StartRecording.h>
 #include <afm_emulator/Step.h>
 #include <ros/node_handle.h>
 #include <std_msgs/Float64.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "broadcaster.h"
 #include "control.h"

@@ -50,8 +50,8 @@ struct Event {
   std::int64_t wall_ns = 0;    // wall clock [ns since 1970]
   double drag_velocity = 0.0;  // in force [m/s], to the bit as it was commanded
   StepperState state;
-  BatchHead batch;             // of kind batch
-  Answer answer;               // of kind answer
+  BatchHead batch;  // of kind batch
+  Answer answer;    // of kind answer
 };
 
 }  // namespace afm::node

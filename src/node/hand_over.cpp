@@ -18,8 +18,15 @@ void touch(boost::lockfree::spsc_queue<T>& queue) {
 }
 
 BatchHead head_of(const Batch& batch) {
-  return {batch.begin,        batch.end,            batch.first_sample_time, batch.first_sample, batch.vertical.size(),
-          batch.first_impact, batch.impacts.size(), batch.friction,          batch.eta};
+  return {batch.begin,
+          batch.end,
+          batch.first_sample_time,
+          batch.first_sample,
+          batch.vertical.size(),
+          batch.first_impact,
+          batch.impacts.size(),
+          batch.friction,
+          batch.eta};
 }
 
 template <class T>

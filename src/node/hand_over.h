@@ -2,10 +2,9 @@
 // never blocks, locks or allocates; what finds no room is refused there, and the caller decides what that means.
 #pragma once
 
+#include <boost/lockfree/spsc_queue.hpp>
 #include <chrono>
 #include <cstddef>
-
-#include <boost/lockfree/spsc_queue.hpp>
 
 #include "events.h"
 #include "semaphore.h"

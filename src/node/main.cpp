@@ -1,11 +1,11 @@
 // emulator_node: the AFM tip on the wire. Exits 1 if its parameters are faulty, 0 when it is told to end.
-#include <atomic>
-#include <csignal>
-#include <exception>
-
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/spinner.h>
+
+#include <atomic>
+#include <csignal>
+#include <exception>
 
 #include "emulator_node.h"
 #include "semaphore.h"

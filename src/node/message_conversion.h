@@ -2,17 +2,16 @@
 // node. Pure functions; times, phases and indices pass as they are.
 #pragma once
 
-#include <cstdint>
-#include <string>
-
-#include <ros/time.h>
-
 #include <afm_emulator/AppliedDrag.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/EmulatorStatus.h>
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
+#include <ros/time.h>
+
+#include <cstdint>
+#include <string>
 
 #include "afm_emulator/emulator.h"
 #include "afm_emulator/units.h"
@@ -33,7 +32,8 @@ ros::Time to_stamp(std::int64_t wall_ns);
 afm_emulator::ModelTime to_message(const ModelTime& time);
 ModelTime from_message(const afm_emulator::ModelTime& time);
 
-afm_emulator::Deflection to_deflection(const Batch& batch, double sample_period_s, const Units& units, const Label& label);
+afm_emulator::Deflection to_deflection(const Batch& batch, double sample_period_s, const Units& units,
+                                       const Label& label);
 afm_emulator::Impact to_message(const Impact& impact, const Units& units);
 afm_emulator::ImpactArray to_impacts(const Batch& batch, const Units& units, const Label& label);
 afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, const Units& units, const Label& label);

@@ -78,7 +78,8 @@ std::string read(Value& value, std::uint64_t* out) {
   double number = 0.0;
   const std::string wrong = read(value, &number);
   if (!wrong.empty()) return wrong;
-  if (!(number >= 0.0 && number <= kMost && number == std::floor(number))) return "must be a whole number, not negative";
+  if (!(number >= 0.0 && number <= kMost && number == std::floor(number)))
+    return "must be a whole number, not negative";
   *out = static_cast<std::uint64_t>(number);
   return {};
 }

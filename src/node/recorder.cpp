@@ -1,10 +1,10 @@
 #include "recorder.h"
 
+#include <ros/console.h>
+
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-
-#include <ros/console.h>
 
 #include "bag_name.h"
 

@@ -2,6 +2,8 @@
 // or fails ends the recording, never the node.
 #pragma once
 
+#include <ros/serialization.h>
+
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -10,8 +12,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-
-#include <ros/serialization.h>
 
 #include "bag_file.h"
 #include "run_history.h"
@@ -30,8 +30,8 @@ class Recorder {
     std::string message, path;
   };
   struct Status {
-    std::string recording;             // path of the bag being written, or empty
-    std::string error;                 // why the last recording ended early, or empty
+    std::string recording;  // path of the bag being written, or empty
+    std::string error;      // why the last recording ended early, or empty
     std::uint64_t dropped_messages = 0;
   };
 
@@ -74,12 +74,12 @@ class Recorder {
 
   const Settings settings_;
   mutable std::mutex mutex_;
-  std::mutex starting_;                 // one start at a time, as opening a bag takes its time
+  std::mutex starting_;  // one start at a time, as opening a bag takes its time
   std::condition_variable work_, closed_;
   RunHistory history_;
   std::deque<Item> queue_;
   std::size_t queue_bytes_ = 0;
-  std::unique_ptr<BagFile> bag_;        // written and closed by the thread alone
+  std::unique_ptr<BagFile> bag_;  // written and closed by the thread alone
   ros::Time last_stamp_;
   std::string last_path_, error_;
   std::uint64_t last_messages_ = 0;

@@ -2,11 +2,11 @@
 // the configuration and every drag command since then.
 #pragma once
 
-#include <cstddef>
-#include <deque>
-
 #include <afm_emulator/AppliedDrag.h>
 #include <afm_emulator/Configuration.h>
+
+#include <cstddef>
+#include <deque>
 
 namespace afm::node {
 

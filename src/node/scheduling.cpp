@@ -1,14 +1,14 @@
 #include "scheduling.h"
 
-#include <cerrno>
-#include <cstring>
-#include <ctime>
-
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
 
 namespace afm::node {
 namespace {

@@ -1,11 +1,11 @@
 // A counting semaphore: post() neither blocks, locks nor allocates, so the stepping thread and signal handlers may use it.
 #pragma once
 
+#include <semaphore.h>
+
 #include <cerrno>
 #include <chrono>
 #include <ctime>
-
-#include <semaphore.h>
 
 namespace afm::node {
 

@@ -5,8 +5,8 @@
 namespace afm::node {
 namespace {
 
-constexpr double kMarkTau = 100.0;          // impacts are counted over so long: some hundreds of them
-constexpr double kTroublingLag = 0.5;       // [s]: what a person notices
+constexpr double kMarkTau = 100.0;              // impacts are counted over so long: some hundreds of them
+constexpr double kTroublingLag = 0.5;           // [s]: what a person notices
 constexpr std::uint64_t kMessagesPerBatch = 3;  // deflection, impacts, friction
 
 using Level = diagnostic_msgs::DiagnosticStatus;

@@ -1,12 +1,12 @@
 // The status message and what diagnostics say of it.
 #pragma once
 
+#include <afm_emulator/EmulatorStatus.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+
 #include <atomic>
 #include <cstdint>
 #include <string>
-
-#include <afm_emulator/EmulatorStatus.h>
-#include <diagnostic_updater/diagnostic_updater.h>
 
 #include "afm_emulator/units.h"
 #include "events.h"

@@ -77,12 +77,24 @@ void Stepper::serve_requests() {
 void Stepper::serve(const Request& request) {
   Answer told = answer(Answer::Result::done, 0);
   switch (request.kind) {
-    case Request::Kind::drag: apply_drag(request.value); break;
-    case Request::Kind::pause: pause(true); break;
-    case Request::Kind::resume: pause(false); break;
-    case Request::Kind::reset: reset(); break;
-    case Request::Kind::step_time: told = step_time(request.value); break;
-    case Request::Kind::step_impacts: told = step_impacts(request.impacts); break;
+    case Request::Kind::drag:
+      apply_drag(request.value);
+      break;
+    case Request::Kind::pause:
+      pause(true);
+      break;
+    case Request::Kind::resume:
+      pause(false);
+      break;
+    case Request::Kind::reset:
+      reset();
+      break;
+    case Request::Kind::step_time:
+      told = step_time(request.value);
+      break;
+    case Request::Kind::step_impacts:
+      told = step_impacts(request.impacts);
+      break;
   }
   told.ticket = request.ticket;
   told.time = emulator_.now();

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
 #include <future>
 #include <mutex>
 #include <string>
 #include <thread>
-
-#include <boost/lockfree/spsc_queue.hpp>
 
 #include "afm_emulator/emulator.h"
 #include "afm_emulator/pacer.h"
