@@ -20,6 +20,7 @@ struct EmulatorSettings {
   std::uint64_t samples_per_batch = 2000;
   double friction_window = 1000.0;         // [tau]
   std::uint64_t impact_budget = 20000;     // impacts per batch; a batch that spends it ends there
+  double contact_tolerance = kDefaultContactTolerance;
 };
 
 // Every fault, named as in EmulatorSettings; natural units.

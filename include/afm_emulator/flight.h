@@ -21,6 +21,10 @@ struct Mechanics {
   T ratio, omega_v, omega_h, H, y0;
 };
 
+// A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the reaction is
+// nothing for ever, would be let go and caught again at every rounding. It moves a release by 1e-11 tau [a/tau^2].
+constexpr double kReleaseNoise = 1e-9;
+
 // The comoving state at one time, with the surface phase.
 template <class T>
 struct FlightState {
@@ -57,6 +61,9 @@ class Flight {
   const T& amplitude_X() const { return amplitude_X_; }
   const T& amplitude_Y() const { return amplitude_Y_; }
   const T& third_derivative_bound() const { return bound3_; }
+  // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on x
+  // alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
+  T third_derivative_bound(const GapJet<T>& now, const T& S) const;
 
  private:
   void set_bounds();
@@ -69,6 +76,7 @@ class Flight {
   GapJet<T> start_;
   SurfaceJet<T> surface_;  // at the start
   T amplitude_X_, amplitude_Y_, bound2_, bound3_;
+  T bound_drive_;          // of |p'|
   T small_until_;          // up to here every turn is at most 1/8
 };
 
@@ -94,13 +102,24 @@ void Flight<T>::set_bounds() {
   amplitude_X_ = sqrt(o.X * o.X + (o.U * o.U) / (m.omega_h * m.omega_h));
   amplitude_Y_ = sqrt(o.Y * o.Y + (o.W * o.W) / (m.omega_v * m.omega_v));
   const T u_max = abs(eta_) + m.omega_h * amplitude_X_;
+  const T u_low = max(T(0.0), abs(eta_) - m.omega_h * amplitude_X_);
   const T a_max = m.omega_h * m.omega_h * amplitude_X_;
   const T slope = k * m.H;
   bound2_ = m.omega_v * m.omega_v * amplitude_Y_ + slope * (k * u_max * u_max + a_max);
   // g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x'''
   bound3_ = m.omega_v * m.omega_v * m.omega_v * amplitude_Y_ +
             slope * (k * k * u_max * u_max * u_max + T(3.0) * k * u_max * a_max + m.omega_h * a_max);
+  const T u_change = max(abs(u_max * u_max - T(1.0)), abs(u_low * u_low - T(1.0)));
+  bound_drive_ = slope * (k * k * u_max * u_change + T(3.0) * k * u_max * a_max + m.omega_h * a_max);
   small_until_ = T(0.125) / max(max(T(1.0), m.ratio), u_max);
+}
+
+template <class T>
+T Flight<T>::third_derivative_bound(const GapJet<T>& now, const T& S) const {
+  using std::abs;
+  using std::min;
+  const T rate = abs(now.g1) + S * (abs(now.g2) + S * bound3_ / T(2.0));
+  return min(bound3_, bound_drive_ + m_.omega_v * m_.omega_v * rate);
 }
 
 template <class T>

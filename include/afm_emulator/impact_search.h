@@ -41,7 +41,8 @@ Landing<T> finish(const Flight<T>& f, const T& s, T t, const T& d, int evaluatio
     const T halley = -ratio / (T(1.0) - ratio * jet.g2 / (jet.g1 * T(2.0)));
     const T next = clamp(t + halley, T(0.0), d);
     const T step = next - t;
-    const bool smooth = f.third_derivative_bound() * step * step <= epsilon<T>() * abs(jet.g1);
+    // well below an ulp of the velocities: what is left out there always adds energy
+    const bool smooth = T(16.0) * f.third_derivative_bound() * step * step <= epsilon<T>() * abs(jet.g1);
     const bool hidden = abs(step * jet.g1) <= f.gap_error(s + t);  // by the rounding of the gap
     if (hidden || (smooth && abs(step) <= near_enough * (s + t))) {
       // what is left is of second order at most: move the evaluated state instead of evaluating again
@@ -54,18 +55,19 @@ Landing<T> finish(const Flight<T>& f, const T& s, T t, const T& d, int evaluatio
 
 }  // namespace search_detail
 
-// Searches from the start to the horizon. Precondition: the flight starts with a gap > 0, or with 0 and a gap rate > 0.
+// Searches from the start to the horizon. A flight that starts on
+// the surface falling is an impact at once; one that neither rises nor is let go has no flight: contact is the tip's affair.
 template <class T>
 Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
-  const T bound3 = f.third_derivative_bound();
   const bool on_surface = !(f.start().g > T(0.0));
-  T s = on_surface ? leave_surface(f.start().g1, f.start().g2, bound3) : T(0.0);
+  if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
+  T s = on_surface ? leave_surface(f) : T(0.0);
   T guess = on_surface ? s : T(0.05);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
     if (s > horizon) s = horizon;
     const GapJet<T> jet = f.gap(s);
     const T error = f.gap_error(s);
-    const RootInterval<T> root = certify_root(jet, error, bound3);
+    const RootInterval<T> root = certify_root(f, jet, error);
     if (root.certain) return search_detail::finish(f, s, root.estimate, root.length, evaluations);
     if (!(s < horizon)) return {SearchOutcome::clear, s, jet, evaluations};
     const T above = time_above_crest(f, jet.state);
@@ -73,7 +75,7 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
       s = s + above;
       continue;
     }
-    const T step = safe_step(jet, error, bound3, guess);
+    const T step = safe_step(f, jet, error, guess);
     if (!(step > T(4.0) * epsilon<T>() * s)) return {SearchOutcome::undecided, s, jet, evaluations};
     guess = step * T(2.0);
     s = s + step;

@@ -13,15 +13,41 @@ T clamp(const T& x, const T& low, const T& high) {
   return x < low ? low : (high < x ? high : x);
 }
 
-// Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. Three quarters of
-// that, so that a bounce whose root it nearly is still has a gap to be seen.
+// The third derivative of the gap at the start, and a bound of the fourth for the whole flight.
 template <class T>
-T leave_surface(const T& g1, const T& g2, const T& bound3) {
+struct HigherDerivatives {
+  T g3, bound4;
+};
+
+template <class T>
+HigherDerivatives<T> higher_derivatives(const Flight<T>& f) {
+  using std::abs;
+  const Mechanics<T>& m = f.mechanics();
+  const FlightState<T>& q = f.start().state;
+  const SurfaceJet<T> h = surface_jet(m.H, q.phase);
+  const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U;
+  const T g3 = -wv2 * q.W - (h.h3 * u * u * u + T(3.0) * h.h2 * u * x2 + h.h1 * x3);
+  const T v = abs(f.eta()) + m.omega_h * f.amplitude_X(), a = wh2 * f.amplitude_X();
+  const T bound4 = wv2 * wv2 * f.amplitude_Y() +
+                   k * m.H * (k * k * k * v * v * v * v + T(6.0) * k * k * v * v * a + T(3.0) * k * a * a +
+                              T(4.0) * k * v * m.omega_h * a + wh2 * a);
+  return {g3, bound4};
+}
+
+// Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. Three quarters of
+// that, so that a bounce whose root it nearly is still has a gap to be seen. Where gap rate and acceleration are nothing, as
+// at the end of a slide, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
+template <class T>
+T leave_surface(const Flight<T>& f) {
+  using std::max;
   using std::sqrt;
-  const T b = g2 / T(2.0), a = bound3 / T(6.0);
+  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = f.third_derivative_bound() / T(6.0);
   const T root = sqrt(b * b + T(4.0) * a * g1);
-  const T first = b > T(0.0) ? (b + root) / (a * T(2.0)) : T(2.0) * g1 / (root - b);
-  return T(0.75) * first;
+  const T first = T(0.75) * (b > T(0.0) ? (b + root) / (a * T(2.0)) : T(2.0) * g1 / (root - b));
+  if (g1 > T(0.0) || b < T(-kReleaseNoise)) return first;
+  const HigherDerivatives<T> next = higher_derivatives(f);
+  return max(b > T(0.0) ? first : T(0.0), T(3.0) * next.g3 / next.bound4);
 }
 
 // First positive root of g + g1 t + q t^2/2, or `none` where there is none. Precondition: g > 0.
@@ -37,20 +63,18 @@ T first_root(const T& g, const T& g1, const T& q, const T& none) {
 // A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 - bound3 S/3) t^2/2.
 // Any S is safe; a good one lies just beyond the root it gives.
 template <class T>
-T safe_step(const GapJet<T>& jet, const T& error, const T& bound3, const T& guess) {
-  using std::max;
-  using std::min;
-  using std::sqrt;
+T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& guess) {
   const T g = jet.g - error;
   if (!(g > T(0.0))) return T(0.0);
-  T best = T(0.0);
-  T S = guess;
-  for (int i = 0; i < 3; ++i) {
-    const T root = min(S, first_root(g, jet.g1, jet.g2 - bound3 * S / T(3.0), S));
-    best = max(best, root);
-    S = root < S ? sqrt(root * S) : S * T(2.0);
+  T step = T(0.0), S = guess;
+  for (int i = 0; i < 2; ++i) {
+    const T bound3 = f.third_derivative_bound(jet, S);
+    const T root = first_root(g, jet.g1, jet.g2 - bound3 * S / T(3.0), S);
+    if (!(root < S)) return S;
+    step = root;
+    S = T(1.25) * root;
   }
-  return best;
+  return step;
 }
 
 // An interval [0, length] from the present time on which the gap falls all the way and ends below zero.
@@ -61,7 +85,7 @@ struct RootInterval {
 };
 
 template <class T>
-RootInterval<T> certify_root(const GapJet<T>& jet, const T& error, const T& bound3) {
+RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& error) {
   using std::max;
   const RootInterval<T> none{false, T(0.0), T(0.0)};
   if (!(jet.g1 < T(0.0))) return none;
@@ -69,6 +93,7 @@ RootInterval<T> certify_root(const GapJet<T>& jet, const T& error, const T& boun
   const T t = high > T(0.0) ? first_root(high, jet.g1, jet.g2, T(-1.0)) : T(0.0);
   if (t < T(0.0)) return none;
   const T d = T(1.25) * t + T(4.0) * error / -jet.g1;
+  const T bound3 = f.third_derivative_bound(jet, d);
   const T slope = jet.g1 + max(T(0.0), jet.g2 * d + bound3 * d * d / T(2.0));
   const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + d * bound3 / T(6.0)));
   return {slope < T(0.0) && end < T(0.0), t, d};

@@ -1,9 +1,11 @@
-// The hybrid automaton: flight, impact, flight. Knows where the tip is at any time up to its next event.
+// The hybrid automaton: flight, impact, burst, contact, release. Knows where the tip is at any time up to its next event.
 #pragma once
 
+#include "afm_emulator/chatter.h"
 #include "afm_emulator/flight.h"
 #include "afm_emulator/impact_search.h"
 #include "afm_emulator/model.h"
+#include "afm_emulator/slide.h"
 #include "afm_emulator/state.h"
 
 namespace afm {
@@ -14,10 +16,15 @@ struct Deflection {
   double gap;       // y - h(x) [a]
 };
 
+// Error allowed in the state at the next impact when chatter is replaced by a burst and a slide [a, a/tau].
+constexpr double kDefaultContactTolerance = 1e-4;
+constexpr double kMaxContactTolerance = 1e-2;
+
 class Tip {
  public:
-  // Throws the model's first ParameterError, or one about a start below the surface.
-  Tip(const Model& model, double eta, const FreeState& start, const ModelTime& time = {});
+  // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate at all. Throws the model's first ParameterError, or one about a start below the surface.
+  Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
+  Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
 
   // To the next event or to `limit`, whichever is first; an event at the limit itself still happens. Nothing is split at
   // a limit: any sequence of limits gives the same bits as one.
@@ -31,23 +38,45 @@ class Tip {
   void drag(double eta);
 
   ModelTime now() const { return now_; }
-  double eta() const { return flight_.eta(); }
+  double eta() const { return eta_; }
+  bool in_contact() const { return mode_ == Mode::sliding; }
   const Impact& last_impact() const { return last_impact_; }
   TipState tip_state() const;                        // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
   Deflection deflection(const ModelTime& t) const;   // from the last event to arc_end()
 
  private:
-  void start_flight(double eta, const TipState& start, const ModelTime& time);
+  enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
+
+  void fly(const TipState& start);
+  void slide(const SlideState<double>& start);
+  void burst(const SlideState<double>& guide, const Chatter& chatter);
+  void leave_or_press(const TipState& start);
+  bool can_burst(const TipState& bounce) const;
+  bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
   void find_landing();
   Outcome land();
+  Outcome touch();
+  Outcome end_flight();
+  Outcome end_burst();
+  Outcome end_slide();
 
   Model model_;
   Mechanics<double> mechanics_;
+  double eta_;
+  ChatterLaw law_;
+  double burst_gap_rate_;       // slower chatter moves the tip along the surface by less than the tolerance
   Flight<double> flight_;
-  ModelTime start_, now_;
+  SlidePiece<double> slide_;
+  Mode mode_ = Mode::flying;
+  ModelTime start_, now_;       // of the present arc; the present
   Landing<double> landing_{};
   bool landing_known_ = false;
+  double slide_end_ = 0.0;
+  bool slide_releases_ = false;
+  Chatter chatter_{};               // at the start of the present piece of a burst
+  ChatterRun chatter_run_{};        // over it
+  double burst_normal_speed_ = 0.0; // with which it began
   Impact last_impact_;
 };
 

@@ -15,6 +15,8 @@ std::vector<ParameterError> find_faults(const EmulatorSettings& s) {
   require(s.samples_per_batch >= 1, "samples_per_batch", static_cast<double>(s.samples_per_batch), "must be at least 1");
   require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window, "must be positive and finite");
   require(s.impact_budget >= 1, "impact_budget", static_cast<double>(s.impact_budget), "must be at least 1");
+  require(s.contact_tolerance >= 0.0 && s.contact_tolerance <= kMaxContactTolerance, "contact_tolerance", s.contact_tolerance,
+          "must be between 0 (every bounce by itself) and 0.01");
   const FreeState& i = s.initial;
   const auto require_within = [&](const char* name, double value, double most, const char* reason) {
     require(std::abs(value) <= most, name, value, reason);
@@ -43,7 +45,7 @@ const EmulatorSettings& checked(const EmulatorSettings& settings) {
 Emulator::Emulator(const EmulatorSettings& settings)
     : settings_(checked(settings)),
       eta_(settings.eta),
-      tip_(settings.model, settings.eta, settings.initial),
+      tip_(settings.model, settings.eta, settings.initial, settings.contact_tolerance),
       friction_(settings.friction_window) {
   friction_.restart(now_, eta_);
 }
@@ -116,7 +118,8 @@ Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& b
       ++counters_.search_failures;
       spent += kFailureCost;
     }
-    if (outcome != Outcome::impact) continue;
+    const bool event = outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released;
+    if (!event) continue;
     batch.impacts.push_back(tip_.last_impact());
     friction_.add(tip_.last_impact());
     ++impact_index_;

@@ -17,10 +17,19 @@ const Model& checked(const Model& model) {
   return model;
 }
 
-const FreeState& checked(const Model& model, const FreeState& start) {
-  const double gap = to_tip_state(model.H, start).g;
-  if (!(gap >= 0.0)) throw ParameterError("initial_height", start.y, "the tip would start below the surface");
+const TipState& checked(const TipState& start) {
+  if (!(start.g >= 0.0)) throw ParameterError("initial gap", start.g, "the tip would start below the surface");
   return start;
+}
+
+// The flights up to the next impact may enlarge an error tenfold (measured over the bursts of docs/stability.md).
+constexpr double kGrowth = 10.0;
+// Chatter of gap rate v moves the tip off its guide by less than kDrift v^2.
+constexpr double kDrift = 0.1;
+
+std::uint32_t whole_count(double n) {
+  constexpr double kMost = 4294967295.0;
+  return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
 }
 
 AFM_MULTIVERSION Flight<double> launch(const Mechanics<double>& mechanics, double eta, const TipState& state) {
@@ -33,30 +42,98 @@ AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<
 
 AFM_MULTIVERSION GapJet<double> jet_of(const Flight<double>& flight, double s) { return flight.gap(s); }
 
+AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start) {
+  return SlidePiece<double>(mechanics, eta, start);
+}
+
+AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
+
+AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
+
 }  // namespace
 
-Tip::Tip(const Model& model, double eta, const FreeState& start, const ModelTime& time)
+Tip::Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance)
+    : Tip(model, eta, to_tip_state(model.H, start), contact_tolerance) {}
+
+Tip::Tip(const Model& model, double eta, const TipState& start, double contact_tolerance)
     : model_(checked(model)),
       mechanics_(model),
-      flight_(mechanics_, eta, to_tip_state(model.H, checked(model, start))),
-      start_(time),
-      now_(time) {}
+      eta_(eta),
+      law_(model, contact_tolerance / kGrowth),
+      burst_gap_rate_(std::sqrt(contact_tolerance / (kGrowth * kDrift))),
+      flight_(mechanics_, eta, checked(start)),
+      slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
+  if (start.g == 0.0 && !(start.g1 < 0.0)) leave_or_press(start);
+}
 
-void Tip::start_flight(double eta, const TipState& start, const ModelTime& time) {
-  flight_ = launch(mechanics_, eta, start);
-  start_ = time;
+void Tip::fly(const TipState& start) {
+  flight_ = launch(mechanics_, eta_, start);
+  mode_ = Mode::flying;
+  start_ = now_;
   landing_known_ = false;
 }
 
-void Tip::drag(double eta) { start_flight(eta, tip_state(), now_); }
+void Tip::slide(const SlideState<double>& start) {
+  slide_ = slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u});
+  mode_ = Mode::sliding;
+  start_ = now_;
+  const double release = release_of(slide_);
+  slide_releases_ = release >= 0.0;
+  slide_end_ = slide_releases_ ? release : slide_.length();
+}
+
+void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
+  slide(guide);
+  mode_ = Mode::bursting;
+  chatter_ = chatter;
+  chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
+}
+
+// Cheap conditions first: the guide costs as much as a bounce.
+bool Tip::can_burst(const TipState& bounce) const {
+  if (bounce.g1 > burst_gap_rate_) return false;
+  return law_.holds(slide_from(mechanics_, eta_, settle(model_, bounce).guide), bounce.g1);
+}
+
+void Tip::leave_or_press(const TipState& start) {
+  fly(start);
+  if (!(flight_.start().g2 < 0.0)) return;
+  if (!(start.g1 > 0.0)) {
+    mode_ = Mode::touching;
+  } else if (can_burst(start)) {
+    const Settled settled = settle(model_, start);
+    burst_normal_speed_ = settled.normal_speed;
+    burst(settled.guide, {start.g1, 0.0});
+  }
+}
+
+void Tip::drag(double eta) {
+  const TipState state = tip_state();
+  const double s = now_ - start_;
+  eta_ = eta;
+  const SlideState<double> guide{state.phase, state.X, state.u};
+  if (mode_ == Mode::sliding) return slide(guide);
+  if (mode_ == Mode::bursting) return burst(guide, law_.run(slide_, 0.0, s, chatter_).chatter);
+  const Mode due = mode_;
+  fly(state);
+  mode_ = due;
+}
 
 TipState Tip::tip_state() const {
+  if (on_guide()) {
+    const SlideState<double> q = slide_at(slide_, now_ - start_);
+    return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
+  }
   TipState state = flight_.tip_state(now_ - start_);
   state.g = std::fmax(state.g, 0.0);
   return state;
 }
 
 Deflection Tip::deflection(const ModelTime& t) const {
+  if (on_guide()) {
+    const SlideState<double> q = slide_at(slide_, t - start_);
+    return {surface_jet(model_.H, q.phase).h - model_.y0, q.X, 0.0};
+  }
   const GapJet<double> jet = jet_of(flight_, t - start_);
   return {jet.state.Y, jet.state.X, jet.g};
 }
@@ -67,14 +144,62 @@ void Tip::find_landing() {
 }
 
 Outcome Tip::land() {
-  const Reflection r = bounce(model_, flight_.eta(), landing_.jet);
-  now_ = start_ + landing_.s;
+  const Reflection r = bounce(model_, eta_, landing_.jet);
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
-  start_flight(flight_.eta(), r.after, now_);
+  leave_or_press(r.after);
   return Outcome::impact;
 }
 
+// All that the bounces lost: what their normal speed was at first, less what it is now.
+Outcome Tip::end_burst() {
+  const ChatterRun run = chatter_run_;
+  const SlideState<double> guide = slide_at(slide_, run.s);
+  if (run.end == ChatterEnd::time && !slide_releases_) {
+    burst(guide, run.chatter);
+    return Outcome::flying;
+  }
+  const bool died = run.end == ChatterEnd::died;
+  const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
+  const Settled settled = settle(model_, bounce);
+  const double before = burst_normal_speed_, after = settled.normal_speed;
+  last_impact_ = {now_, bounce.phase, before, settled.tangential_velocity, 0.5 * (before - after) * (before + after),
+                  ImpactKind::burst, whole_count(run.chatter.n)};
+  fly(bounce);
+  if (died) mode_ = Mode::touching;
+  return Outcome::impact;
+}
+
+Outcome Tip::touch() {
+  const TipState state = flight_.launch();
+  const double tangential = settle(model_, state).tangential_velocity;
+  last_impact_ = {now_, state.phase, 0.0, tangential, 0.0, ImpactKind::contact_begun, 0};
+  slide({state.phase, state.X, state.u});
+  return Outcome::contact;
+}
+
+Outcome Tip::end_slide() {
+  const SlideState<double> q = slide_at(slide_, slide_end_);
+  if (!slide_releases_) {
+    slide(q);
+    return Outcome::flying;
+  }
+  const TipState state{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
+  last_impact_ = {now_, state.phase, 0.0, settle(model_, state).tangential_velocity, 0.0, ImpactKind::contact_ended, 0};
+  fly(state);
+  return Outcome::released;
+}
+
+Outcome Tip::end_flight() {
+  if (landing_.outcome == SearchOutcome::impact) return land();
+  const bool failed = landing_.outcome == SearchOutcome::cap;
+  fly(flight_.tip_state(landing_.s));
+  return failed ? Outcome::search_failed : Outcome::flying;
+}
+
 ModelTime Tip::arc_end() {
+  if (mode_ == Mode::sliding) return start_ + slide_end_;
+  if (mode_ == Mode::bursting) return start_ + chatter_run_.s;
+  if (mode_ == Mode::touching) return start_;
   if (!landing_known_) find_landing();
   return start_ + landing_.s;
 }
@@ -85,11 +210,13 @@ Outcome Tip::advance_arc(const ModelTime& limit) {
     now_ = now_ < limit ? limit : now_;
     return Outcome::time_limit;
   }
-  if (landing_.outcome == SearchOutcome::impact) return land();
-  const bool failed = landing_.outcome == SearchOutcome::cap;
-  start_flight(flight_.eta(), flight_.tip_state(landing_.s), end);
   now_ = end;
-  return failed ? Outcome::search_failed : Outcome::flying;
+  switch (mode_) {
+    case Mode::bursting: return end_burst();
+    case Mode::touching: return touch();
+    case Mode::sliding: return end_slide();
+    default: return end_flight();
+  }
 }
 
 Outcome Tip::advance(const ModelTime& limit) {

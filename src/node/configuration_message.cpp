@@ -74,6 +74,7 @@ EmulatorSettings emulator_settings(const afm_emulator::Configuration& message) {
   settings.samples_per_batch = message.samples_per_batch;
   settings.friction_window = message.friction_window_tau;
   settings.impact_budget = message.impact_budget;
+  settings.contact_tolerance = message.contact_tolerance;
   return settings;
 }
 

@@ -50,8 +50,7 @@ void check_model(const Parameters& p, Check& check) {
   } else if (p.model != "oscillator") {
     check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator"});
   }
-  check.require(p.contact_tolerance == 0.0, "contact_tolerance", p.contact_tolerance,
-                "must be 0: every bounce is simulated, contact is not taken as a state yet");
+  check.within("contact_tolerance", p.contact_tolerance, 0.0, kMaxContactTolerance);
 }
 
 void check_rates(const Parameters& p, Check& check) {
@@ -93,6 +92,7 @@ void check_settings(const Parameters& p, Check& check) {
   settings.eta = 0.0;
   settings.friction_window = 1.0;
   settings.impact_budget = 1;
+  settings.contact_tolerance = 0.0;
   for (const ParameterError& fault : afm::find_faults(settings)) {
     if (fault.name == "sample_period") {
       check.require(false, "sample_rate_hz", p.sample_rate_hz, "the time between two samples " + fault.reason);
@@ -147,6 +147,7 @@ EmulatorSettings emulator_settings(const Parameters& p) {
   settings.samples_per_batch = samples_per_batch(p);
   settings.friction_window = p.friction_window_tau;
   settings.impact_budget = p.impact_budget;
+  settings.contact_tolerance = p.contact_tolerance;
   return settings;
 }
 

@@ -25,7 +25,7 @@ struct Parameters {
   double sample_rate_hz = 200000.0;               // of model time
   double friction_window_tau = 1000.0;
   std::uint64_t impact_budget = 20000;            // a batch
-  double contact_tolerance = 0.0;                 // [a]
+  double contact_tolerance = kDefaultContactTolerance;  // [a, a/tau]
   bool record = false;
   std::string bag_directory = "~/afm_bags";
   double disk_reserve_mb = 200.0;                 // left free on the disk that is recorded to

@@ -1,0 +1,104 @@
+// Frictionless contact: the tip slides on y = h(x) while the surface presses, and leaves exactly when the reaction would
+// have to pull. One piece is a Taylor series about its start; pieces follow each other.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm_emulator/slide_series.h"
+
+namespace afm {
+
+template <class T>
+class SlidePiece {
+ public:
+  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start);
+
+  SlideState<T> at(const T& s) const;
+  T pressure(const T& s) const { return horner(pressure_, s); }  // [a/tau^2]; >= 0 while the surface holds the tip
+  T pressure_rate(const T& s) const;                             // its time derivative [a/tau^3]
+
+  T length() const { return length_; }  // to here the series is good to 1e-13 [tau]
+  const SlideState<T>& start() const { return start_; }
+  const T& eta() const { return eta_; }
+  const Mechanics<T>& mechanics() const { return m_; }
+
+  // First time in [0, length()] at which the pressure has fallen to -kReleaseNoise, or a negative number where it does
+  // not. Never late: each step is bounded by the second derivative of the pressure.
+  T find_release() const;
+
+ private:
+  T choose_length() const;
+
+  Mechanics<T> m_;
+  T eta_;
+  SlideState<T> start_;
+  Series<T> d_, u_, pressure_;  // x - x(start), lab velocity, pressure: powers of the time since the start
+  T length_;
+};
+
+template <class T>
+SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start)
+    : m_(mechanics), eta_(eta), start_(start) {
+  const SlideSeries<T> series(mechanics, eta, start);
+  d_ = series.d;
+  u_ = series.u;
+  pressure_ = series.p;
+  length_ = choose_length();
+}
+
+// So that the last two terms of the velocity are below 2^-kBits a/tau. In quarter powers of 2 and from exponents alone, which
+// are the same on every machine.
+template <class T>
+T SlidePiece<T>::choose_length() const {
+  constexpr double kLongest = 8.0;  // [tau]
+  constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
+  constexpr int kBits = 42;
+  double length = kLongest;
+  for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
+    const double c = std::abs(static_cast<double>(u_[n]));
+    if (!(c > 1e-290)) continue;
+    const int quarters = 4 * (-kBits - std::ilogb(c)) / static_cast<int>(n);
+    const int whole = quarters >= 0 ? quarters / 4 : -((3 - quarters) / 4);
+    length = std::min(length, std::ldexp(kQuarterPowers[quarters - 4 * whole], whole));
+  }
+  return T(length);
+}
+
+template <class T>
+SlideState<T> SlidePiece<T>::at(const T& s) const {
+  const T d = horner(d_, s);
+  return {start_.phase + d, start_.X + (d - eta_ * s), horner(u_, s)};
+}
+
+template <class T>
+T SlidePiece<T>::pressure_rate(const T& s) const {
+  T sum(0.0);
+  for (std::size_t k = kSlideOrder; k >= 1; --k) sum = sum * s + pressure_[k] * T(static_cast<double>(k));
+  return sum;
+}
+
+template <class T>
+T SlidePiece<T>::find_release() const {
+  using std::abs;
+  using std::sqrt;
+  constexpr int kMostSteps = 200;  // each step converges quadratically on a release: far more than ever needed
+  const T noise(kReleaseNoise);
+  T bound2(0.0);
+  Series<T> slope{};
+  for (std::size_t k = kSlideOrder; k >= 1; --k) slope[k - 1] = pressure_[k] * T(static_cast<double>(k));
+  for (std::size_t k = kSlideOrder; k >= 2; --k) {
+    bound2 = bound2 * length_ + abs(pressure_[k]) * T(static_cast<double>(k * (k - 1)));
+  }
+  T s(0.0);
+  for (int i = 0; i < kMostSteps && s < length_; ++i) {
+    const T p = horner(pressure_, s) + noise, p1 = horner(slope, s);
+    if (p <= noise / T(1024.0)) return s;
+    // p + p1 t - bound2 t^2/2 at least
+    const T root = sqrt(p1 * p1 + T(2.0) * bound2 * p);
+    s = s + (p1 < T(0.0) ? T(2.0) * p / (root - p1) : (p1 + root) / bound2);
+  }
+  return s < length_ ? s : T(-1.0);
+}
+
+}  // namespace afm

@@ -1,0 +1,144 @@
+#include "afm_emulator/chatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "afm_emulator/multiversion.h"
+
+namespace afm {
+namespace {
+
+// |w| up to which the series below are good to 3e-4
+constexpr double kMostLoss = 0.2;
+// A bounce may last this part of the time in which the pressure changes by itself: five more bounces follow an exit. And less
+// where chatter is fast, for the interpolation is off by the square of it: that part of v stays below half the tolerance.
+constexpr double kMostShortness = 0.1;
+
+// The interpolation of w -> w (1 - w): R = G/T and 1/T.
+double series_R(double w) {
+  return 1.0 + w * (1.0 / 2 + w * (7.0 / 12 + w * (7.0 / 8 + w * (1049.0 / 720 + w * (727.0 / 288 + w * (264917.0 / 60480))))));
+}
+double series_1_over_T(double w) {
+  return 1.0 - w * (1.0 / 2 + w * (5.0 / 12 + w * (5.0 / 8 + w * (811.0 / 720 + w * (629.0 / 288 + w * (261679.0 / 60480))))));
+}
+
+// Natural logarithm to 1e-15 of 0 < x, the same bits on every machine.
+double portable_log(double x) {
+  constexpr double kLog2 = 0.6931471805599453;
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);
+  if (m < 0.7071067811865476) {
+    m *= 2.0;
+    --exponent;
+  }
+  const double z = (m - 1.0) / (m + 1.0), z2 = z * z;
+  double sum = 0.0;
+  for (int k = 23; k >= 1; k -= 2) sum = sum * z2 + 1.0 / k;
+  return 2.0 * z * sum + exponent * kLog2;
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+ChatterLaw::ChatterLaw(const Model& model, double threshold)
+    : gamma_(model.gamma), v_c_(model.v_c), threshold_(threshold), H_(model.H) {
+  const double loss = 1.0 - gamma_;
+  geometric_ = loss < 1e-8 ? 1.0 : (gamma_ > 0.0 ? -portable_log(gamma_) / loss : std::numeric_limits<double>::infinity());
+}
+
+bool ChatterLaw::smooth(double shortness, double v) const {
+  const double part = shortness * v;
+  return part <= kMostShortness && v * part * part <= threshold_ / 2.0;
+}
+
+ChatterLaw::Surroundings ChatterLaw::surroundings(const SlidePiece<double>& guide, double s) const {
+  const SlideState<double> q = guide.at(s);
+  const double a = guide.pressure(s), a1 = guide.pressure_rate(s);
+  const SurfaceJet<double> surface = surface_jet(H_, q.phase);
+  const double N2 = 1.0 + square(surface.h1), N = std::sqrt(N2);
+  const double growth_of_N = surface.h1 * surface.h2 * q.u / N2;
+  const double growth = (a1 / a + 2.0 * growth_of_N) / 3.0;
+  const double changes = std::max(std::abs(a1) / a, std::max(std::abs(q.u), guide.mechanics().ratio));
+  return {a, a1, growth, v_c_ > 0.0 ? (1.0 - gamma_) / (N * v_c_) : 0.0, growth_of_N / a, 2.0 / a * changes};
+}
+
+ChatterLaw::Rate ChatterLaw::rate(const Surroundings& at, double v) const {
+  const double adiabatic = v * at.growth;
+  if (v_c_ <= threshold_) return {-(1.0 - gamma_) * at.a / 2.0 + adiabatic, at.a / (2.0 * v * geometric_)};
+  const double w = at.c * v * (1.0 - at.delay * v);
+  const double bounces = series_1_over_T(w);
+  return {-at.a / 2.0 * w * series_R(w) + adiabatic * bounces, at.a / (2.0 * v) * bounces};
+}
+
+bool ChatterLaw::holds(const SlidePiece<double>& guide, double v) const {
+  const Surroundings at = surroundings(guide, 0.0);
+  if (v <= threshold_) return true;
+  if (!(at.a > 0.0) || !smooth(2.0 * at.shortness, v)) return false;
+  return v_c_ <= threshold_ || (at.c * v <= kMostLoss && v <= v_c_);
+}
+
+// Classical Runge-Kutta.
+Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Chatter& c) const {
+  const Surroundings middle = surroundings(guide, s + dt / 2.0), end = surroundings(guide, s + dt);
+  const auto positive = [](double v) { return std::max(v, std::numeric_limits<double>::min()); };
+  const Rate k1 = rate(at, c.v);
+  const Rate k2 = rate(middle, positive(c.v + dt / 2.0 * k1.v));
+  const Rate k3 = rate(middle, positive(c.v + dt / 2.0 * k2.v));
+  const Rate k4 = rate(end, positive(c.v + dt * k3.v));
+  return {c.v + dt / 6.0 * (k1.v + 2.0 * (k2.v + k3.v) + k4.v), c.n + dt / 6.0 * (k1.n + 2.0 * (k2.n + k3.n) + k4.n)};
+}
+
+// A tenth of the time in which v or a changes by itself: good to 1e-6.
+double ChatterLaw::step_length(const Surroundings& at, double v) const {
+  const double rate_of_v = std::abs(rate(at, v).v) / v, rate_of_a = std::abs(at.a1) / at.a;
+  return 0.1 / std::max(rate_of_v, rate_of_a);
+}
+
+// The last whole n of a step of which the end is known.
+ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at,
+                                    const Chatter& start, const Chatter& end) const {
+  const double n = std::floor(end.n);
+  double part = dt * (n - start.n) / (end.n - start.n);
+  Chatter c = step(guide, s, part, at, start);
+  for (int i = 0; i < 3; ++i) {
+    part += (n - c.n) / rate(surroundings(guide, s + part), c.v).n;
+    c = step(guide, s, part, at, start);
+  }
+  return {ChatterEnd::exits, s + part, {c.v, n}};
+}
+
+AFM_MULTIVERSION ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, double from, double until,
+                                            const Chatter& start) const {
+  double s = from;
+  Chatter c = start;
+  while (s < until) {
+    if (c.v <= threshold_) return {ChatterEnd::died, s, c};
+    const Surroundings at = surroundings(guide, s);
+    const double dt = std::min(until - s, step_length(at, c.v));
+    const Chatter next = step(guide, s, dt, at, c);
+    const Surroundings then = surroundings(guide, s + dt);
+    const bool letting_go = !(then.a > 0.0) || !smooth(then.shortness, next.v);
+    if (letting_go && std::floor(next.n) >= std::ceil(c.n) && std::floor(next.n) > start.n) {
+      return whole_bounce(guide, s, dt, at, c, next);
+    }
+    s += dt;
+    c = next;
+  }
+  return {c.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, s, c};
+}
+
+Settled settle(const Model& model, const TipState& state) {
+  const double slope = surface_jet(model.H, state.phase).h1;
+  const double N2 = 1.0 + square(slope), N = std::sqrt(N2);
+  const double u = state.u + slope * state.g1 / N2;
+  return {{state.phase, state.X, u}, state.g1 / N, u * N};
+}
+
+TipState unsettle(const Model& model, const SlideState<double>& guide, double gap_rate) {
+  const double slope = surface_jet(model.H, guide.phase).h1;
+  return {wrap_phase(guide.phase), guide.X, guide.u - slope * gap_rate / (1.0 + square(slope)), 0.0, gap_rate};
+}
+
+}  // namespace afm
