@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "afm_emulator/flight.h"
 #include "afm_emulator/model.h"
 #include "afm_emulator/slide.h"
 #include "afm_emulator/state.h"
@@ -37,9 +38,9 @@ class ChatterLaw {
   // threshold: gap rates up to it are contact [a/tau].
   ChatterLaw(const Model& model, double threshold);
 
-  // Can a burst begin with this gap rate on this guide? The bounces must be short against every change, and below the
+  // Can a burst begin with the bounce that begins this flight? The bounces must be short against every change, and below the
   // cutoff lose so little each that the series of the interpolation hold.
-  bool holds(const SlidePiece<double>& guide, double v) const;
+  bool holds(const Flight<double>& bounce) const;
 
   // From one time of the guide to another, `until`, or to the end of the chatter.
   ChatterRun run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const;
@@ -56,14 +57,16 @@ class ChatterLaw {
     double shortness;  // times v: the duration of a bounce against that of every change
   };
   bool smooth(double shortness, double v) const;
+  Surroundings surroundings(double a, double a1, double phase, double u) const;
   Surroundings surroundings(const SlidePiece<double>& guide, double s) const;
   Rate rate(const Surroundings& at, double v) const;
-  Chatter step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Chatter& start) const;
+  Chatter step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Surroundings& end,
+               const Chatter& start) const;
   double step_length(const Surroundings& at, double v) const;
   ChatterRun whole_bounce(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Chatter& start,
                           const Chatter& end) const;
 
-  double gamma_, v_c_, threshold_, H_;
+  double gamma_, v_c_, threshold_, H_, ratio_;
   double geometric_;  // -log(gamma) / (1 - gamma): 1 / (mean of a bounce's v over its first)
 };
 

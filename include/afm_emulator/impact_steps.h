@@ -35,8 +35,8 @@ HigherDerivatives<T> higher_derivatives(const Flight<T>& f) {
   return {g3, bound4};
 }
 
-// Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. Three quarters of
-// that, so that a bounce whose root it nearly is still has a gap to be seen. Where gap rate and acceleration are nothing, as
+// Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. A little less than
+// that, so that a bounce whose root it nearly is still has a gap to be seen, and the root is near. Where gap rate and acceleration are nothing, as
 // at the end of a slide, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
 template <class T>
 T leave_surface(const Flight<T>& f) {
@@ -44,7 +44,7 @@ T leave_surface(const Flight<T>& f) {
   using std::sqrt;
   const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = f.third_derivative_bound() / T(6.0);
   const T root = sqrt(b * b + T(4.0) * a * g1);
-  const T first = T(0.75) * (b > T(0.0) ? (b + root) / (a * T(2.0)) : T(2.0) * g1 / (root - b));
+  const T first = T(0.999) * (b > T(0.0) ? (b + root) / (a * T(2.0)) : T(2.0) * g1 / (root - b));
   if (g1 > T(0.0) || b < T(-kReleaseNoise)) return first;
   const HigherDerivatives<T> next = higher_derivatives(f);
   return max(b > T(0.0) ? first : T(0.0), T(3.0) * next.g3 / next.bound4);

@@ -52,7 +52,6 @@ class Tip {
   void slide(const SlideState<double>& start);
   void burst(const SlideState<double>& guide, const Chatter& chatter);
   void leave_or_press(const TipState& start);
-  bool can_burst(const TipState& bounce) const;
   bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
   void find_landing();
   Outcome land();

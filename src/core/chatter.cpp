@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "afm_emulator/impact_steps.h"
 #include "afm_emulator/multiversion.h"
 
 namespace afm {
@@ -43,7 +44,7 @@ double square(double x) { return x * x; }
 }  // namespace
 
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
-    : gamma_(model.gamma), v_c_(model.v_c), threshold_(threshold), H_(model.H) {
+    : gamma_(model.gamma), v_c_(model.v_c), threshold_(threshold), H_(model.H), ratio_(model.frequency_ratio) {
   const double loss = 1.0 - gamma_;
   geometric_ = loss < 1e-8 ? 1.0 : (gamma_ > 0.0 ? -portable_log(gamma_) / loss : std::numeric_limits<double>::infinity());
 }
@@ -53,15 +54,18 @@ bool ChatterLaw::smooth(double shortness, double v) const {
   return part <= kMostShortness && v * part * part <= threshold_ / 2.0;
 }
 
+ChatterLaw::Surroundings ChatterLaw::surroundings(double a, double a1, double phase, double u) const {
+  const SurfaceJet<double> surface = surface_jet(H_, phase);
+  const double N2 = 1.0 + square(surface.h1), N = std::sqrt(N2);
+  const double growth_of_N = surface.h1 * surface.h2 * u / N2;
+  const double growth = (a1 / a + 2.0 * growth_of_N) / 3.0;
+  const double changes = std::max(std::abs(a1) / a, std::max(std::abs(u), ratio_));
+  return {a, a1, growth, v_c_ > 0.0 ? (1.0 - gamma_) / (N * v_c_) : 0.0, growth_of_N / a, 2.0 / a * changes};
+}
+
 ChatterLaw::Surroundings ChatterLaw::surroundings(const SlidePiece<double>& guide, double s) const {
   const SlideState<double> q = guide.at(s);
-  const double a = guide.pressure(s), a1 = guide.pressure_rate(s);
-  const SurfaceJet<double> surface = surface_jet(H_, q.phase);
-  const double N2 = 1.0 + square(surface.h1), N = std::sqrt(N2);
-  const double growth_of_N = surface.h1 * surface.h2 * q.u / N2;
-  const double growth = (a1 / a + 2.0 * growth_of_N) / 3.0;
-  const double changes = std::max(std::abs(a1) / a, std::max(std::abs(q.u), guide.mechanics().ratio));
-  return {a, a1, growth, v_c_ > 0.0 ? (1.0 - gamma_) / (N * v_c_) : 0.0, growth_of_N / a, 2.0 / a * changes};
+  return surroundings(guide.pressure(s), guide.pressure_rate(s), q.phase, q.u);
 }
 
 ChatterLaw::Rate ChatterLaw::rate(const Surroundings& at, double v) const {
@@ -72,16 +76,19 @@ ChatterLaw::Rate ChatterLaw::rate(const Surroundings& at, double v) const {
   return {-at.a / 2.0 * w * series_R(w) + adiabatic * bounces, at.a / (2.0 * v) * bounces};
 }
 
-bool ChatterLaw::holds(const SlidePiece<double>& guide, double v) const {
-  const Surroundings at = surroundings(guide, 0.0);
+AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
+  const double v = bounce.start().g1, a = -bounce.start().g2;
   if (v <= threshold_) return true;
-  if (!(at.a > 0.0) || !smooth(2.0 * at.shortness, v)) return false;
-  return v_c_ <= threshold_ || (at.c * v <= kMostLoss && v <= v_c_);
+  const bool below = v_c_ > threshold_;
+  if (!(a > 0.0) || (below && v > v_c_)) return false;
+  const Surroundings at = surroundings(a, -higher_derivatives(bounce).g3, bounce.launch().phase, bounce.launch().u);
+  return smooth(2.0 * at.shortness, v) && (!below || at.c * v <= kMostLoss);
 }
 
 // Classical Runge-Kutta.
-Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Chatter& c) const {
-  const Surroundings middle = surroundings(guide, s + dt / 2.0), end = surroundings(guide, s + dt);
+Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Surroundings& end,
+                         const Chatter& c) const {
+  const Surroundings middle = surroundings(guide, s + dt / 2.0);
   const auto positive = [](double v) { return std::max(v, std::numeric_limits<double>::min()); };
   const Rate k1 = rate(at, c.v);
   const Rate k2 = rate(middle, positive(c.v + dt / 2.0 * k1.v));
@@ -90,10 +97,10 @@ Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, c
   return {c.v + dt / 6.0 * (k1.v + 2.0 * (k2.v + k3.v) + k4.v), c.n + dt / 6.0 * (k1.n + 2.0 * (k2.n + k3.n) + k4.n)};
 }
 
-// A tenth of the time in which v or a changes by itself: good to 1e-6.
+// Parts of the times in which v and a change by themselves: good to 1e-5 of n and 1e-6 of v.
 double ChatterLaw::step_length(const Surroundings& at, double v) const {
   const double rate_of_v = std::abs(rate(at, v).v) / v, rate_of_a = std::abs(at.a1) / at.a;
-  return 0.1 / std::max(rate_of_v, rate_of_a);
+  return 1.0 / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
 }
 
 // The last whole n of a step of which the end is known.
@@ -101,10 +108,11 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
                                     const Chatter& start, const Chatter& end) const {
   const double n = std::floor(end.n);
   double part = dt * (n - start.n) / (end.n - start.n);
-  Chatter c = step(guide, s, part, at, start);
+  const auto at_part = [&] { return step(guide, s, part, at, surroundings(guide, s + part), start); };
+  Chatter c = at_part();
   for (int i = 0; i < 3; ++i) {
     part += (n - c.n) / rate(surroundings(guide, s + part), c.v).n;
-    c = step(guide, s, part, at, start);
+    c = at_part();
   }
   return {ChatterEnd::exits, s + part, {c.v, n}};
 }
@@ -113,18 +121,18 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, dou
                                             const Chatter& start) const {
   double s = from;
   Chatter c = start;
-  while (s < until) {
-    if (c.v <= threshold_) return {ChatterEnd::died, s, c};
-    const Surroundings at = surroundings(guide, s);
+  Surroundings at = surroundings(guide, s);
+  while (s < until && c.v > threshold_) {
     const double dt = std::min(until - s, step_length(at, c.v));
-    const Chatter next = step(guide, s, dt, at, c);
     const Surroundings then = surroundings(guide, s + dt);
+    const Chatter next = step(guide, s, dt, at, then, c);
     const bool letting_go = !(then.a > 0.0) || !smooth(then.shortness, next.v);
     if (letting_go && std::floor(next.n) >= std::ceil(c.n) && std::floor(next.n) > start.n) {
       return whole_bounce(guide, s, dt, at, c, next);
     }
     s += dt;
     c = next;
+    at = then;
   }
   return {c.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, s, c};
 }

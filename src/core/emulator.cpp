@@ -53,8 +53,9 @@ Emulator::Emulator(const EmulatorSettings& settings)
 void Emulator::reset() { *this = Emulator(settings_); }
 
 void Emulator::drag(double eta) {
-  // the same velocity again is no change: the flight under way stays whole, only the friction estimate starts anew
-  if (eta != eta_) tip_.drag(eta);
+  // the same velocity again is no change: the flight under way stays whole and the friction estimate goes on
+  if (eta == eta_) return;
+  tip_.drag(eta);
   eta_ = eta;
   friction_.restart(now_, eta);
 }

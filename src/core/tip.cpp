@@ -89,18 +89,12 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
-// Cheap conditions first: the guide costs as much as a bounce.
-bool Tip::can_burst(const TipState& bounce) const {
-  if (bounce.g1 > burst_gap_rate_) return false;
-  return law_.holds(slide_from(mechanics_, eta_, settle(model_, bounce).guide), bounce.g1);
-}
-
 void Tip::leave_or_press(const TipState& start) {
   fly(start);
   if (!(flight_.start().g2 < 0.0)) return;
   if (!(start.g1 > 0.0)) {
     mode_ = Mode::touching;
-  } else if (can_burst(start)) {
+  } else if (start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
     const Settled settled = settle(model_, start);
     burst_normal_speed_ = settled.normal_speed;
     burst(settled.guide, {start.g1, 0.0});
