@@ -67,6 +67,7 @@ class ChatterLaw {
                           const Chatter& end) const;
 
   double gamma_, v_c_, threshold_, H_, ratio_;
+  double fineness_;   // of the steps
   double geometric_;  // -log(gamma) / (1 - gamma): 1 / (mean of a bounce's v over its first)
 };
 

@@ -73,8 +73,9 @@ SlideState<T> SlidePiece<T>::at(const T& s) const {
 
 template <class T>
 T SlidePiece<T>::pressure_rate(const T& s) const {
+  using std::fma;
   T sum(0.0);
-  for (std::size_t k = kSlideOrder; k >= 1; --k) sum = sum * s + pressure_[k] * T(static_cast<double>(k));
+  for (std::size_t k = kSlideOrder; k >= 1; --k) sum = fma(sum, s, pressure_[k] * T(static_cast<double>(k)));
   return sum;
 }
 

@@ -45,6 +45,8 @@ double square(double x) { return x * x; }
 
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : gamma_(model.gamma), v_c_(model.v_c), threshold_(threshold), H_(model.H), ratio_(model.frequency_ratio) {
+  constexpr double kUsualThreshold = 1e-5;
+  fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
   const double loss = 1.0 - gamma_;
   geometric_ = loss < 1e-8 ? 1.0 : (gamma_ > 0.0 ? -portable_log(gamma_) / loss : std::numeric_limits<double>::infinity());
 }
@@ -97,10 +99,11 @@ Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, c
   return {c.v + dt / 6.0 * (k1.v + 2.0 * (k2.v + k3.v) + k4.v), c.n + dt / 6.0 * (k1.n + 2.0 * (k2.n + k3.n) + k4.n)};
 }
 
-// Parts of the times in which v and a change by themselves: good to 1e-5 of n and 1e-6 of v.
+// Parts of the times in which v and a change by themselves. At the threshold 1e-5 a step is good to 3e-5 of n, and what that
+// shifts a bounce, v_c / (1 - gamma) of it at most, to the threshold; smaller thresholds take smaller steps.
 double ChatterLaw::step_length(const Surroundings& at, double v) const {
   const double rate_of_v = std::abs(rate(at, v).v) / v, rate_of_a = std::abs(at.a1) / at.a;
-  return 1.0 / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
+  return fineness_ / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
 }
 
 // The last whole n of a step of which the end is known.
