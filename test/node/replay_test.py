@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """replay.launch plays a recorded run to the same topics, message for message, to a subscriber that comes late."""
+import time
 from pathlib import Path
 
 import rospy
@@ -20,29 +21,32 @@ class Replay(NodeTest):
         Topic.close_all()
         return str(next(Path(directory).glob('*.bag')))
 
-    def wait_for_topics(self):
+    def replay(self, **arguments):
+        """Returns when all topics are there and a second has passed: to play at once would be noticed."""
+        replay = self.launch('replay.launch', **arguments)
         names = {NAMESPACE + '/' + name for name in TOPICS}
         wait_until(lambda: names <= {name for name, _ in rospy.get_published_topics(NAMESPACE)}, 'all topics are there')
+        end = time.monotonic() + 1.0
+        wait_until(lambda: time.monotonic() > end, 'a second passes')
+        return replay
 
-    def assert_plays(self, path):
-        recorded, replayed = bags.read_raw(path), bags.listen()
-        for name, topic in replayed.items():
+    def assert_played(self, topics, path):
+        recorded = bags.read_raw(path)
+        for name, topic in topics.items():
             self.assertTrue(recorded[name], name)
             wait_until(lambda: len(topic.raw) >= len(recorded[name]), name + ': played to the end')
             self.assertEqual(topic.raw, recorded[name], name)
 
     def test_subscribers_have_a_moment_to_come(self):
         path = self.record()
-        replay = self.launch('replay.launch', bag=path)
-        self.wait_for_topics()
-        self.assert_plays(path)
+        replay = self.replay(bag=path, delay=3)
+        self.assert_played(bags.listen(), path)
         self.assertEqual(replay.wait(), 0)
 
     def test_waits_for_subscribers_when_asked_to(self):
         path = self.record()
-        replay = self.launch('replay.launch', bag=path, wait='true', delay='0.1')
-        self.wait_for_topics()
-        self.assert_plays(path)
+        replay = self.replay(bag=path, delay=0, wait='true')
+        self.assert_played(bags.listen(), path)
         self.assertEqual(replay.wait(), 0)
 
 
