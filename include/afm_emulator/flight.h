@@ -16,9 +16,16 @@ namespace afm {
 template <class T>
 struct Mechanics {
   explicit Mechanics(const Model& model)
-      : ratio(model.frequency_ratio), omega_v(two_pi<T>()), omega_h(omega_v * ratio), H(model.H), y0(model.y0) {}
+      : ratio(model.frequency_ratio),
+        omega_v(two_pi<T>()),
+        omega_h(omega_v * ratio),
+        H(model.H),
+        y0(model.y0),
+        per_omega_v(T(1.0) / omega_v),
+        per_omega_h(T(1.0) / omega_h) {}
 
   T ratio, omega_v, omega_h, H, y0;
+  T per_omega_v, per_omega_h;  // a product is sooner there than a quotient
 };
 
 // A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the reaction is
@@ -41,7 +48,10 @@ struct GapJet {
 template <class T>
 class Flight {
  public:
-  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start);
+  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
+      : Flight(mechanics, eta, start, surface_jet(mechanics.H, T(start.phase))) {}
+  // The same where the surface at the start is known already.
+  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start, const SurfaceJet<T>& surface);
 
   // Within a few ulp of the larger terms; for small turns, within a few ulp of the change since the start.
   GapJet<T> gap(const T& s) const;
@@ -81,8 +91,8 @@ class Flight {
 };
 
 template <class T>
-Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
-    : m_(mechanics), eta_(eta), launch_(start), surface_(surface_jet(mechanics.H, T(start.phase))) {
+Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start, const SurfaceJet<T>& surface)
+    : m_(mechanics), eta_(eta), launch_(start), surface_(surface) {
   const T W = T(start.g1) + surface_.h1 * T(start.u);
   const T Y = (surface_.h - mechanics.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);
@@ -99,8 +109,8 @@ void Flight<T>::set_bounds() {
   const Mechanics<T>& m = m_;
   const FlightState<T>& o = start_.state;
   const T k = two_pi<T>();
-  amplitude_X_ = sqrt(o.X * o.X + (o.U * o.U) / (m.omega_h * m.omega_h));
-  amplitude_Y_ = sqrt(o.Y * o.Y + (o.W * o.W) / (m.omega_v * m.omega_v));
+  amplitude_X_ = sqrt(o.X * o.X + (o.U * m.per_omega_h) * (o.U * m.per_omega_h));
+  amplitude_Y_ = sqrt(o.Y * o.Y + (o.W * m.per_omega_v) * (o.W * m.per_omega_v));
   const T u_max = abs(eta_) + m.omega_h * amplitude_X_;
   const T u_low = max(T(0.0), abs(eta_) - m.omega_h * amplitude_X_);
   const T a_max = m.omega_h * m.omega_h * amplitude_X_;
@@ -128,9 +138,9 @@ FlightState<T> Flight<T>::at(const T& s) const {
   const FlightState<T>& o = start_.state;
   const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s));
   const SinCos<T> v = sin_cos_turns(s);
-  const T X = o.X * h.cos + o.U / m.omega_h * h.sin;
+  const T X = o.X * h.cos + o.U * m.per_omega_h * h.sin;
   const T U = o.U * h.cos - m.omega_h * o.X * h.sin;
-  const T Y = o.Y * v.cos + o.W / m.omega_v * v.sin;
+  const T Y = o.Y * v.cos + o.W * m.per_omega_v * v.sin;
   const T W = o.W * v.cos - m.omega_v * o.Y * v.sin;
   return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
 }
@@ -160,21 +170,21 @@ GapJet<T> Flight<T>::small_gap(const T& s) const {
   const SmallTurn<T> h = small_turn(T(m.ratio * s)), v = small_turn(s);
 
   // dx = u0 s + dx2, u = u0 + du
-  const T dx2 = o.U / m.omega_h * h.sin_minus_angle - o.X * h.versine;
+  const T dx2 = o.U * m.per_omega_h * h.sin_minus_angle - o.X * h.versine;
   const T du = -o.U * h.versine - m.omega_h * o.X * h.sin;
   const T dx = u0 * s + dx2;
   const SmallTurn<T> d = small_turn(dx);
 
-  const T rise = surface_.h * d.versine - surface_.h1 * (dx2 + d.sin_minus_angle / k);
-  const T g = start_.g + start_.g1 * (v.sin / m.omega_v) + surface_.h1 * u0 * (v.sin_minus_angle / m.omega_v) - o.Y * v.versine + rise;
+  const T rise = surface_.h * d.versine - surface_.h1 * (dx2 + d.sin_minus_angle * m.per_omega_v);
+  const T g = start_.g + start_.g1 * (v.sin * m.per_omega_v) + surface_.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) - o.Y * v.versine + rise;
   const T u = u0 + du;
   const T g1 = start_.g1 * (T(1.0) - v.versine) - surface_.h1 * u0 * v.versine - m.omega_v * o.Y * v.sin -
                surface_.h1 * (du - u * d.versine) + k * surface_.h * u * d.sin;
 
   const T cos_d = T(1.0) - d.versine;
-  const T h_now = surface_.h * cos_d + surface_.h1 * d.sin / k;
+  const T h_now = surface_.h * cos_d + surface_.h1 * d.sin * m.per_omega_v;
   const T h1_now = surface_.h1 * cos_d - k * surface_.h * d.sin;
-  const T X = o.X * (T(1.0) - h.versine) + o.U / m.omega_h * h.sin;
+  const T X = o.X * (T(1.0) - h.versine) + o.U * m.per_omega_h * h.sin;
   const FlightState<T> q{o.phase + dx, X, o.U + du, h_now + g - m.y0, h1_now * u + g1};
   const T g2 = -m.omega_v * m.omega_v * q.Y + k * k * h_now * u * u + h1_now * (m.omega_h * m.omega_h * q.X);
   return {g, g1, g2, q};

@@ -118,7 +118,7 @@ T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
   constexpr double kMargin = 1e-5;  // [tau]: three times the error of rough_turn
   constexpr double kWorthwhile = 1e-3;
   const double crest = static_cast<double>(f.mechanics().H - f.mechanics().y0);
-  const double Y = static_cast<double>(q.Y), V = static_cast<double>(q.W / f.mechanics().omega_v);
+  const double Y = static_cast<double>(q.Y), V = static_cast<double>(q.W * f.mechanics().per_omega_v);
   if (!(Y > crest)) return T(0.0);
   // turn from now to the top plus from the top down to the crest: the angle of a product of two complex numbers
   const double Q = std::sqrt(std::max(0.0, Y * Y + V * V - crest * crest));

@@ -51,7 +51,8 @@ class Tip {
   void fly(const TipState& start);
   void slide(const SlideState<double>& start);
   void burst(const SlideState<double>& guide, const Chatter& chatter);
-  void leave_or_press(const TipState& start);
+  void begin_flight();
+  void leave_or_press();
   bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
   void find_landing();
   Outcome land();

@@ -32,8 +32,11 @@ std::uint32_t whole_count(double n) {
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
 }
 
-AFM_MULTIVERSION Flight<double> launch(const Mechanics<double>& mechanics, double eta, const TipState& state) {
-  return Flight<double>(mechanics, eta, state);
+AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state, Flight<double>& flight) {
+  flight = Flight<double>(mechanics, eta, state);
+}
+AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const Reflection& bounce, Flight<double>& flight) {
+  flight = Flight<double>(mechanics, eta, bounce.after, bounce.surface);
 }
 
 AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<double>& incident) {
@@ -63,11 +66,15 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       burst_gap_rate_(std::sqrt(contact_tolerance / (kGrowth * kDrift))),
       flight_(mechanics_, eta, checked(start)),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
-  if (start.g == 0.0 && !(start.g1 < 0.0)) leave_or_press(start);
+  if (start.g == 0.0 && !(start.g1 < 0.0)) leave_or_press();
 }
 
 void Tip::fly(const TipState& start) {
-  flight_ = launch(mechanics_, eta_, start);
+  launch(mechanics_, eta_, start, flight_);
+  begin_flight();
+}
+
+void Tip::begin_flight() {
   mode_ = Mode::flying;
   start_ = now_;
   landing_known_ = false;
@@ -89,8 +96,9 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
-void Tip::leave_or_press(const TipState& start) {
-  fly(start);
+// The flight after a bounce has begun: does the surface press, and is it the first bounce of a burst?
+void Tip::leave_or_press() {
+  const TipState start = flight_.launch();
   if (!(flight_.start().g2 < 0.0)) return;
   if (!(start.g1 > 0.0)) {
     mode_ = Mode::touching;
@@ -140,7 +148,9 @@ void Tip::find_landing() {
 Outcome Tip::land() {
   const Reflection r = bounce(model_, eta_, landing_.jet);
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
-  leave_or_press(r.after);
+  launch(mechanics_, eta_, r, flight_);
+  begin_flight();
+  leave_or_press();
   return Outcome::impact;
 }
 

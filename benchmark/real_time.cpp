@@ -1,0 +1,89 @@
+// How much faster than real time one tip is, over drag speeds and cutoffs, and what K_f comes out: CSV on stdout, a summary
+// on stderr. A tau is 157 us with the paper's springs.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "afm_emulator/tip.h"
+#include "afm_emulator/units.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  std::vector<double> eta, cutoff{0.1, 0.05, 0.01, 0.001};
+  double step = 0.05, highest = 9.0, tolerance = afm::kDefaultContactTolerance;
+  std::int64_t tau = 1000, transient = 200;
+};
+
+struct Figures {
+  double times_real_time, slowest_tau_us, K_f, impacts_per_tau;
+  long search_failures;
+};
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+Figures measure(double eta, double cutoff, const Options& o) {
+  afm::Model model;
+  model.v_c = cutoff;
+  afm::Tip tip(model, eta, afm::FreeState{0.25, 0.0, 0.2, eta, 0.0}, o.tolerance);
+  Figures f{0.0, 0.0, 0.0, 0.0, 0};
+  double energy = 0.0, events = 0.0, total = 0.0;
+  for (std::int64_t t = 1; t <= o.transient + o.tau; ++t) {
+    const auto start = Clock::now();
+    for (;;) {
+      const afm::Outcome outcome = tip.advance({t, 0.0});
+      if (outcome == afm::Outcome::time_limit) break;
+      if (outcome == afm::Outcome::search_failed) ++f.search_failures;
+      if (outcome != afm::Outcome::impact || t <= o.transient) continue;
+      energy += tip.last_impact().energy_loss;
+      events += tip.last_impact().count;
+    }
+    const double seconds = seconds_since(start);
+    total += seconds;
+    f.slowest_tau_us = std::max(f.slowest_tau_us, 1e6 * seconds);
+  }
+  const double tau_s = afm::Units(afm::SiModel{}).time(), taus = static_cast<double>(o.tau);
+  f.times_real_time = static_cast<double>(o.transient + o.tau) * tau_s / total;
+  f.K_f = energy / (eta * eta * taus);
+  f.impacts_per_tau = events / taus;
+  return f;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  CLI::App app{"Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units)."};
+  app.add_option("--eta", o.eta, "drag speeds [a/tau]; default: 0 to --highest in steps of --step");
+  app.add_option("--step", o.step);
+  app.add_option("--highest", o.highest);
+  app.add_option("--cutoff", o.cutoff, "v_c [a/tau]");
+  app.add_option("--tolerance", o.tolerance, "contact tolerance");
+  app.add_option("--tau", o.tau, "measured time each");
+  app.add_option("--transient", o.transient, "time before that");
+  CLI11_PARSE(app, argc, argv);
+  if (o.eta.empty()) {
+    for (int i = 0; i * o.step <= o.highest + 1e-9; ++i) o.eta.push_back(i * o.step);
+  }
+  std::printf("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures\n");
+  double worst = INFINITY, slowest = 0.0;
+  std::size_t below = 0, all = 0;
+  for (const double cutoff : o.cutoff) {
+    for (const double eta : o.eta) {
+      const Figures f = measure(eta, cutoff, o);
+      std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld\n", eta, cutoff, f.times_real_time, f.slowest_tau_us, f.K_f, f.impacts_per_tau,
+                  f.search_failures);
+      std::fflush(stdout);
+      worst = std::min(worst, f.times_real_time);
+      slowest = std::max(slowest, f.slowest_tau_us);
+      below += f.times_real_time < 20.0 ? 1 : 0;
+      ++all;
+    }
+  }
+  std::fprintf(stderr, "%zu points, %zu below 20 times real time; slowest point %.3g times, slowest tau %.3g us\n", all, below, worst, slowest);
+}
