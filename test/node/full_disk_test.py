@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """A recording on a small disk ends cleanly before the disk is full, says why, and the node goes on."""
+import errno
 import os
 import subprocess
 import tempfile
@@ -29,9 +30,14 @@ class FullDisk(EmulatorTest):
         disk = os.statvfs(self.disk)
         return disk.f_bavail * disk.f_frsize
 
-    def fill_up_to(self, free_bytes):
-        with open(os.path.join(self.disk, 'of_others'), 'wb') as file:
-            os.posix_fallocate(file.fileno(), 0, self.free_bytes() - free_bytes)
+    def fill(self, leave_bytes):
+        """As another program would, while the node is writing too."""
+        with open(os.path.join(self.disk, 'of_others'), 'wb', buffering=0) as file:
+            while self.free_bytes() > leave_bytes:
+                try:
+                    file.write(bytes(1 << 16))
+                except OSError as error:
+                    self.assertEqual(error.errno, errno.ENOSPC)
 
     def begin(self, name):
         return self.emulator.call('start_recording', StartRecording, name=name)
@@ -54,7 +60,7 @@ class FullDisk(EmulatorTest):
         bags.assert_sound(self, self.answer.path)
 
     def test_does_not_start_without_room(self):
-        self.fill_up_to(RESERVE_MB * 1000000)
+        self.fill(RESERVE_MB * 1000000)
         answer = self.begin('none.bag')
         self.assertFalse(answer.success)
         self.assertIn('disk_reserve_mb', answer.message)
@@ -62,7 +68,7 @@ class FullDisk(EmulatorTest):
 
     def test_survives_a_disk_that_others_fill(self):
         self.begin_recording()
-        self.fill_up_to(0)
+        self.fill(0)
         self.assertTrue(self.wait_for_error())
 
 
