@@ -7,6 +7,7 @@ from pathlib import Path
 import roslib.packages
 import yaml
 
+import bags
 from emulator_under_test import PACKAGE, Emulator, NodeTest, run
 from topics import Topic
 
@@ -56,6 +57,18 @@ class ShippedFiles(NodeTest):
         for scene in SCENES:
             with self.subTest(scene=scene):
                 self.assert_plays(scene)
+
+    def test_launch_arguments_reach_the_node(self):
+        directory = self.temporary_directory()
+        status, configuration = Topic('status'), Topic('configuration')
+        play = self.launch('emulator.launch', scene='rest', record='true', bag_directory=directory, time_scale=0.5,
+                           drag_velocity=6.6e-6)
+        status.wait_for(lambda m: m.recording and m.time.tau > 1000, 'recording')
+        got = configuration.wait_for()
+        self.assertEqual((got.time_scale, got.drag_velocity, got.initial_u), (0.5, 6.6e-6, 0.0))
+        play.stop()
+        bag, = Path(directory).iterdir()
+        bags.assert_sound(self, str(bag))
 
     def test_launch_files_load(self):
         files = sorted((SHARE / 'launch').glob('*.launch'))
