@@ -1,0 +1,123 @@
+// The averaged law of chatter against its bounces one by one.
+#include "afm_emulator/chatter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "chatters.h"
+
+namespace afm {
+namespace {
+
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+constexpr double kThreshold = 1e-5;
+
+Model model_with(double gamma) {
+  Model model;
+  model.gamma = gamma;
+  model.v_c = 0.05;
+  return model;
+}
+
+// The relative error of the law at a bounce: in the number of bounces, and in the gap rate.
+struct LawError {
+  double n, v;
+};
+
+struct Comparison {
+  int bounces = 0;       // compared
+  LawError last{};       // at the last of them
+  LawError worst{};      // of any
+  double worst_v = 0.0;  // absolute [a/tau]
+  double longest = 0.0;  // bounce, against every change
+};
+
+// Up to `most` bounces; the law is run from bounce to bounce in `parts` steps, or where that is 0 from the first to each.
+Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most, int parts) {
+  Comparison comparison;
+  Tip tip = chatter.every_bounce();
+  ChatterRun run{ChatterEnd::time, 0.0, {chatter.v, 0.0}};
+  const double end = law.run(chatter.guide, 0.0, chatter.guide.length(), run.chatter).s;
+  for (int n = 1; n <= most; ++n) {
+    const double from = parts == 0 ? 0.0 : run.s;
+    if (parts == 0) run.chatter = {chatter.v, 0.0};
+    tip.advance(kNever);
+    const double t = tip.now() - ModelTime{};
+    if (t >= end) return comparison;
+    for (int part = 1; part <= std::max(1, parts); ++part) {
+      const double until = from + (t - from) * part / std::max(1, parts);
+      run = law.run(chatter.guide, part == 1 ? from : run.s, until, run.chatter);
+      if (run.end != ChatterEnd::time) return comparison;  // it may go on for a bounce or not
+    }
+    const double v = tip.tip_state().g1;
+    comparison.bounces = n;
+    comparison.last = {std::abs(run.chatter.n / n - 1.0), std::abs(run.chatter.v / v - 1.0)};
+    comparison.worst = {std::max(comparison.worst.n, comparison.last.n),
+                        std::max(comparison.worst.v, comparison.last.v)};
+    comparison.worst_v = std::max(comparison.worst_v, std::abs(run.chatter.v - v));
+    comparison.longest = std::max(comparison.longest, chatter.shortness(t));
+  }
+  return comparison;
+}
+
+class Chatters : public testing::TestWithParam<double> {
+ protected:
+  const Model model_ = model_with(GetParam());
+  const ChatterLaw law_{model_, kThreshold};
+};
+
+TEST_P(Chatters, TheLawIsThatOfTheBouncesButForTheSecondOrder) {
+  RandomLaunches random(1);
+  int short_ones = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Comparison c = compare(random_chatter(model_, law_, random, -4.5, -2.3), law_, 20, 4);
+    const double second_order = c.longest * c.longest;
+    ASSERT_LT(c.worst.n, 50.0 * second_order + 1e-12) << i;
+    ASSERT_LT(c.worst.v, 25.0 * second_order + 1e-12) << i;
+    if (c.bounces < 20 || c.longest > 4e-4) continue;
+    ++short_ones;
+    ASSERT_LT(c.worst.n, 1e-5) << i;
+    ASSERT_LT(c.worst.v, 1e-5) << i;
+  }
+  EXPECT_GT(short_ones, 300);
+}
+
+TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAQuarter) {
+  RandomLaunches random(2);
+  std::vector<double> n_ratios, v_ratios;
+  for (int i = 0; i < 500; ++i) {
+    RandomChatter chatter = random_chatter(model_, law_, random, -4.0, -3.3);
+    const Comparison whole = compare(chatter, law_, 10, 4);
+    chatter.v *= 0.5;
+    const Comparison half = compare(chatter, law_, 10, 4);
+    if (whole.bounces < 10 || half.bounces < 10 || half.last.v < 1e-12) continue;
+    n_ratios.push_back(whole.last.n / half.last.n);
+    v_ratios.push_back(whole.last.v / half.last.v);
+  }
+  ASSERT_GT(n_ratios.size(), 250u);
+  std::sort(n_ratios.begin(), n_ratios.end());
+  std::sort(v_ratios.begin(), v_ratios.end());
+  EXPECT_GT(n_ratios[n_ratios.size() / 2], 3.5);
+  EXPECT_LT(n_ratios[n_ratios.size() / 2], 4.5);
+  EXPECT_GT(v_ratios[v_ratios.size() / 2], 3.5);
+}
+
+TEST_P(Chatters, InOneRunTheGapRateIsGoodToTheThreshold) {
+  RandomLaunches random(3);
+  long bounces = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Comparison c = compare(random_chatter(model_, law_, random, -4.5, -2.0), law_, 300, 0);
+    ASSERT_LT(c.worst_v, kThreshold) << i;
+    ASSERT_LT(c.worst.n, 5e-3) << i;
+    bounces += c.bounces;
+  }
+  EXPECT_GT(bounces, 10000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Restitutions, Chatters, testing::Values(1.0, 0.99, 0.7, 0.3, 0.0));
+
+}  // namespace
+}  // namespace afm
