@@ -16,6 +16,9 @@ constexpr double kMostLoss = 0.2;
 // where chatter is fast, for the interpolation is off by the square of it: that part of v stays below half the tolerance.
 constexpr double kMostShortness = 0.1;
 
+// the pressure may fall to this part of itself in a step
+constexpr double kMostFall = 0.75;
+
 // The interpolation of w -> w (1 - w): R = G/T and 1/T.
 double series_R(double w) {
   return 1.0 + w * (1.0 / 2 + w * (7.0 / 12 + w * (7.0 / 8 + w * (1049.0 / 720 + w * (727.0 / 288 + w * (264917.0 / 60480))))));
@@ -106,16 +109,21 @@ double ChatterLaw::step_length(const Surroundings& at, double v) const {
   return fineness_ / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
 }
 
-// The last whole n of a step of which the end is known.
+// The last whole n of a step of which the end is known: bracketed, as n only grows.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at,
                                     const Chatter& start, const Chatter& end) const {
   const double n = std::floor(end.n);
-  double part = dt * (n - start.n) / (end.n - start.n);
-  const auto at_part = [&] { return step(guide, s, part, at, surroundings(guide, s + part), start); };
-  Chatter c = at_part();
-  for (int i = 0; i < 3; ++i) {
-    part += (n - c.n) / rate(surroundings(guide, s + part), c.v).n;
-    c = at_part();
+  double low = 0.0, high = dt, part = dt * (n - start.n) / (end.n - start.n);
+  Chatter c = start;
+  constexpr int kMostSteps = 40;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Surroundings there = surroundings(guide, s + part);
+    c = step(guide, s, part, at, there, start);
+    const double rest = n - c.n;
+    if (std::abs(rest) < 1e-9) break;
+    (rest > 0.0 ? low : high) = part;
+    const double newton = part + rest / rate(there, c.v).n;
+    part = newton > low && newton < high ? newton : 0.5 * (low + high);
   }
   return {ChatterEnd::exits, s + part, {c.v, n}};
 }
@@ -126,10 +134,15 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, dou
   Chatter c = start;
   Surroundings at = surroundings(guide, s);
   while (s < until && c.v > threshold_) {
-    const double dt = std::min(until - s, step_length(at, c.v));
-    const Surroundings then = surroundings(guide, s + dt);
+    double dt = std::min(until - s, step_length(at, c.v));
+    Surroundings then = surroundings(guide, s + dt);
+    // past a maximum the pressure may fall faster than its rate foretells
+    for (; !(then.a > kMostFall * at.a); then = surroundings(guide, s + dt)) {
+      dt *= 0.5;
+      if (!(s + dt > s)) return {ChatterEnd::exits, s, c};
+    }
     const Chatter next = step(guide, s, dt, at, then, c);
-    const bool letting_go = !(then.a > 0.0) || !smooth(then.shortness, next.v);
+    const bool letting_go = !smooth(then.shortness, next.v);
     if (letting_go && std::floor(next.n) >= std::ceil(c.n) && std::floor(next.n) > start.n) {
       return whole_bounce(guide, s, dt, at, c, next);
     }
