@@ -40,6 +40,7 @@ class ObeysCommands(EmulatorTest):
     def test_takes_effect_at_a_batch_boundary(self):
         applied = self.command(2.0)
         self.deflection.wait_for(lambda m: key(m.time) == key(applied.time), 'a batch begins at the time told')
+        self.friction.wait_for(lambda m: m.drag_velocity == applied.drag_velocity, 'the new speed')
         for friction in list(self.friction.messages):
             # an estimate is told at the end of a batch: at the boundary itself the old speed held
             old = key(friction.time) <= key(applied.time)

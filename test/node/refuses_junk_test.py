@@ -20,11 +20,12 @@ class RefusesJunk(EmulatorTest):
         for velocity in JUNK:
             self.emulator.drag(velocity)
         self.emulator.drag(-1.0e-5)  # the fastest there is; all that came before it has been judged when it is applied
-        self.friction.wait_for(lambda m: m.drag_velocity == -1.0e-5, 'the last command')
+        for topic in (self.applied, self.friction):
+            topic.wait_for(lambda m: m.drag_velocity == -1.0e-5, 'the last command')
         self.assertEqual([m.drag_velocity for m in self.applied.messages], [6.0e-6, -1.0e-5])
         self.assertEqual({m.drag_velocity for m in self.friction.messages}, {6.0e-6, -1.0e-5})
-        status = self.status.wait_for_next()
-        self.assertEqual(status.refused_commands, len(JUNK))
+        self.status.wait_for(lambda m: m.refused_commands >= len(JUNK), 'the refused are counted')
+        self.assertEqual(self.status.wait_for_next().refused_commands, len(JUNK))
 
     def test_good_commands_are_not_counted(self):
         for velocity in (0.0, 1.0e-5, -3.0e-6):

@@ -55,6 +55,9 @@ class Topic:
             topic.close()
 
     def _take(self, message):
+        # who subscribes while a latched message is being published gets it twice from roscpp
+        if message._connection_header['latching'] == '1' and self.raw and self.raw[-1] == message._buff:
+            return
         decoded = self.kind().deserialize(message._buff)
         with _news:
             self.raw.append(message._buff)
