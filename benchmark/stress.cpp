@@ -1,0 +1,77 @@
+// Random models under random commands, every invariant checked after every arc: finite, never below the surface, energy in
+// balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+
+#include "stress_scene.h"
+
+namespace {
+
+struct Options {
+  std::uint64_t seed = 1, scenes = 0;
+  std::int64_t tau = 1000;
+  double seconds = 20.0, tolerance = afm::kDefaultContactTolerance;
+  bool go_on = false;
+};
+
+void add(afm::StressCount& sum, const afm::StressCount& c) {
+  sum.arcs += c.arcs;
+  sum.impacts += c.impacts;
+  sum.bounces += c.bounces;
+  sum.bursts += c.bursts;
+  sum.contacts += c.contacts;
+  sum.commands += c.commands;
+  sum.most_arcs_in_a_tau = std::max(sum.most_arcs_in_a_tau, c.most_arcs_in_a_tau);
+  sum.deepest = std::max(sum.deepest, c.deepest);
+  sum.worst_imbalance = std::max(sum.worst_imbalance, c.worst_imbalance);
+}
+
+void print(std::uint64_t scenes, std::int64_t tau, const afm::StressCount& c) {
+  std::printf(
+      "%llu scenes of %lld tau: %llu commands, %llu arcs, %llu impacts standing for %llu bounces, %llu bursts, %llu "
+      "contacts; "
+      "most arcs in a tau %llu, deepest %.2g a, worst imbalance %.2g\n",
+      static_cast<unsigned long long>(scenes), static_cast<long long>(tau), static_cast<unsigned long long>(c.commands),
+      static_cast<unsigned long long>(c.arcs), static_cast<unsigned long long>(c.impacts),
+      static_cast<unsigned long long>(c.bounces), static_cast<unsigned long long>(c.bursts),
+      static_cast<unsigned long long>(c.contacts), static_cast<unsigned long long>(c.most_arcs_in_a_tau), c.deepest,
+      c.worst_imbalance);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  CLI::App app{"Random commands to random models, until the time is up or something is violated (natural units)."};
+  app.add_option("--seed", o.seed, "of the first scene; the next has the next");
+  app.add_option("--scenes", o.scenes, "how many; 0: as many as the time allows");
+  app.add_option("--tau", o.tau, "model time of each scene");
+  app.add_option("--seconds", o.seconds, "no new scene after this time");
+  app.add_option("--tolerance", o.tolerance, "contact tolerance");
+  app.add_flag("--go-on", o.go_on, "report violations and go on with the next scene");
+  CLI11_PARSE(app, argc, argv);
+  const auto start = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  afm::StressCount sum;
+  std::uint64_t scenes = 0, violations = 0;
+  double progress = 0.0;
+  for (; (o.scenes == 0 || scenes < o.scenes) && passed() < o.seconds; ++scenes) {
+    afm::StressScene scene(o.seed + scenes, o.tolerance);
+    const bool kept = scene.run(o.tau);
+    add(sum, scene.count());
+    if (!kept) {
+      ++violations;
+      std::printf("VIOLATED: %s\n", scene.report().c_str());
+      if (!o.go_on) break;
+    }
+    if (passed() > progress) {
+      print(scenes + 1, o.tau, sum);
+      progress = passed() + 10.0;
+    }
+  }
+  print(scenes, o.tau, sum);
+  std::printf("%llu violations\n", static_cast<unsigned long long>(violations));
+  return violations == 0 ? 0 : 1;
+}
