@@ -76,8 +76,8 @@ int main(int argc, char** argv) {
   for (const double cutoff : o.cutoff) {
     for (const double eta : o.eta) {
       const Figures f = measure(eta, cutoff, o);
-      std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld\n", eta, cutoff, f.times_real_time, f.slowest_tau_us, f.K_f, f.impacts_per_tau,
-                  f.search_failures);
+      std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld\n", eta, cutoff, f.times_real_time, f.slowest_tau_us, f.K_f,
+                  f.impacts_per_tau, f.search_failures);
       std::fflush(stdout);
       worst = std::min(worst, f.times_real_time);
       slowest = std::max(slowest, f.slowest_tau_us);
@@ -85,5 +85,6 @@ int main(int argc, char** argv) {
       ++all;
     }
   }
-  std::fprintf(stderr, "%zu points, %zu below 20 times real time; slowest point %.3g times, slowest tau %.3g us\n", all, below, worst, slowest);
+  std::fprintf(stderr, "%zu points, %zu below 20 times real time; slowest point %.3g times, slowest tau %.3g us\n", all,
+               below, worst, slowest);
 }

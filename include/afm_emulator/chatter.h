@@ -22,9 +22,9 @@ struct Chatter {
 };
 
 enum class ChatterEnd : std::uint8_t {
-  time,    // it goes on
-  died,    // the gap rate has fallen to the threshold: contact
-  exits    // the surface is about to let go, at a bounce (n whole): what follows is done bounce by bounce
+  time,  // it goes on
+  died,  // the gap rate has fallen to the threshold: contact
+  exits  // the surface is about to let go, at a bounce (n whole): what follows is done bounce by bounce
 };
 
 struct ChatterRun {
@@ -45,26 +45,32 @@ class ChatterLaw {
   // From one time of the guide to another, `until`, or to the end of the chatter.
   ChatterRun run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const;
 
+  // From the start of the guide to a time before that end.
+  Chatter at(const SlidePiece<double>& guide, double s, const Chatter& start) const;
+
  private:
   struct Rate {
     double v, n;
   };
   struct Surroundings {
-    double a, a1;  // pressure and its rate
-    double growth; // of v by itself: that of (a N^2)^(1/3)
-    double c;      // (1 - gamma) / (N v_c): w = c v, and at the end of the bounce, half a bounce later than its mean
-    double delay;  // times v: the growth of N in half a bounce
-    double shortness;  // times v: the duration of a bounce against that of every change
+    double a, a1;    // pressure and its rate
+    double growth;   // of v by itself: that of (a N^2)^(1/3)
+    double c;        // (1 - gamma) / (N v_c): w = c v, and at the end of the bounce, half a bounce later than its mean
+    double delay;    // times v: the growth of N in half a bounce
+    double stretch;  // times v^2: of the duration of a bounce, by what the pressure does in it
+    double twist;    // times v^3: of dv/dt, likewise
+    double slow_rate;  // of the changes of the slope and of the springs [turns/tau]
   };
-  bool smooth(double shortness, double v) const;
+  bool smooth(const Surroundings& at, double v) const;
   Surroundings surroundings(double a, double a1, double phase, double u) const;
   Surroundings surroundings(const SlidePiece<double>& guide, double s) const;
   Rate rate(const Surroundings& at, double v) const;
   Chatter step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Surroundings& end,
                const Chatter& start) const;
+  ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
   double step_length(const Surroundings& at, double v) const;
-  ChatterRun whole_bounce(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Chatter& start,
-                          const Chatter& end) const;
+  ChatterRun whole_bounce(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at,
+                          const Chatter& start, const Chatter& end) const;
 
   double gamma_, v_c_, threshold_, H_, ratio_;
   double fineness_;   // of the steps

@@ -14,12 +14,12 @@ namespace afm {
 
 struct EmulatorSettings {
   Model model;
-  double eta = 3.4;                        // drag velocity at start [a/tau], signed
+  double eta = 3.4;  // drag velocity at start [a/tau], signed
   FreeState initial{0.25, 0.0, 0.2, 3.4, 0.0};
-  double sample_period = 0.03;             // [tau]
+  double sample_period = 0.03;  // [tau]
   std::uint64_t samples_per_batch = 2000;
-  double friction_window = 1000.0;         // [tau]
-  std::uint64_t impact_budget = 20000;     // impacts per batch; a batch that spends it ends there
+  double friction_window = 1000.0;      // [tau]
+  std::uint64_t impact_budget = 20000;  // impacts per batch; a batch that spends it ends there
   double contact_tolerance = kDefaultContactTolerance;
 };
 
@@ -30,40 +30,40 @@ std::vector<ParameterError> find_faults(const EmulatorSettings& settings);
 struct Batch {
   ModelTime begin, end;
   ModelTime first_sample_time;
-  std::uint64_t first_sample = 0;   // running index
-  std::vector<double> vertical;     // y - y0 [a]
-  std::vector<double> lateral;      // x - xc [a]
-  std::uint64_t first_impact = 0;   // running index
+  std::uint64_t first_sample = 0;  // running index
+  std::vector<double> vertical;    // y - y0 [a]
+  std::vector<double> lateral;     // x - xc [a]
+  std::uint64_t first_impact = 0;  // running index
   std::vector<Impact> impacts;
-  FrictionEstimate friction;        // at end
-  double eta = 0.0;                 // drag velocity throughout the batch
+  FrictionEstimate friction;  // at end
+  double eta = 0.0;           // drag velocity throughout the batch
 };
 
 // Must stay zero, or say where they did not.
 struct Counters {
   std::uint64_t budget_exhausted = 0;
   std::uint64_t search_failures = 0;
-  double worst_penetration = 0.0;   // deepest sample below the surface [a]
+  double worst_penetration = 0.0;  // deepest sample below the surface [a]
 };
 
 class Emulator {
  public:
   explicit Emulator(const EmulatorSettings& settings);  // throws the first ParameterError
 
-  void drag(double eta);            // from now() on. Precondition: finite and |eta| <= kMaxEta
-  void reset();                     // initial state and drag velocity, model time 0, indices and counters 0
+  void drag(double eta);  // from now() on. Precondition: finite and |eta| <= kMaxEta
+  void reset();           // initial state and drag velocity, model time 0, indices and counters 0
 
   // Each clears the batch, keeps its capacity and fills it. Never allocates while the batch has room for
   // samples_per_batch samples and impact_budget impacts (see reserve).
-  Outcome run_batch(Batch& batch);                           // to the next batch boundary of the sample grid
-  Outcome run_until(const ModelTime& time, Batch& batch);    // precondition: at most one batch boundary ahead
-  Outcome run_impacts(std::uint64_t n, Batch& batch);        // to the n-th next impact or the next batch boundary
+  Outcome run_batch(Batch& batch);                         // to the next batch boundary of the sample grid
+  Outcome run_until(const ModelTime& time, Batch& batch);  // precondition: at most one batch boundary ahead
+  Outcome run_impacts(std::uint64_t n, Batch& batch);      // to the n-th next impact or the next batch boundary
 
   void reserve(Batch& batch) const;
 
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
-  FreeState state() const { return tip_.state(); }           // at now()
+  FreeState state() const { return tip_.state(); }  // at now()
   const Counters& counters() const { return counters_; }
   const EmulatorSettings& settings() const { return settings_; }
 

@@ -86,8 +86,8 @@ class Flight {
   GapJet<T> start_;
   SurfaceJet<T> surface_;  // at the start
   T amplitude_X_, amplitude_Y_, bound2_, bound3_;
-  T bound_drive_;          // of |p'|
-  T small_until_;          // up to here every turn is at most 1/8
+  T bound_drive_;  // of |p'|
+  T small_until_;  // up to here every turn is at most 1/8
 };
 
 template <class T>
@@ -176,7 +176,8 @@ GapJet<T> Flight<T>::small_gap(const T& s) const {
   const SmallTurn<T> d = small_turn(dx);
 
   const T rise = surface_.h * d.versine - surface_.h1 * (dx2 + d.sin_minus_angle * m.per_omega_v);
-  const T g = start_.g + start_.g1 * (v.sin * m.per_omega_v) + surface_.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) - o.Y * v.versine + rise;
+  const T g = start_.g + start_.g1 * (v.sin * m.per_omega_v) + surface_.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) -
+              o.Y * v.versine + rise;
   const T u = u0 + du;
   const T g1 = start_.g1 * (T(1.0) - v.versine) - surface_.h1 * u0 * v.versine - m.omega_v * o.Y * v.sin -
                surface_.h1 * (du - u * d.versine) + k * surface_.h * u * d.sin;

@@ -11,13 +11,13 @@ namespace afm {
 
 // All in natural units; NaN where a figure is not defined (K_f at v0 = 0, errors before there are enough bins).
 struct FrictionEstimate {
-  double force = 0.0;            // [m a / tau^2], sign of the drag velocity
+  double force = 0.0;  // [m a / tau^2], sign of the drag velocity
   double force_std_error = 0.0;
-  double K_f = 0.0;              // [m / tau]
+  double K_f = 0.0;  // [m / tau]
   double K_f_std_error = 0.0;
-  double energy_loss = 0.0;      // since the last change of drag velocity [m a^2 / tau^2]
+  double energy_loss = 0.0;  // since the last change of drag velocity [m a^2 / tau^2]
   std::uint64_t impact_count = 0;
-  double window_force = 0.0;     // over the sliding window
+  double window_force = 0.0;  // over the sliding window
   double window_K_f = 0.0;
   double window_K_f_std_error = 0.0;
 };

@@ -29,9 +29,9 @@ HigherDerivatives<T> higher_derivatives(const Flight<T>& f) {
   const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U;
   const T g3 = -wv2 * q.W - (h.h3 * u * u * u + T(3.0) * h.h2 * u * x2 + h.h1 * x3);
   const T v = abs(f.eta()) + m.omega_h * f.amplitude_X(), a = wh2 * f.amplitude_X();
-  const T bound4 = wv2 * wv2 * f.amplitude_Y() +
-                   k * m.H * (k * k * k * v * v * v * v + T(6.0) * k * k * v * v * a + T(3.0) * k * a * a +
-                              T(4.0) * k * v * m.omega_h * a + wh2 * a);
+  const T bound4 = wv2 * wv2 * f.amplitude_Y() + k * m.H *
+                                                     (k * k * k * v * v * v * v + T(6.0) * k * k * v * v * a +
+                                                      T(3.0) * k * a * a + T(4.0) * k * v * m.omega_h * a + wh2 * a);
   return {g3, bound4};
 }
 

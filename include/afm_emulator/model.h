@@ -28,9 +28,9 @@ struct Model {
   double v_c = 0.05;              // cutoff of the restitution law [a/tau]; 0: gamma at every speed
 };
 
-constexpr double kMaxEta = 1e3;              // above it a flight crosses more cells than the search is tested for
-constexpr double kMaxFrequencyRatio = 1e3;   // likewise for turns of the horizontal spring
-constexpr double kMaxAmplitude = 10.0;       // [a]: a hundred times mica
+constexpr double kMaxEta = 1e3;             // above it a flight crosses more cells than the search is tested for
+constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizontal spring
+constexpr double kMaxAmplitude = 10.0;      // [a]: a hundred times mica
 
 // Every fault of the set, not only the first; empty when the model can be run.
 std::vector<ParameterError> find_faults(const Model& model);

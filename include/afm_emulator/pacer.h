@@ -13,20 +13,20 @@ class Pacer {
   // period: wall time between batches.
   Pacer(Duration period, Duration start);
 
-  Duration deadline() const;        // when the next batch is due: absolute, so that lateness never adds up
-  void batch_done(Duration now);    // the batch due at deadline() is complete
-  void resume(Duration now);        // after a pause: the time in between was not owed
+  Duration deadline() const;      // when the next batch is due: absolute, so that lateness never adds up
+  void batch_done(Duration now);  // the batch due at deadline() is complete
+  void resume(Duration now);      // after a pause: the time in between was not owed
 
   double lag() const { return lag_; }              // [s] of the last batch behind the end of its period
   double worst_lag() const { return worst_lag_; }  // [s]
   std::uint64_t batches() const { return batches_; }
   std::uint64_t late_batches() const { return late_; }  // completed after the next one was due
-  double real_time_factor() const;  // time emulated over wall time, over the last second or so
+  double real_time_factor() const;                      // time emulated over wall time, over the last second or so
 
  private:
   Duration period_;
-  Duration origin_;                 // wall time at which batch 0 was due
-  std::int64_t due_ = 0;            // batches since origin_
+  Duration origin_;       // wall time at which batch 0 was due
+  std::int64_t due_ = 0;  // batches since origin_
   std::uint64_t batches_ = 0, late_ = 0;
   double lag_ = 0.0, worst_lag_ = 0.0;
   // real-time factor: a reference point that moves up about once a second

@@ -16,9 +16,10 @@ class SlidePiece {
 
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(pressure_, s); }  // [a/tau^2]; >= 0 while the surface holds the tip
-  T pressure_rate(const T& s) const;                             // its time derivative [a/tau^3]
+  T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
+  std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
 
-  T length() const { return length_; }  // to here the series is good to 1e-13 [tau]
+  T length() const { return length_; }  // to here the series is good to 2e-13 [tau]
   const SlideState<T>& start() const { return start_; }
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
@@ -53,7 +54,7 @@ template <class T>
 T SlidePiece<T>::choose_length() const {
   constexpr double kLongest = 8.0;  // [tau]
   constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  constexpr int kBits = 42;
+  constexpr int kBits = 45;
   double length = kLongest;
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
     const double c = std::abs(static_cast<double>(u_[n]));
@@ -72,11 +73,14 @@ SlideState<T> SlidePiece<T>::at(const T& s) const {
 }
 
 template <class T>
-T SlidePiece<T>::pressure_rate(const T& s) const {
+std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
   using std::fma;
-  T sum(0.0);
-  for (std::size_t k = kSlideOrder; k >= 1; --k) sum = fma(sum, s, pressure_[k] * T(static_cast<double>(k)));
-  return sum;
+  std::array<T, 4> c{};  // Horner's scheme for the function and, over k!, its derivatives
+  for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
+    for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
+    c[0] = fma(c[0], s, pressure_[k]);
+  }
+  return {c[0], c[1], T(2.0) * c[2], T(6.0) * c[3]};
 }
 
 template <class T>

@@ -67,18 +67,18 @@ struct Impact {
   double tangential_velocity = 0.0;  // t.v [a/tau]
   double energy_loss = 0.0;          // [m a^2 / tau^2]
   ImpactKind kind = ImpactKind::impact;
-  std::uint32_t count = 1;           // bounces it stands for
+  std::uint32_t count = 1;  // bounces it stands for
 };
 
 // How an advance ended. Trouble is data: it is counted and published, never thrown.
 enum class Outcome : std::uint8_t {
-  impact,          // the tip has just bounced; the record is the tip's last impact
-  time_limit,      // the time asked for was reached first
-  flying,          // nothing has happened; the flight is certified free of impacts up to here and goes on
-  budget_spent,    // the budget of impacts ran out first: model time stands where it says
-  contact,         // a burst has died out and the tip slides
-  released,        // a slide has ended
-  search_failed    // the search gave up at a point that is certified free of impacts; it goes on from there
+  impact,        // the tip has just bounced; the record is the tip's last impact
+  time_limit,    // the time asked for was reached first
+  flying,        // nothing has happened; the flight is certified free of impacts up to here and goes on
+  budget_spent,  // the budget of impacts ran out first: model time stands where it says
+  contact,       // a burst has died out and the tip slides
+  released,      // a slide has ended
+  search_failed  // the search gave up at a point that is certified free of impacts; it goes on from there
 };
 
 }  // namespace afm

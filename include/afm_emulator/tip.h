@@ -41,9 +41,9 @@ class Tip {
   double eta() const { return eta_; }
   bool in_contact() const { return mode_ == Mode::sliding; }
   const Impact& last_impact() const { return last_impact_; }
-  TipState tip_state() const;                        // at now()
+  TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
-  Deflection deflection(const ModelTime& t) const;   // from the last event to arc_end()
+  Deflection deflection(const ModelTime& t) const;  // from the last event to arc_end()
 
  private:
   enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
@@ -65,18 +65,18 @@ class Tip {
   Mechanics<double> mechanics_;
   double eta_;
   ChatterLaw law_;
-  double burst_gap_rate_;       // slower chatter moves the tip along the surface by less than the tolerance
+  double burst_gap_rate_;  // slower chatter moves the tip along the surface by less than the tolerance
   Flight<double> flight_;
   SlidePiece<double> slide_;
   Mode mode_ = Mode::flying;
-  ModelTime start_, now_;       // of the present arc; the present
+  ModelTime start_, now_;  // of the present arc; the present
   Landing<double> landing_{};
   bool landing_known_ = false;
   double slide_end_ = 0.0;
   bool slide_releases_ = false;
-  Chatter chatter_{};               // at the start of the present piece of a burst
-  ChatterRun chatter_run_{};        // over it
-  double burst_normal_speed_ = 0.0; // with which it began
+  Chatter chatter_{};                // at the start of the present piece of a burst
+  ChatterRun chatter_run_{};         // over it
+  double burst_normal_speed_ = 0.0;  // with which it began
   Impact last_impact_;
 };
 

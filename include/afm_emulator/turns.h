@@ -68,9 +68,7 @@ inline double cosine(double x, double z) {
   const double rest = std::fma(z, kC2Low, std::fma(z_low, kC2, head_low));
   return head + std::fma(z * z, cosine_rest(z), rest);
 }
-inline double sine(double x, double z) {
-  return std::fma(x, kTwoPiHigh, x * std::fma(z, sine_tail(z), kTwoPiLow));
-}
+inline double sine(double x, double z) { return std::fma(x, kTwoPiHigh, x * std::fma(z, sine_tail(z), kTwoPiLow)); }
 
 // adding and taking away 1.5 * 2^52 rounds to the nearest whole number
 constexpr double kRounder = 6755399441055744.0;

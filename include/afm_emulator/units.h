@@ -12,9 +12,9 @@ struct SiModel {
   double tip_mass_kg = 408e-12;
   double lattice_spacing_m = 0.52e-9;
   double surface_amplitude_m = 0.05e-9;
-  double rest_height_m = 0.0;         // y0, from mid-surface
+  double rest_height_m = 0.0;  // y0, from mid-surface
   double restitution_gamma = 0.7;
-  double cutoff_speed = 0.166e-6;     // v_c [m/s]
+  double cutoff_speed = 0.166e-6;  // v_c [m/s]
 };
 
 // Every fault, named as in SiModel and in SI.
@@ -25,12 +25,12 @@ class Units {
  public:
   explicit Units(const SiModel& si);
 
-  double length() const { return a_; }                      // m
-  double time() const { return tau_; }                      // s
-  double velocity() const { return a_ / tau_; }             // m/s
+  double length() const { return a_; }                            // m
+  double time() const { return tau_; }                            // s
+  double velocity() const { return a_ / tau_; }                   // m/s
   double energy() const { return m_ * velocity() * velocity(); }  // J
-  double force() const { return energy() / a_; }            // N
-  double friction() const { return m_ / tau_; }             // kg/s, of K_f
+  double force() const { return energy() / a_; }                  // N
+  double friction() const { return m_ / tau_; }                   // kg/s, of K_f
 
   Model to_natural(const SiModel& si) const;
 

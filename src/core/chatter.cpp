@@ -12,19 +12,20 @@ namespace {
 
 // |w| up to which the series below are good to 3e-4
 constexpr double kMostLoss = 0.2;
-// A bounce may last this part of the time in which the pressure changes by itself: five more bounces follow an exit. And less
-// where chatter is fast, for the interpolation is off by the square of it: that part of v stays below half the tolerance.
-constexpr double kMostShortness = 0.1;
+// The duration of a bounce against the time in which the pressure changes by itself, at most: an exit leaves two bounces.
+constexpr double kMostShortness = 0.25;
 
 // the pressure may fall to this part of itself in a step
 constexpr double kMostFall = 0.75;
 
 // The interpolation of w -> w (1 - w): R = G/T and 1/T.
 double series_R(double w) {
-  return 1.0 + w * (1.0 / 2 + w * (7.0 / 12 + w * (7.0 / 8 + w * (1049.0 / 720 + w * (727.0 / 288 + w * (264917.0 / 60480))))));
+  return 1.0 + w * (1.0 / 2 +
+                    w * (7.0 / 12 + w * (7.0 / 8 + w * (1049.0 / 720 + w * (727.0 / 288 + w * (264917.0 / 60480))))));
 }
 double series_1_over_T(double w) {
-  return 1.0 - w * (1.0 / 2 + w * (5.0 / 12 + w * (5.0 / 8 + w * (811.0 / 720 + w * (629.0 / 288 + w * (261679.0 / 60480))))));
+  return 1.0 - w * (1.0 / 2 +
+                    w * (5.0 / 12 + w * (5.0 / 8 + w * (811.0 / 720 + w * (629.0 / 288 + w * (261679.0 / 60480))))));
 }
 
 // Natural logarithm to 1e-15 of 0 < x, the same bits on every machine.
@@ -51,34 +52,49 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
   constexpr double kUsualThreshold = 1e-5;
   fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
   const double loss = 1.0 - gamma_;
-  geometric_ = loss < 1e-8 ? 1.0 : (gamma_ > 0.0 ? -portable_log(gamma_) / loss : std::numeric_limits<double>::infinity());
+  geometric_ =
+      loss < 1e-8 ? 1.0 : (gamma_ > 0.0 ? -portable_log(gamma_) / loss : std::numeric_limits<double>::infinity());
 }
 
-bool ChatterLaw::smooth(double shortness, double v) const {
-  const double part = shortness * v;
-  return part <= kMostShortness && v * part * part <= threshold_ / 2.0;
+// What the interpolation leaves out shifts a bounce by the fourth order of its duration against the changes of the pressure,
+// and by the second against those of the slope and of the springs: those parts of v stay well below the threshold.
+bool ChatterLaw::smooth(const Surroundings& at, double v) const {
+  const double pressure = 2.0 * v * std::abs(at.a1) / square(at.a), rest = 2.0 * v * at.slow_rate / at.a;
+  return pressure <= kMostShortness && 4.0 * v * square(square(pressure)) <= threshold_ && rest <= kMostShortness &&
+         2.0 * v * square(rest) <= threshold_;
 }
 
 ChatterLaw::Surroundings ChatterLaw::surroundings(double a, double a1, double phase, double u) const {
   const SurfaceJet<double> surface = surface_jet(H_, phase);
   const double N2 = 1.0 + square(surface.h1), N = std::sqrt(N2);
   const double growth_of_N = surface.h1 * surface.h2 * u / N2;
-  const double growth = (a1 / a + 2.0 * growth_of_N) / 3.0;
-  const double changes = std::max(std::abs(a1) / a, std::max(std::abs(u), ratio_));
-  return {a, a1, growth, v_c_ > 0.0 ? (1.0 - gamma_) / (N * v_c_) : 0.0, growth_of_N / a, 2.0 / a * changes};
+  Surroundings at{};
+  at.a = a;
+  at.a1 = a1;
+  at.growth = (a1 / a + 2.0 * growth_of_N) / 3.0;
+  at.c = v_c_ > 0.0 ? (1.0 - gamma_) / (N * v_c_) : 0.0;
+  at.delay = growth_of_N / a;
+  at.slow_rate = std::max(std::abs(u), ratio_);
+  return at;
 }
 
 ChatterLaw::Surroundings ChatterLaw::surroundings(const SlidePiece<double>& guide, double s) const {
   const SlideState<double> q = guide.at(s);
-  return surroundings(guide.pressure(s), guide.pressure_rate(s), q.phase, q.u);
+  const auto p = guide.pressure_jet(s);
+  Surroundings at = surroundings(p[0], p[1], q.phase, q.u);
+  const double a2 = square(p[0]), a4 = square(a2);
+  at.stretch = (3.0 * p[0] * p[2] - 4.0 * square(p[1])) / (27.0 * a4);
+  at.twist = (-3.0 * a2 * p[3] + 20.0 * p[1] * (p[0] * p[2] - square(p[1]))) / (135.0 * a4 * p[0]);
+  return at;
 }
 
 ChatterLaw::Rate ChatterLaw::rate(const Surroundings& at, double v) const {
-  const double adiabatic = v * at.growth;
-  if (v_c_ <= threshold_) return {-(1.0 - gamma_) * at.a / 2.0 + adiabatic, at.a / (2.0 * v * geometric_)};
+  const double stretch = 1.0 / (1.0 + at.stretch * v * v);
+  const double adiabatic = v * at.growth * stretch + at.twist * v * v * v;
+  if (v_c_ <= threshold_) return {-(1.0 - gamma_) * at.a / 2.0 + adiabatic, at.a / (2.0 * v * geometric_) * stretch};
   const double w = at.c * v * (1.0 - at.delay * v);
-  const double bounces = series_1_over_T(w);
-  return {-at.a / 2.0 * w * series_R(w) + adiabatic * bounces, at.a / (2.0 * v) * bounces};
+  const double per_T = series_1_over_T(w);
+  return {-at.a / 2.0 * w * series_R(w) + adiabatic * per_T, at.a / (2.0 * v) * per_T * stretch};
 }
 
 AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
@@ -87,12 +103,12 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const bool below = v_c_ > threshold_;
   if (!(a > 0.0) || (below && v > v_c_)) return false;
   const Surroundings at = surroundings(a, -higher_derivatives(bounce).g3, bounce.launch().phase, bounce.launch().u);
-  return smooth(2.0 * at.shortness, v) && (!below || at.c * v <= kMostLoss);
+  return smooth(at, 1.25 * v) && (!below || at.c * v <= kMostLoss);
 }
 
 // Classical Runge-Kutta.
-Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at, const Surroundings& end,
-                         const Chatter& c) const {
+Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at,
+                         const Surroundings& end, const Chatter& c) const {
   const Surroundings middle = surroundings(guide, s + dt / 2.0);
   const auto positive = [](double v) { return std::max(v, std::numeric_limits<double>::min()); };
   const Rate k1 = rate(at, c.v);
@@ -102,17 +118,17 @@ Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, c
   return {c.v + dt / 6.0 * (k1.v + 2.0 * (k2.v + k3.v) + k4.v), c.n + dt / 6.0 * (k1.n + 2.0 * (k2.n + k3.n) + k4.n)};
 }
 
-// Parts of the times in which v and a change by themselves. At the threshold 1e-5 a step is good to 3e-5 of n, and what that
-// shifts a bounce, v_c / (1 - gamma) of it at most, to the threshold; smaller thresholds take smaller steps.
+// Parts of the times in which v and a change by themselves: at the threshold 1e-5, good to 3e-5 of n for each factor e that v
+// falls, and to half the threshold of v. Smaller thresholds take smaller steps.
 double ChatterLaw::step_length(const Surroundings& at, double v) const {
   const double rate_of_v = std::abs(rate(at, v).v) / v, rate_of_a = std::abs(at.a1) / at.a;
   return fineness_ / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
 }
 
-// The last whole n of a step of which the end is known: bracketed, as n only grows.
+// The first whole n in a step of which the end is known: bracketed, as n only grows.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, double dt, const Surroundings& at,
                                     const Chatter& start, const Chatter& end) const {
-  const double n = std::floor(end.n);
+  const double n = std::floor(start.n) + 1.0;
   double low = 0.0, high = dt, part = dt * (n - start.n) / (end.n - start.n);
   Chatter c = start;
   constexpr int kMostSteps = 40;
@@ -128,8 +144,10 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
   return {ChatterEnd::exits, s + part, {c.v, n}};
 }
 
-AFM_MULTIVERSION ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, double from, double until,
-                                            const Chatter& start) const {
+// Each step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits,
+// for the state in the middle of a burst, it is not asked.
+AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
+                                               const Chatter& start, bool exits) const {
   double s = from;
   Chatter c = start;
   Surroundings at = surroundings(guide, s);
@@ -142,15 +160,21 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, dou
       if (!(s + dt > s)) return {ChatterEnd::exits, s, c};
     }
     const Chatter next = step(guide, s, dt, at, then, c);
-    const bool letting_go = !smooth(then.shortness, next.v);
-    if (letting_go && std::floor(next.n) >= std::ceil(c.n) && std::floor(next.n) > start.n) {
+    if (exits && !smooth(then, next.v) && next.n >= std::floor(c.n) + 1.0)
       return whole_bounce(guide, s, dt, at, c, next);
-    }
     s += dt;
     c = next;
     at = then;
   }
   return {c.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, s, c};
+}
+
+ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const {
+  return follow(guide, from, until, start, true);
+}
+
+Chatter ChatterLaw::at(const SlidePiece<double>& guide, double s, const Chatter& start) const {
+  return follow(guide, 0.0, s, start, false).chatter;
 }
 
 Settled settle(const Model& model, const TipState& state) {

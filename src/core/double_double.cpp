@@ -23,10 +23,14 @@ SinCos<DoubleDouble> sin_cos_turns(const DoubleDouble& x) {
   const SmallTurn<DoubleDouble> r = small_turn(x - DoubleDouble(0.25 * quarter));
   const DoubleDouble c = DoubleDouble(1.0) - r.versine;
   switch (static_cast<long long>(quarter) & 3) {
-    case 0: return {r.sin, c};
-    case 1: return {c, -r.sin};
-    case 2: return {-r.sin, -c};
-    default: return {-c, r.sin};
+    case 0:
+      return {r.sin, c};
+    case 1:
+      return {c, -r.sin};
+    case 2:
+      return {-r.sin, -c};
+    default:
+      return {-c, r.sin};
   }
 }
 

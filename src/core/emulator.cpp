@@ -10,13 +10,17 @@ std::vector<ParameterError> find_faults(const EmulatorSettings& s) {
   const auto require = [&](bool holds, const char* name, double value, const char* reason) {
     if (!holds) faults.emplace_back(name, value, reason);
   };
-  require(std::abs(s.eta) <= kMaxEta, "eta", s.eta, "the drag velocity must be finite and at most 1000 lattice spacings per tau");
-  require(s.sample_period > 0.0 && s.sample_period <= 1e6, "sample_period", s.sample_period, "must be above 0 and at most 1e6 tau");
-  require(s.samples_per_batch >= 1, "samples_per_batch", static_cast<double>(s.samples_per_batch), "must be at least 1");
-  require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window, "must be positive and finite");
+  require(std::abs(s.eta) <= kMaxEta, "eta", s.eta,
+          "the drag velocity must be finite and at most 1000 lattice spacings per tau");
+  require(s.sample_period > 0.0 && s.sample_period <= 1e6, "sample_period", s.sample_period,
+          "must be above 0 and at most 1e6 tau");
+  require(s.samples_per_batch >= 1, "samples_per_batch", static_cast<double>(s.samples_per_batch),
+          "must be at least 1");
+  require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window,
+          "must be positive and finite");
   require(s.impact_budget >= 1, "impact_budget", static_cast<double>(s.impact_budget), "must be at least 1");
-  require(s.contact_tolerance >= 0.0 && s.contact_tolerance <= kMaxContactTolerance, "contact_tolerance", s.contact_tolerance,
-          "must be between 0 (every bounce by itself) and 0.01");
+  require(s.contact_tolerance >= 0.0 && s.contact_tolerance <= kMaxContactTolerance, "contact_tolerance",
+          s.contact_tolerance, "must be between 0 (every bounce by itself) and 0.01");
   const FreeState& i = s.initial;
   const auto require_within = [&](const char* name, double value, double most, const char* reason) {
     require(std::abs(value) <= most, name, value, reason);

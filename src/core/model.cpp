@@ -30,7 +30,8 @@ std::vector<ParameterError> find_faults(const Model& m) {
   };
   require(m.frequency_ratio > 0.0 && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio", m.frequency_ratio,
           "omega_h/omega_v must be above 0 and at most 1000");
-  require(m.H > 0.0 && m.H <= kMaxAmplitude, "H", m.H, "the surface amplitude must be above 0 and at most 10 lattice spacings");
+  require(m.H > 0.0 && m.H <= kMaxAmplitude, "H", m.H,
+          "the surface amplitude must be above 0 and at most 10 lattice spacings");
   require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
           "the harmonic centre must be finite and below the crest, or the tip hovers and never touches");
   require(m.y0 >= -kMaxAmplitude, "y0", m.y0, "the harmonic centre must be at most 10 lattice spacings down");

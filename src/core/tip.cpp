@@ -32,10 +32,12 @@ std::uint32_t whole_count(double n) {
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
 }
 
-AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state, Flight<double>& flight) {
+AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
+                             Flight<double>& flight) {
   flight = Flight<double>(mechanics, eta, state);
 }
-AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const Reflection& bounce, Flight<double>& flight) {
+AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const Reflection& bounce,
+                             Flight<double>& flight) {
   flight = Flight<double>(mechanics, eta, bounce.after, bounce.surface);
 }
 
@@ -45,7 +47,8 @@ AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<
 
 AFM_MULTIVERSION GapJet<double> jet_of(const Flight<double>& flight, double s) { return flight.gap(s); }
 
-AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start) {
+AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta,
+                                               const SlideState<double>& start) {
   return SlidePiece<double>(mechanics, eta, start);
 }
 
@@ -115,7 +118,7 @@ void Tip::drag(double eta) {
   eta_ = eta;
   const SlideState<double> guide{state.phase, state.X, state.u};
   if (mode_ == Mode::sliding) return slide(guide);
-  if (mode_ == Mode::bursting) return burst(guide, law_.run(slide_, 0.0, s, chatter_).chatter);
+  if (mode_ == Mode::bursting) return burst(guide, law_.at(slide_, s, chatter_));
   const Mode due = mode_;
   fly(state);
   mode_ = due;
@@ -166,8 +169,13 @@ Outcome Tip::end_burst() {
   const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
   const Settled settled = settle(model_, bounce);
   const double before = burst_normal_speed_, after = settled.normal_speed;
-  last_impact_ = {now_, bounce.phase, before, settled.tangential_velocity, 0.5 * (before - after) * (before + after),
-                  ImpactKind::burst, whole_count(run.chatter.n)};
+  last_impact_ = {now_,
+                  bounce.phase,
+                  before,
+                  settled.tangential_velocity,
+                  0.5 * (before - after) * (before + after),
+                  ImpactKind::burst,
+                  whole_count(run.chatter.n)};
   fly(bounce);
   if (died) mode_ = Mode::touching;
   return Outcome::impact;
@@ -216,10 +224,14 @@ Outcome Tip::advance_arc(const ModelTime& limit) {
   }
   now_ = end;
   switch (mode_) {
-    case Mode::bursting: return end_burst();
-    case Mode::touching: return touch();
-    case Mode::sliding: return end_slide();
-    default: return end_flight();
+    case Mode::bursting:
+      return end_burst();
+    case Mode::touching:
+      return touch();
+    case Mode::sliding:
+      return end_slide();
+    default:
+      return end_flight();
   }
 }
 

@@ -34,8 +34,7 @@ std::vector<ParameterError> find_faults(const SiModel& si) {
   return faults;
 }
 
-Units::Units(const SiModel& si)
-    : a_(si.lattice_spacing_m), tau_(kTwoPi / si.omega_v_rad_per_s), m_(si.tip_mass_kg) {}
+Units::Units(const SiModel& si) : a_(si.lattice_spacing_m), tau_(kTwoPi / si.omega_v_rad_per_s), m_(si.tip_mass_kg) {}
 
 Model Units::to_natural(const SiModel& si) const {
   Model model;
