@@ -35,29 +35,37 @@ struct Comparison {
   double longest = 0.0;  // bounce, against every change
 };
 
-// Up to `most` bounces; the law is run from bounce to bounce in `parts` steps, or where that is 0 from the first to each.
+// Step by step: the law after a small part of the guide, and the guide from there on.
+struct LawStep {
+  Piece guide;
+  Chatter chatter;
+
+  void advance(const ChatterLaw& law, double dt) {
+    chatter = law.at(guide, dt, chatter);
+    guide = Piece(guide.mechanics(), guide.eta(), guide.at(dt));
+  }
+};
+
+// The law at up to `most` bounces: in `parts` steps from each to the next, or, where that is 0, in one run to each.
 Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most, int parts) {
   Comparison comparison;
   Tip tip = chatter.every_bounce();
-  ChatterRun run{ChatterEnd::time, 0.0, {chatter.v, 0.0}};
-  const double end = law.run(chatter.guide, 0.0, chatter.guide.length(), run.chatter).s;
+  const Chatter start{chatter.v, 0.0};
+  LawStep law_step{chatter.guide, start};
+  const double end = law.run(chatter.guide, 0.0, chatter.guide.length(), start).s;
+  double before = 0.0;
   for (int n = 1; n <= most; ++n) {
-    const double from = parts == 0 ? 0.0 : run.s;
-    if (parts == 0) run.chatter = {chatter.v, 0.0};
     tip.advance(kNever);
-    const double t = tip.now() - ModelTime{};
+    const double t = tip.now() - ModelTime{}, v = tip.tip_state().g1;
     if (t >= end) return comparison;
-    for (int part = 1; part <= std::max(1, parts); ++part) {
-      const double until = from + (t - from) * part / std::max(1, parts);
-      run = law.run(chatter.guide, part == 1 ? from : run.s, until, run.chatter);
-      if (run.end != ChatterEnd::time) return comparison;  // it may go on for a bounce or not
-    }
-    const double v = tip.tip_state().g1;
+    for (int part = 0; part < parts; ++part) law_step.advance(law, (t - before) / parts);
+    before = t;
+    const Chatter now = parts == 0 ? law.at(chatter.guide, t, start) : law_step.chatter;
     comparison.bounces = n;
-    comparison.last = {std::abs(run.chatter.n / n - 1.0), std::abs(run.chatter.v / v - 1.0)};
+    comparison.last = {std::abs(now.n / n - 1.0), std::abs(now.v / v - 1.0)};
     comparison.worst = {std::max(comparison.worst.n, comparison.last.n),
                         std::max(comparison.worst.v, comparison.last.v)};
-    comparison.worst_v = std::max(comparison.worst_v, std::abs(run.chatter.v - v));
+    comparison.worst_v = std::max(comparison.worst_v, std::abs(now.v - v));
     comparison.longest = std::max(comparison.longest, chatter.shortness(t));
   }
   return comparison;
