@@ -1,0 +1,66 @@
+// The error of bursts in the state at the next real impact, against the bounces one by one: a table, a row for each drag
+// speed and cutoff. Times in tau, lengths in lattice spacings.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "burst_trials.h"
+
+namespace {
+
+struct Options {
+  std::vector<double> eta{0.2, 0.5, 3.0, 5.0, 7.0, 9.0}, share{0.1, 0.01};
+  double tolerance = afm::kDefaultContactTolerance, gamma = 0.7, show = 0.0;
+  std::size_t bursts = 1000;
+  std::int64_t most_bounces = 100000;
+  unsigned seed = 1;
+};
+
+double quantile(std::vector<double>& sorted, double p) {
+  return sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(p * static_cast<double>(sorted.size())))];
+}
+
+void print_row(double eta, double share, const Options& o) {
+  afm::Model model;
+  model.gamma = o.gamma;
+  model.v_c = share * eta;
+  afm::BurstTrials trials(model, eta, o.tolerance, o.seed, o.most_bounces);
+  std::vector<double> worst, tempered;
+  double bounces = 0.0;
+  while (worst.size() < o.bursts) {
+    const afm::BurstTrial t = trials.next();
+    worst.push_back(t.worst());
+    tempered.push_back(t.tempered());
+    bounces += t.bounces;
+    if (o.show > 0.0 && t.worst() > o.show) {
+      std::printf("# burst %zu: dt %.2g phase %.2g X %.2g u %.2g g1 %.2g, normal speed %.2g, bounces %.0f\n", worst.size(), t.dt,
+                  t.phase, t.X, t.u, t.g1, t.normal_speed, t.bounces);
+    }
+  }
+  std::sort(worst.begin(), worst.end());
+  std::sort(tempered.begin(), tempered.end());
+  std::printf("%g,%g,%zu,%.0f,%ld,%.2g,%.2g,%.2g,%.2g,%.2g\n", eta, model.v_c, worst.size(), bounces, trials.skipped(),
+              quantile(worst, 0.5), quantile(worst, 0.99), worst.back(), quantile(tempered, 0.99), tempered.back());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  CLI::App app{"Error of bursts against bounces one by one (natural units)."};
+  app.add_option("--eta", o.eta, "drag speeds [a/tau]");
+  app.add_option("--share", o.share, "cutoffs, in parts of eta");
+  app.add_option("--gamma", o.gamma, "restitution");
+  app.add_option("--tolerance", o.tolerance, "contact tolerance");
+  app.add_option("--bursts", o.bursts, "how many of each");
+  app.add_option("--most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
+  app.add_option("--seed", o.seed, "of the starts");
+  app.add_option("--show", o.show, "print every burst with an error above this");
+  CLI11_PARSE(app, argc, argv);
+  std::printf("eta,v_c,bursts,bounces,skipped,median,99_percent,max,99_percent_tempered,max_tempered\n");
+  for (const double share : o.share) {
+    for (const double eta : o.eta) print_row(eta, share, o);
+  }
+}
