@@ -121,8 +121,12 @@ Chatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, c
 // Parts of the times in which v and a change by themselves: at the threshold 1e-5, good to 3e-5 of n for each factor e that v
 // falls, and to half the threshold of v. Smaller thresholds take smaller steps.
 double ChatterLaw::step_length(const Surroundings& at, double v) const {
-  const double rate_of_v = std::abs(rate(at, v).v) / v, rate_of_a = std::abs(at.a1) / at.a;
-  return fineness_ / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
+  const double loss = v_c_ <= threshold_ ? (1.0 - gamma_) * at.a / (2.0 * v) : at.c * at.a / 2.0;
+  const double rate_of_v = loss + std::abs(at.growth), rate_of_a = std::abs(at.a1) / at.a;
+  const double dt = fineness_ / std::max(4.0 * rate_of_v, 8.0 * rate_of_a);
+  // and not far beyond the threshold, so that n counts the bounces down to it
+  const double fall = -rate(at, v).v;
+  return fall > 0.0 ? std::min(dt, 1.02 * (v - threshold_) / fall) : dt;
 }
 
 // The first whole n in a step of which the end is known: bracketed, as n only grows.
@@ -144,8 +148,8 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
   return {ChatterEnd::exits, s + part, {c.v, n}};
 }
 
-// Each step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits,
-// for the state in the middle of a burst, it is not asked.
+// A step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits, for
+// the state in the middle of a burst, it is not asked.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
                                                const Chatter& start, bool exits) const {
   double s = from;
@@ -154,6 +158,8 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
   while (s < until && c.v > threshold_) {
     double dt = std::min(until - s, step_length(at, c.v));
     Surroundings then = surroundings(guide, s + dt);
+    // the last bounce of all lasts beyond the pressure: it is left where it is
+    if (!(s + dt > s) || 2.0 * c.v * std::abs(at.a1) > square(at.a)) return {ChatterEnd::exits, s, c};
     // past a maximum the pressure may fall faster than its rate foretells
     for (; !(then.a > kMostFall * at.a); then = surroundings(guide, s + dt)) {
       dt *= 0.5;
