@@ -11,8 +11,8 @@
 
 namespace afm {
 
-// Impacts slower than this are part of chatter: three times the fastest bounce that a burst of the default tolerance holds.
-constexpr double kRealImpact = 0.03;  // [a/tau]
+// Impacts slower than this are part of chatter: about three times the fastest bounce that a burst holds [a/tau].
+inline double slowest_real_impact(double tolerance) { return 3.0 * std::sqrt(tolerance); }
 
 struct BurstTrial {
   double bounces;              // one by one, up to the next real impact
@@ -78,7 +78,7 @@ class BurstTrials {
       if (outcome == Outcome::time_limit) return false;
       ++count;
       if (outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact &&
-          tip.last_impact().normal_speed > kRealImpact) {
+          tip.last_impact().normal_speed > slowest_real_impact(tolerance_)) {
         return true;
       }
     }

@@ -3,26 +3,13 @@
 
 #include <cmath>
 
-#include "afm_emulator/surface.h"
-#include "afm_emulator/tip.h"
+#include "energy_ledger.h"
 
 namespace afm {
 namespace {
 
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 constexpr double kEveryBounce = 0.0;  // contact tolerance
-
-// In the springs and in motion over the ground [m a^2/tau^2].
-double stored_energy(const Model& m, const FreeState& s) {
-  const double omega_h = kTwoPi * m.frequency_ratio, Y = s.y - m.y0;
-  return 0.5 * (s.u * s.u + s.w * s.w + omega_h * omega_h * s.X * s.X + kTwoPi * kTwoPi * Y * Y);
-}
-
-// Horizontal velocity before an impact.
-double incident_u(const Model& m, const Impact& impact) {
-  const double slope = surface_jet(m.H, impact.surface_phase).h1;
-  return (impact.tangential_velocity + slope * impact.normal_speed) / std::sqrt(1.0 + slope * slope);
-}
 
 struct Balance {
   double work, lost, stored;
