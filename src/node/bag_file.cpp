@@ -39,7 +39,7 @@ bool rename_without_overwriting(const std::string& from, const std::string& to) 
 
 }  // namespace
 
-BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes)
+BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::CompressionType compression)
     : path_(path), active_path_(path + ".active"), reserve_bytes_(reserve_bytes) {
   if (exists(path_)) throw std::runtime_error(path_ + ": there is such a bag already");
   create_exclusively(active_path_);
@@ -50,6 +50,7 @@ BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes)
   }
   auto bag = std::make_unique<rosbag::Bag>();
   bag->open(active_path_, rosbag::bagmode::Write);
+  bag->setCompression(compression);
   bag_ = std::move(bag);
 }
 
@@ -68,11 +69,12 @@ std::string BagFile::close() {
   } catch (const std::exception& error) {
     // The destructor would try again, throw again, and end the process: the bag is left to the process's end instead.
     static_cast<void>(bag_.release());
-    return active_path_ + ": " + error.what() + "; rosbag reindex recovers what is in it";
+    return std::string("closing it failed (") + error.what() + "): rosbag reindex " + active_path_ +
+           " recovers what is in it";
   }
   bag_.reset();
   if (rename_without_overwriting(active_path_, path_)) return {};
-  return active_path_ + " is complete but could not be renamed: " + std::strerror(errno);
+  return active_path_ + " is closed but could not be renamed: " + std::strerror(errno);
 }
 
 }  // namespace afm::node

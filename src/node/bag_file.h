@@ -22,7 +22,7 @@ struct BagTopic {
 class BagFile {
  public:
   // Throws std::runtime_error with the reason.
-  BagFile(const std::string& path, std::uint64_t reserve_bytes);
+  BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::CompressionType compression);
   ~BagFile();  // closes, whatever happens
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
@@ -37,10 +37,11 @@ class BagFile {
   // Whether the disk has room for so much more beside the reserve. False too when it cannot be asked.
   bool has_room(std::uint64_t bytes) const;
 
-  std::string close();  // returns what went wrong, or nothing
+  std::string close();  // returns what went wrong, with what to do about it, or nothing
 
   const std::string& path() const { return path_; }  // NAME.bag, where it will be
   std::uint64_t messages() const { return messages_; }
+  std::uint64_t bytes() const { return bag_->getSize(); }  // on disk
 
  private:
   std::string path_, active_path_;

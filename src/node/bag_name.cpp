@@ -6,6 +6,7 @@ namespace afm::node {
 namespace {
 
 constexpr std::size_t kMaxLength = 200;  // file systems take 255 bytes, and endings are added
+const std::string kEnding = ".bag";
 const std::string kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 const std::string kDigits = "0123456789";
 
@@ -29,7 +30,11 @@ std::string find_name_fault(const std::string& name) {
   return {};
 }
 
-std::string with_bag_ending(const std::string& name) { return ends_with(name, ".bag") ? name : name + ".bag"; }
+std::string with_bag_ending(const std::string& name) { return without_bag_ending(name) + kEnding; }
+
+std::string without_bag_ending(const std::string& name) {
+  return ends_with(name, kEnding) ? name.substr(0, name.size() - kEnding.size()) : name;
+}
 
 std::string name_from_time(std::time_t time) {
   std::tm local{};

@@ -1,6 +1,7 @@
 #include "broadcaster.h"
 
 #include "arithmetic_digest.h"
+#include "scheduling.h"
 #include "topics.h"
 #include "version.h"
 
@@ -8,6 +9,8 @@ namespace afm::node {
 namespace {
 
 constexpr std::chrono::milliseconds kStatusPeriod{100};
+constexpr std::chrono::milliseconds kDigestPeriod{1000};
+constexpr std::chrono::milliseconds kRequestDeadline{500};
 constexpr std::chrono::milliseconds kDiagnosticsPeriod{1000};  // as diagnostic aggregators expect
 
 // Due at whole periods, so that the rate is right whenever we look; periods that went by are not made up for.
@@ -24,14 +27,15 @@ bool is_due(std::chrono::steady_clock::time_point& due, std::chrono::millisecond
 Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, Sources sources)
     : parameters_(parameters),
       units_(parameters.si),
-      digest_(arithmetic_digest()),
+      arithmetic_digest_(arithmetic_digest()),
       sources_(std::move(sources)),
       deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize),
       impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
       friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize),
       applied_drag_(node, sources_.recorder, kAppliedDragTopic, kCommandQueueSize, true),
       status_(node, sources_.recorder, kStatusTopic, kStatusQueueSize),
-      configuration_(node, sources_.recorder, kConfigurationTopic, kConfigurationQueueSize, true) {
+      configuration_(node, sources_.recorder, kConfigurationTopic, kConfigurationQueueSize, true),
+      digest_(node, sources_.recorder, kDigestTopic, kDigestQueueSize) {
   diagnostics_.setHardwareID("none");
   using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
   diagnostics_.add("emulation", [this](Wrapper& out) { diagnose_emulation(latest_status_, out); });
@@ -49,6 +53,7 @@ void Broadcaster::stop() {
 }
 
 void Broadcaster::run() {
+  name_thread("afm_publish");
   Event event;
   Batch batch;
   for (bool last = false; !last;) {
@@ -60,6 +65,7 @@ void Broadcaster::run() {
     }
     tell_status();
   }
+  tell_digest();
 }
 
 void Broadcaster::publish(const Event& event, const Batch& batch) {
@@ -67,10 +73,10 @@ void Broadcaster::publish(const Event& event, const Batch& batch) {
   tracker_->observe(event);
   switch (event.kind) {
     case Event::Kind::reset:
-      configuration_.send(to_configuration(parameters_, kVersion, digest_, label));
+      begin_epoch(label);
       break;
     case Event::Kind::drag_applied:
-      applied_drag_.send(to_applied_drag(event.state.time, event.drag_velocity, label));
+      send(to_applied_drag(event.state, event.drag_velocity, label), applied_drag_);
       break;
     case Event::Kind::batch:
       publish_batch(event, batch, label);
@@ -81,10 +87,46 @@ void Broadcaster::publish(const Event& event, const Batch& batch) {
   }
 }
 
+void Broadcaster::begin_epoch(const Label& label) {
+  tell_digest();  // of the epoch that ends
+  auto configuration = to_configuration(parameters_, kVersion, arithmetic_digest_, label);
+  run_digest_ = RunDigest(configuration);
+  configuration_.send(std::move(configuration));
+}
+
 void Broadcaster::publish_batch(const Event& event, const Batch& batch, const Label& label) {
-  deflection_.send(to_deflection(batch, 1.0 / parameters_.sample_rate_hz, units_, label));
-  impacts_.send(to_impacts(batch, units_, label));
-  friction_.send(to_friction(batch, event.drag_velocity, units_, label));
+  send(to_deflection(batch, 1.0 / parameters_.sample_rate_hz, units_, label), deflection_);
+  send(to_impacts(batch, units_, label), impacts_);
+  send(to_friction(batch, event.drag_velocity, units_, label), friction_);
+}
+
+template <class Message>
+void Broadcaster::send(Message&& message, Channel<Message>& channel) {
+  run_digest_.add(message);
+  digest_told_ = false;
+  channel.send(std::move(message));
+}
+
+void Broadcaster::tell_digest() {
+  if (digest_told_) return;
+  auto message = run_digest_.message();
+  message.header.stamp = to_stamp(wall_now_ns());
+  digest_.send(std::move(message));
+  digest_told_ = true;
+}
+
+void Broadcaster::request_digest() {
+  std::unique_lock<std::mutex> lock(requests_);
+  digest_requested_ = true;
+  answered_.wait_for(lock, kRequestDeadline, [this] { return !digest_requested_; });
+}
+
+void Broadcaster::answer_request() {
+  const std::lock_guard<std::mutex> lock(requests_);
+  if (!digest_requested_) return;
+  tell_digest();
+  digest_requested_ = false;
+  answered_.notify_all();
 }
 
 void Broadcaster::tell_status() {
@@ -92,6 +134,8 @@ void Broadcaster::tell_status() {
     latest_status_ = tracker_->make(sources_.recorder.status(), sources_.refused_commands);
     status_.send(afm_emulator::EmulatorStatus(latest_status_));
   }
+  if (is_due(digest_due_, kDigestPeriod)) tell_digest();
+  answer_request();
   if (is_due(diagnostics_due_, kDiagnosticsPeriod)) diagnostics_.force_update();
 }
 

@@ -6,8 +6,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -16,6 +18,7 @@
 #include "message_conversion.h"
 #include "parameters.h"
 #include "recorder.h"
+#include "run_digest.h"
 #include "status.h"
 
 namespace afm::node {
@@ -34,16 +37,23 @@ class Broadcaster {
 
   void start(const std::string& scheduler);
   void stop();  // after all that is handed over is published
+  // Publishes a digest of all so far; returns when that is done, or after some time when it is not.
+  void request_digest();
 
  private:
   void run();
   void publish(const Event& event, const Batch& batch);
+  void begin_epoch(const Label& label);
   void publish_batch(const Event& event, const Batch& batch, const Label& label);
+  template <class Message>
+  void send(Message&& message, Channel<Message>& channel);
   void tell_status();
+  void tell_digest();
+  void answer_request();
 
   const Parameters parameters_;
   const Units units_;
-  const std::string digest_;
+  const std::string arithmetic_digest_;
   Sources sources_;
   Channel<afm_emulator::Deflection> deflection_;
   Channel<afm_emulator::ImpactArray> impacts_;
@@ -51,10 +61,16 @@ class Broadcaster {
   Channel<afm_emulator::AppliedDrag> applied_drag_;
   Channel<afm_emulator::EmulatorStatus> status_;
   Channel<afm_emulator::Configuration> configuration_;
+  Channel<afm_emulator::Digest> digest_;
   diagnostic_updater::Updater diagnostics_;
   std::unique_ptr<StatusTracker> tracker_;
   afm_emulator::EmulatorStatus latest_status_;
-  std::chrono::steady_clock::time_point status_due_, diagnostics_due_;
+  RunDigest run_digest_;  // of all that is published
+  bool digest_told_ = true;
+  std::chrono::steady_clock::time_point status_due_, digest_due_, diagnostics_due_;
+  std::mutex requests_;
+  std::condition_variable answered_;
+  bool digest_requested_ = false;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

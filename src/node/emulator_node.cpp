@@ -28,9 +28,14 @@ HandOver::Capacity hand_over_capacity(const Parameters& p) {
 }
 
 Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Parameters& p) {
-  return {p.bag_directory, static_cast<std::uint64_t>(p.disk_reserve_mb * 1e6),
-          make_bag_topic<afm_emulator::Configuration>(node.resolveName(kConfigurationTopic), true),
-          make_bag_topic<afm_emulator::AppliedDrag>(node.resolveName(kAppliedDragTopic), true)};
+  const BagSeries::Topics topics{
+      make_bag_topic<afm_emulator::Configuration>(node.resolveName(kConfigurationTopic), true),
+      make_bag_topic<afm_emulator::AppliedDrag>(node.resolveName(kAppliedDragTopic), true),
+      make_bag_topic<afm_emulator::Recording>(node.resolveName(kRecordingTopic), false)};
+  const auto bytes = [](double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); };
+  BagSeries::Settings settings{topics, bytes(p.disk_reserve_mb), bytes(p.split_size_mb), p.split_duration_s,
+                               p.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed};
+  return {p.bag_directory, settings};
 }
 
 }  // namespace
@@ -117,6 +122,7 @@ bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& req
 }
 
 bool EmulatorNode::on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  if (!recorder_.status().recording.empty()) broadcaster_->request_digest();  // the last stretch can be checked too
   const Recorder::Reply reply = recorder_.stop();
   response.success = reply.success;
   response.message = reply.message;

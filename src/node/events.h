@@ -27,6 +27,7 @@ struct Answer {
 struct StepperState {
   std::uint32_t epoch = 0;
   ModelTime time;
+  std::uint64_t impacts = 0;  // of this epoch, up to then
   double real_time_factor = 1.0;
   double lag = 0.0, worst_lag = 0.0;  // [s]
   std::uint64_t late_batches = 0;

@@ -82,10 +82,11 @@ afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, con
   return message;
 }
 
-afm_emulator::AppliedDrag to_applied_drag(const ModelTime& time, double drag_velocity, const Label& label) {
+afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const Label& label) {
   auto message = labelled<afm_emulator::AppliedDrag>(label);
-  message.time = to_message(time);
+  message.time = to_message(state.time);
   message.drag_velocity = drag_velocity;
+  message.first_impact = state.impacts;
   return message;
 }
 

@@ -37,7 +37,8 @@ afm_emulator::Deflection to_deflection(const Batch& batch, double sample_period_
 afm_emulator::Impact to_message(const Impact& impact, const Units& units);
 afm_emulator::ImpactArray to_impacts(const Batch& batch, const Units& units, const Label& label);
 afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, const Units& units, const Label& label);
-afm_emulator::AppliedDrag to_applied_drag(const ModelTime& time, double drag_velocity, const Label& label);
+// The state is that at which the command takes effect.
+afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const Label& label);
 
 // Those fields of the status that the stepping thread knows.
 afm_emulator::EmulatorStatus to_status(const StepperState& state, const Units& units, const Label& label);

@@ -71,6 +71,12 @@ void check_rates(const Parameters& p, Check& check) {
 
 void check_recording(const Parameters& p, Check& check) {
   check.within("disk_reserve_mb", p.disk_reserve_mb, kMinReserveMb, kMaxReserveMb);
+  // a bag holds chunks of 0.8 MB, and begins with all commands so far
+  if (p.split_size_mb != 0.0) check.within("split_size_mb", p.split_size_mb, 1.0, 1e9);
+  if (p.split_duration_s != 0.0) check.within("split_duration_s", p.split_duration_s, 0.1, 1e9);
+  if (p.compression != "none" && p.compression != "lz4") {
+    check.add({"compression", '"' + p.compression + '"', "there is no such compression: use none or lz4"});
+  }
   if (p.bag_directory.empty()) check.add({"bag_directory", "\"\"", "must name a directory"});
 }
 

@@ -39,7 +39,10 @@ std::map<std::string, Field> fields_of(Parameters& p) {
           {"contact_tolerance", &p.contact_tolerance},
           {"record", &p.record},
           {"bag_directory", &p.bag_directory},
-          {"disk_reserve_mb", &p.disk_reserve_mb}};
+          {"disk_reserve_mb", &p.disk_reserve_mb},
+          {"compression", &p.compression},
+          {"split_size_mb", &p.split_size_mb},
+          {"split_duration_s", &p.split_duration_s}};
 }
 
 std::string known_names(const std::map<std::string, Field>& fields) {

@@ -29,6 +29,9 @@ struct Parameters {
   bool record = false;
   std::string bag_directory = "~/afm_bags";
   double disk_reserve_mb = 200.0;                 // left free on the disk that is recorded to
+  std::string compression = "none";               // of bags: none or lz4
+  double split_size_mb = 0.0;                     // a recording goes on in a new bag after so much; 0: never
+  double split_duration_s = 0.0;                  // or after so long, of wall time; 0: never
 };
 
 // What is wrong with one parameter, told as given.

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "bag_name.h"
+#include "scheduling.h"
 
 namespace afm::node {
 namespace {
@@ -15,13 +16,18 @@ namespace {
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
 
-// The first name from the time that is not taken.
+bool is_taken(const std::filesystem::path& path) {
+  return exists(path) || std::filesystem::exists(path.string() + ".active");
+}
+
+// The first name from the time that is not taken, by a whole recording or by the first part of one.
 std::string free_name(const std::filesystem::path& directory) {
   const std::string base = name_from_time(std::time(nullptr));
   for (int i = 0;; ++i) {
-    const std::string name = i == 0 ? base : base + "_" + std::to_string(i);
-    const auto path = directory / with_bag_ending(name);
-    if (!exists(path) && !std::filesystem::exists(path.string() + ".active")) return name;
+    const std::string name = i == 0 ? base : base + "-" + std::to_string(i);
+    if (!is_taken(directory / with_bag_ending(name)) && !is_taken(directory / with_bag_ending(name + "_000"))) {
+      return name;
+    }
   }
 }
 
@@ -38,29 +44,31 @@ Recorder::~Recorder() {
   thread_.join();
 }
 
-std::unique_ptr<BagFile> Recorder::open(const std::string& name) const {
+std::unique_ptr<BagSeries> Recorder::open(const std::string& name) const {
   const std::string fault = name.empty() ? "" : find_name_fault(name);
   if (!fault.empty()) throw std::runtime_error("name = \"" + name + "\": " + fault);
   const std::filesystem::path directory = std::filesystem::absolute(expand_home(settings_.directory));
   std::filesystem::create_directories(directory);
   const std::string chosen = name.empty() ? free_name(directory) : name;
-  return std::make_unique<BagFile>((directory / with_bag_ending(chosen)).string(), settings_.reserve_bytes);
+  return std::make_unique<BagSeries>(settings_.bags, directory.string(), chosen);
 }
 
 Recorder::Reply Recorder::start(const std::string& name) {
   const std::lock_guard<std::mutex> one_at_a_time(starting_);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (bag_) return {false, "already recording " + bag_->path(), bag_->path()};
+    if (bags_) return {false, "already recording " + path_, path_};
   }
   try {
-    auto bag = open(name);
+    auto bags = open(name);
     const std::lock_guard<std::mutex> lock(mutex_);
-    bag_ = std::move(bag);
+    bags_ = std::move(bags);
+    path_ = bags_->path();
     error_.clear();
+    dropped_before_ = dropped_messages_;
     enqueue_history();
-    ROS_INFO_STREAM("recording " << bag_->path());
-    return {true, "recording " + bag_->path(), bag_->path()};
+    ROS_INFO_STREAM("recording " << path_);
+    return {true, "recording " + path_, path_};
   } catch (const std::exception& error) {
     return {false, error.what(), ""};
   }
@@ -68,33 +76,33 @@ Recorder::Reply Recorder::start(const std::string& name) {
 
 Recorder::Reply Recorder::stop() {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (!bag_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
+  if (!bags_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
   stopping_ = true;
   work_.notify_all();
-  if (!closed_.wait_for(lock, kCloseDeadline, [this] { return !bag_; })) {
-    return {false, bag_->path() + " is still being written to a slow disk", bag_->path()};
+  if (!closed_.wait_for(lock, kCloseDeadline, [this] { return !bags_; })) {
+    return {false, path_ + " is still being written to a slow disk", path_};
   }
-  if (!error_.empty()) return {false, error_, last_path_};
-  return {true, last_path_ + ": " + std::to_string(last_messages_) + " messages", last_path_};
+  if (!error_.empty()) return {false, error_, path_};
+  return {true, path_ + ": " + std::to_string(last_messages_) + " messages", path_};
 }
 
 Recorder::Status Recorder::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {bag_ ? bag_->path() : "", error_, dropped_messages_};
+  return {bags_ ? path_ : "", error_, dropped_messages_};
 }
 
 void Recorder::enqueue_history() {
   if (!history_.configuration()) return;  // nothing has happened yet
-  enqueue(settings_.configuration, history_.configuration());
+  enqueue(settings_.bags.topics.configuration, history_.configuration());
   for (const auto& command : history_.commands()) {
-    enqueue(settings_.applied_drag, boost::make_shared<const afm_emulator::AppliedDrag>(command));
+    enqueue(settings_.bags.topics.applied_drag, boost::make_shared<const afm_emulator::AppliedDrag>(command));
   }
 }
 
-// In the order of arrival even if the wall clock is set back, as readers of bags sort by this.
+// In the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by this.
 ros::Time Recorder::next_stamp() {
   const ros::WallTime now = ros::WallTime::now();
-  last_stamp_ = std::max(last_stamp_, ros::Time(now.sec, now.nsec));
+  last_stamp_ = std::max(last_stamp_ + ros::Duration(0, 1), ros::Time(now.sec, now.nsec));
   return last_stamp_;
 }
 
@@ -110,7 +118,8 @@ void Recorder::push(Item item) {
 
 void Recorder::write_loop() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (bag_ || !quitting_) {
+  name_thread("afm_record");
+  while (bags_ || !quitting_) {
     work_.wait(lock, [this] { return !queue_.empty() || stopping_; });
     if (queue_.empty()) {
       finish(lock, {});
@@ -119,22 +128,24 @@ void Recorder::write_loop() {
     const Item item = std::move(queue_.front());
     queue_.pop_front();
     queue_bytes_ -= item.bytes;
+    bags_->set_dropped(dropped_messages_ - dropped_before_);
     lock.unlock();
     std::string error = write(item);
     lock.lock();
+    path_ = bags_->path();
     if (!error.empty()) finish(lock, std::move(error));
   }
 }
 
 std::string Recorder::write(const Item& item) {
-  if (!bag_->has_room(item.bytes)) {
-    return bag_->path() + ": stopped and closed, as the disk is full but for the " +
-           std::to_string(settings_.reserve_bytes / 1000000) + " MB that stay free (disk_reserve_mb)";
+  if (!bags_->has_room(item.bytes)) {
+    return "stopped, as the disk is full but for the " + std::to_string(settings_.bags.reserve_bytes / 1000000) +
+           " MB that stay free (disk_reserve_mb)";
   }
   try {
-    item.write(*bag_);
+    item.write(*bags_);
   } catch (const std::exception& error) {
-    return bag_->path() + ": " + error.what();
+    return error.what();
   }
   return {};
 }
@@ -143,16 +154,17 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
   stopping_ = true;  // nothing more is queued while we close
   queue_.clear();
   queue_bytes_ = 0;
-  if (bag_) {
+  if (bags_) {
+    bags_->set_dropped(dropped_messages_ - dropped_before_);
     lock.unlock();
-    const std::string close_error = bag_->close();
+    const std::string close_error = bags_->close();
     lock.lock();
     if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;
-    last_path_ = bag_->path();
-    last_messages_ = bag_->messages();
-    bag_.reset();
+    if (!error.empty()) error = bags_->path() + ": " + error;
+    last_messages_ = bags_->messages();
+    bags_.reset();
     if (error.empty()) {
-      ROS_INFO_STREAM("recorded " << last_path_ << ": " << last_messages_ << " messages");
+      ROS_INFO_STREAM("recorded " << path_ << ": " << last_messages_ << " messages");
     } else {
       ROS_ERROR_STREAM("recording ended early: " << error);
     }

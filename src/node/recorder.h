@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "bag_file.h"
+#include "bag_series.h"
 #include "run_history.h"
 
 namespace afm::node {
@@ -22,8 +22,7 @@ class Recorder {
  public:
   struct Settings {
     std::string directory;
-    std::uint64_t reserve_bytes;
-    BagTopic configuration, applied_drag;  // of the history that a recording begins with
+    BagSeries::Settings bags;
   };
   struct Reply {
     bool success = false;
@@ -53,20 +52,20 @@ class Recorder {
  private:
   struct Item {
     std::size_t bytes;
-    std::function<void(BagFile&)> write;
+    std::function<void(BagSeries&)> write;
   };
 
-  bool recording() const { return bag_ != nullptr && !stopping_; }
+  bool recording() const { return bags_ != nullptr && !stopping_; }
   template <class Message>
   void enqueue(const BagTopic& topic, const boost::shared_ptr<const Message>& message) {
     const ros::Time stamp = next_stamp();
     push({ros::serialization::serializationLength(*message),
-          [topic, stamp, message](BagFile& bag) { bag.write(topic, stamp, *message); }});
+          [topic, stamp, message](BagSeries& bags) { bags.write(topic, stamp, message); }});
   }
   void push(Item item);
   ros::Time next_stamp();
   void enqueue_history();
-  std::unique_ptr<BagFile> open(const std::string& name) const;
+  std::unique_ptr<BagSeries> open(const std::string& name) const;
 
   void write_loop();
   std::string write(const Item& item);  // returns why the recording must end, or nothing
@@ -79,11 +78,12 @@ class Recorder {
   RunHistory history_;
   std::deque<Item> queue_;
   std::size_t queue_bytes_ = 0;
-  std::unique_ptr<BagFile> bag_;  // written and closed by the thread alone
+  std::unique_ptr<BagSeries> bags_;  // written and closed by the thread alone
+  std::string path_;                 // of the bag being written, or of the last one
   ros::Time last_stamp_;
-  std::string last_path_, error_;
+  std::string error_;
   std::uint64_t last_messages_ = 0;
-  std::uint64_t dropped_messages_ = 0;
+  std::uint64_t dropped_messages_ = 0, dropped_before_ = 0;  // before this recording
   bool stopping_ = false, quitting_ = false;
   std::thread thread_;
 };

@@ -1,5 +1,5 @@
-// What a bag begun in mid-run must be told first, so that the run can be simulated again from the start of its epoch:
-// the configuration and every drag command since then.
+// What a bag must be told first, so that a run under way can be simulated again from the start of its epoch: the
+// configuration and every drag command since then.
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>

@@ -44,6 +44,13 @@ std::string claim_real_time() {
   return lock_memory() ? "fifo" : "fifo, memory not locked: RLIMIT_MEMLOCK";
 }
 
+void name_thread(const char* name) { pthread_setname_np(pthread_self(), name); }
+
+std::int64_t wall_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 std::chrono::nanoseconds monotonic_now() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

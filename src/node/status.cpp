@@ -1,6 +1,6 @@
 #include "status.h"
 
-#include <chrono>
+#include "scheduling.h"
 
 namespace afm::node {
 namespace {
@@ -48,8 +48,7 @@ void StatusTracker::move_mark() {
 
 afm_emulator::EmulatorStatus StatusTracker::make(const Recorder::Status& recorder, std::uint64_t refused_commands) {
   move_mark();
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const Label label{to_stamp(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()), state_.epoch};
+  const Label label{to_stamp(wall_now_ns()), state_.epoch};
   auto message = to_status(state_, units_, label);
   message.impacts_per_tau = impacts_per_tau_;
   message.refused_commands = refused_commands;

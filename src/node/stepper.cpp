@@ -13,11 +13,6 @@ constexpr std::size_t kMaxWaitingRequests = 1024;
 // While paused: how soon a stop is noticed without a request.
 constexpr std::chrono::milliseconds kPausedLook{100};
 
-std::int64_t wall_now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 }  // namespace
 
 Stepper::Stepper(const Parameters& parameters, HandOver& hand_over)
@@ -49,6 +44,7 @@ bool Stepper::submit(const Request& request) {
 }
 
 void Stepper::run() {
+  name_thread("afm_step");
   running_.set_value(claim_real_time());
   pacer_.resume(monotonic_now());
   publish(Event::Kind::reset);
@@ -114,6 +110,8 @@ void Stepper::pause(bool paused) {
 
 void Stepper::reset() {
   emulator_.reset();
+  batch_.first_impact = 0;
+  batch_.impacts.clear();
   drag_velocity_ = parameters_.drag_velocity;
   ++epoch_;
   publish(Event::Kind::reset);
@@ -148,6 +146,7 @@ StepperState Stepper::state() {
   StepperState state;
   state.epoch = epoch_;
   state.time = emulator_.now();
+  state.impacts = batch_.first_impact + batch_.impacts.size();
   state.real_time_factor = paused_ ? 0.0 : pacer_.real_time_factor();
   state.lag = std::max(pacer_.lag(), overdue);
   worst_lag_ = std::max({worst_lag_, pacer_.worst_lag(), overdue});

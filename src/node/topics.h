@@ -10,6 +10,8 @@ constexpr char kFrictionTopic[] = "friction";
 constexpr char kAppliedDragTopic[] = "applied_drag";
 constexpr char kStatusTopic[] = "status";
 constexpr char kConfigurationTopic[] = "configuration";
+constexpr char kDigestTopic[] = "digest";
+constexpr char kRecordingTopic[] = "recording";  // in bags alone
 
 constexpr char kResetService[] = "reset";
 constexpr char kPauseService[] = "pause";
@@ -22,6 +24,8 @@ constexpr unsigned kBatchQueueSize = 100;
 // Commands, of which none may be lost on the way in or out, as nobody would count it. Ten times what the stepping thread
 // takes before it refuses more, which is counted.
 constexpr unsigned kCommandQueueSize = 10000;
+// One a second.
+constexpr unsigned kDigestQueueSize = 100;
 // A second of status.
 constexpr unsigned kStatusQueueSize = 10;
 // Only the latest matters.

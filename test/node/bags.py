@@ -10,6 +10,16 @@ def info_exit_code(path):
     return subprocess.run(['rosbag', 'info', path], stdout=subprocess.DEVNULL).returncode
 
 
+def is_mark(topic):
+    """Of the recorder, which stands in bags alone."""
+    return topic == NAMESPACE + '/recording'
+
+
+def marks(path):
+    with rosbag.Bag(path) as bag:
+        return [message for _, message, _ in bag.read_messages(topics=[NAMESPACE + '/recording'])]
+
+
 def short(topic):
     return topic[len(NAMESPACE) + 1:]
 
@@ -19,7 +29,8 @@ def read(path):
     messages = {name: [] for name in TOPICS}
     with rosbag.Bag(path) as bag:
         for topic, message, _ in bag.read_messages():
-            messages[short(topic)].append(message)
+            if not is_mark(topic):
+                messages[short(topic)].append(message)
     return messages
 
 
@@ -28,7 +39,8 @@ def read_raw(path):
     messages = {name: [] for name in TOPICS}
     with rosbag.Bag(path) as bag:
         for topic, (_, data, _, _, _), _ in bag.read_messages(raw=True):
-            messages[short(topic)].append(data)
+            if not is_mark(topic):
+                messages[short(topic)].append(data)
     return messages
 
 

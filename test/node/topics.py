@@ -3,11 +3,11 @@ import threading
 import time
 
 import rospy
-from afm_emulator.msg import AppliedDrag, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray
+from afm_emulator.msg import AppliedDrag, Configuration, Deflection, Digest, EmulatorStatus, Friction, ImpactArray
 
 NAMESPACE = '/afm'
 TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied_drag': AppliedDrag,
-          'status': EmulatorStatus, 'configuration': Configuration}
+          'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest}
 
 _news = threading.Condition()
 
@@ -44,6 +44,9 @@ class Topic:
         path = name if name.startswith('/') else NAMESPACE + '/' + name
         self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
         Topic._open.append(self)
+
+    def is_connected(self):
+        return self._subscriber.get_num_connections() > 0
 
     def close(self):
         self._subscriber.unregister()

@@ -1,0 +1,133 @@
+#include "resimulation.h"
+
+#include <algorithm>
+
+#include "node/message_conversion.h"
+#include "node/parameters.h"
+
+namespace afm::replay {
+namespace {
+
+template <class T>
+std::vector<T> part_of(const std::vector<T>& values, std::uint64_t base, std::uint64_t first, std::uint64_t count) {
+  const std::uint64_t size = values.size();
+  const std::uint64_t begin = first < base ? 0 : std::min(first - base, size);
+  const std::uint64_t end = begin + std::min(count, size - begin);
+  return {values.begin() + static_cast<std::ptrdiff_t>(begin), values.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+template <class T>
+void drop_before(std::vector<T>& values, std::uint64_t base, std::uint64_t first) {
+  const std::uint64_t dropped = first < base ? 0 : std::min<std::uint64_t>(first - base, values.size());
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(dropped));
+}
+
+}  // namespace
+
+Resimulation::Resimulation(const EpochLog& log)
+    : log_(log),
+      units_(node::si_model(log.configuration)),
+      emulator_(node::emulator_settings(log.configuration)),
+      drag_velocity_(log.configuration.drag_velocity),
+      digest_(log.configuration) {}
+
+double Resimulation::batch_length() const {
+  return static_cast<double>(settings().samples_per_batch) * settings().sample_period;
+}
+
+bool Resimulation::is_due(const afm_emulator::AppliedDrag& command, const ModelTime& time,
+                          std::optional<std::uint64_t> impacts) const {
+  const ModelTime begin = node::from_message(command.time);
+  // at the same time: before an impact that is asked for
+  return begin < time || (begin == time && impacts && command.first_impact < *impacts);
+}
+
+void Resimulation::run_to(const ModelTime& time, std::optional<std::uint64_t> impacts) {
+  while (next_command_ < log_.commands.size() && is_due(log_.commands[next_command_], time, impacts)) {
+    const auto& command = log_.commands[next_command_];
+    run_flights(node::from_message(command.time), command.first_impact);
+    apply_next_command();
+  }
+  run_flights(time, impacts);
+}
+
+void Resimulation::apply_commands(std::uint64_t commands) {
+  while (next_command_ < std::min<std::uint64_t>(commands, log_.commands.size()) &&
+         node::from_message(log_.commands[next_command_].time) <= now()) {
+    apply_next_command();
+  }
+}
+
+void Resimulation::apply_next_command() {
+  auto command = log_.commands[next_command_++];
+  drag_velocity_ = command.drag_velocity;
+  emulator_.drag(node::to_eta(drag_velocity_, node::si_model(log_.configuration)));
+  command.time = node::to_message(now());  // what we have come to, for the digest
+  command.first_impact = impacts();
+  digest_.add(command);
+}
+
+// An impact and the end of a batch may have the same time; then the number tells which is first.
+void Resimulation::run_flights(const ModelTime& time, std::optional<std::uint64_t> wanted) {
+  const auto lacks_impacts = [&] { return wanted && impacts() < *wanted; };
+  while (now() < time || (now() == time && lacks_impacts())) {
+    if (lacks_impacts()) {
+      emulator_.run_impacts(*wanted - impacts(), batch_);
+    } else if (time - now() > batch_length()) {
+      emulator_.run_batch(batch_);
+    } else {
+      emulator_.run_until(time, batch_);
+    }
+    take(batch_);
+  }
+}
+
+void Resimulation::take(const Batch& batch) {
+  const node::Label label{{}, log_.configuration.epoch};
+  const auto deflection = node::to_deflection(batch, log_.configuration.sample_period, units_, label);
+  const auto impacts = node::to_impacts(batch, units_, label);
+  vertical_.insert(vertical_.end(), deflection.vertical.begin(), deflection.vertical.end());
+  lateral_.insert(lateral_.end(), deflection.lateral.begin(), deflection.lateral.end());
+  impacts_.insert(impacts_.end(), impacts.impacts.begin(), impacts.impacts.end());
+  digest_.add(deflection);
+  digest_.add(impacts);
+  drop_unwanted();
+}
+
+afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint64_t count) const {
+  afm_emulator::Deflection message;
+  message.time = node::to_message(sample_time(first));
+  message.first_sample = first;
+  message.sample_period = log_.configuration.sample_period;
+  message.vertical = part_of(vertical_, first_sample_, first, count);
+  message.lateral = part_of(lateral_, first_sample_, first, count);
+  return message;
+}
+
+afm_emulator::ImpactArray Resimulation::impacts(std::uint64_t first, std::uint64_t count) const {
+  afm_emulator::ImpactArray message;
+  message.first_index = first;
+  message.impacts = part_of(impacts_, first_impact_, first, count);
+  return message;
+}
+
+afm_emulator::Friction Resimulation::friction() const {
+  return node::to_friction(batch_, drag_velocity_, units_, {{}, log_.configuration.epoch});
+}
+
+void Resimulation::forget(std::uint64_t samples_before, std::uint64_t impacts_before) {
+  wanted_sample_ = std::max(wanted_sample_, samples_before);
+  wanted_impact_ = std::max(wanted_impact_, impacts_before);
+  drop_unwanted();
+}
+
+void Resimulation::drop_unwanted() {
+  const std::uint64_t sample_end = samples(), impact_end = impacts();
+  drop_before(vertical_, first_sample_, wanted_sample_);
+  drop_before(lateral_, first_sample_, wanted_sample_);
+  drop_before(impacts_, first_impact_, wanted_impact_);
+  first_sample_ = sample_end - vertical_.size();
+  first_impact_ = impact_end - impacts_.size();
+}
+
+}  // namespace afm::replay

@@ -1,0 +1,65 @@
+// One epoch of a run again, from its configuration and its commands, as far as it is asked to go. What it gives is in
+// messages as the node would have published them, without stamps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "afm_emulator/emulator.h"
+#include "afm_emulator/units.h"
+#include "node/run_digest.h"
+#include "run_log.h"
+
+namespace afm::replay {
+
+class Resimulation {
+ public:
+  explicit Resimulation(const EpochLog& log);
+
+  // Emulates up to `time`, and of the impacts at `time` itself as many as make `impacts` in all; without a number, all.
+  // Commands take effect at their times; one that took effect at the very end of this is left to the next call.
+  void run_to(const ModelTime& time, std::optional<std::uint64_t> impacts);
+  // Commands up to so many in all, as far as they take effect now.
+  void apply_commands(std::uint64_t commands);
+
+  ModelTime now() const { return emulator_.now(); }
+  std::uint64_t samples() const { return first_sample_ + vertical_.size(); }
+  std::uint64_t impacts() const { return first_impact_ + impacts_.size(); }
+  const afm_emulator::AppliedDrag& last_command() const { return log_.commands[next_command_ > 0 ? next_command_ - 1 : 0]; }
+  ModelTime sample_time(std::uint64_t sample) const { return multiply(sample, settings().sample_period); }
+  double batch_length() const;  // [tau]
+  double time_unit() const { return units_.time(); }
+  const EmulatorSettings& settings() const { return emulator_.settings(); }
+
+  // What was emulated and is not forgotten; less than asked for where it was not.
+  afm_emulator::Deflection deflection(std::uint64_t first, std::uint64_t count) const;
+  afm_emulator::ImpactArray impacts(std::uint64_t first, std::uint64_t count) const;
+  afm_emulator::Friction friction() const;  // at now()
+  void forget(std::uint64_t samples_before, std::uint64_t impacts_before);
+
+  node::RunDigest& digest() { return digest_; }  // of all that was emulated; estimates are added by who asks for them
+
+ private:
+  bool is_due(const afm_emulator::AppliedDrag& command, const ModelTime& time,
+              std::optional<std::uint64_t> impacts) const;
+  void apply_next_command();
+  void run_flights(const ModelTime& time, std::optional<std::uint64_t> impacts);
+  void take(const Batch& batch);
+  void drop_unwanted();
+
+  const EpochLog& log_;
+  const Units units_;
+  Emulator emulator_;
+  Batch batch_;
+  std::size_t next_command_ = 0;
+  double drag_velocity_;  // in force [m/s]
+  std::uint64_t first_sample_ = 0, first_impact_ = 0;    // of those kept
+  std::uint64_t wanted_sample_ = 0, wanted_impact_ = 0;  // of those before it none is kept
+  std::vector<double> vertical_, lateral_;             // [m]
+  std::vector<afm_emulator::Impact> impacts_;
+  node::RunDigest digest_;
+};
+
+}  // namespace afm::replay

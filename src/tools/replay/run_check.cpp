@@ -1,0 +1,192 @@
+#include "run_check.h"
+
+#include "node/message_conversion.h"
+#include "node/topics.h"
+
+namespace afm::replay {
+namespace {
+
+std::uint64_t end_of(const afm_emulator::Deflection& batch) { return batch.first_sample + batch.vertical.size(); }
+std::uint64_t end_of(const afm_emulator::ImpactArray& batch) { return batch.first_index + batch.impacts.size(); }
+
+std::string to_text(const ModelTime& time) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%lld + %.17g tau", static_cast<long long>(time.tau), time.phase);
+  return text;
+}
+
+// When what differs happened.
+ModelTime time_of(const afm_emulator::Deflection& batch, std::size_t index, const Resimulation& simulation) {
+  return simulation.sample_time(batch.first_sample + index);
+}
+ModelTime time_of(const afm_emulator::ImpactArray& batch, std::size_t index, const Resimulation& simulation) {
+  return index < batch.impacts.size() ? node::from_message(batch.impacts[index].time) : simulation.now();
+}
+ModelTime time_of(const afm_emulator::Friction& batch, std::size_t, const Resimulation&) {
+  return node::from_message(batch.time);
+}
+
+}  // namespace
+
+RunCheck::RunCheck(const Recording& recording, Progress progress)
+    : log_(recording),
+      batches_(recording),
+      digests_(recording.topic(node::kDigestTopic)),
+      recorded_(log_),
+      progress_(std::move(progress)) {
+  for (const auto& bag : recording.bags()) digests_.add(bag->bag, bag->path);
+}
+
+void RunCheck::run() {
+  RecordedBatch batch;
+  // after a difference only as far as the next digest, which tells whose it is
+  while (!(difference_ && difference_->altered) && batches_.next(batch)) {
+    if (epoch_ != batch.epoch) begin_epoch(batch);
+    if (!difference_) compare(batch);
+    remember(batch);
+    check_digests(batch);
+    progress_(static_cast<double>(batches_.read()) / static_cast<double>(batches_.size()), end_);
+  }
+  finish_epoch();
+}
+
+void RunCheck::begin_epoch(const RecordedBatch& batch) {
+  const bool first = !epoch_;
+  if (!first) {
+    follows(*epoch_, batch.epoch, "epoch");
+    finish_epoch();
+  }
+  epoch_ = batch.epoch;
+  const bool from_start = !first || (batch.deflection && batch.deflection->first_sample == 0);
+  next_sample_ = from_start ? std::optional<std::uint64_t>(0) : std::nullopt;
+  recorded_.begin(batch.epoch);
+  if (!from_start) recorded_.gap();
+  last_batch_.reset();
+  if (difference_) return;
+  simulation_ = std::make_unique<Resimulation>(log_.epoch(batch.epoch));
+  begin_ = from_start || !batch.deflection ? ModelTime{} : node::from_message(batch.deflection->time);
+  if (!from_start) {
+    simulation_->forget(batch.deflection ? batch.deflection->first_sample : 0,
+                        batch.impacts ? batch.impacts->first_index : 0);
+  }
+  ++extent_.epochs;
+}
+
+// Figures that decide how far to simulate must fit together, or an altered one would keep us busy for ever.
+bool RunCheck::is_plausible(const RecordedBatch& batch) {
+  if (!batch.deflection) return true;
+  const afm_emulator::Deflection& deflection = *batch.deflection;
+  const std::uint64_t missing = last_batch_ ? batch.sequence - *last_batch_ - 1 : 0;
+  const std::uint64_t most = missing * simulation_->settings().samples_per_batch;
+  if (next_sample_ && (deflection.first_sample < *next_sample_ || deflection.first_sample - *next_sample_ > most)) {
+    const FieldDifference field{"deflection.first_sample", std::to_string(deflection.first_sample),
+                                std::to_string(*next_sample_), 0};
+    differ(batch, field, simulation_->now());
+    return false;
+  }
+  if (!batch.friction) return true;
+  const ModelTime end = node::from_message(batch.friction->time), limit = simulation_->sample_time(end_of(deflection));
+  const bool after_last = end_of(deflection) == 0 || simulation_->sample_time(end_of(deflection) - 1) < end;
+  if (after_last && end <= limit) return true;
+  differ(batch, {"friction.time", to_text(end), "not after " + to_text(limit), 0}, limit);
+  return false;
+}
+
+void RunCheck::run_to_end_of(const RecordedBatch& batch) {
+  const auto impacts = batch.impacts ? std::optional<std::uint64_t>(end_of(*batch.impacts)) : std::nullopt;
+  const ModelTime samples_end = batch.deflection ? simulation_->sample_time(end_of(*batch.deflection)) : ModelTime{};
+  const ModelTime end = batch.friction ? node::from_message(batch.friction->time) : samples_end;
+  // a batch whose end is not told may have ended before the next sample was due
+  simulation_->run_to(end, batch.friction ? impacts : std::nullopt);
+}
+
+void RunCheck::compare(const RecordedBatch& batch) {
+  if (!is_plausible(batch)) return;
+  const ModelTime from = simulation_->now();
+  run_to_end_of(batch);
+  extent_.model_seconds += (simulation_->now() - from) * simulation_->time_unit();
+  if (batch.deflection) {
+    const auto& recorded = *batch.deflection;
+    expect_same(batch, recorded, simulation_->deflection(recorded.first_sample, recorded.vertical.size()));
+    extent_.samples += recorded.vertical.size();
+    next_sample_ = end_of(recorded);
+  }
+  if (batch.impacts) {
+    const auto& recorded = *batch.impacts;
+    // all that happened, if nothing else tells how many there should be
+    const std::uint64_t count = batch.friction ? simulation_->impacts() - std::min(simulation_->impacts(), recorded.first_index)
+                                               : recorded.impacts.size();
+    expect_same(batch, recorded, simulation_->impacts(recorded.first_index, count));
+    extent_.impacts += recorded.impacts.size();
+  }
+  if (batch.friction) {
+    auto simulated = simulation_->friction();
+    expect_same(batch, *batch.friction, simulated);
+    simulation_->digest().add(simulated);
+    ++extent_.estimates;
+    end_ = simulation_->now();
+  }
+  simulation_->forget(batch.deflection ? end_of(*batch.deflection) : 0, batch.impacts ? end_of(*batch.impacts) : 0);
+}
+
+template <class Message>
+void RunCheck::expect_same(const RecordedBatch& batch, const Message& recorded, const Message& simulated) {
+  if (difference_) return;
+  const auto field = find_difference(recorded, simulated);
+  if (field) differ(batch, *field, time_of(recorded, field->index, *simulation_));
+}
+
+void RunCheck::differ(const RecordedBatch& batch, const FieldDifference& field, const ModelTime& time) {
+  difference_ = Difference{field, batch.epoch, batch.sequence, time, simulation_->last_command(), std::nullopt};
+}
+
+void RunCheck::remember(const RecordedBatch& batch) {
+  if (!batch.is_whole() || (last_batch_ && batch.sequence != *last_batch_ + 1)) recorded_.gap();
+  if (batch.is_whole()) {
+    recorded_.add(*batch.deflection);
+    recorded_.add(*batch.impacts);
+    recorded_.add(*batch.friction);
+  }
+  last_batch_ = batch.sequence;
+}
+
+// Digests that stand after this batch; those of batches that are not there are passed over.
+void RunCheck::check_digests(const RecordedBatch& batch) {
+  if (!batch.is_whole()) return;
+  const ModelTime end = node::from_message(batch.friction->time);
+  for (; digests_.head() != nullptr; digests_.pop()) {
+    const afm_emulator::Digest& told = *digests_.head();
+    if (told.epoch > batch.epoch) return;
+    const ModelTime time = node::from_message(told.time);
+    if (told.epoch == batch.epoch && end < time) return;
+    const bool here = told.epoch == batch.epoch && time == end;
+    if (here && (told.samples > end_of(*batch.deflection) || told.impacts > end_of(*batch.impacts))) return;
+    if (here) check_digest(batch, told);
+  }
+}
+
+void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told) {
+  const auto contradiction = recorded_.check(told);
+  ++extent_.digests;
+  if (difference_) {
+    difference_->altered = contradiction.has_value();
+  } else if (contradiction) {
+    differ(batch, *contradiction, node::from_message(told.time));
+    difference_->altered = true;
+  }
+  if (difference_) return;
+  simulation_->apply_commands(told.commands);
+  auto simulated = simulation_->digest().message();
+  simulated.estimates = told.estimates;  // not repeated before the recording began
+  simulated.estimates_digest = told.estimates_digest;
+  if (const auto field = find_difference(told, simulated)) differ(batch, *field, node::from_message(told.time));
+}
+
+void RunCheck::finish_epoch() {
+  if (!simulation_) return;
+  extent_.compared_seconds += (end_ - begin_) * simulation_->time_unit();
+  extent_.commands += log_.epoch(*epoch_).commands.size();
+  simulation_.reset();
+}
+
+}  // namespace afm::replay
