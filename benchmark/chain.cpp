@@ -1,0 +1,109 @@
+#include "chain.h"
+
+#include <utility>
+
+#include "afm_emulator/tip.h"
+#include "cpu_clock.h"
+
+namespace afm {
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double limit) : limit_(limit) {}
+  double seconds() const { return thread_seconds() - start_; }
+  // looks at the clock now and then only
+  bool over() { return (++looks_ & 15) == 0 && seconds() > limit_; }
+
+ private:
+  double start_ = thread_seconds();
+  double limit_;
+  unsigned looks_ = 0;
+};
+
+class TipRunner : public Runner {
+ public:
+  TipRunner(const Model& model, double eta, const TipState& start, double tolerance)
+      : tip_(model, eta, start, tolerance) {}
+
+  ChainResult run(double tau, double eta, std::uint64_t most_impacts, double most_seconds) override {
+    ChainResult r;
+    Stopwatch watch(most_seconds);
+    const ModelTime begin = tip_.now(), end = begin + tau;
+    if (eta != tip_.eta()) tip_.drag(eta);
+    while (r.impacts < most_impacts && r.finished) {
+      const Outcome outcome = tip_.advance(end);
+      if (outcome == Outcome::time_limit) break;
+      if (outcome == Outcome::search_failed) r.failed = true;
+      if (outcome == Outcome::impact) {
+        r.energy += tip_.last_impact().energy_loss;
+        r.impacts += tip_.last_impact().count;
+      }
+      r.finished = !watch.over();
+    }
+    r.seconds = watch.seconds();
+    r.tau = tip_.now() - begin;
+    r.end = tip_.tip_state();
+    return r;
+  }
+
+ private:
+  Tip tip_;
+};
+
+class ChainRunner : public Runner {
+ public:
+  ChainRunner(const Model& model, const TipState& start, std::unique_ptr<rivals::Method> method)
+      : model_(model), state_(start), method_(std::move(method)) {}
+
+  ChainResult run(double tau, double eta, std::uint64_t most_impacts, double most_seconds) override {
+    ChainResult r;
+    Stopwatch watch(most_seconds);
+    while (r.tau < tau && r.impacts < most_impacts && r.finished && !r.failed) {
+      // a piece at a time: a method that crawls is stopped between them
+      const double piece = std::fmin(kPiece, tau - r.tau);
+      const rivals::Hit hit = method_->next_impact(model_, eta, state_, piece);
+      if (hit.kind == rivals::Hit::failed) r.failed = true;
+      const double before = r.tau;
+      r.tau += hit.kind == rivals::Hit::none ? piece : hit.dt;
+      if (hit.kind == rivals::Hit::impact) {
+        r.energy += hit.energy_loss;
+        ++r.impacts;
+        stuck_ = r.tau > before ? 0 : stuck_ + 1;
+      }
+      if (!r.failed) state_ = hit.after;
+      if (stuck_ >= kStuck) r.stuck = true;
+      r.finished = !watch.over() && !r.stuck;
+    }
+    r.seconds = watch.seconds();
+    r.end = state_;
+    return r;
+  }
+
+ private:
+  static constexpr double kPiece = 8.0;  // [tau]
+  static constexpr int kStuck = 1000;    // impacts without any time between them
+  Model model_;
+  TipState state_;
+  std::unique_ptr<rivals::Method> method_;
+  int stuck_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Runner> make_tip_runner(const Model& model, double eta, const TipState& start, double tolerance) {
+  return std::make_unique<TipRunner>(model, eta, start, tolerance);
+}
+
+std::unique_ptr<Runner> make_chain_runner(const Model& model, const TipState& start,
+                                          std::unique_ptr<rivals::Method> method) {
+  return std::make_unique<ChainRunner>(model, start, std::move(method));
+}
+
+std::unique_ptr<Runner> make_runner(const std::string& method, double setting, const Model& model, double eta,
+                                    const TipState& start) {
+  if (method == "exact") return make_tip_runner(model, eta, start, setting);
+  return make_chain_runner(model, start, rivals::find_method(method)->make(setting));
+}
+
+}  // namespace afm

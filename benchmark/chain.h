@@ -1,0 +1,41 @@
+// A run of a method from impact to impact, with its books: time, energy, impacts, what it cost.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rivals/method.h"
+
+namespace afm {
+
+struct ChainResult {
+  double tau = 0.0;  // reached
+  double energy = 0.0;
+  std::uint64_t impacts = 0;
+  double seconds = 0.0;
+  bool failed = false;   // left all bounds, or the method gave up
+  bool stuck = false;    // a thousand impacts have passed no time
+  bool finished = true;  // false: stuck, or the seconds were spent first
+  TipState end;
+
+  double K_f(double eta) const { return energy / (eta * eta * tau); }
+};
+
+// A method over model time, from one state to another. Ours is the tip as the emulator has it, with bursts and contact.
+class Runner {
+ public:
+  virtual ~Runner() = default;
+  // Goes on for `tau`, with `eta`, until that, `most_impacts` or `most_seconds` of this thread are over.
+  virtual ChainResult run(double tau, double eta, std::uint64_t most_impacts, double most_seconds) = 0;
+};
+
+std::unique_ptr<Runner> make_tip_runner(const Model& model, double eta, const TipState& start, double tolerance);
+std::unique_ptr<Runner> make_chain_runner(const Model& model, const TipState& start,
+                                          std::unique_ptr<rivals::Method> method);
+// By the method's name; `exact` is the tip, and its setting the contact tolerance.
+std::unique_ptr<Runner> make_runner(const std::string& method, double setting, const Model& model, double eta,
+                                    const TipState& start);
+
+constexpr std::uint64_t kAnyImpacts = ~std::uint64_t{0};
+
+}  // namespace afm

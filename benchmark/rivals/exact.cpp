@@ -1,0 +1,42 @@
+// Ours, one flight: exact flow, guaranteed search, reflection.
+#include "afm_emulator/flight.h"
+#include "afm_emulator/impact_search.h"
+#include "afm_emulator/multiversion.h"
+#include "afm_emulator/reflection.h"
+#include "method.h"
+
+namespace afm {
+namespace rivals {
+namespace {
+
+AFM_MULTIVERSION void launch(const Model& model, double eta, const TipState& start, Flight<double>& flight) {
+  flight = Flight<double>(Mechanics<double>(model), eta, start);
+}
+AFM_MULTIVERSION Hit bounce(const Model& model, double eta, const Landing<double>& landing) {
+  const Reflection r = reflect(model, eta, landing.jet.state, std::fmin(landing.jet.g1, 0.0));
+  return {Hit::impact, landing.s, r.after, r.energy_loss};
+}
+
+class Exact : public Method {
+ public:
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+    launch(model, eta, start, flight_);
+    const Landing<double> landing = find_landing(model, flight_, horizon);
+    if (landing.outcome == SearchOutcome::impact) return bounce(model, eta, landing);
+    TipState there = flight_.tip_state(landing.s);
+    const bool clear = landing.outcome == SearchOutcome::clear;
+    return {clear ? Hit::none : Hit::failed, landing.s, there, 0.0};
+  }
+
+ private:
+  Flight<double> flight_{Mechanics<double>(Model{}), 1.0, TipState{0.0, 0.0, 1.0, 1.0, 0.0}};
+};
+
+}  // namespace
+
+MethodSpec exact_spec() {
+  return {"exact", "contact tolerance", {0.0}, 0.0, [](double) { return std::make_unique<Exact>(); }};
+}
+
+}  // namespace rivals
+}  // namespace afm

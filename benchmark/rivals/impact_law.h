@@ -1,0 +1,71 @@
+// What the event methods share: the reflection by the lab velocity, and the crossing of zero, bracketed and solved.
+#pragma once
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+
+#include "method.h"
+#include "oscillator.h"
+
+namespace afm {
+namespace rivals {
+
+inline double restitution(const Model& m, double normal_speed) {
+  return normal_speed >= m.v_c ? m.gamma : 1.0 - (1.0 - m.gamma) * normal_speed / m.v_c;
+}
+
+// v' = v - (1 + e) n (n.v), on the surface at the phase of p.
+inline Hit reflect(const Oscillator& o, const Point& p, double s) {
+  const double x = o.phase(p, s), h1 = o.slope(x), n2 = 1.0 + h1 * h1, u = o.eta + p[1];
+  const double rate = std::fmin(p[3] - h1 * u, 0.0), speed = -rate / std::sqrt(n2);
+  const double e = restitution(o.model, speed);
+  return {Hit::impact,
+          s,
+          {x - std::floor(x), p[0], u + (1.0 + e) * h1 * rate / n2, 0.0, -e * rate},
+          0.5 * (1.0 - e * e) * speed * speed};
+}
+
+// Looks for the first fall of a gap through zero, span by span, at a spacing of at most `grid`.
+class CrossingWatch {
+ public:
+  CrossingWatch(const Oscillator& o, double grid) : from_(o.first_look(grid)), grid_(grid), first_(o.on_surface) {}
+
+  // In [t0, t1], where `gap` can be evaluated; negative where there is none. Spans follow each other.
+  template <class Gap>
+  double look(const Gap& gap, double t0, double t1) {
+    double low = std::fmax(t0, from_);
+    if (low >= t1) return -1.0;
+    double at_low = gap(low);
+    if (first_) {
+      // the flight is shorter than its parabola: back until the gap is positive
+      for (int i = 0; at_low <= 0.0 && i < 60; ++i) at_low = gap(low = t0 + 0.5 * (low - t0));
+      first_ = false;
+    }
+    if (at_low <= 0.0) return low;
+    while (low < t1) {
+      const double high = std::fmin(t1, low + grid_), at_high = gap(high);
+      if (at_high <= 0.0) return solve(gap, low, high, at_low, at_high);
+      low = high;
+      at_low = at_high;
+    }
+    return -1.0;
+  }
+
+ private:
+  template <class Gap>
+  static double solve(const Gap& gap, double low, double high, double at_low, double at_high) {
+    if (at_high == 0.0) return high;
+    boost::uintmax_t most = 100;
+    const auto root = boost::math::tools::toms748_solve(gap, low, high, at_low, at_high,
+                                                        boost::math::tools::eps_tolerance<double>(52), most);
+    return 0.5 * (root.first + root.second);
+  }
+
+  double from_, grid_;
+  bool first_;
+};
+
+constexpr double kGrid = 0.02;  // [tau]: an eighth of a turn of the horizontal spring
+
+}  // namespace rivals
+}  // namespace afm

@@ -1,0 +1,54 @@
+// One interface for every method of the comparison: from a start to the next impact.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "afm_emulator/model.h"
+#include "afm_emulator/state.h"
+
+namespace afm {
+namespace rivals {
+
+struct Hit {
+  enum Kind { impact, none, failed };  // none: the horizon came first; failed: the method gave up or left all bounds
+  Kind kind;
+  double dt;             // [tau]
+  TipState after;        // after the impact, or at the horizon
+  double energy_loss;    // [m a^2/tau^2]
+  double contact = 0.0;  // an impact that takes time began so long before dt [tau]
+};
+
+class Method {
+ public:
+  virtual ~Method() = default;
+  // A start with gap 0 is a start just after an impact.
+  virtual Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) = 0;
+};
+
+struct MethodSpec {
+  std::string name;
+  std::string setting_is;        // what the setting means
+  std::vector<double> settings;  // coarse to fine
+  double usual;                  // the one a careful user would choose
+  std::function<std::unique_ptr<Method>(double setting)> make;
+};
+
+// Those that this program was built with, ours first.
+const std::vector<MethodSpec>& methods();
+const MethodSpec* find_method(const std::string& name);
+
+MethodSpec exact_spec();
+MethodSpec sampled_spec();
+MethodSpec dopri5_spec();
+MethodSpec bulirsch_stoer_spec();
+std::vector<MethodSpec> cvode_specs();  // none where SUNDIALS was not found
+MethodSpec rk4_spec();
+MethodSpec moreau_jean_spec();
+MethodSpec semi_implicit_euler_spec();
+MethodSpec penalty_spec();
+
+}  // namespace rivals
+}  // namespace afm

@@ -1,0 +1,26 @@
+#include "method.h"
+
+namespace afm {
+namespace rivals {
+
+const std::vector<MethodSpec>& methods() {
+  static const std::vector<MethodSpec> all = [] {
+    std::vector<MethodSpec> list{exact_spec(), sampled_spec(), dopri5_spec(), bulirsch_stoer_spec()};
+    for (MethodSpec& spec : cvode_specs()) list.push_back(std::move(spec));
+    for (MethodSpec spec : {rk4_spec(), moreau_jean_spec(), semi_implicit_euler_spec(), penalty_spec()}) {
+      list.push_back(std::move(spec));
+    }
+    return list;
+  }();
+  return all;
+}
+
+const MethodSpec* find_method(const std::string& name) {
+  for (const MethodSpec& spec : methods()) {
+    if (spec.name == name) return &spec;
+  }
+  return nullptr;
+}
+
+}  // namespace rivals
+}  // namespace afm

@@ -1,0 +1,76 @@
+// Boost.Odeint with adaptive steps and dense output: each step's interpolant is sampled, and solved where it crosses zero.
+#include <boost/numeric/odeint.hpp>
+#include <type_traits>
+
+#include "impact_law.h"
+
+namespace afm {
+namespace rivals {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+using Dopri5 = odeint::result_of::make_dense_output<odeint::runge_kutta_dopri5<Point>>::type;
+using BulirschStoer = odeint::bulirsch_stoer_dense_out<Point>;
+
+template <class Stepper>
+Stepper make_stepper(double tolerance);
+template <>
+Dopri5 make_stepper<Dopri5>(double tolerance) {
+  return odeint::make_dense_output(tolerance, tolerance, odeint::runge_kutta_dopri5<Point>());
+}
+template <>
+BulirschStoer make_stepper<BulirschStoer>(double tolerance) {
+  return BulirschStoer(tolerance, tolerance);
+}
+
+template <class Stepper>
+class Odeint : public Method {
+ public:
+  Odeint(double tolerance, double first_step) : stepper_(make_stepper<Stepper>(tolerance)), first_step_(first_step) {}
+
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+    const Oscillator o(model, eta, start);
+    const auto rate = [&o](const Point& p, Point& dpdt, double) { dpdt = o.rate(p); };
+    Point p;
+    const auto gap = [&](double s) {
+      stepper_.calc_state(s, p);
+      return o.gap(p, s);
+    };
+    CrossingWatch watch(o, kGrid);
+    stepper_.initialize(o.begin, 0.0, first_step_);
+    for (;;) {
+      const std::pair<double, double> span = stepper_.do_step(rate);
+      const double s = watch.look(gap, span.first, std::fmin(span.second, horizon));
+      if (s >= 0.0) {
+        stepper_.calc_state(s, p);
+        return reflect(o, p, s);
+      }
+      if (span.second < horizon) continue;
+      stepper_.calc_state(horizon, p);
+      return {Hit::none, horizon, o.tip_state(p, horizon), 0.0};
+    }
+  }
+
+ private:
+  Stepper stepper_;
+  double first_step_;
+};
+
+}  // namespace
+
+MethodSpec dopri5_spec() {
+  return {"odeint_dopri5", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
+            // near the step that it will settle at
+            return std::make_unique<Odeint<Dopri5>>(tolerance, 0.1 * std::pow(tolerance, 0.2));
+          }};
+}
+
+MethodSpec bulirsch_stoer_spec() {
+  return {"odeint_bulirsch_stoer", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
+            return std::make_unique<Odeint<BulirschStoer>>(tolerance, kGrid);
+          }};
+}
+
+}  // namespace rivals
+}  // namespace afm

@@ -1,0 +1,50 @@
+// The exact flow in closed form, sampled at a fixed spacing; TOMS 748 where the gap has changed sign.
+#include <algorithm>
+
+#include "impact_law.h"
+
+namespace afm {
+namespace rivals {
+namespace {
+
+class Sampled : public Method {
+ public:
+  explicit Sampled(double spacing) : spacing_(spacing) {}
+
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+    const Oscillator o(model, eta, start);
+    const auto gap = [&o](double s) {
+      const Point& b = o.begin;
+      const double wh = kTwoPi * o.model.frequency_ratio;
+      const double X = b[0] * std::cos(wh * s) + b[1] / wh * std::sin(wh * s);
+      const double Y = b[2] * std::cos(kTwoPi * s) + b[3] / kTwoPi * std::sin(kTwoPi * s);
+      return Y + o.model.y0 - o.height(o.c + o.eta * s + X);
+    };
+    CrossingWatch watch(o, spacing_);
+    const double s = watch.look(gap, 0.0, horizon);
+    if (s < 0.0) return {Hit::none, horizon, o.tip_state(flow(o, horizon), horizon), 0.0};
+    return reflect(o, flow(o, s), s);
+  }
+
+ private:
+  static Point flow(const Oscillator& o, double s) {
+    const Point& b = o.begin;
+    const double wh = kTwoPi * o.model.frequency_ratio;
+    const double ch = std::cos(wh * s), sh = std::sin(wh * s), cv = std::cos(kTwoPi * s), sv = std::sin(kTwoPi * s);
+    return {b[0] * ch + b[1] / wh * sh, b[1] * ch - b[0] * wh * sh, b[2] * cv + b[3] / kTwoPi * sv,
+            b[3] * cv - b[2] * kTwoPi * sv};
+  }
+
+  double spacing_;
+};
+
+}  // namespace
+
+MethodSpec sampled_spec() {
+  return {"sampled_toms748", "spacing", {0.05, 0.02, 0.005, 0.001}, 0.02, [](double setting) {
+            return std::make_unique<Sampled>(setting);
+          }};
+}
+
+}  // namespace rivals
+}  // namespace afm

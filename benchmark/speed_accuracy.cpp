@@ -1,0 +1,173 @@
+// Every method on the same flights: time per impact against true error, impacts missed and impacts that are none. CSV.
+#include "speed_accuracy.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+#include "afm_emulator/tip.h"
+
+namespace {
+
+using afm::Contender;
+using afm::SpeedRow;
+
+const char kDescription[] =
+    "Runs every method on the same flights and writes a CSV table: time per impact (median of alternated rounds, and "
+    "its\n"
+    "ratio to ours in the same rounds), error of impact time and state against 113 bits (the largest of all, units a "
+    "and\n"
+    "tau), impacts missed and phantom. Scenes: etaE_vcS (flights on the attractor at drag velocity E, cutoff S eta), "
+    "all\n"
+    "(these together), kf_2, kf_3, kf_3.4 (the error is that of K_f over a run; missed and phantom count impacts "
+    "against\n"
+    "the reference's rate). `setting` is the tolerance or the step of the method.";
+
+struct Options {
+  bool quick = false;
+  std::vector<std::string> methods, scenes;
+  std::size_t flights = 400;
+  int rounds = 5;
+  double seconds = 2.0, tau = 1000.0, run_seconds = 60.0;
+  unsigned seed = 1;
+  std::string output;
+};
+
+struct FlightSceneName {
+  std::string name;
+  double eta, share;
+};
+
+std::vector<FlightSceneName> flight_scenes() {
+  std::vector<FlightSceneName> names;
+  for (const double share : {0.1, 0.01}) {
+    for (const double eta : {0.5, 1.5, 2.0, 2.5, 3.4, 4.5, 6.0, 8.0}) {
+      char name[40];
+      std::snprintf(name, sizeof name, "eta%g_vc%g", eta, share);
+      names.push_back({name, eta, share});
+    }
+  }
+  return names;
+}
+
+const std::vector<std::string> kFrictionScenes{"kf_2", "kf_3", "kf_3.4"};
+
+bool chosen(const std::vector<std::string>& list, const std::string& name) {
+  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+}
+
+std::vector<Contender> contenders(const Options& o, bool tips) {
+  std::vector<Contender> all;
+  for (const afm::rivals::MethodSpec& spec : afm::rivals::methods()) {
+    if (!chosen(o.methods, spec.name)) continue;
+    std::vector<double> settings = o.quick ? std::vector<double>{spec.usual} : spec.settings;
+    if (tips && spec.name == "exact") settings = {0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
+    for (const double setting : settings) all.push_back({&spec, setting});
+  }
+  return all;
+}
+
+void shorten(Options& o) {
+  o.flights = std::min<std::size_t>(o.flights, 60);
+  o.rounds = 2;
+  o.seconds = 0.3;
+  o.tau = 20.0;
+  o.run_seconds = 0.5;
+  if (o.scenes.empty()) o.scenes = {"eta0.5_vc0.1", "eta2_vc0.1", "eta3.4_vc0.1", "all", "kf_2"};
+  std::fprintf(
+      stderr,
+      "speed_accuracy: --quick: one setting a method, %zu flights a scene, 2 rounds, runs of %g tau. Left out: "
+      "all scenes but eta0.5_vc0.1, eta2_vc0.1, eta3.4_vc0.1 and kf_2, unless --scenes names them\n",
+      o.flights, o.tau);
+}
+
+// Names that are none are an error, not an empty table.
+bool check_names(const Options& o) {
+  std::vector<std::string> scenes = kFrictionScenes, methods;
+  scenes.push_back("all");
+  for (const auto& scene : flight_scenes()) scenes.push_back(scene.name);
+  for (const auto& spec : afm::rivals::methods()) methods.push_back(spec.name);
+  const auto check = [](const char* kind, const std::vector<std::string>& given,
+                        const std::vector<std::string>& known) {
+    for (const std::string& name : given) {
+      if (chosen(known, name)) continue;
+      std::fprintf(stderr, "speed_accuracy: --%s %s: unknown, or not built in; there are:", kind, name.c_str());
+      for (const std::string& k : known) std::fprintf(stderr, " %s", k.c_str());
+      std::fprintf(stderr, "\n");
+      return false;
+    }
+    return true;
+  };
+  return check("methods", o.methods, methods) && check("scenes", o.scenes, scenes);
+}
+
+afm::FrictionScene friction_scene(const std::string& name, const Options& o) {
+  if (name == "kf_2") return afm::even_scene(2.0);
+  if (name == "kf_3") return afm::long_run_scene(name, 3.0, 0.01, o.tau, false);
+  return afm::long_run_scene(name, 3.4, 0.1, 100.0 * o.tau, true);
+}
+
+void run(const Options& o, std::FILE* out) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const afm::Progress progress = [&](const std::string& scene, const Contender& c) {
+    if (terminal) std::fprintf(stderr, "\r\033[K%s: %s %g", scene.c_str(), c.spec->name.c_str(), c.setting);
+  };
+  const auto done = [&](const std::string& scene) {
+    std::fprintf(stderr, terminal ? "\r\033[K" : "%s done\n", scene.c_str());
+  };
+  afm::print_header(out);
+  std::vector<std::vector<SpeedRow>> scenes;
+  for (const FlightSceneName& name : flight_scenes()) {
+    if (!chosen(o.scenes, name.name)) continue;
+    afm::Model model;
+    model.v_c = name.share * name.eta;
+    const afm::FlightScene scene = afm::sample_attractor(name.name, model, name.eta, o.flights, o.seed);
+    scenes.push_back(afm::measure_flights(scene, contenders(o, false), o.rounds, o.seconds, progress));
+    for (const SpeedRow& row : scenes.back()) afm::print(row, out);
+    done(name.name);
+  }
+  if (chosen(o.scenes, "all") && !scenes.empty()) {
+    for (const SpeedRow& row : afm::pool(scenes, "all")) afm::print(row, out);
+  }
+  for (const std::string& name : kFrictionScenes) {
+    if (!chosen(o.scenes, name)) continue;
+    const auto rows =
+        afm::measure_friction(friction_scene(name, o), contenders(o, true), o.tau, o.run_seconds, progress);
+    for (const SpeedRow& row : rows) afm::print(row, out);
+    done(name);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  CLI::App app{kDescription, "speed_accuracy"};
+  app.add_flag("--quick", o.quick, "within 40 s; says what it leaves out");
+  app.add_option("--methods", o.methods, "only these")->delimiter(',');
+  app.add_option("--scenes", o.scenes, "only these")->delimiter(',');
+  app.add_option("--flights", o.flights, "flights a scene")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", o.rounds, "times each is measured")->check(CLI::PositiveNumber);
+  app.add_option("--seconds", o.seconds, "no further round for a method that has used so much on a scene");
+  app.add_option("--tau", o.tau, "length of the runs for K_f")->check(CLI::PositiveNumber);
+  app.add_option("--run-seconds", o.run_seconds, "a run for K_f ends there, wherever it is");
+  app.add_option("--seed", o.seed, "of the choice of flights");
+  app.add_option("--output", o.output, "file for the table; default: standard output");
+  CLI11_PARSE(app, argc, argv);
+  if (!check_names(o)) return 1;
+  if (o.quick) shorten(o);
+  std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
+  if (out == nullptr) {
+    std::fprintf(stderr, "speed_accuracy: cannot write '%s'\n", o.output.c_str());
+    return 1;
+  }
+  run(o, out);
+  const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
+  if (out != stdout) std::fclose(out);
+  if (!written) std::fprintf(stderr, "speed_accuracy: cannot write the output\n");
+  return written ? 0 : 1;
+}

@@ -1,0 +1,79 @@
+#include <cmath>
+
+#include "afm_emulator/tip.h"
+#include "chain.h"
+#include "speed_accuracy.h"
+
+namespace afm {
+namespace {
+
+Model mica(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+constexpr double kForever = 1e9;  // [s]
+
+// After a transient, in the middle of a flight: so neither end of a run of whole tau on a periodic orbit is near an impact.
+TipState settled(const Model& model, double eta, std::int64_t tau) {
+  constexpr double kLong = 0.1;  // [tau]
+  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  while (tip.now().tau < tau) tip.advance({tau, 0.0});
+  for (;;) {
+    const ModelTime begin = tip.now();
+    const double flight = tip.arc_end() - begin;
+    if (!tip.in_contact() && tip.last_impact().kind == ImpactKind::impact && flight > kLong) {
+      tip.advance(begin + 0.5 * flight);
+      return tip.tip_state();
+    }
+    tip.advance({2 * tau, 0.0});
+  }
+}
+
+}  // namespace
+
+FrictionScene even_scene(double eta) {
+  FrictionScene scene{"kf_" + std::to_string(static_cast<int>(eta)), mica(0.1 * eta), eta, {}, 0.0, 2.0};
+  const double s = kTwoPi * scene.model.H, gamma = scene.model.gamma;
+  scene.K_f = 4.0 * (1.0 + gamma) / (1.0 - gamma) * s * s / (1.0 + s * s);
+  scene.start = settled(scene.model, eta, 1000);
+  return scene;
+}
+
+FrictionScene long_run_scene(const std::string& name, double eta, double cutoff_share, double tau, bool chaotic) {
+  FrictionScene scene{name, mica(cutoff_share * eta), eta, {}, 0.0, 0.0};
+  scene.start = settled(scene.model, eta, 1000);
+  // a chaotic reference starts elsewhere on the attractor, a periodic one at the same point
+  const TipState begin = chaotic ? settled(scene.model, eta, 1777) : scene.start;
+  const ChainResult r = make_tip_runner(scene.model, eta, begin, 0.0)->run(tau, eta, kAnyImpacts, kForever);
+  scene.K_f = r.K_f(eta);
+  scene.impacts_per_tau = static_cast<double>(r.impacts) / r.tau;
+  return scene;
+}
+
+std::vector<SpeedRow> measure_friction(const FrictionScene& scene, const std::vector<Contender>& contenders, double tau,
+                                       double most_seconds, const Progress& progress) {
+  std::vector<SpeedRow> rows;
+  const auto run = [&](const std::string& method, double setting) {
+    return make_runner(method, setting, scene.model, scene.eta, scene.start)
+        ->run(tau, scene.eta, kAnyImpacts, most_seconds);
+  };
+  for (const Contender& c : contenders) {
+    progress(scene.name, c);
+    const ChainResult before = run("exact", 0.0), r = run(c.spec->name, c.setting), ours = run("exact", 0.0);
+    SpeedRow row{c, scene.name};
+    row.impacts = static_cast<long long>(r.impacts);
+    row.ns = 1e9 * r.seconds / static_cast<double>(r.impacts);
+    row.ratio = row.ns / (1e9 * std::fmin(before.seconds, ours.seconds) / static_cast<double>(ours.impacts));
+    const double error = r.failed || r.stuck ? INFINITY : std::abs(r.K_f(scene.eta) / scene.K_f - 1.0);
+    row.error_median = row.error_p99 = row.error_max = error;
+    const double difference = static_cast<double>(r.impacts) - scene.impacts_per_tau * r.tau;
+    row.missed = std::llround(std::fmax(0.0, -difference));
+    row.phantom = std::llround(std::fmax(0.0, difference));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace afm

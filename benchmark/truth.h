@@ -1,0 +1,24 @@
+// The next impact in 113 bits: what every method's answer is set against.
+#pragma once
+
+#include "afm_emulator/model.h"
+#include "afm_emulator/state.h"
+#include "quad.h"  // before the templates that find its functions
+#include "rivals/method.h"
+
+namespace afm {
+
+struct Truth {
+  bool impact;              // false: none within the horizon
+  Quad dt, phase, X, u, w;  // after the impact, lab velocities
+  double normal_speed, energy_loss;
+  TipState after;  // the same in doubles
+};
+
+Truth next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon);
+
+// The largest of the errors in time, phase, extension and velocities after the impact [tau, a, a/tau]. A method whose
+// impact took time is compared with the truth as far on.
+double error_of(const rivals::Hit& hit, const Truth& truth, const Model& model, double eta);
+
+}  // namespace afm
