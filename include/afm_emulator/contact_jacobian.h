@@ -1,0 +1,33 @@
+// How displacements are carried where the surface holds the tip. Of the four directions of a section two are left in contact:
+// the normal velocity is gone, and with it the time at which the last bounce would have been. A displacement is then one of the
+// slide, (dx, dX, du), of which the part along the slide itself does not count.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "afm_emulator/chatter.h"
+#include "afm_emulator/flight.h"
+#include "afm_emulator/jacobian.h"
+#include "afm_emulator/model.h"
+#include "afm_emulator/slide.h"
+
+namespace afm {
+
+using SlideJacobian = Eigen::Matrix3d;
+
+// A slide of duration s [tau] from `start`, released or not: exact derivative of its Taylor series, piece after piece.
+SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s);
+
+// d(x, X, u)/dt of a slide: the direction that does not count.
+Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<double>& q);
+
+// The guide and the normal speed (settle() of chatter.h) by the state after a bounce: by dx, dX, du, dg1.
+Eigen::Matrix4d settle_jacobian(const Model& model, const TipState& bounce);
+
+// From after the first bounce of a burst, `start`, to after its last, `duration` later, which leaves a normal speed. The bounces
+// go by the averaged law of chatter to second order in the loss of one, and leave the guide where it is: good to the relative size
+// of what a bounce loses and lasts, a few per cent at most.
+SectionJacobian<double> burst_jacobian(const Model& model, double eta, const TipState& start, double duration,
+                                       const TipState& end);
+
+}  // namespace afm
