@@ -43,10 +43,10 @@ BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::C
     : path_(path), active_path_(path + ".active"), reserve_bytes_(reserve_bytes) {
   if (exists(path_)) throw std::runtime_error(path_ + ": there is such a bag already");
   create_exclusively(active_path_);
-  if (!has_room(kLeastRecording)) {
+  const std::string trouble = find_trouble(kLeastRecording);
+  if (!trouble.empty()) {
     unlink(active_path_.c_str());
-    throw std::runtime_error(path_ + ": the disk has no room beside the " + std::to_string(reserve_bytes_ / 1000000) +
-                             " MB that stay free (disk_reserve_mb)");
+    throw std::runtime_error(path_ + ": " + trouble);
   }
   auto bag = std::make_unique<rosbag::Bag>();
   bag->open(active_path_, rosbag::bagmode::Write);
@@ -56,10 +56,12 @@ BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::C
 
 BagFile::~BagFile() { close(); }
 
-bool BagFile::has_room(std::uint64_t bytes) const {
+std::string BagFile::find_trouble(std::uint64_t bytes) const {
   struct statvfs disk {};
-  if (statvfs(active_path_.c_str(), &disk) != 0) return false;
-  return disk.f_bavail * disk.f_frsize >= reserve_bytes_ + kChunkSlack + bytes;
+  if (statvfs(active_path_.c_str(), &disk) != 0) return active_path_ + ": " + std::strerror(errno);
+  if (disk.f_bavail * disk.f_frsize >= reserve_bytes_ + kChunkSlack + bytes) return {};
+  return "the disk is full but for the " + std::to_string(reserve_bytes_ / 1000000) +
+         " MB that stay free (disk_reserve_mb)";
 }
 
 std::string BagFile::close() {

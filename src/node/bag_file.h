@@ -34,8 +34,8 @@ class BagFile {
     ++messages_;
   }
 
-  // Whether the disk has room for so much more beside the reserve. False too when it cannot be asked.
-  bool has_room(std::uint64_t bytes) const;
+  // Why so much more had better not be written: no room beside the reserve, or the file is gone. Nothing: it can be.
+  std::string find_trouble(std::uint64_t bytes) const;
 
   std::string close();  // returns what went wrong, with what to do about it, or nothing
 

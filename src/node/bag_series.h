@@ -43,7 +43,7 @@ class BagSeries {
 
   // How many messages the recorder has dropped so far: the marks tell.
   void set_dropped(std::uint64_t messages) { dropped_ = messages; }
-  bool has_room(std::uint64_t bytes) const { return bag_->has_room(bytes); }
+  std::string find_trouble(std::uint64_t bytes) const { return bag_->find_trouble(bytes); }
   std::string close();  // returns what went wrong, or nothing
 
   const std::string& path() const { return bag_->path(); }  // of the present bag

@@ -115,6 +115,7 @@ bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::S
 bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& request,
                                       afm_emulator::StartRecording::Response& response) {
   const Recorder::Reply reply = recorder_.start(request.name);
+  if (reply.success) broadcaster_->request_digest();  // from which the first stretch can be checked
   response.success = reply.success;
   response.message = reply.message;
   response.path = reply.path;

@@ -138,10 +138,8 @@ void Recorder::write_loop() {
 }
 
 std::string Recorder::write(const Item& item) {
-  if (!bags_->has_room(item.bytes)) {
-    return "stopped, as the disk is full but for the " + std::to_string(settings_.bags.reserve_bytes / 1000000) +
-           " MB that stay free (disk_reserve_mb)";
-  }
+  const std::string trouble = bags_->find_trouble(item.bytes);
+  if (!trouble.empty()) return "stopped: " + trouble;
   try {
     item.write(*bags_);
   } catch (const std::exception& error) {

@@ -77,20 +77,20 @@ void print_arithmetic(const afm::replay::RunLog& log) {
 }
 
 void print_extent(const Extent& e, double wall_seconds) {
-  std::printf("compared: %llu samples, %llu impacts, %llu friction estimates, %llu commands, %llu digests, %llu epochs, "
-              "%.6g s of model time\n",
-              static_cast<unsigned long long>(e.samples), static_cast<unsigned long long>(e.impacts),
-              static_cast<unsigned long long>(e.estimates), static_cast<unsigned long long>(e.commands),
-              static_cast<unsigned long long>(e.digests), static_cast<unsigned long long>(e.epochs),
-              e.compared_seconds);
+  std::printf(
+      "compared: %llu samples, %llu impacts, %llu friction estimates, %llu commands, %llu digests, %llu epochs, "
+      "%.6g s of model time\n",
+      static_cast<unsigned long long>(e.samples), static_cast<unsigned long long>(e.impacts),
+      static_cast<unsigned long long>(e.estimates), static_cast<unsigned long long>(e.commands),
+      static_cast<unsigned long long>(e.digests), static_cast<unsigned long long>(e.epochs), e.compared_seconds);
   std::printf("simulated %.6g s of model time in %.3g s: %.3g times real time\n", e.model_seconds, wall_seconds,
               e.model_seconds / wall_seconds);
 }
 
 void print_difference(const Difference& d) {
-  std::cout << "FIRST DIFFERENCE in epoch " << d.epoch << ", batch " << d.batch << ", at model time "
-            << to_text(d.time) << "\n  " << d.field.field << ", number " << d.field.index
-            << "\n    recorded   " << d.field.first << "\n    simulated  " << d.field.second << "\n";
+  std::cout << "FIRST DIFFERENCE in epoch " << d.epoch << ", batch " << d.batch << ", at model time " << to_text(d.time)
+            << "\n  " << d.field.field << ", number " << d.field.index << "\n    recorded   " << d.field.first
+            << "\n    simulated  " << d.field.second << "\n";
   if (!d.last_command) return;
   const auto& command = *d.last_command;
   std::printf("  last command %.17g m/s at %s\n", command.drag_velocity,

@@ -9,6 +9,7 @@ import rospy
 from afm_emulator.srv import StartRecording
 
 import bags
+import checks
 from emulator_under_test import EmulatorTest, run
 from topics import Topic
 
@@ -61,6 +62,7 @@ class FullDisk(EmulatorTest):
         self.assertGreaterEqual(self.free_bytes(), RESERVE_MB * 1e6)
         self.assertEqual(os.listdir(self.disk), ['small.bag'])
         bags.assert_sound(self, self.answer.path)
+        checks.assert_identical(self, self.answer.path)
 
     def test_does_not_start_without_room(self):
         self.fill(RESERVE_MB * 1000000)
@@ -72,7 +74,9 @@ class FullDisk(EmulatorTest):
     def test_survives_a_disk_that_others_fill(self):
         self.begin_recording()
         self.fill(0)
-        self.assertTrue(self.wait_for_error())
+        error = self.wait_for_error()
+        closed = os.path.exists(self.answer.path)
+        self.assertEqual('reindex' in error, not closed, error)  # told how to recover it only where that is needed
 
 
 if __name__ == '__main__':

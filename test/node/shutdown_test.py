@@ -4,6 +4,7 @@ import signal
 from pathlib import Path
 
 import bags
+import checks
 from emulator_under_test import Emulator, NodeTest, run
 from topics import Topic
 
@@ -23,6 +24,7 @@ class Shutdown(NodeTest):
         recorded = bags.assert_sound(self, str(paths[0]))['deflection']
         self.assertEqual(recorded[0].first_sample, 0)
         self.assertGreaterEqual(recorded[-1].first_sample, seen)
+        checks.assert_identical(self, str(paths[0]))
 
     def test_sigint(self):
         self.assert_leaves_a_good_bag(signal.SIGINT)

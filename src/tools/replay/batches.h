@@ -27,6 +27,11 @@ struct RecordedBatch {
   bool is_whole() const { return deflection && impacts && friction; }
 };
 
+inline std::uint64_t end_of(const afm_emulator::Deflection& batch) {
+  return batch.first_sample + batch.vertical.size();
+}
+inline std::uint64_t end_of(const afm_emulator::ImpactArray& batch) { return batch.first_index + batch.impacts.size(); }
+
 // Messages missing inside the recording; at its ends a batch may be cut.
 struct Gaps {
   std::uint64_t messages = 0;

@@ -35,7 +35,8 @@ DigestReport check_digests(const Recording& recording, const Progress& progress)
     const afm_emulator::Digest told = *digests.head();
     if (last) {
       const std::uint64_t gap = follows(last->header.seq, told.header.seq, digests.path() + ": " + digests.topic());
-      if (gap > 0) throw Problem(Verdict::missing, digests.path() + ": " + std::to_string(gap) + " digests are missing");
+      if (gap > 0)
+        throw Problem(Verdict::missing, digests.path() + ": " + std::to_string(gap) + " digests are missing");
     }
     if (!last || last->epoch != told.epoch) {
       simulation = std::make_unique<Resimulation>(log.epoch(told.epoch));

@@ -1,16 +1,52 @@
 #include "recorded_digest.h"
 
+#include "node/message_conversion.h"
+#include "node/topics.h"
+
 namespace afm::replay {
 
-void RecordedDigest::begin(std::uint32_t epoch) {
-  if (epoch == epoch_) return;
-  epoch_ = epoch;
-  digest_ = node::RunDigest(log_.epoch(epoch).configuration);
-  whole_ = true;
+RecordedDigest::RecordedDigest(const Recording& recording, const RunLog& log)
+    : log_(log), digests_(recording.topic(node::kDigestTopic)) {
+  for (const auto& bag : recording.bags()) digests_.add(bag->bag, bag->path);
+}
+
+// A recording begun in mid-run can be judged from its first digest on.
+void RecordedDigest::begin_epoch(const RecordedBatch& batch) {
+  epoch_ = batch.epoch;
+  last_batch_.reset();
+  digest_ = node::RunDigest(log_.epoch(batch.epoch).configuration);
+  whole_ = batch.is_whole() && batch.deflection->first_sample == 0 && batch.impacts->first_index == 0;
+}
+
+void RecordedDigest::add(const RecordedBatch& batch) {
+  const bool follows_on = !last_batch_ || batch.sequence == *last_batch_ + 1;
+  whole_ = whole_ && follows_on && batch.is_whole();
+  last_batch_ = batch.sequence;
+  if (!batch.is_whole()) return;
+  digest_.add(*batch.deflection);
+  digest_.add(*batch.impacts);
+  digest_.add(*batch.friction);
+}
+
+// Found by their counts, as times may be what was altered. Digests of batches that are not there are passed over.
+void RecordedDigest::follow(const RecordedBatch& batch, const OnDigest& on_digest) {
+  if (epoch_ != batch.epoch) begin_epoch(batch);
+  add(batch);
+  if (!batch.is_whole()) return;
+  const ModelTime end = node::from_message(batch.friction->time);
+  const std::uint64_t samples = end_of(*batch.deflection), impacts = end_of(*batch.impacts);
+  for (; digests_.head() != nullptr; digests_.pop()) {
+    const afm_emulator::Digest& told = *digests_.head();
+    if (told.epoch > batch.epoch) return;
+    if (told.epoch < batch.epoch) continue;
+    if (told.samples > samples || told.impacts > impacts) return;
+    if (told.samples < samples || told.impacts < impacts) continue;
+    if (end < node::from_message(told.time)) return;  // a batch without samples and impacts is still to come
+    on_digest(told, check(told));
+  }
 }
 
 std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest& told) {
-  begin(told.epoch);
   // commands are known from the beginning of the epoch on, wherever the recording was begun
   const EpochLog& log = log_.epoch(told.epoch);
   node::RunDigest commands(log.configuration);
@@ -21,7 +57,6 @@ std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest&
   found.configuration_digest = commands.message().configuration_digest;
   digest_ = node::RunDigest(told);
   whole_ = true;
-  ++checked_;
   return find_difference(found, told);
 }
 

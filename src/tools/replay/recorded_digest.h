@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
+#include "batches.h"
 #include "message_difference.h"
 #include "node/run_digest.h"
 #include "run_log.h"
@@ -14,28 +16,24 @@ namespace afm::replay {
 
 class RecordedDigest {
  public:
-  explicit RecordedDigest(const RunLog& log) : log_(log) {}
+  // A digest, and where what was recorded since the one before contradicts it.
+  using OnDigest = std::function<void(const afm_emulator::Digest&, const std::optional<FieldDifference>&)>;
 
-  void begin(std::uint32_t epoch);  // from its beginning on, if nothing else is said
-  // In the order of batches.
-  template <class Message>
-  void add(const Message& batch) {
-    begin(batch.epoch);
-    digest_.add(batch);
-  }
-  void gap() { whole_ = false; }  // something is missing: nothing can be said up to the next digest
+  RecordedDigest(const Recording& recording, const RunLog& log);
 
-  // A digest that stands after all that was added. Returns where what was recorded differs from it.
-  std::optional<FieldDifference> check(const afm_emulator::Digest& told);
-
-  std::uint64_t checked() const { return checked_; }  // digests
+  // Batches in order. Tells of the digests that stand right after this one.
+  void follow(const RecordedBatch& batch, const OnDigest& on_digest);
 
  private:
+  void begin_epoch(const RecordedBatch& batch);
+  void add(const RecordedBatch& batch);
+  std::optional<FieldDifference> check(const afm_emulator::Digest& told);
+
   const RunLog& log_;
+  MessageStream<afm_emulator::Digest> digests_;
   node::RunDigest digest_;
-  std::optional<std::uint32_t> epoch_;
+  std::optional<std::uint32_t> epoch_, last_batch_;
   bool whole_ = false;  // nothing is missing since the last digest, or the beginning of the epoch
-  std::uint64_t checked_ = 0;
 };
 
 }  // namespace afm::replay

@@ -56,9 +56,11 @@ std::string find_node(const rosbag::Bag& bag, const std::string& path) {
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     const std::string& topic = connection->topic;
     if (connection->datatype != datatype<afm_emulator::Configuration>() || topic.size() < ending.size()) continue;
-    if (topic.substr(topic.size() - ending.size()) == ending) nodes.insert(topic.substr(0, topic.size() - ending.size()));
+    if (topic.substr(topic.size() - ending.size()) == ending)
+      nodes.insert(topic.substr(0, topic.size() - ending.size()));
   }
-  if (nodes.empty()) throw Problem(Verdict::foreign, path + ": holds no configuration of an emulator: not its recording");
+  if (nodes.empty())
+    throw Problem(Verdict::foreign, path + ": holds no configuration of an emulator: not its recording");
   if (nodes.size() == 1) return *nodes.begin();
   std::string names;
   for (const std::string& name : nodes) names += " " + name;
@@ -74,8 +76,8 @@ std::unique_ptr<RecordedBag> open_bag(const std::string& path) {
   try {
     opened->bag.open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {
-    throw Problem(Verdict::truncated, path + ": has no index: it was never closed; rosbag reindex '" + path +
-                                          "' recovers what is in it");
+    throw Problem(Verdict::truncated,
+                  path + ": has no index: it was never closed; rosbag reindex '" + path + "' recovers what is in it");
   } catch (const std::exception& error) {
     throw Problem(Verdict::truncated, path + ": is damaged or cut off (" + error.what() + "); rosbag reindex '" + path +
                                           "' recovers what is left");
@@ -103,8 +105,8 @@ void Recording::check_types(const RecordedBag& bag) const {
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     const auto type = expected.find(connection->datatype);
     if (type == expected.end() || type->second == connection->md5sum) continue;
-    throw Problem(Verdict::foreign, bag.path + ": " + connection->topic + " has another definition of " +
-                                        type->first + ": recorded by another version of the emulator");
+    throw Problem(Verdict::foreign, bag.path + ": " + connection->topic + " has another definition of " + type->first +
+                                        ": recorded by another version of the emulator");
   }
 }
 

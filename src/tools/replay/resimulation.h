@@ -27,7 +27,9 @@ class Resimulation {
   ModelTime now() const { return emulator_.now(); }
   std::uint64_t samples() const { return first_sample_ + vertical_.size(); }
   std::uint64_t impacts() const { return first_impact_ + impacts_.size(); }
-  const afm_emulator::AppliedDrag& last_command() const { return log_.commands[next_command_ > 0 ? next_command_ - 1 : 0]; }
+  const afm_emulator::AppliedDrag& last_command() const {
+    return log_.commands[next_command_ > 0 ? next_command_ - 1 : 0];
+  }
   ModelTime sample_time(std::uint64_t sample) const { return multiply(sample, settings().sample_period); }
   double batch_length() const;  // [tau]
   double time_unit() const { return units_.time(); }
@@ -54,10 +56,10 @@ class Resimulation {
   Emulator emulator_;
   Batch batch_;
   std::size_t next_command_ = 0;
-  double drag_velocity_;  // in force [m/s]
+  double drag_velocity_;                                 // in force [m/s]
   std::uint64_t first_sample_ = 0, first_impact_ = 0;    // of those kept
   std::uint64_t wanted_sample_ = 0, wanted_impact_ = 0;  // of those before it none is kept
-  std::vector<double> vertical_, lateral_;             // [m]
+  std::vector<double> vertical_, lateral_;               // [m]
   std::vector<afm_emulator::Impact> impacts_;
   node::RunDigest digest_;
 };

@@ -6,9 +6,6 @@
 namespace afm::replay {
 namespace {
 
-std::uint64_t end_of(const afm_emulator::Deflection& batch) { return batch.first_sample + batch.vertical.size(); }
-std::uint64_t end_of(const afm_emulator::ImpactArray& batch) { return batch.first_index + batch.impacts.size(); }
-
 std::string to_text(const ModelTime& time) {
   char text[64];
   std::snprintf(text, sizeof text, "%lld + %.17g tau", static_cast<long long>(time.tau), time.phase);
@@ -29,13 +26,7 @@ ModelTime time_of(const afm_emulator::Friction& batch, std::size_t, const Resimu
 }  // namespace
 
 RunCheck::RunCheck(const Recording& recording, Progress progress)
-    : log_(recording),
-      batches_(recording),
-      digests_(recording.topic(node::kDigestTopic)),
-      recorded_(log_),
-      progress_(std::move(progress)) {
-  for (const auto& bag : recording.bags()) digests_.add(bag->bag, bag->path);
-}
+    : log_(recording), batches_(recording), recorded_(recording, log_), progress_(std::move(progress)) {}
 
 void RunCheck::run() {
   RecordedBatch batch;
@@ -43,8 +34,9 @@ void RunCheck::run() {
   while (!(difference_ && difference_->altered) && batches_.next(batch)) {
     if (epoch_ != batch.epoch) begin_epoch(batch);
     if (!difference_) compare(batch);
-    remember(batch);
-    check_digests(batch);
+    recorded_.follow(batch,
+                     [&](const auto& told, const auto& contradiction) { check_digest(batch, told, contradiction); });
+    last_batch_ = batch.sequence;
     progress_(static_cast<double>(batches_.read()) / static_cast<double>(batches_.size()), end_);
   }
   finish_epoch();
@@ -59,8 +51,6 @@ void RunCheck::begin_epoch(const RecordedBatch& batch) {
   epoch_ = batch.epoch;
   const bool from_start = !first || (batch.deflection && batch.deflection->first_sample == 0);
   next_sample_ = from_start ? std::optional<std::uint64_t>(0) : std::nullopt;
-  recorded_.begin(batch.epoch);
-  if (!from_start) recorded_.gap();
   last_batch_.reset();
   if (difference_) return;
   simulation_ = std::make_unique<Resimulation>(log_.epoch(batch.epoch));
@@ -104,18 +94,19 @@ void RunCheck::compare(const RecordedBatch& batch) {
   if (!is_plausible(batch)) return;
   const ModelTime from = simulation_->now();
   run_to_end_of(batch);
+  next_sample_ = batch.deflection ? end_of(*batch.deflection) : simulation_->samples();
   extent_.model_seconds += (simulation_->now() - from) * simulation_->time_unit();
   if (batch.deflection) {
     const auto& recorded = *batch.deflection;
     expect_same(batch, recorded, simulation_->deflection(recorded.first_sample, recorded.vertical.size()));
     extent_.samples += recorded.vertical.size();
-    next_sample_ = end_of(recorded);
   }
   if (batch.impacts) {
     const auto& recorded = *batch.impacts;
     // all that happened, if nothing else tells how many there should be
-    const std::uint64_t count = batch.friction ? simulation_->impacts() - std::min(simulation_->impacts(), recorded.first_index)
-                                               : recorded.impacts.size();
+    const std::uint64_t count = batch.friction
+                                    ? simulation_->impacts() - std::min(simulation_->impacts(), recorded.first_index)
+                                    : recorded.impacts.size();
     expect_same(batch, recorded, simulation_->impacts(recorded.first_index, count));
     extent_.impacts += recorded.impacts.size();
   }
@@ -140,33 +131,8 @@ void RunCheck::differ(const RecordedBatch& batch, const FieldDifference& field, 
   difference_ = Difference{field, batch.epoch, batch.sequence, time, simulation_->last_command(), std::nullopt};
 }
 
-void RunCheck::remember(const RecordedBatch& batch) {
-  if (!batch.is_whole() || (last_batch_ && batch.sequence != *last_batch_ + 1)) recorded_.gap();
-  if (batch.is_whole()) {
-    recorded_.add(*batch.deflection);
-    recorded_.add(*batch.impacts);
-    recorded_.add(*batch.friction);
-  }
-  last_batch_ = batch.sequence;
-}
-
-// Digests that stand after this batch; those of batches that are not there are passed over.
-void RunCheck::check_digests(const RecordedBatch& batch) {
-  if (!batch.is_whole()) return;
-  const ModelTime end = node::from_message(batch.friction->time);
-  for (; digests_.head() != nullptr; digests_.pop()) {
-    const afm_emulator::Digest& told = *digests_.head();
-    if (told.epoch > batch.epoch) return;
-    const ModelTime time = node::from_message(told.time);
-    if (told.epoch == batch.epoch && end < time) return;
-    const bool here = told.epoch == batch.epoch && time == end;
-    if (here && (told.samples > end_of(*batch.deflection) || told.impacts > end_of(*batch.impacts))) return;
-    if (here) check_digest(batch, told);
-  }
-}
-
-void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told) {
-  const auto contradiction = recorded_.check(told);
+void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told,
+                            const std::optional<FieldDifference>& contradiction) {
   ++extent_.digests;
   if (difference_) {
     difference_->altered = contradiction.has_value();

@@ -20,17 +20,17 @@ namespace afm::replay {
 // What was compared.
 struct Extent {
   std::uint64_t samples = 0, impacts = 0, estimates = 0, commands = 0, epochs = 0, digests = 0;
-  double model_seconds = 0.0;      // simulated
-  double compared_seconds = 0.0;   // of model time, in the recording
+  double model_seconds = 0.0;     // simulated
+  double compared_seconds = 0.0;  // of model time, in the recording
 };
 
 // The first difference, with what a person needs to find it.
 struct Difference {
-  FieldDifference field;           // recorded, simulated
+  FieldDifference field;  // recorded, simulated
   std::uint32_t epoch = 0, batch = 0;
   ModelTime time;
   std::optional<afm_emulator::AppliedDrag> last_command;
-  std::optional<bool> altered;     // whether the recording contradicts its own digests there; unknown without one
+  std::optional<bool> altered;  // whether the recording contradicts its own digests there; unknown without one
 };
 
 using Progress = std::function<void(double part_done, const ModelTime& time)>;
@@ -55,14 +55,12 @@ class RunCheck {
   template <class Message>
   void expect_same(const RecordedBatch& batch, const Message& recorded, const Message& simulated);
   void differ(const RecordedBatch& batch, const FieldDifference& field, const ModelTime& time);
-  void remember(const RecordedBatch& batch);
-  void check_digests(const RecordedBatch& batch);
-  void check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told);
+  void check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told,
+                    const std::optional<FieldDifference>& contradiction);
   void finish_epoch();
 
   RunLog log_;
   Batches batches_;
-  MessageStream<afm_emulator::Digest> digests_;
   RecordedDigest recorded_;
   Progress progress_;
   std::unique_ptr<Resimulation> simulation_;

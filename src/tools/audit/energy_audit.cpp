@@ -1,0 +1,143 @@
+#include "energy_audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flight_pair.h"
+#include "node/message_conversion.h"
+#include "node/parameters.h"
+
+namespace afm::audit {
+namespace {
+
+constexpr double kTooNearlyBlind = 100.0;  // amplification beyond which samples do not tell velocities
+// Errors add up along sample, unit conversion, sine, and sum: a few dozen roundings, squared amplification.
+constexpr double kRoundings = 64.0 * std::numeric_limits<double>::epsilon();
+
+double square(double x) { return x * x; }
+
+void note(double& worst, double error) {
+  if (!(std::abs(error) <= worst)) worst = std::abs(error);  // NaN is noted too
+}
+
+}  // namespace
+
+void EnergyReport::merge(const EnergyReport& other) {
+  events += other.events;
+  judged += other.judged;
+  by_law += other.by_law;
+  energy += other.energy;
+  judged_energy += other.judged_energy;
+  allowed = std::max(allowed, other.allowed);
+  note(balance_error, other.balance_error);
+  note(position_error, other.position_error);
+  note(speed_error, other.speed_error);
+  note(law_error, other.law_error);
+}
+
+EnergyAudit::EnergyAudit(const afm_emulator::Configuration& configuration)
+    : units_(node::si_model(configuration)),
+      model_(units_.to_natural(node::si_model(configuration))),
+      period_(configuration.sample_period_tau),
+      omega_{kTwoPi * model_.frequency_ratio, kTwoPi},
+      conditioning_(std::max(amplification(omega_[0], period_), amplification(omega_[1], period_))),
+      eta_(node::to_eta(configuration.drag_velocity, node::si_model(configuration))) {
+  report_.allowed = kRoundings * square(conditioning_);
+}
+
+void EnergyAudit::add(const afm_emulator::Deflection& batch) {
+  if (samples_.empty()) first_sample_ = batch.first_sample;
+  for (std::size_t i = 0; i < batch.vertical.size() && i < batch.lateral.size(); ++i) {
+    samples_.push_back({batch.lateral[i] / units_.length(), batch.vertical[i] / units_.length()});
+  }
+}
+
+void EnergyAudit::add(const afm_emulator::ImpactArray& batch) {
+  for (const afm_emulator::Impact& impact : batch.impacts) {
+    events_.push_back({node::from_message(impact.time), impact, eta_});
+    report_.energy += impact.energy_loss;
+    ++report_.events;
+    judge_law(impact);
+  }
+}
+
+void EnergyAudit::add_command(const ModelTime& time, double drag_velocity) {
+  events_.push_back({time, std::nullopt, eta_});
+  eta_ = drag_velocity / units_.velocity();
+}
+
+void EnergyAudit::gap() {
+  events_.clear();
+  samples_.clear();
+}
+
+// dE = (1 - gamma_eff^2) v^2 / 2, with the restitution rising towards 1 below the cutoff.
+void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
+  if (impact.kind != afm_emulator::Impact::IMPACT) return;
+  const double v = impact.normal_speed / units_.velocity();
+  const double gamma = v >= model_.v_c ? model_.gamma : 1.0 - (1.0 - model_.gamma) * v / model_.v_c;
+  const double expected = 0.5 * (1.0 - gamma) * (1.0 + gamma) * v * v;
+  const double told = impact.energy_loss / units_.energy();
+  // near 1 the restitution loses digits: judge against the energy that came in
+  note(report_.law_error, v > 0.0 ? (told - expected) / (0.5 * v * v) : told);
+  ++report_.by_law;
+}
+
+void EnergyAudit::judge(const ModelTime& until) {
+  for (; events_.size() > 2 && events_[1].time + 3.0 * period_ < until; events_.pop_front()) {
+    if (events_[1].impact && events_[1].impact->kind == afm_emulator::Impact::IMPACT) {
+      judge_impact(events_[0], events_[1], events_[2]);
+    }
+  }
+  if (events_.empty()) return;
+  const std::uint64_t wanted = std::max<std::uint64_t>(last_sample_before(events_.front().time), first_sample_);
+  const std::uint64_t dropped = std::min<std::uint64_t>(wanted - first_sample_, samples_.size());
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(dropped));
+  first_sample_ += dropped;
+}
+
+// At that time or before it.
+std::uint64_t EnergyAudit::last_sample_before(const ModelTime& time) const {
+  auto sample = static_cast<std::uint64_t>((time - ModelTime{}) / period_);
+  while (sample > 0 && time < multiply(sample, period_)) --sample;
+  while (multiply(sample + 1, period_) <= time) ++sample;
+  return sample;
+}
+
+EnergyAudit::Motion EnergyAudit::motion(std::uint64_t first, const ModelTime& at) const {
+  const Sample& a = samples_[first - first_sample_];
+  const Sample& b = samples_[first + 1 - first_sample_];
+  const double s = at - multiply(first, period_);
+  const SpringPair x(omega_[0], a.X, b.X, period_), y(omega_[1], a.Y, b.Y, period_);
+  return {x.position(s), y.position(s), x.velocity(s), y.velocity(s)};
+}
+
+double EnergyAudit::energy(const Motion& m) const {
+  return 0.5 * (square(m.U) + square(m.W) + square(omega_[0] * m.X) + square(omega_[1] * m.Y));
+}
+
+void EnergyAudit::judge_impact(const Event& before, const Event& event, const Event& after) {
+  const std::uint64_t last = last_sample_before(event.time);
+  if (conditioning_ > kTooNearlyBlind || last < first_sample_ + 1 || last + 2 >= first_sample_ + samples_.size())
+    return;
+  if (multiply(last - 1, period_) < before.time || after.time < multiply(last + 2, period_)) return;
+  const Motion in = motion(last - 1, event.time), out = motion(last + 1, event.time);
+  const afm_emulator::Impact& told = *event.impact;
+  const double loss = told.energy_loss / units_.energy(), scale = energy(in) + 0.5 * square(event.eta);
+  // the holder moves on through the springs: what is conserved in flight is the energy in its frame
+  const double balance = energy(out) - energy(in) + event.eta * (out.U - in.U) + loss;
+  note(report_.balance_error, balance / scale);
+  const double length = std::sqrt(2.0 * scale) / omega_[1], speed = std::sqrt(2.0 * scale);
+  const double angle = kTwoPi * told.surface_phase, slope = -kTwoPi * model_.H * std::sin(angle);
+  note(report_.position_error, (out.X - in.X) / length);
+  note(report_.position_error, (out.Y - in.Y) / length);
+  note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);
+  const double u = in.U + event.eta, per_norm = 1.0 / std::sqrt(1.0 + square(slope));
+  note(report_.speed_error, (std::abs(in.W - slope * u) * per_norm - told.normal_speed / units_.velocity()) / speed);
+  note(report_.speed_error, ((u + slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
+  report_.judged_energy += told.energy_loss;
+  ++report_.judged;
+}
+
+}  // namespace afm::audit

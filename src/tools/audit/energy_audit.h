@@ -1,0 +1,74 @@
+// The energy of single impacts, from the samples around them: between two samples of one flight the springs turn
+// exactly, so four samples give the states before and after an impact, and with them the energy that left. Impacts
+// closer than that to another event (bursts, contact, fast chatter) cannot be judged from what is recorded.
+#pragma once
+
+#include <afm_emulator/Configuration.h>
+#include <afm_emulator/Deflection.h>
+#include <afm_emulator/ImpactArray.h>
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "afm_emulator/model.h"
+#include "afm_emulator/state.h"
+#include "afm_emulator/units.h"
+
+namespace afm::audit {
+
+struct EnergyReport {
+  std::uint64_t events = 0, judged = 0, by_law = 0;
+  double energy = 0.0, judged_energy = 0.0;  // lost [J]
+  double allowed = 0.0;                      // of the errors below: what rounding of the samples makes of them
+  // worst, relative: of the energy in flight, of lengths a, of speeds
+  double balance_error = 0.0, position_error = 0.0, speed_error = 0.0;
+  double law_error = 0.0;  // energy lost against normal speed and restitution, for every single impact
+
+  void merge(const EnergyReport& other);
+};
+
+class EnergyAudit {
+ public:
+  explicit EnergyAudit(const afm_emulator::Configuration& configuration);
+
+  void add(const afm_emulator::Deflection& batch);
+  void add(const afm_emulator::ImpactArray& batch);
+  void add_command(const ModelTime& time, double drag_velocity);
+  void gap();                          // something is missing here
+  void judge(const ModelTime& until);  // all that lies well before
+
+  const EnergyReport& report() const { return report_; }
+
+ private:
+  struct Event {
+    ModelTime time;
+    std::optional<afm_emulator::Impact> impact;  // none: a command, or a gap
+    double eta = 0.0;                            // before it
+  };
+  struct Sample {
+    double X, Y;  // [a]
+  };
+  struct Motion {
+    double X, Y, U, W;  // against the harmonic centre
+  };
+
+  void judge_law(const afm_emulator::Impact& impact);
+  void judge_impact(const Event& before, const Event& event, const Event& after);
+  std::uint64_t last_sample_before(const ModelTime& time) const;
+  Motion motion(std::uint64_t first, const ModelTime& at) const;  // from this sample and the next
+  double energy(const Motion& motion) const;
+
+  const Units units_;
+  const Model model_;
+  const double period_;    // [tau]
+  const double omega_[2];  // horizontal, vertical [rad/tau]
+  const double conditioning_;
+  double eta_;
+  std::deque<Event> events_;
+  std::deque<Sample> samples_;
+  std::uint64_t first_sample_ = 0;
+  EnergyReport report_;
+};
+
+}  // namespace afm::audit

@@ -1,0 +1,93 @@
+#include "friction_audit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "node/message_conversion.h"
+
+namespace afm::audit {
+namespace {
+
+constexpr std::size_t kStretches = 5;
+
+// Relative to the larger; NaN agrees with NaN alone.
+double mismatch(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b) ? 0.0 : HUGE_VAL;
+  return a == b ? 0.0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
+}
+
+void note(double& worst, double error) { worst = std::max(worst, error); }
+
+}  // namespace
+
+void FrictionReport::add(const Stretch& stretch) {
+  stretches.push_back(stretch);
+  std::stable_sort(stretches.begin(), stretches.end(), [](const auto& a, const auto& b) { return a.tau > b.tau; });
+  stretches.resize(std::min(stretches.size(), kStretches));
+}
+
+void FrictionReport::merge(const FrictionReport& other) {
+  estimates += other.estimates;
+  miscounted += other.miscounted;
+  note(energy_error, other.energy_error);
+  note(k_f_error, other.k_f_error);
+  for (const Stretch& stretch : other.stretches) add(stretch);
+}
+
+FrictionAudit::FrictionAudit(const afm_emulator::Configuration& configuration)
+    : units_(node::si_model(configuration)), drag_velocity_(configuration.drag_velocity) {}
+
+void FrictionAudit::command(const ModelTime& time, double drag_velocity) {
+  if (drag_velocity == drag_velocity_) return;  // the same again changes nothing
+  close_stretch();
+  drag_velocity_ = drag_velocity;
+  start_ = time;
+  sums_ = {};
+  base_ = Sums{};
+}
+
+void FrictionAudit::add(const afm_emulator::ImpactArray& batch) {
+  if (batch.first_index == 0 && start_ == ModelTime{}) base_ = Sums{};
+  for (const afm_emulator::Impact& impact : batch.impacts) {
+    sums_.energy += impact.energy_loss;
+    sums_.count += impact.count;
+  }
+}
+
+void FrictionAudit::judge(const afm_emulator::Friction& estimate) {
+  ++report_.estimates;
+  if (!base_) {
+    base_ = Sums{static_cast<long double>(estimate.energy_loss) - sums_.energy, estimate.impact_count - sums_.count};
+  }
+  const auto energy = static_cast<double>(base_->energy + sums_.energy);
+  if (base_->count + sums_.count != estimate.impact_count) ++report_.miscounted;
+  note(report_.energy_error, mismatch(energy, estimate.energy_loss));
+  judge_figures(estimate, energy);
+}
+
+void FrictionAudit::judge_figures(const afm_emulator::Friction& estimate, double energy) {
+  const double age = (node::from_message(estimate.time) - start_) * units_.time();  // [s]
+  const double v0 = drag_velocity_;
+  const bool moving = v0 != 0.0;
+  const double k_f = moving ? energy / (v0 * v0 * age) : std::nan("");
+  note(report_.k_f_error, mismatch(estimate.drag_velocity, v0));
+  note(report_.k_f_error, mismatch(estimate.eta, v0 / units_.velocity()));
+  note(report_.k_f_error, mismatch(estimate.k_f, k_f));
+  note(report_.k_f_error, mismatch(estimate.k_f_tau_per_m, k_f / units_.friction()));
+  note(report_.k_f_error, mismatch(estimate.force, moving ? k_f * v0 : 0.0));
+  last_ = Stretch{v0,
+                  estimate.eta,
+                  age / units_.time(),
+                  estimate.k_f_tau_per_m,
+                  estimate.k_f_std_error / units_.friction(),
+                  k_f / units_.friction()};
+}
+
+void FrictionAudit::close_stretch() {
+  if (last_) report_.add(*last_);
+  last_.reset();
+}
+
+void FrictionAudit::finish() { close_stretch(); }
+
+}  // namespace afm::audit

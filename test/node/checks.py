@@ -1,0 +1,37 @@
+"""Shared by the tests of recordings: the tools that check them."""
+import subprocess
+
+import roslib.packages
+import rospy
+
+from emulator_under_test import PACKAGE
+
+SOUND, DIFFERS, USAGE, FOREIGN, TRUNCATED, MISSING, REORDERED, ALTERED = range(8)  # exit codes of replay_check
+
+
+class Answer:
+    def __init__(self, tool, *arguments):
+        binary = roslib.packages.find_node(PACKAGE, tool)[0]
+        done = subprocess.run([binary] + [str(argument) for argument in arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
+        self.code, self.text = done.returncode, done.stdout
+
+
+def replay_check(*arguments):
+    return Answer('replay_check', *arguments)
+
+
+def bag_check(*arguments):
+    return Answer('bag_check', *arguments)
+
+
+def assert_identical(test, *paths):
+    if not roslib.packages.find_node(PACKAGE, 'replay_check'):
+        rospy.logwarn('replay_check is not built here (it needs CLI11): the recording was not simulated again')
+        return
+    for arguments in (paths, ('--digests-only',) + paths):
+        answer = replay_check(*arguments)
+        test.assertEqual(answer.code, SOUND, answer.text)
+        test.assertIn('IDENTICAL', answer.text)
+    answer = bag_check(*paths)
+    test.assertEqual(answer.code, 0, answer.text)

@@ -1,0 +1,60 @@
+"""The digests of a recording computed again from what a reader of bags gets: docs/recording.md in Python."""
+import struct
+from io import BytesIO
+
+from std_msgs.msg import Header
+
+MASK = (1 << 64) - 1
+START = 0xcbf29ce484222325
+
+
+def add(state, words):
+    for word in words:
+        state = ((state ^ word) * 0x9e3779b97f4a7c15) & MASK
+        state ^= state >> 32
+    return state
+
+
+def bits(*numbers):
+    return struct.unpack('<%dQ' % len(numbers), struct.pack('<%dd' % len(numbers), *numbers))
+
+
+def time_words(time):
+    return (time.tau & MASK,) + bits(time.phase)
+
+
+def of_configuration(message):
+    header, message.header = message.header, Header()
+    buffer = BytesIO()
+    message.serialize(buffer)
+    message.header = header
+    return add(START, buffer.getvalue())
+
+
+def of_samples(messages, state=START):
+    for message in messages:
+        pairs = [value for pair in zip(message.vertical, message.lateral) for value in pair]
+        state = add(state, bits(*pairs))
+    return state
+
+
+def of_impacts(messages, state=START):
+    for message in messages:
+        for i in message.impacts:
+            state = add(state, time_words(i.time) + bits(i.surface_phase, i.normal_speed, i.tangential_velocity,
+                                                         i.energy_loss) + (i.kind, i.count))
+    return state
+
+
+def of_commands(messages, state=START):
+    for message in messages:
+        state = add(state, time_words(message.time) + bits(message.drag_velocity) + (message.first_impact,))
+    return state
+
+
+def of_estimates(messages, state=START):
+    for m in messages:
+        figures = (m.drag_velocity, m.eta, m.force, m.force_std_error, m.k_f, m.k_f_std_error, m.k_f_tau_per_m,
+                   m.energy_loss, m.window_force, m.window_k_f, m.window_k_f_std_error)
+        state = add(state, time_words(m.time) + bits(*figures) + (m.impact_count,))
+    return state

@@ -1,0 +1,241 @@
+#!/usr/bin/python3
+"""A recording that was altered, cut, reordered, or is none at all: each is told by its exit code, in words."""
+import subprocess
+import tempfile
+from io import BytesIO
+from pathlib import Path
+
+import rosbag
+from std_msgs.msg import String
+
+import bags
+import checks
+import digest_recipe
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
+from topics import NAMESPACE, TOPICS, Topic
+
+
+class Entry:
+    """A message of a bag as bytes, with all that it takes to write it again."""
+
+    def __init__(self, topic, raw, stamp, header):
+        self.topic, self.raw, self.stamp, self.header = topic[len(NAMESPACE) + 1:], raw, stamp, header
+
+    def message(self):
+        return TOPICS[self.topic]().deserialize(self.raw[1])
+
+    def put(self, message):
+        buffer = BytesIO()
+        message.serialize(buffer)
+        self.raw = (self.raw[0], buffer.getvalue()) + self.raw[2:]
+
+    def edit(self, **values):
+        message = self.message()
+        for name, value in values.items():
+            setattr(message, name, value)
+        self.put(message)
+
+
+def flip_last_bit(entry, byte):
+    data = bytearray(entry.raw[1])
+    data[byte] ^= 1
+    entry.raw = (entry.raw[0], bytes(data)) + entry.raw[2:]
+
+
+class SpoiledBags(NodeTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.directory = Path(cls.holder.name)
+        emulator = Emulator({'record': True, 'bag_directory': str(cls.directory), 'sample_rate_hz': 20000.0})
+        try:
+            deflection, applied = Topic('deflection'), Topic('applied_drag')
+            deflection.wait_for(lambda m: m.first_sample > 12000, 'part of a run')
+            emulator.drag(2.0 * SPEED_UNIT)
+            applied.wait_for(lambda m: m.drag_velocity == 2.0 * SPEED_UNIT, 'a command')
+            deflection.wait_for(lambda m: m.first_sample > 45000, 'more than two seconds')
+            emulator.assert_alive()
+            assert emulator.stop() == 0
+        finally:
+            emulator.clean_up()
+        Topic.close_all()
+        cls.good = next(cls.directory.glob('*.bag'))
+        with rosbag.Bag(str(cls.good)) as bag:
+            cls.content = list(bag.read_messages(raw=True, return_connection_header=True))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def setUp(self):
+        super().setUp()
+        self.entries = [Entry(*message) for message in self.content]
+
+    def of(self, topic):
+        return [entry for entry in self.entries if entry.topic == topic]
+
+    def write(self):
+        path = self.directory / 'spoiled.bag'
+        with rosbag.Bag(str(path), 'w') as bag:
+            for e in self.entries:
+                bag.write(NAMESPACE + '/' + e.topic, e.raw, e.stamp, raw=True, connection_header=e.header)
+        return path
+
+    def assert_told(self, code, *words, arguments=()):
+        answer = checks.replay_check(self.write(), *arguments)
+        self.assertEqual(answer.code, code, answer.text)
+        for word in words:
+            self.assertIn(word, answer.text)
+        self.assertEqual(checks.bag_check(self.write()).code == 0, code in (checks.SOUND, checks.DIFFERS))
+        return answer
+
+    def remove(self, *entries):
+        self.entries = [e for e in self.entries if e not in entries]
+
+    def test_as_it_was(self):
+        self.assert_told(checks.SOUND, 'IDENTICAL')
+
+    def test_an_independent_reader_gets_the_same_digests(self):
+        messages = bags.read(str(self.good))
+        self.assertEqual(digest_recipe.of_configuration(messages['configuration'][0]),
+                         messages['digest'][-1].configuration_digest)
+        for told in messages['digest']:
+            def part(topic, count, size=lambda m: 1):
+                got, total = [], 0
+                for message in messages[topic]:
+                    if total < count:
+                        got.append(message)
+                        total += size(message)
+                self.assertEqual(total, count, topic)
+                return got
+            self.assertEqual(digest_recipe.of_samples(part('deflection', told.samples, lambda m: len(m.vertical))),
+                             told.samples_digest)
+            self.assertEqual(digest_recipe.of_impacts(part('impacts', told.impacts, lambda m: len(m.impacts))),
+                             told.impacts_digest)
+            self.assertEqual(digest_recipe.of_commands(part('applied_drag', told.commands)), told.commands_digest)
+            self.assertEqual(digest_recipe.of_estimates(part('friction', told.estimates)), told.estimates_digest)
+
+    def test_one_bit_of_one_sample(self):
+        flip_last_bit(self.of('deflection')[100], -8)
+        told = self.assert_told(checks.ALTERED, 'deflection.lateral', 'ALTERED')
+        self.assertIn('batch 100', told.text)
+        self.assertIn('last command', told.text)
+
+    def test_one_bit_of_one_impact(self):
+        full = next(e for e in self.of('impacts')[90:] if e.message().impacts)
+        flip_last_bit(full, -13)  # of the energy loss, before kind and count
+        self.assert_told(checks.ALTERED, 'impacts.energy_loss', 'ALTERED')
+
+    def test_one_bit_of_one_estimate(self):
+        flip_last_bit(self.of('friction')[100], -8)
+        self.assert_told(checks.ALTERED, 'friction.window_k_f_std_error', 'ALTERED')
+
+    def test_another_command(self):
+        self.of('applied_drag')[1].edit(drag_velocity=2.1 * SPEED_UNIT)
+        self.assert_told(checks.ALTERED, 'ALTERED')
+
+    def test_another_configuration(self):
+        self.of('configuration')[0].edit(restitution_gamma=0.71)
+        self.assert_told(checks.ALTERED, 'ALTERED')
+
+    def test_a_configuration_that_cannot_be(self):
+        self.of('configuration')[0].edit(restitution_gamma=7.0)
+        self.assert_told(checks.ALTERED, 'restitution_gamma')
+
+    def test_a_digest(self):
+        self.of('digest')[1].edit(samples_digest=1)
+        self.assert_told(checks.ALTERED, 'digest.samples_digest')
+        self.assertEqual(checks.replay_check('--digests-only', self.write()).code, checks.DIFFERS)
+
+    def test_a_true_recording_of_something_else(self):
+        """As from a machine that computes otherwise: true to its digests, but not what is simulated here."""
+        configuration = self.of('configuration')[0]
+        configuration.edit(restitution_gamma=0.7000000000000001)
+        digest = digest_recipe.of_configuration(configuration.message())
+        for entry in self.of('digest'):
+            entry.edit(configuration_digest=digest)
+        self.assert_told(checks.DIFFERS, 'DIFFERENT', 'as it was published')
+        self.assertEqual(checks.replay_check('--digests-only', self.write()).code, checks.DIFFERS)
+
+    def test_a_time_far_away_is_not_run_to(self):
+        message = self.of('friction')[100].message()
+        message.time.tau += 10**15
+        self.of('friction')[100].put(message)
+        self.assert_told(checks.ALTERED, 'friction.time')
+
+    def test_a_message_is_missing(self):
+        for topic in ('deflection', 'impacts', 'friction', 'applied_drag', 'status'):
+            self.setUp()
+            self.remove(self.of(topic)[1])
+            self.assert_told(checks.MISSING, 'holds')  # the closing mark counts
+
+    def test_a_message_is_missing_and_nobody_counts(self):
+        marks = self.of('recording')
+        for topic in ('deflection', 'impacts', 'friction'):
+            self.setUp()
+            self.remove(self.of(topic)[100], *self.of('recording'))
+            self.assert_told(checks.MISSING, 'MISSING', 'before batch 101')
+        self.assertEqual(len(marks), 2)
+
+    def test_the_first_command_is_missing(self):
+        self.remove(self.of('applied_drag')[0], *self.of('recording'))
+        self.assert_told(checks.MISSING, 'history of commands')
+
+    def test_the_end_is_missing(self):
+        del self.entries[len(self.entries) // 2:]
+        self.assert_told(checks.TRUNCATED, 'IDENTICAL as far as it goes')
+        self.assertEqual(checks.replay_check(self.write(), '--open-end').code, checks.SOUND)
+
+    def test_reordered(self):
+        first, second = self.of('deflection')[100:102]
+        first.raw, second.raw = second.raw, first.raw
+        self.assert_told(checks.REORDERED, 'order')
+
+    def test_cut_off(self):
+        path = self.directory / 'cut.bag'
+        data = self.good.read_bytes()
+        for length in (len(data) * 2 // 3, len(data) - 100, 5000, 20):
+            path.write_bytes(data[:length])
+            answer = checks.replay_check(path)
+            self.assertEqual(answer.code, checks.TRUNCATED, '%d bytes: %s' % (length, answer.text))
+            self.assertIn('rosbag reindex', answer.text)
+            self.assertNotEqual(checks.bag_check(path).code, 0)
+
+    def test_reindexed(self):
+        path = self.directory / 'reindexed.bag'
+        data = self.good.read_bytes()
+        for length, code, words in ((len(data), checks.SOUND, 'IDENTICAL\n'),
+                                    (len(data) // 2, checks.TRUNCATED, 'IDENTICAL as far as it goes')):
+            path.write_bytes(data[:length])
+            subprocess.run(['rosbag', 'reindex', '--force', str(path)], check=True, stdout=subprocess.DEVNULL)
+            answer = checks.replay_check(path)
+            self.assertEqual(answer.code, code, answer.text)
+            self.assertIn(words, answer.text)
+
+    def test_foreign(self):
+        path = self.directory / 'foreign.bag'
+        with rosbag.Bag(str(path), 'w') as bag:
+            bag.write('/chatter', String('hello'))
+        text = self.directory / 'text.bag'
+        text.write_text('not a bag')
+        for spoiled, words in ((path, 'no configuration'), (text, 'not a ROS bag'), ('/nowhere.bag', 'opened'),
+                               (self.directory, 'not a ROS bag')):
+            answer = checks.replay_check(spoiled)
+            self.assertEqual(answer.code, checks.FOREIGN, answer.text)
+            self.assertIn(words, answer.text)
+            self.assertNotEqual(checks.bag_check(spoiled).code, 0)
+
+    def test_other_definitions_of_messages(self):
+        for entry in self.of('friction'):
+            entry.raw = entry.raw[:2] + ('0' * 32,) + entry.raw[3:]
+            entry.header = dict(entry.header, md5sum='0' * 32)
+        self.assert_told(checks.FOREIGN, 'another version')
+
+    def test_wrong_arguments(self):
+        self.assertEqual(checks.replay_check().code, checks.USAGE)
+        self.assertEqual(checks.replay_check('--frobnicate', self.good).code, checks.USAGE)
+        self.assertEqual(checks.replay_check('--help').code, 0)
+
+
+if __name__ == '__main__':
+    run(SpoiledBags)
