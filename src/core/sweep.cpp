@@ -1,0 +1,89 @@
+#include "afm_emulator/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "afm_emulator/surface.h"
+#include "afm_emulator/tip.h"
+
+namespace afm {
+namespace {
+
+// 64 random bits from a counter (SplitMix64): the same on every machine.
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+class Uniform {
+ public:
+  Uniform(std::uint64_t seed, std::uint64_t index) : state_(mix(mix(seed) ^ index)) {}
+  double operator()(double from, double to) {
+    state_ = mix(state_);
+    return from + (to - from) * (static_cast<double>(state_ >> 11) * 0x1p-53);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+constexpr double kLyapunovDuration = 2000.0;  // [tau] an exponent within a few per cent; it costs more than the friction
+
+}  // namespace
+
+std::vector<ParameterError> find_faults(const SweepPoint& point) {
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(model_of(point))) {
+    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+  }
+  if (!(std::abs(point.eta) <= kMaxEta)) {
+    faults.emplace_back("eta", point.eta, "the drag velocity must be finite and at most 1000 lattice spacings per tau");
+  }
+  return faults;
+}
+
+std::vector<ParameterError> find_faults(const SweepSettings& settings) {
+  constexpr double kLongest = 1e12;  // [tau]
+  std::vector<ParameterError> faults;
+  if (!(settings.duration > 0.0 && settings.duration <= kLongest)) {
+    faults.emplace_back("duration", settings.duration, "must be above 0 and at most 1e12 tau");
+  }
+  if (!(settings.transient >= 0.0 && settings.transient <= kLongest)) {
+    faults.emplace_back("transient", settings.transient, "must be at least 0 and at most 1e12 tau");
+  }
+  return faults;
+}
+
+Model model_of(const SweepPoint& point) {
+  Model model;
+  model.gamma = point.gamma;
+  model.v_c = point.v_c;
+  return model;
+}
+
+TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index) {
+  Uniform random(seed, index);
+  const double phase = random(0.0, 1.0), X = random(-0.1, 0.1), rise = random(0.0, 0.3);
+  const double u = point.eta * random(0.5, 1.5), w = point.eta * random(-1.0, 1.0);
+  const double H = model_of(point).H;
+  return to_tip_state(H, {phase, X, surface_jet(H, phase).h + rise, u, w});
+}
+
+SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start) {
+  const Model model = model_of(point);
+  Tip tip(model, point.eta, start);
+  AttractorSettings search;
+  search.transient = settings.transient;
+  search.duration = std::min(settings.duration, kLyapunovDuration);
+  SweepResult result;
+  result.attractor = find_attractor(model, tip, search);
+  result.friction = result.attractor.cells > 0 ? average_over_periods(tip, result.attractor.cells, settings.duration)
+                                               : average_over_time(tip, settings.duration);
+  result.end = tip.tip_state();
+  return result;
+}
+
+}  // namespace afm

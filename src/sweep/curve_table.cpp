@@ -1,0 +1,57 @@
+#include "sweep/curve_table.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <stdexcept>
+
+#include "tools/csv.h"
+
+namespace afm {
+namespace {
+
+std::string row_of(const SweepPoint& point, const SweepResult& r) {
+  const FrictionAverage& f = r.friction;
+  return join_numbers({point.eta, point.gamma, point.v_c, f.K_f, f.K_f_std_error, f.impacts_per_tau, f.mean_energy_loss,
+                       f.mean_flight_time, r.attractor.lyapunov.exponents[0]}) +
+         "," + r.attractor.name();
+}
+
+}  // namespace
+
+CurveTable::CurveTable(const std::string& path, const SweepGrid& grid)
+    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_) {
+  errno = 0;
+  if (path != "-") open();
+  out_ << kCurveHeader << "\n";
+  flush();
+}
+
+// A table that is there is written over, never emptied: one that is empty would be taken for the beginning of a new run.
+void CurveTable::open() {
+  file_.open(path_, std::ios::binary | std::ios::in | std::ios::out);
+  if (!file_.is_open()) file_.open(path_, std::ios::binary | std::ios::trunc);
+}
+
+void CurveTable::cut() {
+  flush();
+  const std::streamoff length = file_.is_open() ? static_cast<std::streamoff>(file_.tellp()) : -1;
+  if (length >= 0) (void)!::truncate(path_.c_str(), length);  // fails for what is no file
+}
+
+void CurveTable::add(std::size_t position, const SweepResult& result) {
+  waiting_[position] = result;
+  for (auto next = waiting_.begin(); next != waiting_.end() && next->first == rows_; next = waiting_.erase(next)) {
+    out_ << row_of(grid_.at(rows_), next->second) << "\n";
+    ++rows_;
+  }
+}
+
+void CurveTable::flush() {
+  if (out_.flush()) return;
+  throw std::runtime_error("cannot write " + path_ + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+}
+
+}  // namespace afm

@@ -1,0 +1,43 @@
+// The points of a curve or map, in the order of the rows of its table: cutoffs, in each the gammas, in each the etas.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "afm_emulator/sweep.h"
+
+namespace afm {
+
+// Fresh: each point from a random start of its own. Up, down: each from where the eta before it ended, so that a tip stays on its attractor
+// while there is one.
+enum class SweepDirection { fresh, up, down };
+
+struct CurveSettings {
+  std::vector<double> eta, gamma, cutoff;  // rising
+  SweepDirection direction = SweepDirection::fresh;
+  std::string model = "oscillator";
+  SweepSettings sweep;
+};
+
+// Every fault, under the names of the command line.
+std::vector<ParameterError> find_faults(const CurveSettings& settings);
+
+// In one line all that the table depends on, and nothing else.
+std::string identity(const CurveSettings& settings);
+
+class SweepGrid {
+ public:
+  explicit SweepGrid(const CurveSettings& settings);
+
+  std::size_t size() const { return cutoff_.size() * gamma_.size() * eta_.size(); }
+  // Points that must be done one after the other: a whole row of etas, or one.
+  std::size_t chain_length() const { return chained_ ? eta_.size() : 1; }
+  SweepPoint at(std::size_t position) const;
+
+ private:
+  std::vector<double> eta_, gamma_, cutoff_;
+  bool chained_;
+};
+
+}  // namespace afm

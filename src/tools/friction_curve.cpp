@@ -1,0 +1,94 @@
+// K_f against drag velocity, restitution and cutoff.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sweep/curve_run.h"
+#include "sweep/decimal_range.h"
+
+namespace {
+
+const char kDescription[] =
+    "Computes the friction coefficient K_f over ranges of drag velocity, restitution and cutoff (units a, tau, tip mass).\n"
+    "A range is one number or FROM:TO:STEP. The table has the columns eta,gamma,cutoff,k_f,k_f_std_error,\n"
+    "impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor; k_f +- 1.96 k_f_std_error holds the true\n"
+    "mean 95 times in 100. Beside the table lies OUTPUT.journal: interrupted and started again, the same command goes on\n"
+    "where it was. Under mpirun all ranks work on one table. The numbers depend on nothing but the options that name\n"
+    "them: not on threads, ranks or interruptions.";
+
+struct Options {
+  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", sweep = "fresh", output = "-";
+  int threads = 0;
+  afm::CurveSettings settings;
+};
+
+const std::map<std::string, afm::SweepDirection> kDirections{
+    {"fresh", afm::SweepDirection::fresh}, {"up", afm::SweepDirection::up}, {"down", afm::SweepDirection::down}};
+
+// Bad input: told, and exit code 2.
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void parse(CLI::App& app, Options& o) {
+  afm::SweepSettings& sweep = o.settings.sweep;
+  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
+  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
+  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
+  app.add_option("--duration", sweep.duration, "measured at each point [tau]")->capture_default_str();
+  app.add_option("--transient", sweep.transient, "before it [tau]")->capture_default_str();
+  app.add_option("--model", o.settings.model, "oscillator")->capture_default_str();
+  app.add_option("--sweep", o.sweep,
+                 "fresh: each point from a random start; up, down: each from where the eta before it ended")
+      ->capture_default_str();
+  app.add_option("--threads", o.threads, "0: one for each processor; under mpirun one for each rank")
+      ->capture_default_str();
+  app.add_option("--seed", sweep.seed, "of the random starts")->capture_default_str();
+  app.add_option("--output", o.output, "the table; - is standard output")->capture_default_str();
+}
+
+std::vector<double> range(const std::string& name, const std::string& text) {
+  try {
+    return afm::parse_range(text);
+  } catch (const std::invalid_argument& fault) {
+    refuse(name + " = " + text + ": " + fault.what());
+  }
+}
+
+void check(Options& o) {
+  afm::CurveSettings& s = o.settings;
+  s.eta = range("eta", o.eta);
+  s.gamma = range("gamma", o.gamma);
+  s.cutoff = range("cutoff", o.cutoff);
+  const auto direction = kDirections.find(o.sweep);
+  if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
+  s.direction = direction->second;
+  if (s.model == "hammer") refuse("model = hammer: this version computes the oscillator only");
+  if (s.model != "oscillator") refuse("model = " + s.model + ": must be oscillator");
+  if (o.threads < 0 || o.threads > 1024) refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
+  const std::vector<afm::ParameterError> faults = afm::find_faults(s);
+  if (!faults.empty()) refuse(afm::describe(faults));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{kDescription, "friction_curve"};
+  Options options;
+  parse(app, options);
+  try {
+    app.parse(argc, argv);
+    check(options);
+    return afm::run_curve(options.settings, options.output, options.threads);
+  } catch (const CLI::ParseError& fault) {
+    return app.exit(fault) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& fault) {
+    std::cerr << "friction_curve: " << fault.what() << "\n";
+    return 2;
+  } catch (const std::exception& fault) {
+    std::cerr << "friction_curve: " << fault.what() << "\n";
+    return 1;
+  }
+}
