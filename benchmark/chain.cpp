@@ -34,7 +34,7 @@ class TipRunner : public Runner {
     while (r.impacts < most_impacts && r.finished) {
       const Outcome outcome = tip_.advance(end);
       if (outcome == Outcome::time_limit) break;
-      if (outcome == Outcome::search_failed) r.failed = true;
+      if (outcome == Outcome::search_failed) r.gave_up = true;
       if (outcome == Outcome::impact) {
         r.energy += tip_.last_impact().energy_loss;
         r.impacts += tip_.last_impact().count;
@@ -59,11 +59,12 @@ class ChainRunner : public Runner {
   ChainResult run(double tau, double eta, std::uint64_t most_impacts, double most_seconds) override {
     ChainResult r;
     Stopwatch watch(most_seconds);
-    while (r.tau < tau && r.impacts < most_impacts && r.finished && !r.failed) {
+    while (r.tau < tau && r.impacts < most_impacts && r.finished && r.sound()) {
       // a piece at a time: a method that crawls is stopped between them
       const double piece = std::fmin(kPiece, tau - r.tau);
       const rivals::Hit hit = method_->next_impact(model_, eta, state_, piece);
-      if (hit.kind == rivals::Hit::failed) r.failed = true;
+      r.gave_up = hit.kind == rivals::Hit::gave_up;
+      r.diverged = hit.kind == rivals::Hit::diverged;
       const double before = r.tau;
       r.tau += hit.kind == rivals::Hit::none ? piece : hit.dt;
       if (hit.kind == rivals::Hit::impact) {
@@ -71,7 +72,7 @@ class ChainRunner : public Runner {
         ++r.impacts;
         stuck_ = r.tau > before ? 0 : stuck_ + 1;
       }
-      if (!r.failed) state_ = hit.after;
+      if (r.sound()) state_ = hit.after;
       if (stuck_ >= kStuck) r.stuck = true;
       r.finished = !watch.over() && !r.stuck;
     }

@@ -13,11 +13,13 @@ struct ChainResult {
   double energy = 0.0;
   std::uint64_t impacts = 0;
   double seconds = 0.0;
-  bool failed = false;   // left all bounds, or the method gave up
-  bool stuck = false;    // a thousand impacts have passed no time
-  bool finished = true;  // false: stuck, or the seconds were spent first
-  TipState end;
+  bool gave_up = false;   // the method said that it cannot go on
+  bool diverged = false;  // it left all bounds
+  bool stuck = false;     // a thousand impacts have passed no time
+  bool finished = true;   // false: stuck, or the seconds were spent first
+  TipState end{};
 
+  bool sound() const { return !gave_up && !diverged && !stuck; }
   double K_f(double eta) const { return energy / (eta * eta * tau); }
 };
 

@@ -66,7 +66,7 @@ std::vector<SpeedRow> measure_friction(const FrictionScene& scene, const std::ve
     row.impacts = static_cast<long long>(r.impacts);
     row.ns = 1e9 * r.seconds / static_cast<double>(r.impacts);
     row.ratio = row.ns / (1e9 * std::fmin(before.seconds, ours.seconds) / static_cast<double>(ours.impacts));
-    const double error = r.failed || r.stuck ? INFINITY : std::abs(r.K_f(scene.eta) / scene.K_f - 1.0);
+    const double error = r.sound() ? std::abs(r.K_f(scene.eta) / scene.K_f - 1.0) : INFINITY;
     row.error_median = row.error_p99 = row.error_max = error;
     const double difference = static_cast<double>(r.impacts) - scene.impacts_per_tau * r.tau;
     row.missed = std::llround(std::fmax(0.0, -difference));

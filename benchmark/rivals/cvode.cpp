@@ -89,7 +89,7 @@ class Cvode : public Method {
     for (double s = 0.0;;) {
       const int flag = CVode(cvode_, horizon, state_, &s, CV_NORMAL);
       const Point p = point_of(state_);
-      if (flag < 0) return {Hit::failed, s, o.tip_state(p, s), 0.0};
+      if (flag < 0) return {Hit::gave_up, s, o.tip_state(p, s), 0.0};
       if (flag != CV_ROOT_RETURN) return {Hit::none, horizon, o.tip_state(p, horizon), 0.0};
       if (s >= first_look && o.gap_rate(p, s) < 0.0) return reflect(o, p, s);
     }

@@ -22,10 +22,10 @@ class Exact : public Method {
   Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
     launch(model, eta, start, flight_);
     const Landing<double> landing = find_landing(model, flight_, horizon);
+    if (landing.s > horizon) return {Hit::none, horizon, flight_.tip_state(horizon), 0.0};
     if (landing.outcome == SearchOutcome::impact) return bounce(model, eta, landing);
-    TipState there = flight_.tip_state(landing.s);
     const bool clear = landing.outcome == SearchOutcome::clear;
-    return {clear ? Hit::none : Hit::failed, landing.s, there, 0.0};
+    return {clear ? Hit::none : Hit::gave_up, landing.s, flight_.tip_state(landing.s), 0.0};
   }
 
  private:

@@ -13,7 +13,8 @@ namespace afm {
 namespace rivals {
 
 struct Hit {
-  enum Kind { impact, none, failed };  // none: the horizon came first; failed: the method gave up or left all bounds
+  // none: the horizon came first; gave_up: the method said that it cannot go on; diverged: it left all bounds
+  enum Kind { impact, none, gave_up, diverged };
   Kind kind;
   double dt;             // [tau]
   TipState after;        // after the impact, or at the horizon

@@ -22,7 +22,7 @@ class MoreauJean : public Method {
     for (double t = 0.0; t < horizon; t += h_) {
       double lost = 0.0;
       const bool struck = step(o, p, t, lost);
-      if (!(std::fabs(p[0]) + std::fabs(p[2]) < 1e6)) return {Hit::failed, t + h_, start, 0.0};
+      if (!(std::fabs(p[0]) + std::fabs(p[2]) < 1e6)) return {Hit::diverged, t + h_, start, 0.0};
       if (struck) return {Hit::impact, t + h_, o.tip_state(p, t + h_), lost};
     }
     return {Hit::none, horizon, o.tip_state(p, horizon), 0.0};

@@ -21,7 +21,7 @@ class Penalty : public Method {
     bool touching = false;
     for (double t = 0.0; t < horizon;) {
       Point next = step(o, p, t, h_, damping, touching);
-      if (!(std::fabs(next[0]) + std::fabs(next[2]) < 1e6)) return {Hit::failed, t, start, 0.0};
+      if (!(std::fabs(next[0]) + std::fabs(next[2]) < 1e6)) return {Hit::diverged, t, start, 0.0};
       const double g = o.gap(next, t + h_);
       const bool falls = !touching && g < 0.0 && normal_velocity(o, next, t + h_) < 0.0, leaves = touching && g >= 0.0;
       if (!falls && !leaves) {

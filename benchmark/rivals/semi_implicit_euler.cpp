@@ -19,7 +19,7 @@ class SemiImplicitEuler : public Method {
       p[0] += h_ * p[1];
       p[2] += h_ * p[3];
       const double now = t + h_;
-      if (!(std::fabs(p[0]) + std::fabs(p[2]) < 1e6)) return {Hit::failed, now, start, 0.0};
+      if (!(std::fabs(p[0]) + std::fabs(p[2]) < 1e6)) return {Hit::diverged, now, start, 0.0};
       if (o.gap(p, now) < 0.0) {
         p[2] = o.height(o.phase(p, now)) - o.model.y0;
         if (o.gap_rate(p, now) < 0.0) return reflect(o, p, now);

@@ -1,0 +1,131 @@
+// Methods against the scenes on which methods fail, each cell measured and judged. CSV.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "stability.h"
+
+namespace {
+
+using afm::Cell;
+using afm::StabilityScene;
+using afm::Verdict;
+using afm::rivals::MethodSpec;
+
+const char kDescription[] =
+    "Runs every method on scenes on which methods fail and writes a CSV table: "
+    "scene,about,method,setting,verdict,number,\n"
+    "meaning,ns_per_tau. right: every impact found and every error below 1e-6 (K_f: 1e-3, chaotic 5 %). stalls: time\n"
+    "freezes, the method gives up, or less than half of the scene is done when --seconds are over; on `hour`, slower "
+    "than\n"
+    "the tip itself. exact_one_by_one is ours without bursts and contact (contact tolerance 0).\n"
+    "Exit code 1 if one of ours (exact) is not right.";
+
+struct Options {
+  afm::Effort effort;
+  std::vector<std::string> methods, scenes, except;
+  std::string output;
+};
+
+struct Column {
+  std::string name;
+  const MethodSpec* spec;
+  double setting;
+};
+
+std::vector<Column> columns() {
+  std::vector<Column> all;
+  for (const MethodSpec& spec : afm::rivals::methods()) {
+    all.push_back({spec.name, &spec, afm::usual_setting(spec)});
+    if (spec.name == "exact") all.push_back({"exact_one_by_one", &spec, 0.0});
+  }
+  return all;
+}
+
+bool chosen(const std::vector<std::string>& list, const std::string& name) {
+  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+}
+
+template <class T>
+bool known(const char* option, const std::vector<std::string>& given, const std::vector<T>& all) {
+  for (const std::string& name : given) {
+    if (std::any_of(all.begin(), all.end(), [&](const T& t) { return t.name == name; })) continue;
+    std::fprintf(stderr, "stability_matrix: %s %s: unknown, or not built in; there are:", option, name.c_str());
+    for (const T& t : all) std::fprintf(stderr, " %s", t.name.c_str());
+    std::fprintf(stderr, "\n");
+    return false;
+  }
+  return true;
+}
+
+void print(const StabilityScene& scene, const Column& column, double setting, const Cell& cell, std::FILE* out) {
+  std::fprintf(out, "%s,\"%s\",%s,%g,%s,%.3g,%s,%.4g\n", scene.name.c_str(), scene.about.c_str(), column.name.c_str(),
+               setting, afm::name_of(cell.verdict), cell.number, cell.meaning.c_str(), cell.ns_per_tau);
+  std::fflush(out);
+}
+
+// Whether all of ours were right.
+bool run(const Options& o, const std::vector<StabilityScene>& scenes, std::FILE* out) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  bool ours_right = true;
+  std::fprintf(out, "scene,about,method,setting,verdict,number,meaning,ns_per_tau\n");
+  for (const StabilityScene& scene : scenes) {
+    if (!chosen(o.scenes, scene.name) || (!o.except.empty() && chosen(o.except, scene.name))) continue;
+    for (const Column& column : columns()) {
+      if (!chosen(o.methods, column.name)) continue;
+      if (terminal) std::fprintf(stderr, "\r\033[K%s: %s", scene.name.c_str(), column.name.c_str());
+      const double setting = scene.setting ? scene.setting(*column.spec) : column.setting;
+      if (scene.setting && column.name == "exact_one_by_one") continue;
+      const Cell cell = scene.measure(*column.spec, setting, o.effort);
+      print(scene, column, setting, cell, out);
+      if (column.name != "exact" || cell.verdict == Verdict::right) continue;
+      ours_right = false;
+      std::fprintf(stderr, "%sstability_matrix: ours, %s (%s): %s, %s %g\n", terminal ? "\r\033[K" : "",
+                   scene.name.c_str(), scene.about.c_str(), afm::name_of(cell.verdict), cell.meaning.c_str(),
+                   cell.number);
+    }
+  }
+  if (terminal) std::fprintf(stderr, "\r\033[K");
+  return ours_right;
+}
+
+}  // namespace
+
+namespace afm {
+
+const char* name_of(Verdict verdict) {
+  constexpr const char* kNames[] = {"right", "inaccurate", "misses", "phantom", "stalls", "blows up"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+}  // namespace afm
+
+int main(int argc, char** argv) {
+  Options o;
+  CLI::App app{kDescription, "stability_matrix"};
+  app.add_flag("--quick", o.effort.quick, "fewer flights, shorter runs");
+  app.add_option("--methods", o.methods, "only these")->delimiter(',');
+  app.add_option("--scenes", o.scenes, "only these")->delimiter(',');
+  app.add_option("--except", o.except, "but not these scenes")->delimiter(',');
+  app.add_option("--seconds", o.effort.seconds, "of processor time for a cell (hour and gamma_1: 10 times as much)");
+  app.add_option("--output", o.output, "file for the table; default: standard output");
+  CLI11_PARSE(app, argc, argv);
+  std::vector<StabilityScene> scenes = afm::run_scenes();
+  for (StabilityScene& scene : afm::flight_scenes(o.effort)) scenes.push_back(std::move(scene));
+  if (!known("--methods", o.methods, columns()) || !known("--scenes", o.scenes, scenes) ||
+      !known("--except", o.except, scenes)) {
+    return 2;
+  }
+  std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
+  if (out == nullptr) {
+    std::fprintf(stderr, "stability_matrix: cannot write '%s'\n", o.output.c_str());
+    return 2;
+  }
+  const bool ours_right = run(o, scenes, out);
+  const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
+  if (out != stdout) std::fclose(out);
+  if (!written) std::fprintf(stderr, "stability_matrix: cannot write the output\n");
+  return !written ? 2 : ours_right ? 0 : 1;
+}
