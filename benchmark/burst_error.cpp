@@ -1,4 +1,4 @@
-// The error of bursts in the state at the next real impact, against the bounces one by one: a table, a row for each drag
+// The error of bursts in the state at the next impact, against the bounces one by one: a table, a row for each drag
 // speed and cutoff. Times in tau, lengths in lattice spacings.
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -15,6 +15,7 @@ struct Options {
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
   unsigned seed = 1;
+  bool fast = false;
 };
 
 double quantile(std::vector<double>& sorted, double p) {
@@ -25,7 +26,7 @@ void print_row(double eta, double share, const Options& o) {
   afm::Model model;
   model.gamma = o.gamma;
   model.v_c = share * eta;
-  afm::BurstTrials trials(model, eta, o.tolerance, o.seed, o.most_bounces);
+  afm::BurstTrials trials(model, eta, o.tolerance, o.seed, o.most_bounces, o.fast);
   std::vector<double> worst, tempered;
   double bounces = 0.0;
   while (worst.size() < o.bursts) {
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   app.add_option("--most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
   app.add_option("--seed", o.seed, "of the starts");
   app.add_option("--show", o.show, "print every burst with an error above this");
+  app.add_flag("--fast", o.fast, "at the next impact that is no chatter, after all bounces and bursts in between");
   CLI11_PARSE(app, argc, argv);
   std::printf("eta,v_c,bursts,bounces,skipped,median,99_percent,max,99_percent_tempered,max_tempered\n");
   for (const double share : o.share) {

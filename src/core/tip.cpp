@@ -22,10 +22,10 @@ const TipState& checked(const TipState& start) {
   return start;
 }
 
-// The flights up to the next impact may enlarge an error tenfold (measured over the bursts of docs/stability.md).
-constexpr double kGrowth = 10.0;
-// Chatter of gap rate v moves the tip off its guide by less than kDrift v^2.
-constexpr double kDrift = 0.1;
+// The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
+constexpr double kGrowth = 100.0;
+// Bounces slower than sqrt(kEntry * tolerance) may become a burst: at the default up to 0.01 a/tau, where they rise by 1e-5 a.
+constexpr double kEntry = 0.1;
 
 std::uint32_t whole_count(double n) {
   constexpr double kMost = 4294967295.0;
@@ -52,6 +52,14 @@ AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanic
   return SlidePiece<double>(mechanics, eta, start);
 }
 
+// Kinetic and in the springs.
+double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
+  const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
+  const double Y = surface.h - m.y0;
+  return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
+                m.omega_v * m.omega_v * Y * Y);
+}
+
 AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
 
 AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
@@ -66,7 +74,7 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       mechanics_(model),
       eta_(eta),
       law_(model, contact_tolerance / kGrowth),
-      burst_gap_rate_(std::sqrt(contact_tolerance / (kGrowth * kDrift))),
+      burst_gap_rate_(std::sqrt(kEntry * contact_tolerance)),
       flight_(mechanics_, eta, checked(start)),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
   if (start.g == 0.0 && !(start.g1 < 0.0)) leave_or_press();
@@ -99,6 +107,16 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
+// To where the chatter has moved the tip. A guide conserves energy by itself; what the move stores more, the drag has worked or
+// the bounces have given.
+SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatter& chatter) {
+  const SlideState<double> moved = moved_guide(model_, guide, chatter);
+  const double work = -mechanics_.omega_h * mechanics_.omega_h * eta_ * chatter.drift;
+  burst_gain_ += work - (slide_energy(mechanics_, moved) - slide_energy(mechanics_, guide));
+  work_off_guide_ += work;
+  return moved;
+}
+
 // The flight after a bounce has begun: does the surface press, and is it the first bounce of a burst?
 void Tip::leave_or_press() {
   const TipState start = flight_.launch();
@@ -108,17 +126,22 @@ void Tip::leave_or_press() {
   } else if (start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
     const Settled settled = settle(model_, start);
     burst_normal_speed_ = settled.normal_speed;
-    burst(settled.guide, {start.g1, 0.0});
+    burst_gain_ = 0.0;
+    burst(settled.guide, {settled.normal_speed, 0.0});
   }
 }
 
 void Tip::drag(double eta) {
   const TipState state = tip_state();
-  const double s = now_ - start_;
+  SlideState<double> guide{state.phase, state.X, state.u};
+  if (mode_ == Mode::bursting) {
+    const Chatter chatter = law_.at(slide_, now_ - start_, chatter_);
+    guide = leave_guide(guide, chatter);
+    eta_ = eta;
+    return burst(guide, {chatter.v, chatter.n});
+  }
   eta_ = eta;
-  const SlideState<double> guide{state.phase, state.X, state.u};
   if (mode_ == Mode::sliding) return slide(guide);
-  if (mode_ == Mode::bursting) return burst(guide, law_.at(slide_, s, chatter_));
   const Mode due = mode_;
   fly(state);
   mode_ = due;
@@ -160,20 +183,20 @@ Outcome Tip::land() {
 // All that the bounces lost: what their normal speed was at first, less what it is now.
 Outcome Tip::end_burst() {
   const ChatterRun run = chatter_run_;
-  const SlideState<double> guide = slide_at(slide_, run.s);
   if (run.end == ChatterEnd::time && !slide_releases_) {
-    burst(guide, run.chatter);
+    burst(leave_guide(slide_at(slide_, run.s), run.chatter), {run.chatter.v, run.chatter.n});
     return Outcome::flying;
   }
+  const SlideState<double> guide = leave_guide(slide_at(slide_, run.s), run.chatter);
   const bool died = run.end == ChatterEnd::died;
   const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
   const Settled settled = settle(model_, bounce);
-  const double before = burst_normal_speed_, after = settled.normal_speed;
+  const double before = burst_normal_speed_, after = died ? 0.0 : run.chatter.v;
   last_impact_ = {now_,
                   bounce.phase,
                   before,
                   settled.tangential_velocity,
-                  0.5 * (before - after) * (before + after),
+                  0.5 * (before - after) * (before + after) + burst_gain_,
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
   fly(bounce);

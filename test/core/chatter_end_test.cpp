@@ -37,7 +37,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
     for (int n = 1; n <= static_cast<int>(run.chatter.n); ++n) tip.advance(kNever);
     const double bounce = 2.0 * run.chatter.v / chatter.guide.pressure(run.s);
     ASSERT_NEAR(tip.now() - ModelTime{}, run.s, 0.1 * bounce) << i;
-    ASSERT_NEAR(tip.tip_state().g1, run.chatter.v, 2.0 * kThreshold) << i;
+    ASSERT_NEAR(settle(model, tip.tip_state()).normal_speed, run.chatter.v, 2.0 * kThreshold) << i;
   }
   EXPECT_GT(exits, 20);
 }
@@ -62,7 +62,7 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
     ASSERT_EQ(tip.advance(kNever), Outcome::contact);
     const double end = tip.now() - ModelTime{};
     int count = 0;
-    while (bounces.tip_state().g1 > kThreshold && bounces.advance(kNever) == Outcome::impact) ++count;
+    while (settle(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(kNever) == Outcome::impact) ++count;
     ASSERT_NEAR(burst.count, count, 1.5 + 0.05 * count) << i;
     while (bounces.tip_state().g1 > 1e-9 && bounces.advance(kNever) == Outcome::impact) continue;
     const double s = bounces.now() - ModelTime{};
@@ -93,11 +93,11 @@ TEST(Settle, TakesOutTheNormalVelocityAndUnsettlePutsItBack) {
     ASSERT_NEAR(settled.tangential_velocity, (state.u + slope * w) / n,
                 1e-14 * (1.0 + std::abs(state.u) + std::abs(w)));
     ASSERT_NEAR(settled.guide.u * n, settled.tangential_velocity, 1e-14 * (1.0 + std::abs(state.u)));
-    const TipState back = unsettle(model, settled.guide, state.g1);
+    const TipState back = unsettle(model, settled.guide, settled.normal_speed);
     ASSERT_EQ(back.phase, state.phase);
     ASSERT_EQ(back.X, state.X);
     ASSERT_EQ(back.g, 0.0);
-    ASSERT_EQ(back.g1, state.g1);
+    ASSERT_NEAR(back.g1, state.g1, 1e-15 * std::abs(state.g1));
     ASSERT_NEAR(back.u, state.u, 1e-15 * (1.0 + std::abs(state.u) + state.g1));
   }
 }

@@ -22,7 +22,7 @@ Model model_with(double gamma) {
   return model;
 }
 
-// The relative error of the law at a bounce: in the number of bounces, and in the gap rate.
+// The relative error of the law at a bounce: in the number of bounces, and in the normal speed.
 struct LawError {
   double n, v;
 };
@@ -37,12 +37,15 @@ struct Comparison {
 
 // Step by step: the law after a small part of the guide, and the guide from there on.
 struct LawStep {
+  Model model;
   Piece guide;
   Chatter chatter;
 
   void advance(const ChatterLaw& law, double dt) {
     chatter = law.at(guide, dt, chatter);
-    guide = Piece(guide.mechanics(), guide.eta(), guide.at(dt));
+    const SlideState<double> moved = moved_guide(model, guide.at(dt), chatter);
+    guide = Piece(guide.mechanics(), guide.eta(), moved);
+    chatter.sigma = chatter.p = 0.0;
   }
 };
 
@@ -51,12 +54,12 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
   Comparison comparison;
   Tip tip = chatter.every_bounce();
   const Chatter start{chatter.v, 0.0};
-  LawStep law_step{chatter.guide, start};
+  LawStep law_step{chatter.model, chatter.guide, start};
   const double end = law.run(chatter.guide, 0.0, chatter.guide.length(), start).s;
   double before = 0.0;
   for (int n = 1; n <= most; ++n) {
     tip.advance(kNever);
-    const double t = tip.now() - ModelTime{}, v = tip.tip_state().g1;
+    const double t = tip.now() - ModelTime{}, v = settle(chatter.model, tip.tip_state()).normal_speed;
     if (t >= end) return comparison;
     for (int part = 0; part < parts; ++part) law_step.advance(law, (t - before) / parts);
     before = t;
@@ -77,14 +80,17 @@ class Chatters : public testing::TestWithParam<double> {
   const ChatterLaw law_{model_, kThreshold};
 };
 
-TEST_P(Chatters, TheLawIsThatOfTheBouncesButForTheSecondOrder) {
+TEST_P(Chatters, TheLawIsThatOfTheBouncesToTheSecondOrder) {
+  constexpr double kRounding = 1e-9;
+  // the parts of the second order are there, but for those with a loss
+  const double part = model_.gamma >= 0.99 ? 0.02 : 15.0;
   RandomLaunches random(1);
   int short_ones = 0;
   for (int i = 0; i < 2000; ++i) {
     const Comparison c = compare(random_chatter(model_, law_, random, -4.5, -2.3), law_, 20, 4);
     const double second_order = c.longest * c.longest;
-    ASSERT_LT(c.worst.n, 50.0 * second_order + 1e-12) << i;
-    ASSERT_LT(c.worst.v, 25.0 * second_order + 1e-12) << i;
+    ASSERT_LT(c.worst.n, part * second_order + kRounding) << i;
+    ASSERT_LT(c.worst.v, part * second_order + kRounding) << i;
     if (c.bounces < 20 || c.longest > 4e-4) continue;
     ++short_ones;
     ASSERT_LT(c.worst.n, 1e-5) << i;
@@ -93,11 +99,11 @@ TEST_P(Chatters, TheLawIsThatOfTheBouncesButForTheSecondOrder) {
   EXPECT_GT(short_ones, 300);
 }
 
-TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAQuarterOrLess) {
+TEST_P(Chatters, AtHalfTheSpeedTheErrorIsASeventhOrLess) {
   RandomLaunches random(2);
   std::vector<double> n_ratios, v_ratios;
   for (int i = 0; i < 500; ++i) {
-    RandomChatter chatter = random_chatter(model_, law_, random, -4.0, -3.3);
+    RandomChatter chatter = random_chatter(model_, law_, random, -3.0, -2.3);
     const Comparison whole = compare(chatter, law_, 10, 4);
     chatter.v *= 0.5;
     const Comparison half = compare(chatter, law_, 10, 4);
@@ -108,8 +114,8 @@ TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAQuarterOrLess) {
   ASSERT_GT(n_ratios.size(), 100u);
   std::sort(n_ratios.begin(), n_ratios.end());
   std::sort(v_ratios.begin(), v_ratios.end());
-  EXPECT_GT(n_ratios[n_ratios.size() / 2], 3.5);
-  EXPECT_GT(v_ratios[v_ratios.size() / 2], 3.5);
+  EXPECT_GT(n_ratios[n_ratios.size() / 2], 7.0);
+  EXPECT_GT(v_ratios[v_ratios.size() / 2], 7.0);
 }
 
 TEST_P(Chatters, InOneRunTheGapRateIsGoodToTheThreshold) {

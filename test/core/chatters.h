@@ -11,7 +11,7 @@ namespace afm {
 
 struct RandomChatter {
   Model model;
-  double v;  // gap rate of the first bounce
+  double v;  // normal speed after the first bounce
   SlidePiece<double> guide;
 
   Tip every_bounce() const { return {model, guide.eta(), unsettle(model, guide.start(), v), 0.0}; }
@@ -24,7 +24,7 @@ struct RandomChatter {
   }
 };
 
-// One that `law` takes: a gap rate of 10^decades(from, to) under a pressure of at least 0.5.
+// One that `law` takes: a normal speed of 10^decades(from, to) under a pressure of at least 0.5.
 inline RandomChatter random_chatter(const Model& model, const ChatterLaw& law, RandomLaunches& random, double from,
                                     double to) {
   const Mechanics<double> mechanics(model);

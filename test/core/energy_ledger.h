@@ -42,7 +42,7 @@ class EnergyLedger {
 
   // Energy from nothing, and what it is to be compared with: all that has been turned over.
   double imbalance(const Tip& tip) const {
-    return static_cast<double>(lost_ - work_) + (stored_energy(model_, tip.state()) + in_bounces_ - at_start_);
+    return static_cast<double>(lost_ - work_ - tip.work_off_guide()) + (stored_energy(model_, tip.state()) + in_bounces_ - at_start_);
   }
   double turnover(const Tip& tip) const {
     return static_cast<double>(gross_) + stored_energy(model_, tip.state()) + at_start_;

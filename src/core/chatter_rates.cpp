@@ -1,0 +1,185 @@
+#include "afm_emulator/chatter_rates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "afm_emulator/impact_steps.h"
+#include "afm_emulator/multiversion.h"
+
+namespace afm {
+namespace {
+
+// The interpolation of w -> w (1 - w): R = G/T and 1/T.
+double series_R(double w) {
+  return 1.0 + w * (1.0 / 2 +
+                    w * (7.0 / 12 + w * (7.0 / 8 + w * (1049.0 / 720 + w * (727.0 / 288 + w * (264917.0 / 60480))))));
+}
+double series_1_over_T(double w) {
+  return 1.0 - w * (1.0 / 2 +
+                    w * (5.0 / 12 + w * (5.0 / 8 + w * (811.0 / 720 + w * (629.0 / 288 + w * (261679.0 / 60480))))));
+}
+
+// Natural logarithm to 1e-15 of 0 < x, the same bits on every machine.
+double portable_log(double x) {
+  constexpr double kLog2 = 0.6931471805599453;
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);
+  if (m < 0.7071067811865476) {
+    m *= 2.0;
+    --exponent;
+  }
+  const double z = (m - 1.0) / (m + 1.0), z2 = z * z;
+  double sum = 0.0;
+  for (int k = 23; k >= 1; k -= 2) sum = sum * z2 + 1.0 / k;
+  return 2.0 * z * sum + exponent * kLog2;
+}
+
+// e^x to 1e-15, likewise. Precondition: |x| < 700.
+double portable_exp(double x) {
+  constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
+  constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding and taking it away rounds to a whole number
+  const double k = (x * 1.4426950408889634 + kRounder) - kRounder;
+  const double r = (x - k * kLog2High) - k * kLog2Low;
+  const double r2 = r * r;  // even and odd powers side by side
+  double even = 1.0 / 479001600, odd = 1.0 / 6227020800.0;
+  for (const double c : {1.0 / 3628800, 1.0 / 40320, 1.0 / 720, 1.0 / 24, 0.5, 1.0}) even = even * r2 + c;
+  for (const double c : {1.0 / 39916800, 1.0 / 362880, 1.0 / 5040, 1.0 / 120, 1.0 / 6, 1.0}) odd = odd * r2 + c;
+  const double sum = even + r * odd;
+  const std::uint64_t bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52;  // 2^k
+  double power;
+  std::memcpy(&power, &bits, sizeof power);
+  return sum * power;
+}
+
+double square(double x) { return x * x; }
+
+double mean_over_first(double gamma) {
+  const double loss = 1.0 - gamma;
+  if (loss < 1e-8) return 1.0;
+  return gamma > 0.0 ? -portable_log(gamma) / loss : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+ChatterRates::ChatterRates(const Model& model, bool geometric)
+    : geometric_(geometric),
+      gamma_(model.gamma),
+      H_(model.H),
+      wv2_(square(kTwoPi)),
+      wh2_(square(kTwoPi * model.frequency_ratio)),
+      ratio_(model.frequency_ratio),
+      loss_(geometric ? 0.0 : (1.0 - model.gamma) / model.v_c),
+      per_mean_(1.0 / mean_over_first(model.gamma)) {
+  // no more than rounding allows where the loss is next to nothing: then n alone changes evenly
+  constexpr double kLeastLoss = 1e-4;
+  const double loss = geometric ? 1.0 - gamma_ : loss_;
+  even_ = loss > kLeastLoss ? (geometric ? per_mean_ : 1.0) / loss : 0.0;
+}
+
+ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
+  const TipState& q = bounce.launch();
+  const SurfaceJet<double> h = surface_jet(H_, q.phase);
+  const double a = -bounce.start().g2, a1 = -higher_derivatives(bounce).g3, N2 = 1.0 + square(h.h1);
+  ChatterSurroundings at{};
+  at.P = a / std::sqrt(N2);
+  at.per_P = 1.0 / at.P;
+  at.squeeze = (a1 / a - h.h1 * h.h2 * q.u / N2) / 3.0;
+  at.quickness = 3.0 * std::abs(at.squeeze);
+  at.slow_rate = std::max(std::abs(q.u), ratio_);
+  return at;
+}
+
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
+  const SlideState<double> q = guide.at(s);
+  const auto a = guide.pressure_jet(s);
+  const SurfaceJet<double> h = surface_jet(H_, q.phase);
+  const double u = q.u, N2 = 1.0 + square(h.h1), per_N2 = 1.0 / N2, per_N = std::sqrt(per_N2), per_a = 1.0 / a[0];
+  const double x2 = -wh2_ * q.X - h.h1 * a[0] * per_N2;  // of the guide, with the pressure on it
+  // the rate at which the surface turns under the tip, and its rate; from them those of ln N, and from these P'/P, ...
+  const double turn = h.h2 * u * per_N2, turn1 = (h.h3 * u * u + h.h2 * x2) * per_N2 - 2.0 * h.h1 * square(turn);
+  const double L1 = h.h1 * turn, L2 = h.h2 * u * turn + h.h1 * turn1;
+  const double q1 = a[1] * per_a, q2 = a[2] * per_a, q3 = a[3] * per_a;
+  const double p1 = q1 - L1, b2 = q2 - square(q1) - L2, b3 = q3 - 3.0 * q1 * q2 + 2.0 * q1 * square(q1);
+  const double p2 = b2 + square(p1), p3 = b3 + 3.0 * p1 * b2 + p1 * square(p1);
+  const double K = 3.0 * square(turn) + (wh2_ * square(h.h1) + wv2_) * per_N2;
+  const double K1 = 6.0 * turn * turn1 + 2.0 * L1 * (wh2_ - wv2_) * per_N2;
+  const double P = a[0] * per_N, per_P = per_a * N2 * per_N, per_P2 = square(per_P);
+  ChatterSurroundings at{};
+  at.P = P;
+  at.per_P = per_P;
+  at.squeeze = p1 / 3.0;
+  at.stretch = ((3.0 * p2 - 4.0 * square(p1)) / 27.0 - K / 3.0) * per_P2;
+  at.twist = ((-3.0 * p3 + 20.0 * p1 * (p2 - square(p1))) / 135.0 + (K1 - 3.0 * K * p1) / 15.0) * per_P2;
+  at.lag = (p2 - 2.0 * square(p1)) * per_P / 18.0;
+  at.turn = turn;
+  // curvature k = h''/N^3, its rate along the surface, speed N u, acceleration along the surface from the springs alone
+  const double curvature = h.h2 * per_N2 * per_N, curvature1 = (h.h3 - 3.0 * h.h1 * square(h.h2) * per_N2) * square(per_N2);
+  const double pull = (x2 + L1 * u) * N2 * per_N, speed2 = square(u) * N2;
+  at.lean = h.h1 * (wh2_ - wv2_) * per_N2 - curvature * pull - curvature1 * speed2;
+  at.stiffness = (wh2_ + wv2_ * square(h.h1)) * per_N2 - curvature * (curvature * speed2 - P);
+  at.quickness = std::sqrt(std::max(square(p1), std::abs(p2)));
+  at.along = per_N;
+  at.up = -h.h1 * per_N;
+  at.slow_rate = std::max(std::abs(u), ratio_);
+  return at;
+}
+
+namespace {
+
+// The reaction off the guide over that on it, less 1. The action keeps v^3/P.
+double disturbance(const ChatterSurroundings& at, double sigma, double p) {
+  return (2.0 * at.turn * p - at.lean * sigma) * at.per_P;
+}
+
+}  // namespace
+
+double ChatterRates::speed(double x) const {
+  return geometric_ ? std::max(x, std::numeric_limits<double>::min()) : portable_exp(x);
+}
+
+double ChatterRates::x_of(double v) const { return geometric_ ? v : portable_log(v); }
+
+double ChatterRates::bounces_at(double v) const { return geometric_ ? -even_ * portable_log(v) : even_ / v; }
+
+AFM_MULTIVERSION EvenChatter ChatterRates::even(const ChatterSurroundings& at, const Chatter& c) const {
+  const double v = c.v * (1.0 - disturbance(at, c.sigma, c.p) / 3.0);
+  return {x_of(v), c.n - bounces_at(v), c.sigma, c.p, c.drift};
+}
+
+AFM_MULTIVERSION Chatter ChatterRates::plain(const ChatterSurroundings& at, const EvenChatter& c) const {
+  const double v = speed(c.x);
+  return {v * (1.0 + disturbance(at, c.sigma, c.p) / 3.0), c.rest + bounces_at(v), c.sigma, c.p, c.drift};
+}
+
+double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
+  return 2.0 * at.per_P * (geometric_ ? v / (1.0 - gamma_) : 1.0 / loss_);
+}
+
+// Products of two terms of the second order are left out: what is kept is no better.
+AFM_MULTIVERSION EvenChatter ChatterRates::operator()(const ChatterSurroundings& at, const EvenChatter& c) const {
+  const double on_guide = speed(c.x), per_v = 1.0 / on_guide;
+  const double more = disturbance(at, c.sigma, c.p), v = on_guide * (1.0 + more / 3.0), v2 = v * v;
+  const double height = v2 * at.per_P / 3.0, longer = at.stretch * v2, shorter = 1.0 - longer * (1.0 - longer);
+  const double bounces = 0.5 * at.P * per_v * (1.0 + more * (2.0 / 3.0)) * shorter;
+  const double adiabatic = at.squeeze * shorter + at.twist * v2;  // of ln v, as are those below
+  const double sigma = c.p + 2.0 * at.turn * height, p = at.lean * height - at.stiffness * c.sigma;
+  const double drift = at.along * c.sigma + at.up * height;
+  if (geometric_) {
+    const double change = adiabatic - (1.0 - gamma_) * bounces;
+    return {on_guide * change, bounces * per_mean_ + even_ * change, sigma, p, drift};
+  }
+  const double w = loss_ * v, delay = at.squeeze * at.per_P * v * w * (1.0 / 3.0 + 0.5 * w), per_T = series_1_over_T(w);
+  const double change = adiabatic * per_T * (1.0 - 0.5 * w * w) - w * (bounces * series_R(w) + v * at.lag);
+  return {change, bounces * per_T * (1.0 - delay) + even_ * per_v * change, sigma, p, drift};
+}
+
+SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {
+  const auto N = [&](double phase) { return std::sqrt(1.0 + square(surface_jet(model.H, phase).h1)); };
+  const double here = N(guide.phase), dx = chatter.sigma / here;
+  return {guide.phase + dx, guide.X + dx, (guide.u * here + chatter.p) / N(guide.phase + dx)};
+}
+
+}  // namespace afm
