@@ -1,10 +1,11 @@
 // K_f against drag velocity, restitution and cutoff.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <map>
+#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "sweep/curve_run.h"
@@ -22,6 +23,7 @@ const char kDescription[] =
 
 struct Options {
   std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", sweep = "fresh", output = "-";
+  std::int64_t seed = 1;
   int threads = 0;
   afm::CurveSettings settings;
 };
@@ -45,7 +47,7 @@ void parse(CLI::App& app, Options& o) {
       ->capture_default_str();
   app.add_option("--threads", o.threads, "0: one for each processor; under mpirun one for each rank")
       ->capture_default_str();
-  app.add_option("--seed", sweep.seed, "of the random starts")->capture_default_str();
+  app.add_option("--seed", o.seed, "of the random starts")->capture_default_str();
   app.add_option("--output", o.output, "the table; - is standard output")->capture_default_str();
 }
 
@@ -68,6 +70,8 @@ void check(Options& o) {
   if (s.model == "hammer") refuse("model = hammer: this version computes the oscillator only");
   if (s.model != "oscillator") refuse("model = " + s.model + ": must be oscillator");
   if (o.threads < 0 || o.threads > 1024) refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
+  if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");
+  s.sweep.seed = static_cast<std::uint64_t>(o.seed);
   const std::vector<afm::ParameterError> faults = afm::find_faults(s);
   if (!faults.empty()) refuse(afm::describe(faults));
 }

@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""The tool friction_curve: the same bytes however it is run, whatever stops it, and refusals of every bad input.
+
+Usage: friction_curve_test.py TOOL [MPIRUN]
+"""
+import csv
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TOOL, MPIRUN = None, None
+HEADER = ('eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,'
+          'attractor')
+MAP = ['--eta', '1.5:5:0.5', '--gamma', '0.6:0.7:0.1', '--cutoff', '0.1:0.2:0.1', '--duration', '300',
+       '--transient', '100']
+HYSTERESIS = '2.3:2.7:0.02'  # two attractors near 2.5
+DEADLINE = 60.0
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.directory)
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def run_tool(self, arguments, name=None, prefix=()):
+        output = ['--output', self.path(name)] if name else []
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
+                           OMPI_MCA_rmaps_base_oversubscribe='1')
+        return subprocess.run([*prefix, TOOL, *arguments, *output], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              timeout=DEADLINE, env=environment)
+
+    def bytes_of(self, name):
+        with open(self.path(name), 'rb') as file:
+            return file.read()
+
+    def table(self, arguments, name, prefix=()):
+        done = self.run_tool(arguments, name, prefix)
+        self.assertEqual((done.returncode, done.stderr), (0, b''))
+        return self.bytes_of(name)
+
+    def rows(self, arguments, name='rows.csv'):
+        return list(csv.DictReader(self.table(arguments, name).decode().splitlines()))
+
+
+class SameBytes(Case):
+    def test_any_number_of_threads_and_standard_output(self):
+        one = self.table([*MAP, '--threads', '1'], 'one.csv')
+        self.assertEqual(one.decode().splitlines()[0], HEADER)
+        self.assertEqual(len(one.splitlines()), 1 + 8 * 2 * 2)
+        self.assertEqual(self.table([*MAP, '--threads', '2'], 'two.csv'), one)
+        self.assertEqual(self.run_tool(MAP).stdout, one)
+
+    def test_any_number_of_ranks(self):
+        if not MPIRUN:
+            self.skipTest('no mpirun here, or built without MPI')
+        for extra in ([], ['--sweep', 'down']):
+            one = self.table([*MAP, *extra], 'one.csv')
+            for ranks in ('1', '2', '3'):
+                name = ranks + '.csv'
+                self.assertEqual(self.table([*MAP, *extra], name, (MPIRUN, '-n', ranks)), one)
+                os.remove(self.path(name))
+            os.remove(self.path('one.csv'))
+
+    def interrupted(self, arguments, number, prefix=()):
+        """Stopped with some rows there and some not, then finished."""
+        command = [*prefix, TOOL, *arguments, '--output', self.path('stopped.csv')]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + DEADLINE
+        while self.lines('stopped.csv') < 4 and process.poll() is None and time.monotonic() < deadline:
+            pass
+        process.send_signal(number)
+        told = process.communicate(timeout=DEADLINE)[1]
+        before = self.lines('stopped.csv')
+        self.assertGreaterEqual(before, 4)
+        self.assertLess(before, 120, 'it was finished before it was stopped')
+        return process.returncode, told, self.table(arguments, 'stopped.csv')
+
+    def lines(self, name):
+        try:
+            return len(self.bytes_of(name).splitlines())
+        except FileNotFoundError:
+            return 0
+
+    def test_interrupted(self):
+        for sweep in ('fresh', 'up'):
+            long = ['--eta', '3:6:0.025', '--cutoff', '0.3', '--duration', '2000', '--sweep', sweep]
+            whole = self.table(long, 'whole.csv')
+            code, told, finished = self.interrupted(long, signal.SIGINT)
+            self.assertEqual(finished, whole)
+            self.assertEqual(code, 130)
+            self.assertIn(b'the same command goes on from there', told)
+            os.remove(self.path('stopped.csv'))
+            code, _, finished = self.interrupted([*long, '--threads', '1'], signal.SIGKILL)
+            self.assertEqual((code, finished), (-signal.SIGKILL, whole))
+            for name in ('whole.csv', 'stopped.csv'):
+                os.remove(self.path(name))
+
+    def test_a_line_cut_short(self):
+        whole = self.table(MAP, 'cut.csv')
+        for size in (0, 30, 150, 400, 1000):
+            with open(self.path('cut.csv.journal'), 'r+b') as journal:
+                journal.truncate(size)
+            self.assertEqual(self.table(MAP, 'cut.csv'), whole)
+
+
+class Refusals(Case):
+    def assert_refused(self, arguments, *words):
+        done = self.run_tool(arguments)
+        self.assertEqual((done.returncode, done.stdout), (2, b''), arguments)
+        for word in words:
+            self.assertIn(word, done.stderr.decode())
+
+    def test_bad_input(self):
+        self.assert_refused(['--eta', '1:2:-1'], 'eta = 1:2:-1', 'STEP must be above 0')
+        self.assert_refused(['--eta', '1:2000:1'], 'eta = 1001', 'at most 1000')
+        self.assert_refused(['--gamma', '0.5:1.5:0.5', '--duration', '0'], 'gamma = 1.5', 'duration = 0')
+        self.assert_refused(['--cutoff', 'nan'], 'cutoff = nan', 'not a number')
+        self.assert_refused(['--cutoff', '-1'], 'cutoff = -1')
+        self.assert_refused(['--transient', '-1'], 'transient = -1')
+        self.assert_refused(['--duration', 'x'], 'duration', 'x')
+        self.assert_refused(['--threads', '-1'], 'threads = -1')
+        self.assert_refused(['--seed', '-1'], 'seed = -1')
+        self.assert_refused(['--sweep', 'sideways'], 'sweep = sideways')
+        self.assert_refused(['--model', 'hammer'], 'model = hammer')
+        self.assert_refused(['--output', '/no/such/place.csv'], '/no/such/place.csv', 'No such file')
+        self.assert_refused(['stray'], 'stray')
+
+    def test_other_settings(self):
+        table = self.table(MAP, 'curve.csv')
+        self.assertEqual(self.run_tool(MAP, 'curve.csv').returncode, 0)
+        self.assertEqual(self.bytes_of('curve.csv'), table)
+        self.assertEqual(self.run_tool([*MAP[2:], '--eta', '1.5:5.5:0.5'], 'curve.csv').returncode, 2)
+        for extra in (['--seed', '2'], ['--sweep', 'up']):
+            done = self.run_tool([*MAP, *extra], 'curve.csv')
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(b'other settings', done.stderr)
+            self.assertEqual(self.bytes_of('curve.csv'), table)
+        os.remove(self.path('curve.csv'))
+        self.assertNotEqual(self.table([*MAP, '--seed', '2'], 'curve.csv'), table)
+
+    def test_a_file_of_someone_else(self):
+        with open(self.path('notes.csv'), 'w') as file:
+            file.write('mine\n')
+        done = self.run_tool(MAP, 'notes.csv')
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(self.bytes_of('notes.csv'), b'mine\n')
+
+    def test_a_full_disk(self):
+        with open('/dev/full', 'w') as full:
+            done = subprocess.run([TOOL, *MAP], stdout=full, stderr=subprocess.PIPE, timeout=DEADLINE)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(b'cannot write', done.stderr)
+
+
+class Physics(Case):
+    def test_friction_depends_on_history_where_attractors_coexist(self):
+        curve = ['--cutoff', '0.2', '--eta', HYSTERESIS, '--duration', '500']
+        up = self.rows([*curve, '--sweep', 'up'], 'up.csv')
+        down = self.rows([*curve, '--sweep', 'down'], 'down.csv')
+        self.assertEqual([row['eta'] for row in up], [row['eta'] for row in reversed(down)])
+        apart = [abs(float(a['k_f']) - float(b['k_f'])) for a, b in zip(up, reversed(down))]
+        errors = [float(a['k_f_std_error']) + float(b['k_f_std_error']) for a, b in zip(up, reversed(down))]
+        self.assertTrue(any(d > 0.03 + 5 * e for d, e in zip(apart, errors)), apart)
+        self.assertTrue(any(d < 1e-9 for d in apart), apart)
+
+    def test_the_columns(self):
+        row = self.rows(['--eta', '2', '--cutoff', '0.2', '--sweep', 'up', '--duration', '200'])[0]
+        self.assertEqual(','.join(row), HEADER)
+        self.assertTrue(row['attractor'].startswith('period-'))
+        rate, flight = float(row['impacts_per_tau']), float(row['mean_flight_time'])
+        self.assertAlmostEqual(rate * flight, 1.0)
+        self.assertAlmostEqual(rate * float(row['mean_energy_loss']) / 4.0, float(row['k_f']))
+        self.assertLess(float(row['largest_lyapunov']), 0.0)
+
+    def test_progress_is_shown_on_a_terminal(self):
+        parent, child = pty.openpty()
+        subprocess.run([TOOL, *MAP], stdout=subprocess.DEVNULL, stderr=child, timeout=DEADLINE, check=True)
+        os.close(child)
+        shown = os.read(parent, 65536).decode()
+        os.close(parent)
+        self.assertIn('32/32 points', shown)
+
+
+if __name__ == '__main__':
+    TOOL = sys.argv[1]
+    MPIRUN = sys.argv[2] if len(sys.argv) > 2 else None
+    unittest.main(argv=sys.argv[:1])
