@@ -1,0 +1,116 @@
+#include "afm_emulator/lyapunov.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "afm_emulator/surface.h"
+
+namespace afm {
+namespace {
+
+Model model_with(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+FreeState above_crest(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
+
+double sum(const LyapunovSpectrum& s) { return std::accumulate(s.exponents.begin(), s.exponents.end(), 0.0); }
+
+// The multipliers of the orbit of one impact are known to ten digits; the displacements leave it only after many turns.
+TEST(Lyapunov, OfAPeriodicOrbitIsThatOfItsMultipliers) {
+  const Model model = model_with(0.2);
+  LyapunovSettings settings;
+  settings.transient = 500.0;
+  settings.duration = 4000.0;
+  const LyapunovSpectrum s = lyapunov(model, 2.0, above_crest(2.0), settings);
+  ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
+  // gamma = 0.7, two impacts per tau: det = gamma^2 at each
+  EXPECT_NEAR(sum(s), 2.0 * 2.0 * std::log(0.7), 1e-6);
+  EXPECT_LT(s.exponents[0], -0.1);
+  for (int i = 0; i < 3; ++i) EXPECT_GE(s.exponents[i], s.exponents[i + 1] - 1e-2);
+}
+
+// What volumes do is known from the impacts alone.
+TEST(Lyapunov, SumsUpToWhatTheRestitutionTakes) {
+  for (const double eta : {1.0, 2.75, 3.0, 3.4, 5.0}) {
+    const Model model = model_with(0.1 * eta);
+    LyapunovSettings settings;
+    settings.duration = 500.0;
+    settings.contact_tolerance = 0.0;
+    const LyapunovSpectrum s = lyapunov(model, eta, above_crest(eta), settings);
+    ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta;
+    ASSERT_EQ(s.rank, 4);
+    EXPECT_NEAR(sum(s), s.volume_rate, 1e-8 * (1.0 + std::abs(s.volume_rate))) << eta;
+  }
+}
+
+// Two neighbours on the attractor part at the largest exponent: no Jacobian in it.
+TEST(Lyapunov, IsHowFastNeighboursPart) {
+  const Model model = model_with(0.34);
+  const double eta = 3.4, kApart = 1e-9;
+  const LyapunovSpectrum s = lyapunov(model, eta, above_crest(eta));
+  Tip tip(model, eta, above_crest(eta));
+  const auto run_to = [](Tip& t, const ModelTime& end) {
+    while (t.advance(end) != Outcome::time_limit) {
+    }
+  };
+  double growth = 0.0;
+  constexpr int kSpans = 1500;
+  for (int i = 0; i < kSpans + 50; ++i) {
+    TipState near = tip.tip_state();
+    near.X += kApart;
+    Tip neighbour(model, eta, near);
+    const ModelTime start = tip.now(), later = start + 4.0;
+    run_to(tip, later);
+    run_to(neighbour, ModelTime{} + 4.0);
+    const Deflection a = tip.deflection(later), b = neighbour.deflection(ModelTime{} + 4.0);
+    const double du = tip.tip_state().u - neighbour.tip_state().u;
+    const double apart = std::hypot(std::hypot(a.lateral - b.lateral, a.vertical - b.vertical), du / 40.0);
+    if (i >= 50 && apart > 0.0) growth += std::log(apart / kApart);
+  }
+  // fresh displacements need a few impacts to turn: that is part of a span of 4 tau, and so is not all growth
+  EXPECT_NEAR(growth / (4.0 * kSpans), s.exponents[0], 0.1);
+  EXPECT_NEAR(s.exponents[0], 0.6, 0.1);
+}
+
+TEST(Lyapunov, IsTheSameToTheLastBitWhenRunAgain) {
+  const Model model = model_with(0.34);
+  const LyapunovSpectrum a = lyapunov(model, 3.4, above_crest(3.4)), b = lyapunov(model, 3.4, above_crest(3.4));
+  EXPECT_EQ(a.exponents, b.exponents);
+  EXPECT_EQ(a.std_errors, b.std_errors);
+}
+
+// Contact and bursts taken as a whole do not change what is measured where they are rare.
+TEST(Lyapunov, HoldsAcrossBursts) {
+  const Model model = model_with(0.1);
+  LyapunovSettings whole, single;
+  whole.duration = single.duration = 4000.0;
+  single.contact_tolerance = 0.0;
+  const LyapunovSpectrum a = lyapunov(model, 3.4, above_crest(3.4), whole);
+  const LyapunovSpectrum b = lyapunov(model, 3.4, above_crest(3.4), single);
+  EXPECT_NEAR(a.exponents[0], b.exponents[0], 4.0 * std::hypot(a.std_errors[0], b.std_errors[0]));
+  EXPECT_NEAR(a.exponents[1], b.exponents[1], 4.0 * std::hypot(a.std_errors[1], b.std_errors[1]));
+}
+
+TEST(Lyapunov, AcrossContactTwoDirectionsAreLost) {
+  const Model model = model_with(0.02);
+  const LyapunovSpectrum s = lyapunov(model, 3.0, above_crest(3.0));
+  ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
+  EXPECT_EQ(s.rank, 2);
+  EXPECT_EQ(s.exponents[2], -INFINITY);
+  EXPECT_EQ(s.volume_rate, -INFINITY);
+  EXPECT_LT(s.exponents[0], 0.0);  // a periodic attractor
+}
+
+TEST(Lyapunov, TellsWhenItsBudgetIsSpent) {
+  LyapunovSettings settings;
+  settings.most_events = 1000;
+  EXPECT_EQ(lyapunov(model_with(0.34), 3.4, above_crest(3.4), settings).outcome, LyapunovOutcome::budget_spent);
+}
+
+}  // namespace
+}  // namespace afm
