@@ -1,8 +1,9 @@
 // The hot functions are compiled twice, for machines with fused multiply-add and without, and chosen when the program
 // is loaded. The fused operations are written out, so both give the same bits; without the instruction it is only slower.
+// Clang cannot clone what it flattens: there the options of the build decide (-mfma, -march=native).
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
     !defined(AFM_SINGLE_VERSION)
 #define AFM_MULTIVERSION __attribute__((flatten, target_clones("fma", "default")))
 #else

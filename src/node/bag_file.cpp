@@ -15,6 +15,7 @@ namespace {
 
 // rosbag writes a chunk when it is full: one may be under way, and its index follows it
 constexpr std::uint64_t kChunkSlack = 2 * 1024 * 1024;
+constexpr std::uint64_t kBetweenLooks = 256 * 1024;
 // a second of an ordinary run: with less room a recording is not begun
 constexpr std::uint64_t kLeastRecording = 4 * 1024 * 1024;
 
@@ -62,6 +63,16 @@ std::string BagFile::find_trouble(std::uint64_t bytes) const {
   if (disk.f_bavail * disk.f_frsize >= reserve_bytes_ + kChunkSlack + bytes) return {};
   return "the disk is full but for the " + std::to_string(reserve_bytes_ / 1000000) +
          " MB that stay free (disk_reserve_mb)";
+}
+
+std::string BagFile::find_trouble_before_writing(std::uint64_t bytes) {
+  if (bytes_allowed_ < bytes) {
+    const std::string trouble = find_trouble(bytes + kBetweenLooks);
+    if (!trouble.empty()) return trouble;
+    bytes_allowed_ = bytes + kBetweenLooks;
+  }
+  bytes_allowed_ -= bytes;
+  return {};
 }
 
 std::string BagFile::close() {

@@ -36,6 +36,8 @@ class BagFile {
 
   // Why so much more had better not be written: no room beside the reserve, or the file is gone. Nothing: it can be.
   std::string find_trouble(std::uint64_t bytes) const;
+  // The same, asking the disk only now and then, as that takes a system call.
+  std::string find_trouble_before_writing(std::uint64_t bytes);
 
   std::string close();  // returns what went wrong, with what to do about it, or nothing
 
@@ -47,6 +49,7 @@ class BagFile {
   std::string path_, active_path_;
   std::uint64_t reserve_bytes_;
   std::uint64_t messages_ = 0;
+  std::uint64_t bytes_allowed_ = 0;  // that may be written before the disk is asked again
   std::unique_ptr<rosbag::Bag> bag_;
 };
 

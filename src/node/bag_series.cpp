@@ -11,11 +11,12 @@
 namespace afm::node {
 namespace {
 
-// With the digits of the part, so that a shell lists the parts in order: NAME_*.bag.
+// NAME, NAME_001, NAME_002: a shell lists NAME*.bag in this order.
 std::string part_name(const std::string& name, std::uint32_t part) {
+  if (part == 0) return name;
   char number[16];
   std::snprintf(number, sizeof number, "_%03u", part);
-  return without_bag_ending(name) + number;
+  return name + number;
 }
 
 ros::Time just_before(const ros::Time& stamp) { return stamp - ros::Duration(0, 1); }
@@ -27,8 +28,7 @@ BagSeries::BagSeries(const Settings& settings, const std::string& directory, con
     : settings_(settings), directory_(directory), name_(without_bag_ending(name)), bag_(open(0)) {}
 
 std::unique_ptr<BagFile> BagSeries::open(std::uint32_t part) const {
-  const std::string name = settings_.splits() ? part_name(name_, part) : name_;
-  return std::make_unique<BagFile>(directory_ + "/" + with_bag_ending(name), settings_.reserve_bytes,
+  return std::make_unique<BagFile>(directory_ + "/" + with_bag_ending(part_name(name_, part)), settings_.reserve_bytes,
                                    settings_.compression);
 }
 

@@ -24,11 +24,9 @@ class BagSeries {
     std::uint64_t split_bytes;  // a new bag after so much; 0: never
     double split_seconds;       // of stamps; 0: never
     rosbag::CompressionType compression;
-
-    bool splits() const { return split_bytes > 0 || split_seconds > 0.0; }
   };
 
-  // directory/NAME.bag, or directory/NAME_000.bag and so on. Throws std::runtime_error with the reason.
+  // directory/NAME.bag, and directory/NAME_001.bag and so on where it is split. Throws std::runtime_error with the reason.
   BagSeries(const Settings& settings, const std::string& directory, const std::string& name);
 
   // In order of stamps. Throws std::exception; then nothing but close() is left to do.
@@ -43,7 +41,7 @@ class BagSeries {
 
   // How many messages the recorder has dropped so far: the marks tell.
   void set_dropped(std::uint64_t messages) { dropped_ = messages; }
-  std::string find_trouble(std::uint64_t bytes) const { return bag_->find_trouble(bytes); }
+  std::string find_trouble(std::uint64_t bytes) { return bag_->find_trouble_before_writing(bytes); }
   std::string close();  // returns what went wrong, or nothing
 
   const std::string& path() const { return bag_->path(); }  // of the present bag

@@ -20,14 +20,12 @@ bool is_taken(const std::filesystem::path& path) {
   return exists(path) || std::filesystem::exists(path.string() + ".active");
 }
 
-// The first name from the time that is not taken, by a whole recording or by the first part of one.
+// The first name from the time that is not taken.
 std::string free_name(const std::filesystem::path& directory) {
   const std::string base = name_from_time(std::time(nullptr));
   for (int i = 0;; ++i) {
     const std::string name = i == 0 ? base : base + "-" + std::to_string(i);
-    if (!is_taken(directory / with_bag_ending(name)) && !is_taken(directory / with_bag_ending(name + "_000"))) {
-      return name;
-    }
+    if (!is_taken(directory / with_bag_ending(name))) return name;
   }
 }
 

@@ -114,7 +114,7 @@ class RecordingFaults(NodeTest):
         self.assertIn('run_001.bag', ended.recorder_error)
         self.end(emulator)
         self.assertEqual((directory / 'run_001.bag').read_text(), 'mine')
-        checks.assert_identical(self, str(directory / 'run_000.bag'))
+        checks.assert_identical(self, str(directory / 'run.bag'))
 
     def test_the_master_goes(self):
         directory = Path(self.temporary_directory())

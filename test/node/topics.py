@@ -41,12 +41,23 @@ class Topic:
     def __init__(self, name, kind=None):
         self.name, self.kind = name, kind or TOPICS[name]
         self.raw, self.messages = [], []
-        path = name if name.startswith('/') else NAMESPACE + '/' + name
-        self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
+        self._subscribe()
         Topic._open.append(self)
 
-    def is_connected(self):
-        return self._subscriber.get_num_connections() > 0
+    def _subscribe(self):
+        path = self.name if self.name.startswith('/') else NAMESPACE + '/' + self.name
+        self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
+
+    def wait_for_connection(self):
+        """rospy asks a publisher once; where that goes wrong it never asks again. So we do."""
+        def connected():
+            return self._subscriber.get_num_connections() > 0
+        try:
+            wait_until(connected, 'connected', deadline_s=2.0)
+        except AssertionError:
+            self._subscriber.unregister()
+            self._subscribe()
+            wait_until(connected, self.name + ': connected at the second attempt')
 
     def close(self):
         self._subscriber.unregister()

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""What a long recording costs: 1 MHz of samples and all impacts in batches at 1 kHz. Starts a master and an emulator of
+its own, prints the share of a core of each thread and the memory in use, then stops and checks the recording.
+
+usage: record_throughput.py DIRECTORY [SECONDS]     (0.02 GB a second go into DIRECTORY, and are left there)"""
+import glob
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+import xmlrpc.client
+
+PARAMETERS = {'record': True, 'sample_rate_hz': 1e6, 'batch_rate_hz': 1000.0}
+
+
+def free_port():
+    with socket.socket() as free:
+        free.bind(('localhost', 0))
+        return free.getsockname()[1]
+
+
+def threads(pid):
+    """Seconds of CPU of each thread, by name."""
+    times = {}
+    for task in glob.glob('/proc/%d/task/*' % pid):
+        try:
+            name = open(task + '/comm').read().strip()
+            fields = open(task + '/stat').read().rsplit(')', 1)[1].split()
+        except OSError:
+            continue
+        times[name] = times.get(name, 0.0) + (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+    return times
+
+
+def resident_mb(pid):
+    with open('/proc/%d/statm' % pid) as statm:
+        return int(statm.read().split()[1]) * os.sysconf('SC_PAGE_SIZE') / 1e6
+
+
+def watch(pid, seconds):
+    begin, before = time.monotonic(), threads(pid)
+    while time.monotonic() < begin + seconds:
+        time.sleep(min(10.0, seconds))
+        elapsed, now = time.monotonic() - begin, threads(pid)
+        shares = {name: 100 * (cpu - before.get(name, 0.0)) / elapsed for name, cpu in now.items()}
+        print('%4.0f s, %4.0f MB resident, per cent of a core: %s' % (elapsed, resident_mb(pid), ', '.join(
+            '%s %.1f' % item for item in sorted(shares.items()) if item[0].startswith('afm_'))), flush=True)
+
+
+def main():
+    if len(sys.argv) < 2 or sys.argv[1].startswith('-'):
+        sys.exit(__doc__)
+    directory, seconds = os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 600.0
+    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
+    master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])
+    try:
+        server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
+        while True:
+            try:
+                server.setParam('throughput', '/afm', dict(PARAMETERS, bag_directory=directory))
+                break
+            except OSError:
+                time.sleep(0.1)
+        binary = subprocess.check_output(['catkin_find', '--first-only', 'afm_emulator', 'emulator_node'], text=True)
+        node = subprocess.Popen([binary.strip(), '__name:=afm'])
+        time.sleep(2.0)
+        watch(node.pid, seconds)
+        node.send_signal(signal.SIGINT)
+        code = node.wait()
+    finally:
+        master.kill()
+    bags = sorted(glob.glob(directory + '/*.bag'))
+    print('%.2f GB in %d bags' % (sum(os.path.getsize(bag) for bag in bags) / 1e9, len(bags)), flush=True)
+    checked = subprocess.call(['rosrun', 'afm_emulator', 'bag_check'] + bags)
+    sys.exit(code or checked)
+
+
+if __name__ == '__main__':
+    main()

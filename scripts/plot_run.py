@@ -1,0 +1,194 @@
+#!/usr/bin/python3
+"""Draws a recorded run against model time: deflection, impacts, friction and drag speed. docs/recording.md says what is
+in a bag; this is also an example of how to read it."""
+import argparse
+import os
+import sys
+
+try:
+    import matplotlib
+    import numpy as np
+    import rosbag
+except ImportError as missing:
+    sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
+             % missing)
+
+NAN = float('nan')
+MOST_POINTS = 100000  # of deflection; beyond it the smallest and largest of every few samples are drawn
+KINDS = {0: ('impact', 'C0', 2), 1: ('burst', 'C1', 12), 2: ('contact begins', 'C3', 12), 3: ('contact ends', 'C2', 12)}
+
+
+class Run:
+    """What is drawn, as arrays against model time in seconds since the first epoch of the recording began."""
+
+    def __init__(self):
+        self.samples, self.impacts, self.friction, self.drag = [], [], [], []
+        self.epochs = []  # where they begin
+        self.configuration, self.unit, self.offset, self.last = None, None, 0.0, 0.0
+
+    def begin_epoch(self, configuration):
+        self.configuration = configuration
+        self.unit = 2 * np.pi / configuration.omega_v_rad_per_s  # tau [s]
+        self.speed = configuration.lattice_spacing_m / self.unit
+        self.offset = self.last
+        self.epochs.append(self.offset)
+
+    def seconds(self, time):
+        moment = self.offset + (time.tau + time.phase) * self.unit
+        self.last = max(self.last, moment)
+        return moment
+
+    def add_deflection(self, message, every):
+        begin = self.seconds(message.time)
+        values = np.array([message.vertical, message.lateral]) * 1e9
+        times = begin + message.sample_period * np.arange(values.shape[1])
+        if every > 1 and len(times):  # extremes: a peak between two points drawn would be lost
+            edges = np.arange(0, len(times), every)
+            low, high = np.minimum.reduceat(values, edges, axis=1), np.maximum.reduceat(values, edges, axis=1)
+            values = np.stack([low, high], axis=2).reshape(2, -1)
+            times = np.repeat(times[edges], 2)
+        self.samples.append(np.vstack([times, values]))
+
+    def add_impacts(self, message):
+        for i in message.impacts:
+            self.impacts.append((self.seconds(i.time), i.normal_speed * 1e6, i.kind))
+
+    def add_friction(self, message):
+        per_unit = message.k_f_tau_per_m / message.k_f if message.k_f else NAN
+        self.friction.append((self.seconds(message.time), message.k_f_tau_per_m, message.k_f_std_error * per_unit,
+                              message.window_k_f * per_unit))
+
+    def add_drag(self, message):
+        moment = self.offset + (message.time.tau + message.time.phase) * self.unit
+        self.drag.append((moment, message.drag_velocity * 1e6))
+
+
+def is_type(kind):
+    return lambda topic, datatype, *_: datatype == 'afm_emulator/' + kind
+
+
+def count_samples(paths):
+    """From the first and the last batch of every bag, about."""
+    count = 0
+    for path in paths:
+        with rosbag.Bag(path) as bag:
+            info = bag.get_type_and_topic_info().topics
+            batches = sum(t.message_count for t in info.values() if t.msg_type == 'afm_emulator/Deflection')
+            first = next(bag.read_messages(connection_filter=is_type('Deflection')), None)
+            count += batches * (len(first.message.vertical) if first else 0)
+    return count
+
+
+def read(paths):
+    run = Run()
+    every = max(1, 2 * count_samples(paths) // MOST_POINTS)
+    known = set()
+    add = {'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
+           'Friction': run.add_friction, 'AppliedDrag': run.add_drag}
+    for path in paths:
+        with rosbag.Bag(path) as bag:
+            for topic, message, _ in bag.read_messages():
+                kind = message._type.split('/')[1]
+                if kind in ('Configuration', 'AppliedDrag'):  # the bags of a split recording repeat what was before
+                    if (kind, message.header.seq) in known:
+                        continue
+                    known.add((kind, message.header.seq))
+                if kind == 'Configuration':
+                    run.begin_epoch(message)
+                elif kind in add and run.configuration is not None:
+                    add[kind](message)
+    if run.configuration is None or not run.samples:
+        sys.exit('plot_run.py: %s: no run of the emulator in it' % ' '.join(paths))
+    return run
+
+
+def draw_deflection(axes, run):
+    times, vertical, lateral = np.hstack(run.samples)
+    axes.plot(times, vertical, lw=0.6, label='vertical')
+    axes.plot(times, lateral, lw=0.6, label='lateral', alpha=0.8)
+    axes.set_ylabel('deflection [nm]')
+    axes.legend(loc='upper right')
+    return times
+
+
+def draw_impacts(axes, run):
+    impacts = np.array(run.impacts).reshape(-1, 3)
+    for kind, (name, colour, size) in KINDS.items():
+        chosen = impacts[(impacts[:, 2] == kind) & (impacts[:, 1] > 0)]
+        if len(chosen):
+            axes.scatter(chosen[:, 0], chosen[:, 1], s=size, c=colour, label=name, lw=0, rasterized=True)
+    for kind, height in ((2, 0.03), (3, 0.07)):  # without a speed: along the lower edge
+        name, colour, _ = KINDS[kind]
+        chosen = impacts[impacts[:, 2] == kind, 0]
+        if len(chosen):
+            axes.scatter(chosen, np.full(len(chosen), height), s=30, c=colour, marker='|', label=name,
+                         transform=axes.get_xaxis_transform(), rasterized=True)
+    axes.set_yscale('log')
+    axes.set_ylabel('normal speed\nof impacts [$\\mu$m/s]')
+    axes.legend(loc='upper right', markerscale=2)
+
+
+def draw_friction(axes, run):
+    friction = np.array(run.friction).reshape(-1, 4)
+    times, mean, error, window = friction.T
+    axes.plot(times, window, lw=0.7, c='0.6', label='sliding window')
+    axes.plot(times, mean, lw=1.2, c='C0', label='since the last command')
+    axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color='C0')
+    axes.set_yscale('log')
+    axes.set_ylabel('$K_f$ [m/$\\tau$]')
+    axes.legend(loc='upper right')
+
+
+def draw_drag(axes, run):
+    drag = np.array(run.drag + [(run.last, run.drag[-1][1])]) if run.drag else np.zeros((0, 2))
+    axes.step(drag[:, 0], drag[:, 1], where='post')
+    axes.set_ylabel('drag speed [$\\mu$m/s]')
+    axes.set_xlabel('model time [s]')
+    eta = axes.secondary_yaxis('right', functions=(lambda v: v * 1e-6 / run.speed, lambda e: e * run.speed * 1e6))
+    eta.set_ylabel('$\\eta$')
+
+
+def draw(run, paths, begin, end):
+    from matplotlib import pyplot
+    figure, rows = pyplot.subplots(4, 1, sharex=True, figsize=(10, 9), constrained_layout=True)
+    times = draw_deflection(rows[0], run)
+    draw_impacts(rows[1], run)
+    draw_friction(rows[2], run)
+    draw_drag(rows[3], run)
+    for axes in rows:
+        axes.grid(alpha=0.3)
+        for epoch in run.epochs[1:]:
+            axes.axvline(epoch, c='k', lw=0.8, ls=':')
+    rows[3].set_xlim(times[0] if begin is None else begin, times[-1] if end is None else end)
+    c = run.configuration
+    figure.suptitle('%s   ($\\gamma$ = %g, $v_c$ = %.3g $\\mu$m/s, %g kHz)' % (
+        os.path.basename(paths[0]), c.restitution_gamma, c.cutoff_speed * 1e6, c.sample_rate_hz / 1e3))
+    return figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('bags', nargs='+', help='a recording; the bags of a split one in order')
+    parser.add_argument('--output', help='picture to write (png, pdf, svg); default: beside the bag, as .png')
+    parser.add_argument('--show', action='store_true', help='open a window instead')
+    parser.add_argument('--from', dest='begin', type=float, help='model time [s] to begin at')
+    parser.add_argument('--until', dest='end', type=float, help='model time [s] to end at')
+    arguments = parser.parse_args()
+    if not arguments.show:
+        matplotlib.use('Agg')
+    try:
+        run = read(arguments.bags)
+    except (OSError, rosbag.ROSBagException) as error:
+        sys.exit('plot_run.py: %s: %s' % (arguments.bags[0], error))
+    figure = draw(run, arguments.bags, arguments.begin, arguments.end)
+    if arguments.show:
+        from matplotlib import pyplot
+        pyplot.show()
+        return
+    output = arguments.output or os.path.splitext(arguments.bags[0])[0] + '.png'
+    figure.savefig(output, dpi=110)
+    print(output)
+
+
+if __name__ == '__main__':
+    main()
