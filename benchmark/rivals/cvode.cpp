@@ -63,7 +63,6 @@ class Cvode : public Method {
     check(CVodeRootInit(cvode_, 1, gap), "CVodeRootInit");
     check(CVodeSetRootDirection(cvode_, &falling), "CVodeSetRootDirection");
     check(CVodeSetMaxNumSteps(cvode_, 1000000), "CVodeSetMaxNumSteps");
-    check(CVodeSetMaxStep(cvode_, kGrid), "CVodeSetMaxStep");  // it looks for roots between steps only
     CVodeSetErrFile(cvode_, nullptr);
     CVodeSetNoInactiveRootWarn(cvode_);
   }
@@ -83,9 +82,10 @@ class Cvode : public Method {
     assign(state_, o.begin);
     CVodeReInit(cvode_, 0.0, state_);
     CVodeSetUserData(cvode_, &o);
-    const double first_look = o.first_look(kGrid);
+    CVodeSetMaxStep(cvode_, grid(o));  // it looks for roots between steps only
+    const double first_look = o.first_look(grid(o));
     // a bounce shorter than its usual first step would be stepped over, and its root with it
-    CVodeSetInitStep(cvode_, first_look < kGrid ? first_look : 0.0);
+    CVodeSetInitStep(cvode_, first_look < grid(o) ? first_look : 0.0);
     for (double s = 0.0;;) {
       const int flag = CVode(cvode_, horizon, state_, &s, CV_NORMAL);
       const Point p = point_of(state_);

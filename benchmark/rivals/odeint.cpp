@@ -37,7 +37,7 @@ class Odeint : public Method {
       stepper_.calc_state(s, p);
       return o.gap(p, s);
     };
-    CrossingWatch watch(o, kGrid);
+    CrossingWatch watch(o, grid(o));
     stepper_.initialize(o.begin, 0.0, first_step_);
     for (;;) {
       const std::pair<double, double> span = stepper_.do_step(rate);
@@ -68,7 +68,7 @@ MethodSpec dopri5_spec() {
 
 MethodSpec bulirsch_stoer_spec() {
   return {"odeint_bulirsch_stoer", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
-            return std::make_unique<Odeint<BulirschStoer>>(tolerance, kGrid);
+            return std::make_unique<Odeint<BulirschStoer>>(tolerance, 0.02);
           }};
 }
 
