@@ -19,7 +19,7 @@ class SlidePiece {
   T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
   std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
 
-  T length() const { return length_; }  // to here the series is good to 2e-13 [tau]
+  T length() const { return length_; }  // to here the series is good to 3e-14 [tau]
   const SlideState<T>& start() const { return start_; }
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
@@ -54,7 +54,7 @@ template <class T>
 T SlidePiece<T>::choose_length() const {
   constexpr double kLongest = 8.0;  // [tau]
   constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  constexpr int kBits = 45;
+  constexpr int kBits = 48;
   double length = kLongest;
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
     const double c = std::abs(static_cast<double>(u_[n]));

@@ -13,7 +13,6 @@ constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 
 struct Drag {
   double eta, cutoff_share;
-  double balance = 1e-12;  // of the energy lost
 };
 
 void PrintTo(const Drag& drag, std::ostream* out) {
@@ -40,15 +39,14 @@ TEST_P(ContactEnergy, WhatIsLostIsTheWorkOfTheDragLessWhatIsStored) {
     ++events;
     if (tip.last_impact().kind == ImpactKind::burst) ++bursts;
     if (events % 1000 != 0) continue;
-    ASSERT_LT(std::abs(ledger.imbalance(tip)), GetParam().balance * ledger.turnover(tip)) << events;
+    ASSERT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << events;
   }
   EXPECT_GT(bursts, 20);
   EXPECT_GT(ledger.lost(), 0.0);
 }
 
-// A slow tip slides nearly always, and the ends of the series of a million pieces add up.
 INSTANTIATE_TEST_SUITE_P(DragSpeeds, ContactEnergy,
-                         testing::Values(Drag{0.05, 0.1, 5e-12}, Drag{0.2, 0.1, 5e-12}, Drag{0.2, 0.01, 5e-12},
+                         testing::Values(Drag{0.05, 0.1}, Drag{0.2, 0.1}, Drag{0.2, 0.01},
                                          Drag{0.5, 0.01}, Drag{-0.5, 0.01}, Drag{2.75, 0.01}, Drag{3.0, 0.01},
                                          Drag{5.0, 0.01}, Drag{9.0, 0.01}, Drag{50.0, 0.01}));
 
