@@ -14,6 +14,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kBatches = 64;  // few enough to be long, enough to tell their spread
 
+constexpr double kRounding = 2e-15;   // of the friction on a periodic orbit, relative: a few units in the last place
+
 // A sum whose rounding is carried along (Neumaier).
 class Sum {
  public:
@@ -112,7 +114,7 @@ FrictionAverage average_over_periods(Tip& tip, std::int64_t cells, double durati
   const ModelTime middle = tip.now() + periods * period;
   const FrictionAverage first = average_of(keep_books(tip, middle, ignore), eta);
   FrictionAverage second = average_of(keep_books(tip, middle + periods * period, ignore), eta);
-  second.K_f_std_error = std::abs(second.K_f - first.K_f);
+  second.K_f_std_error = std::abs(second.K_f - first.K_f) + kRounding * second.K_f;
   second.search_failures += first.search_failures;
   return second;
 }

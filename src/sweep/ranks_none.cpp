@@ -1,10 +1,16 @@
 #include "sweep/ranks.h"
 
 #include <cstdlib>
+#include <stdexcept>
+#include <string>
 
 namespace afm {
 
-Ranks::Ranks() = default;
+Ranks::Ranks() {
+  const char* const ranks = std::getenv("OMPI_COMM_WORLD_SIZE");
+  if (ranks == nullptr || std::string(ranks) == "1") return;
+  throw std::runtime_error("under mpirun, but built without MPI (Debian and Ubuntu: apt-get install libopenmpi-dev)");
+}
 Ranks::~Ranks() = default;
 bool Ranks::agree(bool go) const { return go; }
 void Ranks::abandon(int code) const { std::_Exit(code); }
