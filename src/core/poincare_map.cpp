@@ -1,0 +1,58 @@
+#include "afm_emulator/poincare_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "afm_emulator/impact_search.h"
+#include "afm_emulator/reflection.h"
+
+namespace afm {
+
+MapStep PoincareMap::operator()(const TipState& start) const {
+  MapStep step;
+  if (!(start.g1 > 0.0) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
+  const Flight<double> flight(mechanics_, eta_, start);
+  const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
+  step.outcome = MapOutcome::no_impact;
+  if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
+  const Reflection bounce = reflect(model_, eta_, landing.jet.state, landing.jet.g1);
+  step.outcome = MapOutcome::impact;
+  step.after = bounce.after;
+  step.dt = landing.s;
+  step.normal_speed = bounce.normal_speed;
+  step.tangential_velocity = bounce.tangential_velocity;
+  step.energy_loss = bounce.energy_loss;
+  step.J = section_jacobian(model_, flight, landing.s, landing.jet);
+  return step;
+}
+
+// Looked for on a grid, which the fastest term of the gap does not slip through, and then by Newton's steps for g' = 0.
+double PoincareMap::clearance(const TipState& start, double dt) const {
+  const Flight<double> flight(mechanics_, eta_, start);
+  const double turns = dt * (mechanics_.ratio + std::abs(eta_) + 1.0);
+  const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 1; i < points; ++i) {
+    double s = dt * (i - 1) / points;
+    const double s_next = dt * i / points;
+    if (!(flight.gap(s).g1 <= 0.0 && flight.gap(s_next).g1 > 0.0)) continue;
+    for (int k = 0; k < 8; ++k) {
+      const GapJet<double> jet = flight.gap(s);
+      if (jet.g2 > 0.0) s = std::clamp(s - jet.g1 / jet.g2, dt * (i - 1) / points, s_next);
+    }
+    smallest = std::min(smallest, flight.gap(s).g);
+  }
+  return smallest;
+}
+
+Eigen::Vector4d section_difference(const TipState& b, const TipState& a) {
+  const double phase = b.phase - a.phase;
+  return {phase - std::round(phase), b.X - a.X, b.u - a.u, b.g1 - a.g1};
+}
+
+TipState section_sum(const TipState& a, const Eigen::Vector4d& step) {
+  return {wrap_phase(a.phase + step[0]), a.X + step[1], a.u + step[2], 0.0, a.g1 + step[3]};
+}
+
+}  // namespace afm

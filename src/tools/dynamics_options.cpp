@@ -1,0 +1,52 @@
+#include "dynamics_options.h"
+
+#include <cmath>
+#include <iostream>
+#include <stdexcept>
+
+namespace afm {
+
+void add_options(CLI::App& app, DynamicsOptions& o) {
+  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
+  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
+  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
+  app.add_option("--model", o.model, "oscillator")->capture_default_str();
+}
+
+Model checked_model(const DynamicsOptions& o) {
+  if (o.model == "hammer") {
+    throw std::invalid_argument("model = hammer: this version computes the oscillator only");
+  }
+  if (o.model != "oscillator") throw std::invalid_argument("model = " + o.model + ": must be oscillator");
+  Model model;
+  model.gamma = o.gamma;
+  model.v_c = o.cutoff;
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(model)) {
+    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+  }
+  if (!(std::abs(o.eta) <= kMaxEta)) faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
+  if (!faults.empty()) throw std::invalid_argument(describe(faults));
+  return model;
+}
+
+int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
+  try {
+    app.parse(argc, argv);
+    const int code = run();
+    std::cout.flush();
+    if (std::cout) return code;
+    std::cerr << app.get_name() << ": cannot write the output\n";
+    return 1;
+  } catch (const CLI::ParseError& fault) {
+    return app.exit(fault) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& fault) {
+    std::cerr << app.get_name() << ": " << fault.what() << "\n";
+    return 2;
+  } catch (const std::exception& fault) {
+    std::cerr << app.get_name() << ": " << fault.what() << "\n";
+    return 1;
+  }
+}
+
+}  // namespace afm

@@ -1,0 +1,25 @@
+// What the tools for orbits and attractors are told on the command line: which model, at which drag velocity.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "afm_emulator/model.h"
+
+namespace afm {
+
+struct DynamicsOptions {
+  double eta = 3.4, gamma = 0.7, cutoff = 0.05;
+  std::string model = "oscillator";
+};
+
+void add_options(CLI::App& app, DynamicsOptions& options);
+
+// Throws std::invalid_argument with every fault, by the names of the options.
+Model checked_model(const DynamicsOptions& options);
+
+// Parses, checks and runs; turns what goes wrong into a message and an exit code: 2 for bad input, 1 for the rest.
+int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& run);
+
+}  // namespace afm

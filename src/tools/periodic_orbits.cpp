@@ -1,0 +1,99 @@
+// The periodic orbits at given parameters.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "afm_emulator/orbit_search.h"
+#include "afm_emulator/state.h"
+#include "csv.h"
+#include "dynamics_options.h"
+#include "sweep/progress_bar.h"
+
+namespace {
+
+const char kDescription[] =
+    "Finds the periodic orbits of the map from impact to impact, stable or not, and prints a row for each (units a, tau, tip\n"
+    "mass): impacts and cells in a period, period, K_f, residual (the largest error of any coordinate over a flight), the first\n"
+    "point just after an impact (surface phase, extension, lab velocity), and the four multipliers, largest first. What speaks\n"
+    "for there being no more goes to stderr: how often each length was found, and how near the long run comes to each orbit.";
+
+const char kHeader[] =
+    "length,cells,period,k_f,residual,phase,extension,u,w,multiplier_1_re,multiplier_1_im,multiplier_2_re,multiplier_2_im,"
+    "multiplier_3_re,multiplier_3_im,multiplier_4_re,multiplier_4_im";
+
+struct Options {
+  afm::DynamicsOptions dynamics;
+  afm::OrbitSearchSettings search;
+  bool quiet = false;
+};
+
+void add_options(CLI::App& app, Options& o) {
+  afm::add_options(app, o.dynamics);
+  app.add_option("--max-length", o.search.longest, "longest orbit looked for [impacts]")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 32));
+  app.add_option("--trajectory", o.search.trajectory, "impacts of the long run that guesses are taken from")
+      ->capture_default_str()
+      ->check(CLI::Range(1000, 10000000));
+  app.add_option("--guesses", o.search.guesses, "of each of three kinds, for each length")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--seed", o.search.seed, "of what is random in the search")->capture_default_str();
+  app.add_flag("--quiet", o.quiet, "no report of the search on stderr");
+}
+
+void print_row(double H, const afm::PeriodicOrbit& orbit) {
+  const afm::FreeState first = to_free_state(H, orbit.points.front());
+  std::vector<double> row{static_cast<double>(orbit.length()),
+                          static_cast<double>(orbit.cells),
+                          orbit.period,
+                          orbit.K_f,
+                          orbit.residual,
+                          first.phase,
+                          first.X,
+                          first.u,
+                          first.w};
+  for (const std::complex<double>& multiplier : orbit.multipliers) {
+    row.push_back(multiplier.real());
+    row.push_back(multiplier.imag());
+  }
+  std::cout << afm::join_numbers(row) << "\n";
+}
+
+void report(const afm::OrbitSearchResult& found) {
+  for (const afm::LengthReport& length : found.lengths) {
+    std::cerr << "length " << length.length << ": of " << length.prime + length.repeats + length.none << " guesses "
+              << length.prime << " led to prime orbits, " << length.repeats << " to repeats of shorter ones, "
+              << length.none << " nowhere; nearest return of the run " << length.closest_return << "; orbits missed, estimated: "
+              << length.missed << "\n";
+    for (const afm::FoundOrbit& orbit : found.orbits) {
+      if (orbit.orbit.length() != static_cast<std::size_t>(length.length)) continue;
+      std::cerr << "  K_f " << orbit.orbit.K_f << ": found " << orbit.times_found << " times, the run comes within "
+                << orbit.approach << "\n";
+    }
+  }
+}
+
+int run(const Options& options) {
+  const afm::Model model = checked_model(options.dynamics);
+  if (options.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
+  constexpr std::size_t kSteps = 1000;
+  afm::ProgressBar bar(kSteps, 0);
+  const auto show = [&](double share) { bar.show(static_cast<std::size_t>(share * kSteps)); };
+  const auto found = search_orbits(afm::PoincareMap(model, options.dynamics.eta), options.search, show);
+  std::cout << kHeader << "\n";
+  for (const afm::FoundOrbit& orbit : found.orbits) print_row(model.H, orbit.orbit);
+  if (!options.quiet) report(found);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{kDescription, "periodic_orbits"};
+  Options options;
+  add_options(app, options);
+  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+}
