@@ -6,12 +6,12 @@
 
 namespace afm {
 
-// `std_error` is such that mean +- 1.96 std_error holds the true mean 95 times in 100: Student's t for the `degrees` of freedom
-// that the estimate of the spread had is already in it.
+// `std_error` is such that mean +- 1.96 std_error holds the true mean 95 times in 100: Student's t for the `degrees` of
+// freedom that the estimate of the spread had is already in it.
 struct MeanError {
-  double std_error;       // of the mean of the batches; NaN below kFewestBatches or for sums that are not finite
-  double degrees;         // of freedom, effective
-  std::size_t batches;    // used: neighbours are merged until they are no longer correlated
+  double std_error;     // of the mean of the batches; NaN below kFewestBatches or for sums that are not finite
+  double degrees;       // of freedom, effective
+  std::size_t batches;  // used: neighbours are merged until they are no longer correlated
 };
 
 constexpr std::size_t kFewestBatches = 16;

@@ -33,8 +33,8 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings);
 
 Model model_of(const SweepPoint& point);
 
-// The start of the index-th point: above the surface, at a random phase, with a velocity of the order of the drag's. A function
-// of seed and index alone, so that points can be computed in any order.
+// The start of the index-th point: above the surface, at a random phase, with a velocity of the order of the drag's. A
+// function of seed and index alone, so that points can be computed in any order.
 TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index);
 
 // A function of its arguments alone, to the last bit. Precondition: no faults.

@@ -20,9 +20,9 @@ struct FrictionAverage {
 // Over `duration` from now on, for an orbit that wanders: the error from batch means (batch_means.h).
 FrictionAverage average_over_time(Tip& tip, double duration);
 
-// For an orbit that repeats itself whenever the holder has passed `cells` cells: over the second half of the whole periods in
-// `duration`, exact but for rounding and the transient; the error is what the first half differs by. Precondition: eta is not 0.
-// Where fewer than two periods fit in the duration, two are taken.
+// For an orbit that repeats itself whenever the holder has passed `cells` cells: over the second half of the whole
+// periods in `duration`, exact but for rounding and the transient; the error is what the first half differs by.
+// Precondition: eta is not 0. Where fewer than two periods fit in the duration, two are taken.
 FrictionAverage average_over_periods(Tip& tip, std::int64_t cells, double duration);
 
 }  // namespace afm

@@ -39,7 +39,8 @@ bool correlated(const Spread& spread, std::size_t n) {
   return std::abs(spread.correlation) > 2.0 / std::sqrt(static_cast<double>(n));
 }
 
-constexpr double kLeast = 0.25;  // part of the variance that neighbours may take away; more is an accident of few batches
+// Part of the variance that neighbours leave at least; less is an accident of few batches.
+constexpr double kLeast = 0.25;
 
 }  // namespace
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kBatches = 64;  // few enough to be long, enough to tell their spread
 
-constexpr double kRounding = 2e-15;   // of the friction on a periodic orbit, relative: a few units in the last place
+constexpr double kRounding = 2e-15;  // of the friction on a periodic orbit, relative: a few units in the last place
 
 // A sum whose rounding is carried along (Neumaier).
 class Sum {
@@ -74,8 +74,8 @@ FrictionAverage average_of(const Books& books, double eta) {
   return a;
 }
 
-// The middle of the longest time without an event in the next `span`: a window of whole periods that begins there holds each event
-// of the orbit as often, however the times of events are rounded.
+// The middle of the longest time without an event in the next `span`: a window of whole periods that begins there holds
+// each event of the orbit as often, however the times of events are rounded.
 ModelTime quiet_time(Tip tip, double span) {
   constexpr int kMostEvents = 10000;
   const ModelTime end = tip.now() + span;

@@ -53,7 +53,8 @@ std::deque<SweepTask> tasks_left(const SweepGrid& grid, const std::map<std::size
   std::deque<SweepTask> tasks;
   for (std::size_t begin = 0; begin < grid.size(); begin += grid.chain_length()) {
     SweepTask task{begin, begin + grid.chain_length(), false, {}};
-    for (auto done = found.find(task.first); done != found.end() && task.first < task.end; done = found.find(task.first)) {
+    for (auto done = found.find(task.first); done != found.end() && task.first < task.end;
+         done = found.find(task.first)) {
       task.start = unpack(done->second).end;
       task.carried = ++task.first > begin;
     }
@@ -62,7 +63,8 @@ std::deque<SweepTask> tasks_left(const SweepGrid& grid, const std::map<std::size
   return tasks;
 }
 
-std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings, int n) {
+std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings,
+                                       int n) {
   std::vector<std::thread> workers;
   for (int i = 0; i < n; ++i) workers.emplace_back([&] { do_work(source, grid, settings); });
   return workers;

@@ -29,7 +29,8 @@ CurveTable::CurveTable(const std::string& path, const SweepGrid& grid)
   flush();
 }
 
-// A table that is there is written over, never emptied: one that is empty would be taken for the beginning of a new run.
+// A table that is there is written over, never emptied: one that is empty would be taken for the beginning of a new
+// run.
 void CurveTable::open() {
   file_.open(path_, std::ios::binary | std::ios::in | std::ios::out);
   if (!file_.is_open()) file_.open(path_, std::ios::binary | std::ios::trunc);

@@ -30,7 +30,7 @@ class CurveTable {
   const SweepGrid& grid_;
   std::ofstream file_;
   std::ostream& out_;
-  std::size_t rows_ = 0;                     // written
+  std::size_t rows_ = 0;                        // written
   std::map<std::size_t, SweepResult> waiting_;  // for rows before them
 };
 

@@ -22,7 +22,8 @@ Decimal parse_digits(const std::string& text, std::size_t& at) {
   Decimal d;
   bool point = false;
   int digits = 0, significant = 0;
-  for (; at < text.size() && (std::isdigit(static_cast<unsigned char>(text[at])) || (text[at] == '.' && !point)); ++at) {
+  for (; at < text.size() && (std::isdigit(static_cast<unsigned char>(text[at])) || (text[at] == '.' && !point));
+       ++at) {
     if (text[at] == '.') {
       point = true;
       continue;

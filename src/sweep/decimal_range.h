@@ -1,4 +1,5 @@
-// FROM:TO:STEP in decimal, without a rounding but the last: each value is the double nearest to the decimal number meant.
+// FROM:TO:STEP in decimal, without a rounding but the last: each value is the double nearest to the decimal number
+// meant.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,8 @@ namespace afm {
 
 constexpr std::size_t kMostRangeValues = 1000000;
 
-// FROM, FROM + STEP, ... up to TO, and TO itself where a step meets it; or one number. Throws std::invalid_argument with the
-// reason (no name, no value) where the text is no range.
+// FROM, FROM + STEP, ... up to TO, and TO itself where a step meets it; or one number. Throws std::invalid_argument
+// with the reason (no name, no value) where the text is no range.
 std::vector<double> parse_range(const std::string& text);
 
 }  // namespace afm

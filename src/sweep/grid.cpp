@@ -49,8 +49,8 @@ std::string identity(const CurveSettings& s) {
   add("eta", s.eta);
   add("gamma", s.gamma);
   add("cutoff", s.cutoff);
-  text << "duration=" << shortest(s.sweep.duration) << " transient=" << shortest(s.sweep.transient) << " model=" << s.model
-       << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
+  text << "duration=" << shortest(s.sweep.duration) << " transient=" << shortest(s.sweep.transient)
+       << " model=" << s.model << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
   text << " version=" << AFM_EMULATOR_VERSION;
   return text.str();
 }

@@ -9,8 +9,8 @@
 
 namespace afm {
 
-// Fresh: each point from a random start of its own. Up, down: each from where the eta before it ended, so that a tip stays on its attractor
-// while there is one.
+// Fresh: each point from a random start of its own. Up, down: each from where the eta before it ended, so that a tip
+// stays on its attractor while there is one.
 enum class SweepDirection { fresh, up, down };
 
 struct CurveSettings {

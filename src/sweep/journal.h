@@ -1,5 +1,5 @@
-// What an interrupted run leaves behind so that the next goes on: one line saying what is computed, then a line for each point done,
-// written out at once. A line cut short by a kill is dropped; the numbers come back as the same bits.
+// What an interrupted run leaves behind so that the next goes on: one line saying what is computed, then a line for
+// each point done, written out at once. A line cut short by a kill is dropped; the numbers come back as the same bits.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ namespace afm {
 
 class Journal {
  public:
-  // Opens the journal of a run, or begins one. Throws std::runtime_error, in words for the user, where it belongs to another
-  // run, another process is writing it, or it cannot be read or written.
+  // Opens the journal of a run, or begins one. Throws std::runtime_error, in words for the user, where it belongs to
+  // another run, another process is writing it, or it cannot be read or written.
   Journal(const std::string& path, const std::string& identity, bool begin_again);
   ~Journal();
   Journal(const Journal&) = delete;

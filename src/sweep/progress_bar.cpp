@@ -38,8 +38,8 @@ void ProgressBar::show(std::size_t done) {
   shown_ = now;
   const double spent = std::chrono::duration<double>(now - begin_).count();
   const std::size_t full = total_ > 0 ? kWidth * done / total_ : kWidth;
-  std::string line = "\r[" + std::string(full, '#') + std::string(kWidth - full, '.') + "] " + std::to_string(done) + "/" +
-                     std::to_string(total_) + " points, " + time_text(spent);
+  std::string line = "\r[" + std::string(full, '#') + std::string(kWidth - full, '.') + "] " + std::to_string(done) +
+                     "/" + std::to_string(total_) + " points, " + time_text(spent);
   if (done > before_ && done < total_) {
     line += ", left " + time_text(spent * static_cast<double>(total_ - done) / static_cast<double>(done - before_));
   }

@@ -1,5 +1,5 @@
-// The same work spread over the processes of mpirun: rank 0 keeps the board and the files, the others ask it for tasks. Without MPI in
-// the build, or without mpirun, there is one rank and nothing here does anything.
+// The same work spread over the processes of mpirun: rank 0 keeps the board and the files, the others ask it for tasks.
+// Without MPI in the build, or without mpirun, there is one rank and nothing here does anything.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class Ranks {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  bool agree(bool go) const;             // rank 0's answer, everywhere
+  bool agree(bool go) const;                  // rank 0's answer, everywhere
   [[noreturn]] void abandon(int code) const;  // ends every rank at once, without waiting for what it is doing
 
   // Rank 0, often and until asking() is 0: answers what the threads of the other ranks ask.

@@ -1,8 +1,8 @@
-#include "sweep/ranks.h"
-
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+
+#include "sweep/ranks.h"
 
 namespace afm {
 

@@ -1,5 +1,5 @@
-// Work for any number of threads: chains of points out, results in. What comes of a point depends on it and its start alone, so
-// the order in which they are done shows nowhere.
+// Work for any number of threads: chains of points out, results in. What comes of a point depends on it and its start
+// alone, so the order in which they are done shows nowhere.
 #pragma once
 
 #include <chrono>

@@ -14,12 +14,14 @@
 namespace {
 
 const char kDescription[] =
-    "Computes the friction coefficient K_f over ranges of drag velocity, restitution and cutoff (units a, tau, tip mass).\n"
-    "A range is one number or FROM:TO:STEP. The table has the columns eta,gamma,cutoff,k_f,k_f_std_error,\n"
-    "impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor; k_f +- 1.96 k_f_std_error holds the true\n"
-    "mean 95 times in 100. Beside the table lies OUTPUT.journal: interrupted and started again, the same command goes on\n"
-    "where it was. Under mpirun all ranks work on one table. The numbers depend on nothing but the options that name\n"
-    "them: not on threads, ranks or interruptions.";
+    "Computes the friction coefficient K_f over ranges of drag velocity, restitution and cutoff (units a, tau, tip\n"
+    "mass). A range is one number or FROM:TO:STEP. The table has the columns eta,gamma,cutoff,k_f,k_f_std_error,\n"
+    "impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor; k_f +- 1.96 k_f_std_error holds "
+    "the\n"
+    "true mean 95 times in 100. Beside the table lies OUTPUT.journal: interrupted and started again, the same command\n"
+    "goes on where it was. Under mpirun all ranks work on one table. The numbers depend on nothing but the options "
+    "that\n"
+    "name them: not on threads, ranks or interruptions.";
 
 struct Options {
   std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", sweep = "fresh", output = "-";
@@ -69,7 +71,8 @@ void check(Options& o) {
   s.direction = direction->second;
   if (s.model == "hammer") refuse("model = hammer: this version computes the oscillator only");
   if (s.model != "oscillator") refuse("model = " + s.model + ": must be oscillator");
-  if (o.threads < 0 || o.threads > 1024) refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
+  if (o.threads < 0 || o.threads > 1024)
+    refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
   if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");
   s.sweep.seed = static_cast<std::uint64_t>(o.seed);
   const std::vector<afm::ParameterError> faults = afm::find_faults(s);

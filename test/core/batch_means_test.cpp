@@ -10,7 +10,8 @@ namespace {
 
 TEST(BatchMeans, TheWideningIsStudents) {
   constexpr double kNormal = 1.959963984540054;
-  const double table[][2] = {{3, 3.182446305}, {5, 2.570581836}, {10, 2.228138852}, {20, 2.085963447}, {60, 2.000297822}};
+  const double table[][2] = {
+      {3, 3.182446305}, {5, 2.570581836}, {10, 2.228138852}, {20, 2.085963447}, {60, 2.000297822}};
   for (const auto& row : table) EXPECT_NEAR(student_widening(row[0]) * kNormal, row[1], 5e-3 * row[1]) << row[0];
   EXPECT_NEAR(student_widening(5.0) * kNormal, 2.570581836, 1e-3);
   EXPECT_NEAR(student_widening(20.0) * kNormal, 2.085963447, 1e-6);

@@ -31,13 +31,15 @@ struct Known {
 TEST(Sweep, OnAPeriodicOrbitTheFrictionIsExact) {
   const Model mica;
   const double s = kTwoPi * mica.H, even = 4.0 * (1.0 + mica.gamma) / (1.0 - mica.gamma) * s * s / (1.0 + s * s);
-  const Known known[] = {{2.0, even},   {4.0, even},
-                         {6.0, even},   {8.0, even},
-                         {1.5, 0.2507777307734768407203532}, {2.25, 1.603774408582840476679226},
+  const Known known[] = {{2.0, even},
+                         {4.0, even},
+                         {6.0, even},
+                         {8.0, even},
+                         {1.5, 0.2507777307734768407203532},
+                         {2.25, 1.603774408582840476679226},
                          {4.5, 0.445730537638223617016902}};
   for (const Known& k : known) {
-    const SweepResult r =
-        sweep_point({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
+    const SweepResult r = sweep_point({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
     EXPECT_EQ(r.attractor.kind, AttractorKind::periodic) << k.eta;
     EXPECT_NEAR(r.friction.K_f, k.K_f, 1e-10) << k.eta;
     EXPECT_LT(r.friction.K_f_std_error, 1e-10) << k.eta;
@@ -120,8 +122,9 @@ TEST(DecimalRange, EveryValueIsTheNumberMeant) {
 }
 
 TEST(DecimalRange, WhatIsNoRangeIsRefused) {
-  for (const char* text : {"", "a", "1:2", "1:2:3:4", "1:2:0", "1:2:-1", "2:1:1", "1:2:x", "nan", "inf", "1e", "--1", "1 ",
-                           "0:1:1e-9", "1:2:1e-30", "1.2345678901234567", "0x10", "1..2", ":", "1::2"}) {
+  for (const char* text : {"",     "a",    "1:2", "1:2:3:4", "1:2:0", "1:2:-1",   "2:1:1",     "1:2:x",
+                           "nan",  "inf",  "1e",  "--1",     "1 ",    "0:1:1e-9", "1:2:1e-30", "1.2345678901234567",
+                           "0x10", "1..2", ":",   "1::2"}) {
     EXPECT_THROW(parse_range(text), std::invalid_argument) << text;
   }
 }
