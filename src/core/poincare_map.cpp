@@ -27,21 +27,21 @@ MapStep PoincareMap::operator()(const TipState& start) const {
   return step;
 }
 
-// Looked for on a grid, which the fastest term of the gap does not slip through, and then by Newton's steps for g' = 0.
+// Looked for on a grid, which the fastest term of the gap does not slip through, and then by halves.
 double PoincareMap::clearance(const TipState& start, double dt) const {
   const Flight<double> flight(mechanics_, eta_, start);
   const double turns = dt * (mechanics_.ratio + std::abs(eta_) + 1.0);
   const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 1; i < points; ++i) {
-    double s = dt * (i - 1) / points;
-    const double s_next = dt * i / points;
-    if (!(flight.gap(s).g1 <= 0.0 && flight.gap(s_next).g1 > 0.0)) continue;
-    for (int k = 0; k < 8; ++k) {
-      const GapJet<double> jet = flight.gap(s);
-      if (jet.g2 > 0.0) s = std::clamp(s - jet.g1 / jet.g2, dt * (i - 1) / points, s_next);
+    double low = dt * (i - 1) / points, high = dt * i / points;
+    if (!(flight.gap(low).g1 <= 0.0 && flight.gap(high).g1 > 0.0)) continue;
+    constexpr int kHalves = 40;
+    for (int k = 0; k < kHalves; ++k) {
+      const double middle = 0.5 * (low + high);
+      (flight.gap(middle).g1 > 0.0 ? high : low) = middle;
     }
-    smallest = std::min(smallest, flight.gap(s).g);
+    smallest = std::min(smallest, flight.gap(low).g);
   }
   return smallest;
 }
