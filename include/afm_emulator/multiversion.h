@@ -3,8 +3,8 @@
 // Clang cannot clone what it flattens: there the options of the build decide (-mfma, -march=native).
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(AFM_SINGLE_VERSION)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(AFM_SINGLE_VERSION)
 #define AFM_MULTIVERSION __attribute__((flatten, target_clones("fma", "default")))
 #else
 #define AFM_MULTIVERSION

@@ -6,6 +6,7 @@ from io import BytesIO
 from pathlib import Path
 
 import rosbag
+from afm_emulator.msg import Recording
 from std_msgs.msg import String
 
 import bags
@@ -22,7 +23,7 @@ class Entry:
         self.topic, self.raw, self.stamp, self.header = topic[len(NAMESPACE) + 1:], raw, stamp, header
 
     def message(self):
-        return TOPICS[self.topic]().deserialize(self.raw[1])
+        return (Recording if self.topic == 'recording' else TOPICS[self.topic])().deserialize(self.raw[1])
 
     def put(self, message):
         buffer = BytesIO()
@@ -47,13 +48,13 @@ class SpoiledBags(NodeTest):
     def setUpClass(cls):
         cls.holder = tempfile.TemporaryDirectory()
         cls.directory = Path(cls.holder.name)
-        emulator = Emulator({'record': True, 'bag_directory': str(cls.directory), 'sample_rate_hz': 20000.0})
+        emulator = Emulator({'record': True, 'bag_directory': str(cls.directory), 'sample_rate_hz': 60000.0})
         try:
             deflection, applied = Topic('deflection'), Topic('applied_drag')
-            deflection.wait_for(lambda m: m.first_sample > 12000, 'part of a run')
+            deflection.wait_for(lambda m: m.first_sample > 36000, 'part of a run')
             emulator.drag(2.0 * SPEED_UNIT)
             applied.wait_for(lambda m: m.drag_velocity == 2.0 * SPEED_UNIT, 'a command')
-            deflection.wait_for(lambda m: m.first_sample > 45000, 'more than two seconds')
+            deflection.wait_for(lambda m: m.first_sample > 135000, 'more than two seconds')
             emulator.assert_alive()
             assert emulator.stop() == 0
         finally:
@@ -185,6 +186,53 @@ class SpoiledBags(NodeTest):
         del self.entries[len(self.entries) // 2:]
         self.assert_told(checks.TRUNCATED, 'IDENTICAL as far as it goes')
         self.assertEqual(checks.replay_check(self.write(), '--open-end').code, checks.SOUND)
+
+    def remove_digests(self):
+        """As one would who knows that they tell."""
+        digests = self.of('digest')
+        self.remove(*digests)
+        mark = self.of('recording')[-1]
+        mark.edit(messages=mark.message().messages - len(digests))
+
+    def assert_bad(self, *subjects):
+        answer = checks.bag_check(self.write())
+        bad = [line.split('  ')[1][4:].strip() for line in answer.text.splitlines() if line.startswith('  BAD')]
+        self.assertEqual(bad, list(subjects), answer.text)
+        self.assertEqual(answer.code, 1 if subjects else 0)
+        self.assertEqual(checks.replay_check(self.write()).code, checks.DIFFERS if subjects else checks.SOUND)
+
+    def edit_impact(self, **factors):
+        """Of a single impact that stands alone."""
+        for entry in self.of('impacts')[100:]:
+            message = entry.message()
+            for impact in message.impacts[2:-2]:
+                if impact.kind == impact.IMPACT and impact.normal_speed > 1e-6:
+                    for name, factor in factors.items():
+                        setattr(impact, name, getattr(impact, name) * factor)
+                    return entry.put(message)
+        self.fail('no impact to edit')
+
+    def test_physics_alone_tells(self):
+        """Without digests bag_check still knows what an impact, a flight and a mean are."""
+        def sample():
+            message = self.of('deflection')[100].message()
+            message.vertical = [y * (1 + 1e-9) for y in message.vertical]
+            self.of('deflection')[100].put(message)
+        spoils = [
+            ((), lambda: None),
+            (('impact law', 'energy balance', 'energy lost', 'K_f'), lambda: self.edit_impact(energy_loss=1 + 1e-6)),
+            (('impact law', 'energy balance'), lambda: self.edit_impact(normal_speed=1 + 1e-6)),
+            (('energy balance',), lambda: self.edit_impact(tangential_velocity=1 + 1e-6)),
+            (('energy balance',), sample),
+            (('K_f',), lambda: self.of('friction')[100].edit(k_f=self.of('friction')[100].message().k_f * (1 + 1e-9))),
+            (('energy lost',), lambda: self.of('friction')[100].edit(
+                energy_loss=self.of('friction')[100].message().energy_loss * (1 + 1e-9)))]
+        for subjects, spoil in spoils:
+            with self.subTest(subjects=subjects):
+                self.setUp()
+                self.remove_digests()
+                spoil()
+                self.assert_bad(*subjects)
 
     def test_reordered(self):
         first, second = self.of('deflection')[100:102]

@@ -23,7 +23,7 @@ std::vector<Finding> BagAudit::run() {
     if (joined) friction_->gap();  // what was lost before the recording began is not in it
     history_known_ = true;
     check_grid(batch);
-    check_impacts(batch);
+    count_impacts(batch);
     add(batch);
     recorded_.follow(batch, [&](const auto&, const auto& contradiction) {
       ++digests_;
@@ -99,34 +99,44 @@ void BagAudit::check_grid(const RecordedBatch& batch) {
   end_stamp_ = deflection.header.stamp;
 }
 
-// Impacts follow without a gap and in order, within their batch.
-void BagAudit::check_impacts(const RecordedBatch& batch) {
+// It ends after its last sample, and no later than the next is due.
+bool BagAudit::has_its_end(const RecordedBatch& batch) const {
+  const double period = log_.epoch(batch.epoch).configuration.sample_period_tau;
+  const std::uint64_t samples = end_of(*batch.deflection);
+  const ModelTime end = node::from_message(batch.friction->time);
+  return last_time_ <= end && end <= multiply(samples, period) && (samples == 0 || multiply(samples - 1, period) < end);
+}
+
+bool BagAudit::has_ordered_impacts(const RecordedBatch& batch) const {
+  ModelTime last = last_time_;
+  for (const auto& impact : batch.impacts->impacts) {
+    const ModelTime time = node::from_message(impact.time);
+    if (!(last <= time) || !(time.phase >= 0.0 && time.phase < 1.0)) return false;
+    last = time;
+  }
+  return last <= node::from_message(batch.friction->time);
+}
+
+void BagAudit::count_impacts(const RecordedBatch& batch) {
   if (!batch.impacts) return;
   const bool follows_on = !last_batch_ || batch.sequence == *last_batch_ + 1;
   if (follows_on && next_impact_ && batch.impacts->first_index != *next_impact_) ++order_errors_;
   next_impact_ = end_of(*batch.impacts);
-  ModelTime last = follows_on ? last_time_ : ModelTime{};
-  for (const auto& impact : batch.impacts->impacts) {
-    const ModelTime time = node::from_message(impact.time);
-    if (!(last <= time) || (batch.friction && node::from_message(batch.friction->time) < time)) ++order_errors_;
-    last = time;
-    ++impacts_;
-    bounces_ += impact.count;
-    lost_energy_ += impact.energy_loss;
-  }
+  impacts_ += batch.impacts->impacts.size();
+  for (const auto& impact : batch.impacts->impacts) bounces_ += impact.count;
 }
 
+// Only what stands at its time goes into the sums; the rest is counted, and what follows begins anew.
 void BagAudit::add(const RecordedBatch& batch) {
-  if (!batch.is_whole() || (last_batch_ && batch.sequence != *last_batch_ + 1)) {
+  const bool follows_on = !last_batch_ || batch.sequence == *last_batch_ + 1;
+  const bool in_order = !batch.is_whole() || (has_its_end(batch) && has_ordered_impacts(batch));
+  if (!in_order) ++order_errors_;
+  if (!in_order || !follows_on || !batch.is_whole()) {
     energy_->gap();
     friction_->gap();
   }
-  if (batch.friction) {
-    const ModelTime end = node::from_message(batch.friction->time);
-    if (end < last_time_) ++order_errors_;
-    last_time_ = end;
-  }
-  if (!batch.is_whole()) return;
+  if (!in_order || !batch.is_whole()) return;
+  last_time_ = node::from_message(batch.friction->time);
   energy_->add(*batch.deflection);
   energy_->add(*batch.impacts);
   energy_->judge(last_time_);

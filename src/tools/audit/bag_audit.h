@@ -37,7 +37,9 @@ class BagAudit {
   void finish_epoch();
   void follow_commands(const replay::RecordedBatch& batch);
   void check_grid(const replay::RecordedBatch& batch);
-  void check_impacts(const replay::RecordedBatch& batch);
+  bool has_its_end(const replay::RecordedBatch& batch) const;
+  bool has_ordered_impacts(const replay::RecordedBatch& batch) const;
+  void count_impacts(const replay::RecordedBatch& batch);
   void add(const replay::RecordedBatch& batch);
   void check_status();
 
@@ -64,7 +66,7 @@ class BagAudit {
   FrictionReport friction_report_;
   std::uint64_t samples_ = 0, impacts_ = 0, bounces_ = 0, epochs_ = 0, digests_ = 0;
   std::uint64_t grid_errors_ = 0, order_errors_ = 0, status_gaps_ = 0;
-  double model_seconds_ = 0.0, lost_energy_ = 0.0;
+  double model_seconds_ = 0.0;
   ros::Time begin_stamp_, end_stamp_;
   std::optional<replay::FieldDifference> contradiction_;
   std::optional<afm_emulator::EmulatorStatus> status_;

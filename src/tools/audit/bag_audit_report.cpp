@@ -51,8 +51,9 @@ void BagAudit::report_sequence(std::vector<Finding>& findings) const {
                                : format("%llu missing, the first %s", number(gaps.messages), gaps.first.c_str())));
   findings.push_back(judge(grid_errors_ == 0, "sample grid",
                            format("%llu batches do not follow on, or are not at their times", number(grid_errors_))));
-  findings.push_back(judge(order_errors_ == 0, "impact order",
-                           format("%llu impacts out of order or outside of their batch", number(order_errors_))));
+  findings.push_back(
+      judge(order_errors_ == 0, "impact order",
+            format("%llu batches whose impacts or ends are out of order, or do not follow on", number(order_errors_))));
   const auto& marks = recording_.bags().back()->marks;
   const std::uint64_t dropped = marks.empty() ? 0 : marks.back().dropped_messages;
   findings.push_back(judge(recording_.is_closed(), "closed",
@@ -63,6 +64,11 @@ void BagAudit::report_sequence(std::vector<Finding>& findings) const {
 }
 
 void BagAudit::report_digests(std::vector<Finding>& findings) const {
+  if (digests_ == 0) {
+    findings.push_back(
+        {Finding::Kind::note, "digests", "none in the recording: whether it was altered cannot be told"});
+    return;
+  }
   findings.push_back(judge(!contradiction_, "digests",
                            !contradiction_ ? format("%llu, all of what is recorded", number(digests_))
                                            : contradiction_->field + " is not that of what is recorded: altered"));

@@ -46,6 +46,11 @@ void FrictionAudit::command(const ModelTime& time, double drag_velocity) {
   base_ = Sums{};
 }
 
+void FrictionAudit::gap() {
+  base_.reset();
+  sums_ = {};
+}
+
 void FrictionAudit::add(const afm_emulator::ImpactArray& batch) {
   if (batch.first_index == 0 && start_ == ModelTime{}) base_ = Sums{};
   for (const afm_emulator::Impact& impact : batch.impacts) {

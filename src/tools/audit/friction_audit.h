@@ -41,7 +41,7 @@ class FrictionAudit {
   void command(const ModelTime& time, double drag_velocity);
   void add(const afm_emulator::ImpactArray& batch);
   void judge(const afm_emulator::Friction& estimate);
-  void gap() { base_.reset(); }  // sums begin again at the next estimate
+  void gap();  // sums begin again at the next estimate
   void finish();
 
   const FrictionReport& report() const { return report_; }
