@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "audit/bag_audit.h"
+#include "replay/damage_guard.h"
 #include "replay/recording.h"
 
 namespace {
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
   std::string node;
   app.add_option("bags", paths, "recordings; the bags of a split one in order")->required();
   app.add_option("--node", node, "the emulator's name such as /afm, where a bag holds several");
+  afm::replay::guard_against_damage();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 
 #include "node/arithmetic_digest.h"
 #include "node/version.h"
+#include "replay/damage_guard.h"
 #include "replay/digest_check.h"
 #include "replay/run_check.h"
 
@@ -175,6 +176,7 @@ int main(int argc, char** argv) {
   app.add_flag("--digests-only", options.digests_only,
                "compare only the digests told every second: reads little, and finds the second of a difference");
   app.add_flag("--open-end", options.open_end, "accept a recording that was never closed, as far as it goes");
+  afm::replay::guard_against_damage();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

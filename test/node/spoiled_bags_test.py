@@ -249,6 +249,20 @@ class SpoiledBags(NodeTest):
             self.assertIn('rosbag reindex', answer.text)
             self.assertNotEqual(checks.bag_check(path).code, 0)
 
+    def test_damaged(self):
+        """A length in the index that leads out of the file: rosbag's reader falls over it, our tools tell."""
+        data = bytearray(self.good.read_bytes())
+        index = data.rindex(b'count=')
+        data[index - 22:index - 18] = b'\xff\xff\xff\x7f'
+        for place in range(index - 4000, index, 400):
+            damaged = bytearray(data)
+            damaged[place] ^= 0x40
+            path = self.directory / 'damaged.bag'
+            path.write_bytes(damaged)
+            for answer in (checks.replay_check(path), checks.bag_check(path)):
+                self.assertIn(answer.code, range(8), answer.text)
+                self.assertTrue(answer.text)
+
     def test_reindexed(self):
         path = self.directory / 'reindexed.bag'
         data = self.good.read_bytes()
