@@ -13,6 +13,8 @@ class ResetPauseStep(EmulatorTest):
     def setUp(self):
         super().setUp()
         self.topics = {name: Topic(name) for name in TOPICS}
+        for topic in self.topics.values():
+            topic.wait_for_connection()
         self.status, self.deflection = self.topics['status'], self.topics['deflection']
         self.deflection.wait_for()
 
