@@ -76,7 +76,7 @@ class ChatterRates {
   double bounces_at(double v) const;
 
   bool geometric_;
-  double gamma_, H_, wv2_, wh2_, ratio_;
+  double gamma_, H_, wv2_, free_, wh2_, slow_rate_;
   double loss_;  // (1 - gamma) / v_c
   double even_;  // n's part in v: 1 / loss, or 1 / -log(gamma)
   double per_mean_;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first

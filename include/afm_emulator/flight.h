@@ -16,14 +16,16 @@ namespace afm {
 template <class T>
 struct Mechanics {
   explicit Mechanics(const Model& model)
-      : ratio(model.frequency_ratio),
+      : mobility(afm::mobility(model)),
+        ratio(mobility * T(model.frequency_ratio)),
         omega_v(two_pi<T>()),
         omega_h(omega_v * ratio),
         H(model.H),
         y0(model.y0),
         per_omega_v(T(1.0) / omega_v),
-        per_omega_h(T(1.0) / omega_h) {}
+        per_omega_h(afm::mobility(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
 
+  T mobility;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
   T ratio, omega_v, omega_h, H, y0;
   T per_omega_v, per_omega_h;  // a product is sooner there than a quotient
 };

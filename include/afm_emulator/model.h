@@ -1,6 +1,7 @@
 // The oscillator's parameters in natural units: length a (lattice spacing), time tau = 2 pi / omega_v, mass m (tip).
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ class ParameterError : public std::invalid_argument {
   std::string reason;
 };
 
+// oscillator: both springs. hammer (the paper's section IX): the horizontal spring infinitely stiff, x = xc; the holder takes what
+// the surface gives along x, so an impact turns the gap rate alone, and its extension and horizontal velocity are not its own.
+enum class ModelKind : std::uint8_t { oscillator, hammer };
+
 // Defaults are the paper's mica values (section V). The drag velocity eta is not here: it is commanded while running.
 struct Model {
   double frequency_ratio = 6.25;  // omega_h / omega_v
@@ -26,7 +31,11 @@ struct Model {
   double y0 = 0.0;                // height of the harmonic centre [a]; below H, or the tip would hover
   double gamma = 0.7;             // restitution at and above the cutoff
   double v_c = 0.05;              // cutoff of the restitution law [a/tau]; 0: gamma at every speed
+  ModelKind kind = ModelKind::oscillator;
 };
+
+// 1 where the tip is free along the surface, 0 where it is held.
+inline double mobility(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
 
 constexpr double kMaxEta = 1e3;             // above it a flight crosses more cells than the search is tested for
 constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizontal spring

@@ -72,7 +72,7 @@ SlideSeries<T>::SlideSeries(const Mechanics<T>& m, const T& eta, const SlideStat
   u[0] = d[1] = start.u;
   X[0] = start.X;
   X[1] = start.u - eta;
-  inertia = T(1.0) / (T(1.0) + k * k * H * H * turn.sin * turn.sin);
+  inertia = m.mobility / (T(1.0) + k * k * H * H * turn.sin * turn.sin);
   add_order<0>();
 }
 

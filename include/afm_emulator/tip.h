@@ -52,6 +52,8 @@ class Tip {
  private:
   enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
 
+  TipState held(const TipState& state) const;
+  void jolt(double eta);
   void fly(const TipState& start);
   void slide(const SlideState<double>& start);
   void burst(const SlideState<double>& guide, const Chatter& chatter);

@@ -69,8 +69,9 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
       gamma_(model.gamma),
       H_(model.H),
       wv2_(square(kTwoPi)),
-      wh2_(square(kTwoPi * model.frequency_ratio)),
-      ratio_(model.frequency_ratio),
+      free_(mobility(model)),
+      wh2_(free_ * square(kTwoPi * model.frequency_ratio)),
+      slow_rate_(std::max(1.0, free_ * model.frequency_ratio)),
       loss_(geometric ? 0.0 : (1.0 - model.gamma) / model.v_c),
       per_mean_(1.0 / mean_over_first(model.gamma)) {
   // no more than rounding allows where the loss is next to nothing: then n alone changes evenly
@@ -82,20 +83,22 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
 ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
   const SurfaceJet<double> h = surface_jet(H_, q.phase);
-  const double a = -bounce.start().g2, a1 = -higher_derivatives(bounce).g3, N2 = 1.0 + square(h.h1);
+  const double a = -bounce.start().g2, a1 = -higher_derivatives(bounce).g3, N2 = 1.0 + free_ * square(h.h1);
   ChatterSurroundings at{};
   at.P = a / std::sqrt(N2);
   at.per_P = 1.0 / at.P;
-  at.squeeze = (a1 / a - h.h1 * h.h2 * q.u / N2) / 3.0;
+  at.squeeze = (a1 / a - free_ * h.h1 * h.h2 * q.u / N2) / 3.0;
   at.quickness = 3.0 * std::abs(at.squeeze);
-  at.slow_rate = std::max(std::abs(q.u), ratio_);
+  at.slow_rate = std::max(std::abs(q.u), slow_rate_);
   return at;
 }
 
 AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
   const SlideState<double> q = guide.at(s);
   const auto a = guide.pressure_jet(s);
-  const SurfaceJet<double> h = surface_jet(H_, q.phase);
+  SurfaceJet<double> h = surface_jet(H_, q.phase);
+  // held along x, the tip sees no slope: only that the pressure changes
+  h.h1 *= free_, h.h2 *= free_, h.h3 *= free_;
   const double u = q.u, N2 = 1.0 + square(h.h1), per_N2 = 1.0 / N2, per_N = std::sqrt(per_N2), per_a = 1.0 / a[0];
   const double x2 = -wh2_ * q.X - h.h1 * a[0] * per_N2;  // of the guide, with the pressure on it
   // the rate at which the surface turns under the tip, and its rate; from them those of ln N, and from these P'/P, ...
@@ -121,9 +124,9 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece
   at.lean = h.h1 * (wh2_ - wv2_) * per_N2 - curvature * pull - curvature1 * speed2;
   at.stiffness = (wh2_ + wv2_ * square(h.h1)) * per_N2 - curvature * (curvature * speed2 - P);
   at.quickness = std::sqrt(std::max(square(p1), std::abs(p2)));
-  at.along = per_N;
+  at.along = free_ * per_N;
   at.up = -h.h1 * per_N;
-  at.slow_rate = std::max(std::abs(u), ratio_);
+  at.slow_rate = std::max(std::abs(u), slow_rate_);
   return at;
 }
 

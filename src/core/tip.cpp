@@ -75,13 +75,21 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       eta_(eta),
       law_(model, contact_tolerance / kGrowth),
       burst_gap_rate_(std::sqrt(kEntry * contact_tolerance)),
-      flight_(mechanics_, eta, checked(start)),
+      flight_(mechanics_, eta, held(checked(start))),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
-  if (start.g == 0.0 && !(start.g1 < 0.0)) leave_or_press();
+  const TipState& launched = flight_.launch();
+  if (launched.g == 0.0 && !(launched.g1 < 0.0)) leave_or_press();
+}
+
+// The hammer moves along x with its holder, whatever it did before; its height and vertical velocity are its own.
+TipState Tip::held(const TipState& state) const {
+  if (model_.kind == ModelKind::oscillator) return state;
+  const double slope = surface_jet(model_.H, state.phase).h1;
+  return {state.phase, 0.0, eta_, state.g, state.g1 + slope * (state.u - eta_)};
 }
 
 void Tip::fly(const TipState& start) {
-  launch(mechanics_, eta_, start, flight_);
+  launch(mechanics_, eta_, held(start), flight_);
   begin_flight();
 }
 
@@ -132,6 +140,7 @@ void Tip::leave_or_press() {
 }
 
 void Tip::drag(double eta) {
+  if (model_.kind == ModelKind::hammer && on_guide()) return jolt(eta);
   const TipState state = tip_state();
   SlideState<double> guide{state.phase, state.X, state.u};
   if (mode_ == Mode::bursting) {
@@ -142,9 +151,22 @@ void Tip::drag(double eta) {
   }
   eta_ = eta;
   if (mode_ == Mode::sliding) return slide(guide);
-  const Mode due = mode_;
+  const bool due = mode_ == Mode::touching;
   fly(state);
-  mode_ = due;
+  if (due && flight_.launch().g1 == 0.0) mode_ = Mode::touching;
+}
+
+// A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at once.
+void Tip::jolt(double eta) {
+  if (eta == eta_) return;
+  const double s = now_ - start_;
+  if (mode_ == Mode::sliding) {
+    slide_end_ = s;
+    slide_releases_ = true;
+  } else {
+    chatter_run_ = {ChatterEnd::exits, s, law_.at(slide_, s, chatter_)};
+  }
+  eta_ = eta;
 }
 
 TipState Tip::tip_state() const {
