@@ -48,16 +48,17 @@ SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const Sli
   length_ = choose_length();
 }
 
-// So that the last two terms of the velocity are below 2^-kBits a/tau. In quarter powers of 2 and from exponents alone, which
+// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-kBits. In quarter powers of 2 and from exponents alone, which
 // are the same on every machine.
 template <class T>
 T SlidePiece<T>::choose_length() const {
   constexpr double kLongest = 8.0;  // [tau]
   constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
   constexpr int kBits = 48;
+  const bool held = static_cast<double>(m_.mobility) == 0.0;
   double length = kLongest;
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
-    const double c = std::abs(static_cast<double>(u_[n]));
+    const double c = std::abs(static_cast<double>(held ? pressure_[n] : u_[n]));
     if (!(c > 1e-290)) continue;
     const int quarters = 4 * (-kBits - std::ilogb(c)) / static_cast<int>(n);
     const int whole = quarters >= 0 ? quarters / 4 : -((3 - quarters) / 4);

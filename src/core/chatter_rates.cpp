@@ -88,7 +88,9 @@ ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) con
   at.P = a / std::sqrt(N2);
   at.per_P = 1.0 / at.P;
   at.squeeze = (a1 / a - free_ * h.h1 * h.h2 * q.u / N2) / 3.0;
-  at.quickness = 3.0 * std::abs(at.squeeze);
+  // the second derivative of the pressure, as if u stayed what it is
+  const double u2 = square(q.u), a2 = h.h2 * u2 * (wv2_ - square(kTwoPi) * u2);
+  at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
   at.slow_rate = std::max(std::abs(q.u), slow_rate_);
   return at;
 }
