@@ -47,7 +47,7 @@ def read_rows(path):
 def save(figure, stem):
     """As PNG and as SVG, the same bytes for the same data."""
     pyplot.rcParams["svg.hashsalt"] = "afm_emulator"
-    for kind, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
+    for kind, metadata in (("png", None), ("svg", {"Date": None})):
         path = "%s.%s" % (stem, kind)
         try:
             figure.savefig(path, dpi=110, metadata=metadata)
