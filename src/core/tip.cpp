@@ -128,10 +128,11 @@ SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatt
 // The flight after a bounce has begun: does the surface press, and is it the first bounce of a burst?
 void Tip::leave_or_press() {
   const TipState start = flight_.launch();
-  if (!(flight_.start().g2 < 0.0)) return;
+  const double g2 = flight_.start().g2;
   if (!(start.g1 > 0.0)) {
-    mode_ = Mode::touching;
-  } else if (start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
+    // also where the surface does not press, but only rounding pulls: on the glide at eta = 1 for ever
+    if (g2 < kReleaseNoise) mode_ = Mode::touching;
+  } else if (g2 < 0.0 && start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
     const Settled settled = settle(model_, start);
     burst_normal_speed_ = settled.normal_speed;
     burst_gain_ = 0.0;

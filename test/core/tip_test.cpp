@@ -185,6 +185,21 @@ TEST(Tip, AnImpactIsWhatTheStatesOnEitherSideSay) {
   }
 }
 
+// x = v0 t, y = h(x) solves the motion at eta = 1: nothing presses, nothing pulls, and nothing may happen.
+TEST(Tip, OnTheGlideNothingHappens) {
+  for (const double eta : {1.0, -1.0}) {
+    for (const double phase : {0.0, 0.25, 0.6, 0.75}) {
+      for (const double tolerance : {0.0, kDefaultContactTolerance}) {
+        Tip tip(Model{}, eta, TipState{phase, 0.0, eta, 0.0, 0.0}, tolerance);
+        ASSERT_EQ(tip.advance({1000, 0.0}), Outcome::contact);
+        ASSERT_EQ(tip.advance({1000, 0.0}), Outcome::time_limit) << phase;
+        EXPECT_NEAR(tip.tip_state().X, 0.0, 1e-9);
+        EXPECT_NEAR(tip.tip_state().u, eta, 1e-8);
+      }
+    }
+  }
+}
+
 TEST(Tip, RefusesAStartBelowTheSurface) {
   EXPECT_THROW(Tip(Model(), 1.0, FreeState{0.0, 0.0, 0.0, 1.0, 0.0}), ParameterError);
   EXPECT_NO_THROW(Tip(Model(), 1.0, FreeState{0.5, 0.0, 0.0, 1.0, 0.0}));
