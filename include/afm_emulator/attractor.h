@@ -14,8 +14,8 @@ enum class AttractorKind : std::uint8_t {
   periodic,
   quasi_periodic,
   chaotic,
-  contact,    // the tip slides or glides on the surface for more than half of the time
-  rest,       // nothing moves
+  contact,    // the tip slides, glides or creeps on the surface for more than half of the time
+  rest,       // there is no drag: the tip loses what it has, and ends in a motion that loses nothing
   undecided   // the budget ran out, or the search for impacts gave up
 };
 
@@ -33,8 +33,9 @@ struct Attractor {
   // cells that the holder passes: the period is cells / |eta| tau.
   int impacts = 0;
   int cells = 0;
-  double contact_share = 0.0;     // of the time
-  double rotation_number = 0.0;   // cells passed by an impact: impacts lock to the surface where it is rational
+  double contact_share = 0.0;     // of the time: in contact, in bursts, or in bounces below 0.01 a/tau
+  double cells_per_impact = 0.0;  // 0 where there are no impacts
+  double rotation_number = 0.0;   // of a quasi-periodic one: turns about the middle of its section by an impact, in [0, 1/2]
   LyapunovSpectrum lyapunov;      // of a periodic orbit: logarithms of its multipliers over its period
 
   // period-N, quasi-periodic, chaotic, contact, rest, undecided

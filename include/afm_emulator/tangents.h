@@ -33,6 +33,7 @@ class Tangents {
   int rank() const { return rank_; }
 
  private:
+  void restart(const TipState& bounce);
   void carry_bounce(double dt);
   void carry_burst(double dt);
   void carry_slide(double dt);

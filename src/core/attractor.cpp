@@ -5,85 +5,46 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
+#include <vector>
 
+#include "afm_emulator/periodic_orbit.h"
+#include "afm_emulator/poincare_map.h"
 #include "afm_emulator/tangents.h"
+#include "orbit_observer.h"
 
 namespace afm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// What an orbit is compared by: its state after an impact or a release, and the sums up to there.
-struct Mark {
-  TipState state;
-  ModelTime time;
-  int impacts;
-};
-
-double distance(const TipState& a, const TipState& b) {
-  const double phase = a.phase - b.phase;
-  return std::max({std::abs(phase - std::round(phase)), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)});
-}
-
-// Runs a tip from mark to mark, within a budget, and keeps the time spent in contact.
-class Observer {
- public:
-  Observer(Tip& tip, std::uint64_t most_events) : tip_(tip), left_(most_events) {}
-
-  // False where the limit, the budget or a failed search came first.
-  bool next(const ModelTime& limit) {
-    while (left_ > 0 && !failed_) {
-      const bool held = tip_.in_contact();
-      const ModelTime before = tip_.now();
-      const Outcome outcome = tip_.advance(limit);
-      --left_;
-      if (held) in_contact_ += tip_.now() - before;
-      if (outcome == Outcome::time_limit) return false;
-      failed_ = outcome == Outcome::search_failed;
-      const bool single = outcome == Outcome::impact && tip_.last_impact().kind == ImpactKind::impact;
-      impacts_ += single ? 1 : 0;
-      if (single || outcome == Outcome::released) return true;
-    }
-    return false;
-  }
-  void run_until(const ModelTime& limit) {
-    while (next(limit)) {
-    }
-  }
-
-  Mark mark() const { return {tip_.tip_state(), tip_.now(), impacts_}; }
-  bool stopped() const { return failed_ || left_ == 0; }
-  std::uint64_t left() const { return left_; }
-  double take_contact_time() { return std::exchange(in_contact_, 0.0); }
-
- private:
-  Tip& tip_;
-  std::uint64_t left_;
-  bool failed_ = false;
-  int impacts_ = 0;
-  double in_contact_ = 0.0;
-};
-
 // The marks of one period, the first of them at both ends; empty where the orbit does not come back.
 struct Period {
   int marks = 0, impacts = 0, cells = 0;
 };
 
+// Where the tip comes to the orbit slowly a multiple of the period may be the first to be within the tolerance.
+int smallest_period(const std::vector<Mark>& marks, int n, double tolerance) {
+  for (int d = 1; d < n; ++d) {
+    if (n % d == 0 && distance(marks[static_cast<std::size_t>(d)].state, marks[0].state) < 100.0 * tolerance) return d;
+  }
+  return n;
+}
+
 // Comes back to where it was, and once more.
 Period find_period(Observer& observer, double eta, const ModelTime& limit, const AttractorSettings& settings) {
   if (!observer.next(limit)) return {};
-  const Mark first = observer.mark();
-  Period found;
-  for (int n = 1; n <= 2 * settings.longest && observer.next(limit); ++n) {
-    const Mark now = observer.mark();
-    if (distance(now.state, first.state) > settings.tolerance) continue;
-    if (found.marks == 0) {
-      const double cells = std::abs(eta) * (now.time - first.time);
-      found = {n, now.impacts - first.impacts, static_cast<int>(std::lround(cells))};
-    } else if (n == 2 * found.marks) {
-      return found;
-    }
+  std::vector<Mark> marks{observer.mark()};
+  int found = 0;
+  while (static_cast<int>(marks.size()) <= 2 * settings.longest && observer.next(limit)) {
+    marks.push_back(observer.mark());
+    const int n = static_cast<int>(marks.size()) - 1;
+    if (distance(marks.back().state, marks[0].state) > settings.tolerance) continue;
+    if (found == 0) found = n;
+    if (n < 2 * found) continue;
+    const int period = smallest_period(marks, found, settings.tolerance);
+    const Mark& end = marks[static_cast<std::size_t>(period)];
+    const double cells = std::abs(eta) * (end.time - marks[0].time);
+    return {period, end.impacts - marks[0].impacts, static_cast<int>(std::lround(cells))};
   }
   return {};
 }
@@ -93,7 +54,7 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
   LyapunovSpectrum s;
   Tangents tangents(model, tip);
   const double duration = period.cells / std::abs(tip.eta());
-  if (!tangents.start(duration)) return s;
+  if (!tangents.start(2.0 * duration)) return s;
   const ModelTime begin = tip.now(), end = begin + 1.5 * duration;
   Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
   double volume = 0.0;
@@ -117,6 +78,63 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
   return s;
 }
 
+bool draws(const PeriodicOrbit& orbit, const TipState& from) {
+  constexpr double kNear = 0.2;  // [a, a/tau]
+  double nearest = kInfinity;
+  for (const TipState& point : orbit.points) nearest = std::min(nearest, distance(point, from));
+  return nearest < kNear && std::abs(orbit.multipliers[0]) < 1.0;
+}
+
+void describe(const PeriodicOrbit& orbit, Attractor& found) {
+  found.kind = AttractorKind::periodic;
+  found.impacts = static_cast<int>(orbit.length());
+  found.cells = std::abs(orbit.cells);
+  found.cells_per_impact = static_cast<double>(found.cells) / found.impacts;
+  for (std::size_t i = 0; i < 4; ++i) found.lyapunov.exponents[i] = std::log(std::abs(orbit.multipliers[i])) / orbit.period;
+}
+
+// Comes back slowly: Newton's method finds where it goes, from its nearest return. Impacts one by one only.
+bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const ModelTime& limit, Attractor& found) {
+  constexpr std::size_t kLongestOrbit = 32;  // [impacts]: Newton's steps cost the cube
+  std::vector<TipState> run;
+  while (run.size() <= kLongestOrbit && observer.next(limit)) {
+    run.push_back(observer.mark().state);
+    if (tip.in_contact() || !(run.back().g1 > 0.0)) return false;
+  }
+  constexpr double kNearReturn = 0.05;  // [a, a/tau]
+  constexpr int kMostAttempts = 8;
+  int attempts = 0;
+  for (std::size_t n = 1; n <= kLongestOrbit && n < run.size() && attempts < kMostAttempts; ++n) {
+    if (distance(run[n], run[0]) > kNearReturn) continue;
+    ++attempts;
+    const OrbitResult r = find_orbit(PoincareMap(model, tip.eta()), {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(n)});
+    if (r.outcome == OrbitOutcome::found && is_prime(r.orbit) && draws(r.orbit, run[0])) {
+      describe(r.orbit, found);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Turns by an impact about the middle of the section, in the plane of extension and gap rate.
+double rotation_number(Observer& observer, const ModelTime& limit) {
+  constexpr std::size_t kMost = 4000;
+  std::vector<TipState> run;
+  while (run.size() < kMost && observer.next(limit)) run.push_back(observer.mark().state);
+  if (run.size() < 2) return 0.0;
+  const double n = static_cast<double>(run.size());
+  double X = 0.0, g = 0.0, XX = 0.0, gg = 0.0, turns = 0.0;
+  for (const TipState& s : run) X += s.X / n, g += s.g1 / n;
+  for (const TipState& s : run) XX += (s.X - X) * (s.X - X), gg += (s.g1 - g) * (s.g1 - g);
+  const auto angle = [&](const TipState& s) { return std::atan2((s.g1 - g) / std::sqrt(gg), (s.X - X) / std::sqrt(XX)); };
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const double step = (angle(run[i]) - angle(run[i - 1])) / kTwoPi;
+    turns += step - std::floor(step);
+  }
+  const double mean = turns / (n - 1.0);
+  return std::min(mean, 1.0 - mean);
+}
+
 // An exponent within this of 0 is that of a torus or of a bifurcation [1/tau]; and within so many standard errors.
 constexpr double kNoGrowth = 0.01, kStandardErrors = 4.0;
 
@@ -124,11 +142,6 @@ AttractorKind kind_of(const LyapunovSpectrum& s) {
   if (s.outcome != LyapunovOutcome::measured) return AttractorKind::undecided;
   if (s.exponents[0] > std::max(kNoGrowth, kStandardErrors * s.std_errors[0])) return AttractorKind::chaotic;
   return s.exponents[0] > -kNoGrowth ? AttractorKind::quasi_periodic : AttractorKind::undecided;
-}
-
-bool at_rest(const Tip& tip) {
-  constexpr double kStill = 1e-9;  // [a/tau]
-  return tip.eta() == 0.0 && std::abs(tip.tip_state().u) < kStill && tip.tip_state().g < kStill;
 }
 
 }  // namespace
@@ -152,6 +165,10 @@ std::string Attractor::name() const {
 
 Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& settings) {
   Attractor found;
+  if (tip.eta() == 0.0) {
+    found.kind = AttractorKind::rest;
+    return found;
+  }
   Observer observer(tip, settings.most_events);
   observer.run_until(tip.now() + settings.transient);
   observer.take_contact_time();
@@ -164,18 +181,24 @@ Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& 
   const double seen = tip.now() - begin;
   if (observer.stopped() || !(seen > 0.0)) return found;
   found.contact_share = observer.take_contact_time() / seen;
-  found.rotation_number = std::abs(tip.eta()) * seen / std::max(1, observer.mark().impacts - impacts_before);
+  const int impacts = observer.mark().impacts - impacts_before;
+  found.cells_per_impact = impacts > 0 ? std::abs(tip.eta()) * seen / impacts : 0.0;
   if (period.marks > 0) {
     found.kind = AttractorKind::periodic;
     found.impacts = period.impacts;
     found.cells = period.cells;
-    found.rotation_number = static_cast<double>(period.cells) / std::max(1, period.impacts);
+    if (period.impacts > 0) found.cells_per_impact = static_cast<double>(period.cells) / period.impacts;
     found.lyapunov = exponents_of(model, tip, period);
   } else {
     found.lyapunov = lyapunov(model, tip, {0.0, settings.duration, observer.left(), 0.0});
     found.kind = kind_of(found.lyapunov);
+    const bool regular = found.lyapunov.outcome == LyapunovOutcome::measured && found.kind != AttractorKind::chaotic;
+    const ModelTime later = tip.now() + settings.duration;
+    if (regular && !find_slow_period(model, observer, tip, later, found)) {
+      found.rotation_number = rotation_number(observer, later);
+    }
   }
-  if (found.contact_share > 0.5) found.kind = at_rest(tip) ? AttractorKind::rest : AttractorKind::contact;
+  if (found.contact_share > 0.5) found.kind = AttractorKind::contact;
   return found;
 }
 

@@ -23,8 +23,7 @@ bool Tangents::start(double within) {
     if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return false;
     if (outcome != Outcome::impact || tip_.last_impact().kind != ImpactKind::impact) continue;
     const GapJet<double> landing = Flight<double>(mechanics_, tip_.eta(), launch).gap(tip_.now() - before);
-    start_ = reflect(model_, tip_.eta(), landing.state, std::fmin(landing.g1, 0.0)).after;
-    since_ = tip_.now();
+    restart(reflect(model_, tip_.eta(), landing.state, std::fmin(landing.g1, 0.0)).after);
     return true;
   }
   start_ = tip_.tip_state();
@@ -57,7 +56,14 @@ void Tangents::carry_bounce(double dt) {
   carry(section_jacobian(model_, flight, dt, landing));
   const RestitutionJet<double> law = restitution_jet(model_, bounce.normal_speed);
   stretch_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounce.after.g1);
-  start_ = bounce.after;
+  restart(bounce.after);
+}
+
+// From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A tip that
+// has begun a burst tells its guide alone; then the bounce is as good.
+void Tangents::restart(const TipState& bounce) {
+  start_ = tip_.tip_state();
+  if (!(start_.g1 > 0.0)) start_ = bounce;
   since_ = tip_.now();
 }
 

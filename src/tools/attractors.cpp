@@ -1,0 +1,138 @@
+// The attractors at given parameters, or over a grid of them.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "afm_emulator/basins.h"
+#include "csv.h"
+#include "dynamics_options.h"
+#include "sweep/decimal_range.h"
+#include "sweep/progress_bar.h"
+
+namespace {
+
+const char kDescription[] =
+    "Finds what attractors there are (units a, tau, tip mass): tips are started at random above the surface, and each is followed\n"
+    "until what it ends on is known. A row for each attractor: its kind, impacts and cells in a period (0: it does not repeat),\n"
+    "K_f with its standard error, Lyapunov exponents [1/tau], rotation number, share of the time in contact, share of the starts\n"
+    "that it draws with its standard error, and a start that leads to it (surface phase, extension, height, lab velocity).\n"
+    "--eta and --gamma may be ranges FROM:TO:STEP; --cutoff is absolute, or a share of eta with --relative-cutoff.";
+
+const char kHeader[] =
+    "eta,gamma,cutoff,attractor,impacts,cells,k_f,k_f_std_error,lyapunov_1,lyapunov_2,lyapunov_3,lyapunov_4,rotation_number,"
+    "contact_share,basin,basin_std_error,phase,extension,y,u,w";
+
+struct Options {
+  afm::DynamicsOptions dynamics;
+  std::string eta = "3.4", gamma = "0.7";
+  bool relative_cutoff = false;
+  int threads = 0;
+  afm::BasinSettings basins;
+};
+
+void add_options(CLI::App& app, Options& o) {
+  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
+  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
+  app.add_option("--cutoff", o.dynamics.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
+  app.add_flag("--relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  app.add_option("--starts", o.basins.starts, "tips started at each point")->capture_default_str()->check(CLI::Range(1, 1000000));
+  app.add_option("--seed", o.basins.seed, "of the starts")->capture_default_str();
+  app.add_option("--transient", o.basins.attractor.transient, "before anything is looked at [tau]")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
+  app.add_option("--duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1e9));
+  app.add_option("--friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1e9));
+  app.add_option("--model", o.dynamics.model, "oscillator")->capture_default_str();
+  app.add_option("--threads", o.threads, "0: one for each processor")->capture_default_str()->check(CLI::Range(0, 1024));
+}
+
+std::vector<double> range(const std::string& name, const std::string& text) {
+  try {
+    return afm::parse_range(text);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(name + " = " + text + ": " + fault.what());
+  }
+}
+
+std::vector<afm::SweepPoint> grid(Options options) {
+  std::vector<afm::SweepPoint> points;
+  for (const double gamma : range("gamma", options.gamma)) {
+    for (const double eta : range("eta", options.eta)) {
+      afm::DynamicsOptions at = options.dynamics;
+      at.eta = eta;
+      at.gamma = gamma;
+      if (options.relative_cutoff) at.cutoff *= std::abs(eta);
+      checked_model(at);
+      points.push_back({eta, gamma, at.cutoff});
+    }
+  }
+  return points;
+}
+
+void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins) {
+  for (const afm::Basin& basin : basins) {
+    const afm::Attractor& a = basin.first.attractor;
+    const afm::FreeState start = to_free_state(model_of(point).H, basin.first.start);
+    std::cout << afm::join_numbers({point.eta, point.gamma, point.v_c}) << "," << a.name() << ","
+              << afm::join_numbers({static_cast<double>(a.impacts), static_cast<double>(a.cells), basin.first.K_f,
+                                    basin.first.K_f_std_error, a.lyapunov.exponents[0], a.lyapunov.exponents[1],
+                                    a.lyapunov.exponents[2], a.lyapunov.exponents[3], a.rotation_number, a.contact_share,
+                                    basin.share, basin.share_std_error, start.phase, start.X, start.y, start.u, start.w})
+              << "\n";
+  }
+}
+
+// Rows in the order of the grid, whichever thread is first: the same table for any number of threads.
+void compute(const std::vector<afm::SweepPoint>& points, const afm::BasinSettings& settings, std::size_t threads) {
+  std::atomic<std::size_t> next{0};
+  std::map<std::size_t, std::vector<afm::Basin>> done;
+  std::mutex mutex;
+  std::condition_variable changed;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < points.size(); i = next++) {
+      auto basins = find_basins(points[i], settings);
+      const std::lock_guard<std::mutex> lock(mutex);
+      done[i] = std::move(basins);
+      changed.notify_one();
+    }
+  };
+  std::vector<std::thread> workers;
+  for (std::size_t i = 0; i < threads; ++i) workers.emplace_back(work);
+  afm::ProgressBar bar(points.size(), 0);
+  for (std::size_t printed = 0; printed < points.size(); ++printed) {
+    std::unique_lock<std::mutex> lock(mutex);
+    changed.wait(lock, [&] { return done.count(printed) != 0; });
+    print(points[printed], done[printed]);
+    done.erase(printed);
+    bar.show(printed + 1);
+  }
+  for (std::thread& worker : workers) worker.join();
+}
+
+int run(const Options& options) {
+  const std::vector<afm::SweepPoint> points = grid(options);
+  const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
+  std::cout << kHeader << "\n";
+  compute(points, options.basins, options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{kDescription, "attractors"};
+  Options options;
+  add_options(app, options);
+  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+}
