@@ -1,10 +1,13 @@
 // The periodic orbits at given parameters.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "afm_emulator/cycle_expansion.h"
 #include "afm_emulator/orbit_search.h"
 #include "afm_emulator/state.h"
 #include "csv.h"
@@ -27,6 +30,8 @@ struct Options {
   afm::DynamicsOptions dynamics;
   afm::OrbitSearchSettings search;
   bool quiet = false;
+  std::string averages;
+  double attractor_distance = 0.1;
 };
 
 void add_options(CLI::App& app, Options& o) {
@@ -41,6 +46,12 @@ void add_options(CLI::App& app, Options& o) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.search.seed, "of what is random in the search")->capture_default_str();
+  app.add_option("--averages", o.averages,
+                 "file for K_f from these orbits by periodic orbit theory: method, order of truncation, terms, K_f, and by how\n"
+                 "much the expansion misses the conservation of flow");
+  app.add_option("--attractor-distance", o.attractor_distance,
+                 "orbits that the long run does not approach so far are not of the attractor: left out of the averages")
+      ->capture_default_str();
   app.add_flag("--quiet", o.quiet, "no report of the search on stderr");
 }
 
@@ -76,6 +87,32 @@ void report(const afm::OrbitSearchResult& found) {
   }
 }
 
+void write_rows(std::ostream& out, const std::string& method, const std::vector<afm::CycleAverage>& rows) {
+  for (const afm::CycleAverage& row : rows) {
+    out << method << ","
+        << afm::join_numbers({row.order, static_cast<double>(row.terms), row.K_f, row.conservation}) << "\n";
+  }
+}
+
+void write_averages(const Options& options, const afm::OrbitSearchResult& found) {
+  std::ofstream out(options.averages);
+  std::vector<afm::PeriodicOrbit> orbits;
+  for (const afm::FoundOrbit& orbit : found.orbits) {
+    if (orbit.approach < options.attractor_distance) orbits.push_back(orbit.orbit);
+  }
+  const double eta = options.dynamics.eta;
+  out << "method,order,terms,k_f,conservation\n";
+  write_rows(out, "zeta", zeta_averages(orbits, eta, options.search.longest));
+  write_rows(out, "determinant", determinant_averages(orbits, eta, options.search.longest));
+  constexpr double kMostUnstable = 1e3;
+  std::vector<afm::CycleAverage> by_stability = stability_averages(orbits, eta, kMostUnstable);
+  constexpr std::size_t kMostRows = 1000;
+  by_stability.resize(std::min(by_stability.size(), kMostRows));
+  write_rows(out, "stability", by_stability);
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + options.averages);
+}
+
 int run(const Options& options) {
   const afm::Model model = checked_model(options.dynamics);
   if (options.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
@@ -85,6 +122,7 @@ int run(const Options& options) {
   const auto found = search_orbits(afm::PoincareMap(model, options.dynamics.eta), options.search, show);
   std::cout << kHeader << "\n";
   for (const afm::FoundOrbit& orbit : found.orbits) print_row(model.H, orbit.orbit);
+  if (!options.averages.empty()) write_averages(options, found);
   if (!options.quiet) report(found);
   return 0;
 }

@@ -1,0 +1,102 @@
+// The section of the attractor along a parameter, followed up or down.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "afm_emulator/attractor.h"
+#include "afm_emulator/sweep.h"
+#include "csv.h"
+#include "dynamics_options.h"
+#include "sweep/decimal_range.h"
+#include "sweep/progress_bar.h"
+
+namespace {
+
+const char kDescription[] =
+    "A bifurcation diagram: one tip is carried along a parameter, each value from where the one before ended, and after a transient\n"
+    "its impacts are printed (units a, tau, tip mass): the value, surface phase, normal speed before the impact, extension, and the\n"
+    "kind of attractor.";
+
+struct Options {
+  afm::DynamicsOptions dynamics;
+  std::string vary = "eta", range = "2:3:0.01", sweep = "up";
+  int impacts = 100;
+  double transient = 500.0;
+  bool relative_cutoff = false;
+};
+
+afm::DynamicsOptions parameters_at(const Options& o, double value) {
+  afm::DynamicsOptions at = o.dynamics;
+  (o.vary == "eta" ? at.eta : o.vary == "gamma" ? at.gamma : at.cutoff) = value;
+  if (o.relative_cutoff) at.cutoff *= std::abs(at.eta);
+  return at;
+}
+
+std::vector<double> checked_values(const Options& o) {
+  if (o.vary != "eta" && o.vary != "gamma" && o.vary != "cutoff") {
+    throw std::invalid_argument("vary = " + o.vary + ": must be eta, gamma or cutoff");
+  }
+  if (o.sweep != "up" && o.sweep != "down") throw std::invalid_argument("sweep = " + o.sweep + ": must be up or down");
+  std::vector<double> values;
+  try {
+    values = afm::parse_range(o.range);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument("range = " + o.range + ": " + fault.what());
+  }
+  for (const double value : values) checked_model(parameters_at(o, value));
+  if (o.sweep == "down") std::reverse(values.begin(), values.end());
+  return values;
+}
+
+void print_impacts(afm::Tip& tip, double value, int impacts, const std::string& kind) {
+  constexpr double kLongest = 1000.0;  // [tau]
+  const afm::ModelTime end = tip.now() + kLongest;
+  for (int i = 0; i < impacts;) {
+    if (tip.advance(end) == afm::Outcome::time_limit) return;
+    const afm::Impact& impact = tip.last_impact();
+    if (impact.kind != afm::ImpactKind::impact) continue;
+    ++i;
+    std::cout << afm::join_numbers({value, impact.surface_phase, impact.normal_speed, tip.tip_state().X}) << "," << kind
+              << "\n";
+  }
+}
+
+int run(const Options& o) {
+  const std::vector<double> values = checked_values(o);
+  afm::ProgressBar bar(values.size(), 0);
+  std::cout << o.vary << ",phase,normal_speed,extension,attractor\n";
+  const afm::DynamicsOptions first = parameters_at(o, values.front());
+  afm::TipState state = afm::random_start({first.eta, first.gamma, first.cutoff}, 1, 0);
+  std::size_t done = 0;
+  for (const double value : values) {
+    const afm::DynamicsOptions at = parameters_at(o, value);
+    const afm::Model model = checked_model(at);
+    afm::Tip tip(model, at.eta, state);
+    afm::AttractorSettings settings;
+    settings.transient = o.transient;
+    const afm::Attractor attractor = find_attractor(model, tip, settings);
+    print_impacts(tip, value, o.impacts, attractor.name());
+    state = tip.tip_state();
+    bar.show(++done);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{kDescription, "bifurcations"};
+  Options o;
+  add_options(app, o.dynamics);
+  app.add_option("--vary", o.vary, "eta, gamma or cutoff")->capture_default_str();
+  app.add_option("--range", o.range, "of it, FROM:TO:STEP")->capture_default_str();
+  app.add_option("--sweep", o.sweep, "up or down")->capture_default_str();
+  app.add_option("--impacts", o.impacts, "printed at each value")->capture_default_str()->check(CLI::Range(1, 1000000));
+  app.add_option("--transient", o.transient, "before them [tau]")->capture_default_str()->check(CLI::Range(0.0, 1e9));
+  app.add_flag("--relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  return afm::run_tool(app, argc, argv, [&] { return run(o); });
+}
