@@ -52,6 +52,20 @@ TEST(PeriodicOrbit, AtEvenEtaIsTheClosedForm) {
   }
 }
 
+// The horizontal frequency is not in the closed form: it bends the flights, not the impacts.
+TEST(PeriodicOrbit, AtEvenEtaDoesNotKnowTheHorizontalFrequency) {
+  for (const double ratio : {4.3, 5.1, 6.25, 7.3, 9.7}) {
+    Model model = model_with(0.05);
+    model.frequency_ratio = ratio;
+    const double s = kTwoPi * model.H, N = std::sqrt(1.0 + s * s), before = 2.0 * 4.0 * s / (0.3 * N);
+    const double U = -s * 1.7 * before / (2.0 * N), omega = kTwoPi * ratio;
+    const TipState guess{0.75, U / omega / std::tan(0.25 * omega), 4.0 + U, 0.0, 0.7 * before * N};
+    const OrbitResult r = find_orbit(PoincareMap(model, 4.0), {guess});
+    ASSERT_EQ(r.outcome, OrbitOutcome::found) << ratio;
+    EXPECT_NEAR(r.orbit.K_f, 4.0 * 1.7 / 0.3 * s * s / (1.0 + s * s), 1e-12) << ratio;
+  }
+}
+
 std::complex<double> product(const Multipliers& m) { return m[0] * m[1] * m[2] * m[3]; }
 
 // The product of the multipliers is the volume that the impacts leave.

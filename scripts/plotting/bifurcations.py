@@ -1,0 +1,84 @@
+"""Orbits followed to where they are born and die, and the attractors along the way."""
+from . import style
+
+EVENTS = {"period doubling": (style.ORANGE, "--"), "torus": (style.GREEN, "-."), "saddle-node": (style.PINK, ":"),
+          "grazing": ("black", "-"), "corner": (style.GREY, (0, (1, 3)))}
+
+
+def branch(tables, name, *arguments):
+    """Points and events of the branches with the most friction."""
+    rows = tables.make(name, "continue_orbits", "--cutoff", 0.05, *arguments)
+    best = max(rows, key=lambda row: row["k_f"] if not row["event"] else 0)["orbit"]
+    rows = [row for row in rows if row["orbit"] == best]
+    points = [row for row in rows if not row["event"]]
+    return points, [row for row in rows if row["event"] in EVENTS]
+
+
+def mark(axes, events, seen):
+    for row in events:
+        colour, line = EVENTS[row["event"]]
+        axes.axvline(row["value"], color=colour, linestyle=line, linewidth=1.2,
+                     label=row["event"] if row["event"] not in seen else None)
+        seen.add(row["event"])
+
+
+def even_orbit(tables):
+    points, events = branch(tables, "even_orbit_gamma", "--eta", 2, "--gamma", 0.7, "--vary", "gamma", "--to", 0.1)
+    step, starts = (0.1, 20) if tables.quick else (0.01, 200)
+    rows = tables.make("even_basins", "attractors", "--eta", 2, "--gamma", "0.2:0.8:%g" % step, "--cutoff", 0.05,
+                       "--starts", starts, "--friction-duration", 200)
+    figure, axes = style.new(9.0, 7.5, 3, 1, sharex=True)
+    axes[0].plot([p["value"] for p in points], [p["k_f"] for p in points], color=style.BLUE, label="the orbit, continued")
+    colours = {"periodic": style.SKY, "quasi-periodic": style.GREEN, "chaotic": style.ORANGE}
+    for kind, colour in colours.items():
+        some = [r for r in rows if r["attractor"].startswith("period-" if kind == "periodic" else kind)]
+        axes[0].scatter([r["gamma"] for r in some], [r["k_f"] for r in some], s=[4 + 30 * r["basin"] for r in some],
+                        color=colour, label="attractors: " + kind, zorder=0)
+    axes[0].set_ylabel(style.K_F_LABEL)
+    axes[1].plot([p["value"] for p in points], [p["clearance"] for p in points], color=style.BLUE)
+    axes[1].set_ylabel("smallest gap\non the way / a")
+    axes[1].axhline(0.0, color=style.GREY, linewidth=0.8)
+    axes[1].set_ylim(-0.002, 0.035)
+    own = [r for r in rows if r["attractor"] == "period-1" and abs(r["k_f"] / style.closed_form(r["gamma"]) - 1) < 1e-6]
+    axes[2].errorbar([r["gamma"] for r in own], [r["basin"] for r in own], [1.96 * r["basin_std_error"] for r in own],
+                     color=style.BLUE, marker="o", markersize=3, linewidth=0.8)
+    axes[2].set_ylabel("share of starts that\nend on this orbit")
+    axes[2].set_xlabel(r"restitution $\gamma$")
+    for ax in axes:
+        mark(ax, events, set())
+    axes[0].legend(fontsize=8)
+    axes[0].set_title(r"The orbit of two impacts per $\tau$ at $\eta$ = 2, down to where it grazes")
+    return figure
+
+
+def diagram(tables, axes, name, vary, bounds, branches, **fixed):
+    step = (bounds[1] - bounds[0]) / (60 if tables.quick else 600)
+    options = [item for key, value in fixed.items() for item in ("--" + key, value)]
+    for sweep, colour in (("up", style.BLUE), ("down", style.ORANGE)):
+        rows = tables.make("%s_%s" % (name, sweep), "bifurcations", "--vary", vary, "--range", "%.6g:%.6g:%.6g" % (*bounds, step),
+                           "--sweep", sweep, "--impacts", 60, "--cutoff", 0.05, "--transient", 300, *options)
+        axes.plot([r[vary] for r in rows], [r["normal_speed"] for r in rows], ",", color=colour, alpha=0.6)
+        axes.plot([], [], "s", color=colour, label="%s carried %s" % (vary, sweep))
+    seen = set()
+    for index, arguments in enumerate(branches):
+        _, events = branch(tables, "%s_branch_%d" % (name, index), *arguments)
+        mark(axes, [e for e in events if bounds[0] <= e["value"] <= bounds[1]], seen)
+    axes.set_xlim(*bounds)
+    axes.set_ylim(0, None)
+    axes.set_ylabel(r"normal speed / (a/$\tau$)")
+    axes.legend(fontsize=8, loc="upper left")
+
+
+def diagrams(tables):
+    figure, axes = style.new(10.0, 9.0, 3, 1)
+    diagram(tables, axes[0], "eta_2", "eta", (1.5, 2.6),
+            [("--eta", 2, "--vary", "eta", "--to", 1.2), ("--eta", 2, "--vary", "eta", "--to", 3)], gamma=0.7)
+    diagram(tables, axes[1], "eta_3", "eta", (3.0, 4.3),
+            [("--eta", 4, "--vary", "eta", "--to", 3.0), ("--eta", 4, "--vary", "eta", "--to", 5.0)], gamma=0.7)
+    diagram(tables, axes[2], "gamma_3", "gamma", (0.3, 0.95),
+            [("--eta", 3.4, "--vary", "gamma", "--to", 0.2), ("--eta", 3.4, "--vary", "gamma", "--to", 0.97),
+             ("--eta", 3.4, "--vary", "gamma", "--to", 0.97, "--length", 4)], eta=3.4)
+    for ax, label in zip(axes, (style.ETA_LABEL, style.ETA_LABEL, r"restitution $\gamma$ at $\eta$ = 3.4")):
+        ax.set_xlabel(label)
+    axes[0].set_title("Impacts on the attractor, carried up and down; bifurcations of the orbit of one impact (below: of four, too)")
+    return figure

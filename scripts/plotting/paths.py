@@ -1,0 +1,44 @@
+"""The tip's path between impacts, from the exact flight (Eq. 9-10)."""
+import math
+
+from . import style
+from .tools import next_impact
+
+
+def surface(x):
+    return style.AMPLITUDE * math.cos(style.TWO_PI * x)
+
+
+def turned(x, v, frequency, t):
+    omega = style.TWO_PI * frequency
+    c, s = math.cos(omega * t), math.sin(omega * t)
+    return x * c + v * s / omega
+
+
+def flight(state, eta, dt, points=60):
+    """x and y of a flight that starts at (phase, extension, u, w)."""
+    phase, X, u, w = state
+    xs, ys = [], []
+    for i in range(points + 1):
+        t = dt * i / points
+        xs.append(phase + eta * t + turned(X, u - eta, style.RATIO, t) - X)
+        ys.append(turned(surface(phase), w, 1.0, t))
+    return xs, ys
+
+
+def flights(start, eta, gamma, cutoff, count):
+    """Paths of consecutive flights, each from the cell 0."""
+    state, paths = list(start), []
+    for _ in range(count):
+        row = next_impact([eta, gamma, cutoff] + state)
+        paths.append(flight(state, eta, row["dt"]))
+        state = [row[key] for key in ("phase_next", "extension_next", "u_next", "w_next")]
+    return paths, state
+
+
+def draw_surface(axes, low, high):
+    xs = [low + (high - low) * i / 800 for i in range(801)]
+    ys = [surface(x) for x in xs]
+    axes.fill_between(xs, ys, -0.15, color="#e0e0e0")
+    axes.plot(xs, ys, color=style.GREY, linewidth=1.2)
+    axes.set_xlim(low, high)

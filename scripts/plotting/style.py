@@ -1,0 +1,31 @@
+"""One look for all figures: colours that the colour-blind can tell apart (Okabe and Ito), and the model's constants."""
+import math
+import sys
+
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+except ImportError as error:
+    sys.exit("figures: %s (Debian and Ubuntu: apt-get install python3-matplotlib)" % error)
+
+BLUE, ORANGE, GREEN, PINK, SKY, YELLOW = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#F0E442"
+GREY = "#555555"
+TWO_PI = 2.0 * math.pi
+AMPLITUDE = 0.05 / 0.52  # of the surface [a]
+RATIO = 6.25  # omega_h / omega_v
+S = TWO_PI * AMPLITUDE
+# the paper's axis: energy in units of m, a and 1/omega_h, time in 1/omega_h, velocity in units of eta
+PAPER = 1.0 / (TWO_PI * RATIO) ** 3
+K_F_LABEL = r"$K_f$ / (m/$\tau$)"
+ETA_LABEL = r"$\eta = v_0 \tau / a$"
+
+
+def closed_form(gamma):
+    """K_f at even eta [m/tau]."""
+    return 4.0 * (1.0 + gamma) / (1.0 - gamma) * S * S / (1.0 + S * S)
+
+
+def new(width=8.0, height=5.0, rows=1, columns=1, **options):
+    pyplot.rcParams.update({"font.size": 11, "axes.titlesize": 12, "mathtext.fontset": "dejavusans"})
+    return pyplot.subplots(rows, columns, figsize=(width, height), constrained_layout=True, **options)

@@ -1,0 +1,64 @@
+"""The package's command-line tools, and the tables they make."""
+import csv
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+BUILD = Path(os.environ.get("AFM_BUILD_DIR", Path(__file__).resolve().parent.parent.parent / "build"))
+TOOLS = BUILD / "devel/lib/afm_emulator"
+
+
+def numbers(row):
+    """The fields of a row as numbers where they are numbers."""
+    result = {}
+    for key, text in row.items():
+        try:
+            result[key] = float(text)
+        except ValueError:
+            result[key] = text
+    return result
+
+
+def read(path):
+    with open(str(path)) as file:
+        return [numbers(row) for row in csv.DictReader(file)]
+
+
+class Tables:
+    def __init__(self, directory, keep, quick):
+        self.directory, self.keep, self.quick = directory, keep, quick
+        directory.mkdir(parents=True, exist_ok=True)
+
+    def make(self, name, tool, *arguments):
+        """The rows of the tool's table, kept in the directory as NAME.csv."""
+        path = self.directory / (name + ".csv")
+        if not (self.keep and path.exists()):
+            part = self.directory / (name + ".part")
+            with open(str(part), "w") as file:
+                self.run(file, tool, *arguments)
+            part.replace(path)
+        return read(path)
+
+    def side_table(self, name):
+        """Where a tool writes a second table."""
+        return self.directory / (name + ".csv")
+
+    @staticmethod
+    def run(file, tool, *arguments):
+        command = [str(TOOLS / tool)] + [str(argument) for argument in arguments]
+        print("      " + " ".join([tool] + command[1:]), flush=True)
+        try:
+            subprocess.run(command, stdout=file, check=True)
+        except FileNotFoundError:
+            sys.exit("figures: no %s: run scripts/build first" % command[0])
+        except subprocess.CalledProcessError:
+            sys.exit("figures: %s failed" % tool)  # it has said why
+
+
+def next_impact(row):
+    """From one state after an impact to the next: eta, gamma, cutoff, phase, extension, u, w."""
+    table = "eta,gamma,cutoff,phase,extension,u,w\n" + ",".join(map(repr, row)) + "\n"
+    done = subprocess.run([str(TOOLS / "next_impact")], input=table, stdout=subprocess.PIPE, universal_newlines=True,
+                          check=True)
+    return numbers(next(csv.DictReader(done.stdout.splitlines())))

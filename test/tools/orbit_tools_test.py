@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""The tools continue_orbits, bifurcations and return_scan: their tables, and what they refuse.
+
+Usage: orbit_tools_test.py DIRECTORY_OF_THE_TOOLS
+"""
+import csv
+import os
+import subprocess
+import sys
+import unittest
+
+TOOLS = None
+
+
+def run(tool, *arguments):
+    done = subprocess.run([os.path.join(TOOLS, tool), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True, timeout=100)
+    return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
+
+
+class Continue(unittest.TestCase):
+    def test_the_orbit_at_eta_2_dies_in_a_graze(self):
+        code, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'gamma', '--to', '0.1', '--guesses', '100')
+        self.assertEqual(code, 0)
+        graze = [row for row in rows if row['event'] == 'grazing']
+        self.assertEqual(len(graze), 1)
+        self.assertAlmostEqual(float(graze[0]['value']), 0.305677576, delta=1e-8)
+        self.assertEqual(rows[-1]['event'], 'end: grazing')
+
+    def test_refuses(self):
+        for arguments in (['--vary', 'mass', '--to', '1'], ['--eta', '0', '--to', '1'], []):
+            self.assertEqual(run('continue_orbits', *arguments)[0], 2)
+
+
+class Bifurcations(unittest.TestCase):
+    def test_impacts_on_a_period_one(self):
+        code, rows, _ = run('bifurcations', '--range', '1.9:2:0.05', '--impacts', '5')
+        self.assertEqual((code, len(rows)), (0, 15))
+        self.assertEqual({row['attractor'] for row in rows}, {'period-1'})
+        self.assertAlmostEqual(float(rows[-1]['phase']), 0.75, delta=1e-9)
+
+    def test_refuses(self):
+        for arguments in (['--range', '1:2'], ['--vary', 'mass'], ['--sweep', 'left'], ['--model', 'hammer']):
+            self.assertEqual(run('bifurcations', *arguments)[0], 2)
+
+
+class Scan(unittest.TestCase):
+    def test_the_nearest_return_is_at_the_fixed_point(self):
+        code, rows, _ = run('return_scan', '--points', '40', '--depth', '12')
+        self.assertEqual((code, len(rows)), (0, 1600))
+        nearest = min(rows, key=lambda row: float(row['distance']))
+        self.assertAlmostEqual(float(nearest['phase']), 0.529, delta=0.02)
+        self.assertAlmostEqual(float(nearest['w']), 2.088, delta=0.2)
+
+
+if __name__ == '__main__':
+    TOOLS = sys.argv.pop(1)
+    unittest.main()
