@@ -28,17 +28,34 @@ def friction_curve(tables):
     return figure
 
 
-def hysteresis(tables):
-    windows = [(1.7, 2.3), (3.5, 4.3), (6.2, 6.9)]
-    figure, axes = style.new(10.0, 4.0, 1, 3)
+def draw_attractors(axes, rows):
+    """Each attractor a dot, the larger the more starts it draws."""
+    kinds = (("period-1", "period 1", style.BLUE), ("period-", "longer periods", style.SKY),
+             ("quasi-periodic", "quasi-periodic", style.GREEN), ("chaotic", "chaotic", style.ORANGE),
+             ("contact", "contact", style.YELLOW))
+    left = list(rows)
+    for name, label, colour in kinds:
+        some = [r for r in left if r["attractor"] == name or (name == "period-" and r["attractor"].startswith(name))]
+        left = [r for r in left if r not in some]
+        axes.scatter([r["eta"] for r in some], [r["k_f"] for r in some], s=[3 + 25 * r["basin"] for r in some], color=colour,
+                     label=label, linewidths=0)
+
+
+def coexistence(tables):
+    windows = [(1.9, 2.15), (3.6, 3.9), (6.2, 6.7)]
+    figure, axes = style.new(11.0, 4.5, 1, 3)
     for ax, (low, high) in zip(axes, windows):
-        for direction, colour, marker in (("up", style.BLUE, ">"), ("down", style.ORANGE, "<")):
-            rows = sweep(tables, "sweep_%s_%g" % (direction, low), "%g:%g" % (low, high), 0.005, "--sweep",
-                         direction, "--duration", 3000)
-            ax.plot([row["eta"] for row in rows], [row["k_f"] for row in rows], color=colour, marker=marker, markersize=3,
-                    linewidth=0.8, label="drag velocity raised" if direction == "up" else "lowered")
+        step = (high - low) / (10 if tables.quick else 100)
+        draw_attractors(ax, tables.make("coexistence_%g" % low, "attractors", "--gamma", 0.7, "--cutoff", 0.05, "--eta",
+                                        "%g:%g:%g" % (low, high, step), "--starts", 10 if tables.quick else 60,
+                                        "--friction-duration", 300))
+        for direction, line in (("up", "-"), ("down", ":")):
+            rows = sweep(tables, "sweep_%s_%g" % (direction, low), "%g:%g" % (low, high), 0.0025, "--sweep", direction,
+                         "--duration", 3000)
+            ax.plot([row["eta"] for row in rows], [row["k_f"] for row in rows], color="black", linestyle=line, linewidth=0.8,
+                    label="one tip, drag velocity %s" % ("raised" if direction == "up" else "lowered"))
         ax.set_xlabel(style.ETA_LABEL)
     axes[0].set_ylabel(style.K_F_LABEL)
-    axes[0].legend(fontsize=9)
-    figure.suptitle(r"Friction depends on history where attractors coexist ($\gamma$ = 0.7)")
+    axes[1].legend(fontsize=8)
+    figure.suptitle(r"Where attractors coexist friction depends on history ($\gamma$ = 0.7; the area of a dot: its basin)")
     return figure

@@ -61,7 +61,7 @@ def return_scan(tables):
     figure, axes = style.new(8.0, 5.5)
     finite = [min(row["distance"], 1.0) for row in rows]
     image = axes.scatter([row["phase"] for row in rows], [row["w"] for row in rows], c=[math.log10(d) for d in finite],
-                         cmap="viridis", s=9, marker="s", linewidths=0, vmax=0)
+                         cmap="viridis", s=1000.0 / points * 2.2, marker="s", linewidths=0, vmax=0)
     figure.colorbar(image, label=r"$\log_{10}$ of the distance after two impacts, in parts of the box")
     fixed = found_orbits(tables)[0]
     point = [row for row in fixed if row["length"] == 1 and row["cells"] == 2][0]

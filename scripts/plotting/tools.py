@@ -28,16 +28,18 @@ def read(path):
 class Tables:
     def __init__(self, directory, keep, quick):
         self.directory, self.keep, self.quick = directory, keep, quick
+        self.made = set()  # by this run: two figures may need one table
         directory.mkdir(parents=True, exist_ok=True)
 
     def make(self, name, tool, *arguments):
         """The rows of the tool's table, kept in the directory as NAME.csv."""
         path = self.directory / (name + ".csv")
-        if not (self.keep and path.exists()):
+        if not ((self.keep or name in self.made) and path.exists()):
             part = self.directory / (name + ".part")
             with open(str(part), "w") as file:
                 self.run(file, tool, *arguments)
             part.replace(path)
+        self.made.add(name)
         return read(path)
 
     def side_table(self, name):

@@ -90,6 +90,19 @@ TEST(Continuation, TwoOrbitsDieInOneGraze) {
   EXPECT_NE(find(four, BifurcationKind::corner), nullptr);
 }
 
+// Why there is no orbit of two impacts at eta = 3.4: the one born in the period doubling at 3.2938 grazes and ends before.
+TEST(Continuation, TheOrbitOfTwoImpactsEndsShortOfThePapersDrag) {
+  const PeriodicOrbit two = orbit_at(3.3, 0.7, 2);
+  ASSERT_EQ(two.length(), 2u);
+  const Branch up = continue_orbit(Model(), 3.3, two, Parameter::eta, 3.4);
+  ASSERT_EQ(up.end, BranchEnd::grazing);
+  EXPECT_NEAR(up.points.back().parameter, 3.3359068, 1e-6);
+  const Branch one = continue_orbit(Model(), 3.4, orbit_at(3.4, 0.7, 1), Parameter::eta, 3.2);
+  const BranchEvent* doubling = find(one, BifurcationKind::period_doubling);
+  ASSERT_NE(doubling, nullptr);
+  EXPECT_NEAR(doubling->at.parameter, 3.2937849, 1e-6);
+}
+
 TEST(Continuation, EndsAtItsTarget) {
   const Branch branch = continue_orbit(Model(), 3.4, orbit_at(3.4, 0.7, 3), Parameter::gamma, 0.71);
   EXPECT_EQ(branch.end, BranchEnd::target);
