@@ -1,6 +1,6 @@
-// How displacements are carried where the surface holds the tip. Of the four directions of a section two are left in contact:
-// the normal velocity is gone, and with it the time at which the last bounce would have been. A displacement is then one of the
-// slide, (dx, dX, du), of which the part along the slide itself does not count.
+// How displacements are carried where the surface holds the tip. Of the four directions of a section two are left in
+// contact: the normal velocity is gone, and with it the time at which the last bounce would have been. A displacement
+// is then one of the slide, (dx, dX, du), of which the part along the slide itself does not count.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,9 +24,9 @@ Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<
 // The guide and the normal speed (settle() of chatter.h) by the state after a bounce: by dx, dX, du, dg1.
 Eigen::Matrix4d settle_jacobian(const Model& model, const TipState& bounce);
 
-// From after the first bounce of a burst, `start`, to after its last, `duration` later, which leaves a normal speed. The bounces
-// go by the averaged law of chatter to second order in the loss of one, and leave the guide where it is: within 3e-4 of the
-// product of the Jacobians of its bounces up to a gap rate of 0.01 a/tau.
+// From after the first bounce of a burst, `start`, to after its last, `duration` later, which leaves a normal speed.
+// The bounces go by the averaged law of chatter to second order in the loss of one, and leave the guide where it is:
+// within 3e-4 of the product of the Jacobians of its bounces up to a gap rate of 0.01 a/tau.
 SectionJacobian<double> burst_jacobian(const Model& model, double eta, const TipState& start, double duration,
                                        const TipState& end);
 

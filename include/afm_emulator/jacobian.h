@@ -1,6 +1,7 @@
 // How small displacements of the tip are carried along (sections II and IV of the paper). A displacement at one time is
-// (dx, dX, du, dy, dw): lab position and velocity, and the extension X = x - xc, as x alone does not know where the holder is.
-// On the surface, just after an impact, it is (dx, dX, du, dg1), with the gap rate g1: the height follows from the place.
+// (dx, dX, du, dy, dw): lab position and velocity, and the extension X = x - xc, as x alone does not know where the
+// holder is. On the surface, just after an impact, it is (dx, dX, du, dg1), with the gap rate g1: the height follows
+// from the place.
 #pragma once
 
 #include <Eigen/Core>
@@ -63,7 +64,8 @@ Eigen::Matrix<T, N, N> map_in_flow(const Eigen::Matrix<T, N, 1>& before, const E
   return map * onto_surface(before, G) + after * (G.transpose() / G.dot(before));
 }
 
-// The outgoing normal speed restitution * speed, and its slope by the incoming one: not the restitution itself below the cutoff.
+// The outgoing normal speed restitution * speed, and its slope by the incoming one: not the restitution itself below
+// the cutoff.
 template <class T>
 struct RestitutionJet {
   T restitution, slope;
@@ -93,7 +95,8 @@ struct Incidence {
   }
 };
 
-// Derivative of the reflection (Eq. 11) where it takes place, Eq. 4: velocities by velocities, and by the turn of the normal.
+// Derivative of the reflection (Eq. 11) where it takes place, Eq. 4: velocities by velocities, and by the turn of the
+// normal.
 template <class T>
 FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in) {
   using std::sqrt;
@@ -111,8 +114,8 @@ FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in
   return R;
 }
 
-// Eq. 13-16 with the signs put right and the slope of the law: in the frame of tangent and normal at the impact, positions before
-// velocities. A_n is the normal acceleration. The determinant is (restitution * slope).
+// Eq. 13-16 with the signs put right and the slope of the law: in the frame of tangent and normal at the impact,
+// positions before velocities. A_n is the normal acceleration. The determinant is (restitution * slope).
 template <class T>
 Eigen::Matrix<T, 4, 4> local_reflection_jacobian(const Model& model, const Incidence<T>& in, const T& A_n) {
   using std::sqrt;
@@ -121,9 +124,9 @@ Eigen::Matrix<T, 4, 4> local_reflection_jacobian(const Model& model, const Incid
   const RestitutionJet<T> law = restitution_jet(model, in.normal_speed);
   const T kick = T(1.0) + law.restitution, gain = T(1.0) + law.slope;
   Eigen::Matrix<T, 4, 4> J;
-  J << T(1.0), T(0.0), T(0.0), T(0.0),                                             //
-      T(0.0), -law.restitution, T(0.0), T(0.0),                                    //
-      kick * k * v_n, -kick * k * v_t, T(1.0), T(0.0),                             //
+  J << T(1.0), T(0.0), T(0.0), T(0.0),                  //
+      T(0.0), -law.restitution, T(0.0), T(0.0),         //
+      kick * k * v_n, -kick * k * v_t, T(1.0), T(0.0),  //
       gain * k * v_t, gain * (A_n - k * v_t * v_t) / v_n, T(0.0), -law.slope;
   return J;
 }
@@ -148,8 +151,8 @@ Eigen::Matrix<T, 4, 5> to_section(const SurfaceJet<T>& surface, const T& u) {
   return S;
 }
 
-// From one impact to just after the next: a flight that starts on the surface, and ends after s with the gap rate and state of
-// `landing`. The determinant is slope * restitution * g1(start) / g1(after).
+// From one impact to just after the next: a flight that starts on the surface, and ends after s with the gap rate and
+// state of `landing`. The determinant is slope * restitution * g1(start) / g1(after).
 template <class T>
 SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight, const T& s, const GapJet<T>& landing) {
   const Mechanics<T>& m = flight.mechanics();

@@ -10,9 +10,9 @@
 namespace afm {
 
 struct OrbitSearchSettings {
-  int longest = 6;                // [impacts]
-  int trajectory = 200000;        // impacts of a long run, in which guesses are looked for
-  int guesses = 3000;             // for each length and each kind of guess
+  int longest = 6;          // [impacts]
+  int trajectory = 200000;  // impacts of a long run, in which guesses are looked for
+  int guesses = 3000;       // for each length and each kind of guess
   std::uint64_t seed = 1;
   NewtonSettings newton;
 };
@@ -38,8 +38,8 @@ struct OrbitSearchResult {
   std::vector<LengthReport> lengths;
 };
 
-// Newton's method from the nearest returns of a long run, from pieces of it taken at random, and from pieces of runs begun
-// anywhere; `progress` is told the share done. The same orbits for the same seed.
+// Newton's method from the nearest returns of a long run, from pieces of it taken at random, and from pieces of runs
+// begun anywhere; `progress` is told the share done. The same orbits for the same seed.
 OrbitSearchResult search_orbits(const PoincareMap& map, const OrbitSearchSettings& settings,
                                 const std::function<void(double)>& progress = {});
 

@@ -1,5 +1,5 @@
-// Periodic orbits of the impact map, stable or not: found by Newton's method on all their points at once (multiple shooting),
-// with their periods, friction and multipliers.
+// Periodic orbits of the impact map, stable or not: found by Newton's method on all their points at once (multiple
+// shooting), with their periods, friction and multipliers.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct PeriodicOrbit {
   double K_f = 0.0;              // [m/tau]; NaN at eta = 0
   double residual = 0.0;         // largest |map(point) - next point| in any coordinate
   Multipliers multipliers{};
-  double slowest_impact = 0.0;   // normal speed [a/tau]: where it meets the cutoff the law has a corner
-  double clearance = 0.0;        // smallest gap at a minimum on the way [a]: where it is 0 the orbit grazes
+  double slowest_impact = 0.0;  // normal speed [a/tau]: where it meets the cutoff the law has a corner
+  double clearance = 0.0;       // smallest gap at a minimum on the way [a]: where it is 0 the orbit grazes
 
   std::size_t length() const { return points.size(); }
 };
@@ -43,8 +43,8 @@ struct OrbitResult {
 struct NewtonSettings {
   double residual = 1e-13;
   int most_steps = 60;
-  // Steps are cut down until the residual falls: Newton's method then follows the flow d(error)/dt = -error that the variational
-  // method follows, and converges quadratically at its end.
+  // Steps are cut down until the residual falls: Newton's method then follows the flow d(error)/dt = -error that the
+  // variational method follows, and converges quadratically at its end.
   double smallest_share = 1e-3;
 };
 

@@ -1,5 +1,5 @@
-// The map from just after one impact to just after the next, every bounce by itself: bursts and contact are off. A point of its
-// section is a TipState with gap 0; its coordinates, here and in the Jacobian, are (phase, X, u, g1).
+// The map from just after one impact to just after the next, every bounce by itself: bursts and contact are off. A
+// point of its section is a TipState with gap 0; its coordinates, here and in the Jacobian, are (phase, X, u, g1).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,11 +22,11 @@ constexpr double kLongestMapFlight = 64.0;  // [tau]
 
 struct MapStep {
   MapOutcome outcome = MapOutcome::no_flight;
-  TipState after;                    // the impact that ends the flight
-  double dt = 0.0;                   // [tau]
-  double normal_speed = 0.0;         // [a/tau], incident
-  double tangential_velocity = 0.0;  // [a/tau]
-  double energy_loss = 0.0;          // [m a^2/tau^2]
+  TipState after;                                                   // the impact that ends the flight
+  double dt = 0.0;                                                  // [tau]
+  double normal_speed = 0.0;                                        // [a/tau], incident
+  double tangential_velocity = 0.0;                                 // [a/tau]
+  double energy_loss = 0.0;                                         // [m a^2/tau^2]
   SectionJacobian<double> J = SectionJacobian<double>::Identity();  // of `after` by the start
 };
 
@@ -38,8 +38,8 @@ class PoincareMap {
   // Impact time and state as exact as the search gives them: the first impact, never a later one.
   MapStep operator()(const TipState& start) const;
 
-  // The smallest gap that a flight of duration dt has at a minimum on its way; infinity where there is none. Where it falls to 0
-  // the flight grazes, and an orbit that holds it ends.
+  // The smallest gap that a flight of duration dt has at a minimum on its way; infinity where there is none. Where it
+  // falls to 0 the flight grazes, and an orbit that holds it ends.
   double clearance(const TipState& start, double dt) const;
 
   const Model& model() const { return model_; }

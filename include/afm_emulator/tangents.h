@@ -21,14 +21,17 @@ class Tangents {
   // The tip is moved by advance(), and by nothing else meanwhile.
   Tangents(const Model& model, Tip& tip) : model_(model), mechanics_(model), tip_(tip) {}
 
-  // To the first event after which the displacements are known: an impact, or a slide under way. False where none comes.
+  // To the first event after which the displacements are known: an impact, or a slide under way. False where none
+  // comes.
   bool start(double within);
 
   // To the tip's next event, or to the limit.
   Outcome advance(const ModelTime& limit);
 
-  const Stretch& stretch() const { return stretch_; }            // of the last advance
-  const SectionJacobian<double>& jacobian() const { return jacobian_; }  // of the last event [section, or slide in its first three]
+  const Stretch& stretch() const { return stretch_; }  // of the last advance
+  const SectionJacobian<double>& jacobian() const {
+    return jacobian_;
+  }  // of the last event [section, or slide in its first three]
   ModelTime carried_to() const { return since_; }
   int rank() const { return rank_; }
 
@@ -44,7 +47,7 @@ class Tangents {
   const Model model_;
   const Mechanics<double> mechanics_;
   Tip& tip_;
-  TipState start_;    // of the arc under way
+  TipState start_;  // of the arc under way
   ModelTime since_;
   Eigen::Matrix4d columns_ = Eigen::Matrix4d::Identity();
   SectionJacobian<double> jacobian_ = Eigen::Matrix4d::Identity();

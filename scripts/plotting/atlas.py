@@ -3,8 +3,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 
 from . import style
 
-KINDS = [("period 1", "#004D80"), ("period 2", "#0072B2"), ("period 3-4", "#56B4E9"), ("longer periods", "#B5DDF5"),
-         ("quasi-periodic", style.GREEN), ("chaotic", style.ORANGE), ("contact", style.YELLOW), ("undecided", "#000000")]
+KINDS = [("period 1", "#004D80"), ("period 2", "#0072B2"), ("period 3-4", "#56B4E9"),
+         ("longer periods", "#B5DDF5"),
+         ("quasi-periodic", style.GREEN), ("chaotic", style.ORANGE), ("contact", style.YELLOW),
+         ("undecided", "#000000")]
 
 
 def kind(row):

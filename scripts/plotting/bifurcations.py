@@ -28,7 +28,8 @@ def even_orbit(tables):
     rows = tables.make("even_basins", "attractors", "--eta", 2, "--gamma", "0.2:0.8:%g" % step, "--cutoff", 0.05,
                        "--starts", starts, "--friction-duration", 200)
     figure, axes = style.new(9.0, 7.5, 3, 1, sharex=True)
-    axes[0].plot([p["value"] for p in points], [p["k_f"] for p in points], color=style.BLUE, label="the orbit, continued")
+    axes[0].plot([p["value"] for p in points], [p["k_f"] for p in points], color=style.BLUE,
+                 label="the orbit, continued")
     colours = {"periodic": style.SKY, "quasi-periodic": style.GREEN, "chaotic": style.ORANGE}
     for kind, colour in colours.items():
         some = [r for r in rows if r["attractor"].startswith("period-" if kind == "periodic" else kind)]
@@ -55,7 +56,8 @@ def diagram(tables, axes, name, vary, bounds, branches, **fixed):
     step = (bounds[1] - bounds[0]) / (60 if tables.quick else 600)
     options = [item for key, value in fixed.items() for item in ("--" + key, value)]
     for sweep, colour in (("up", style.BLUE), ("down", style.ORANGE)):
-        rows = tables.make("%s_%s" % (name, sweep), "bifurcations", "--vary", vary, "--range", "%.6g:%.6g:%.6g" % (*bounds, step),
+        rows = tables.make("%s_%s" % (name, sweep), "bifurcations", "--vary", vary, "--range",
+                           "%.6g:%.6g:%.6g" % (*bounds, step),
                            "--sweep", sweep, "--impacts", 60, "--cutoff", 0.05, "--transient", 300, *options)
         axes.plot([r[vary] for r in rows], [r["normal_speed"] for r in rows], ",", color=colour, alpha=0.6)
         axes.plot([], [], "s", color=colour, label="%s carried %s" % (vary, sweep))
@@ -80,5 +82,6 @@ def diagrams(tables):
              ("--eta", 3.4, "--vary", "gamma", "--to", 0.97, "--length", 4)], eta=3.4)
     for ax, label in zip(axes, (style.ETA_LABEL, style.ETA_LABEL, r"restitution $\gamma$ at $\eta$ = 3.4")):
         ax.set_xlabel(label)
-    axes[0].set_title("Impacts on the attractor, carried up and down; bifurcations of the orbit of one impact (below: of four, too)")
+    axes[0].set_title("Impacts on the attractor, carried up and down; bifurcations of the orbit of one impact "
+                      "(below: of four, too)")
     return figure

@@ -11,7 +11,8 @@ PARAMETERS = ("--eta", ETA, "--gamma", GAMMA, "--cutoff", CUTOFF)
 def found_orbits(tables):
     longest, trajectory, guesses = (6, 20000, 200) if tables.quick else (10, 1000000, 3000)
     averages = tables.side_table("cycle_averages")
-    rows = tables.make("periodic_orbits", "periodic_orbits", *PARAMETERS, "--max-length", longest, "--trajectory", trajectory,
+    rows = tables.make("periodic_orbits", "periodic_orbits", *PARAMETERS, "--max-length", longest,
+                       "--trajectory", trajectory,
                        "--guesses", guesses, "--averages", averages, "--quiet")
     return rows, read(averages)
 
@@ -32,7 +33,8 @@ def attractor(_):
 
 
 def draw_orbit(axes, row, colour):
-    drawn, _ = paths.flights([row[key] for key in ("phase", "extension", "u", "w")], ETA, GAMMA, CUTOFF, int(row["length"]))
+    drawn, _ = paths.flights([row[key] for key in ("phase", "extension", "u", "w")], ETA, GAMMA, CUTOFF,
+                             int(row["length"]))
     offset = 0.0
     for xs, ys in drawn:
         axes.plot([x + offset for x in xs], ys, color=colour, linewidth=1.4)
@@ -80,8 +82,10 @@ def averages(tables):
     figure, axes = style.new(10.0, 4.2, 1, 2)
     for method, colour, marker in (("zeta", style.BLUE, "o"), ("determinant", style.GREEN, "s")):
         some = [row for row in rows if row["method"] == method]
-        axes[0].plot([row["order"] for row in some], [row["k_f"] for row in some], marker=marker, color=colour, label=method)
-        axes[1].plot([row["order"] for row in some], [abs(row["conservation"]) for row in some], marker=marker, color=colour,
+        axes[0].plot([row["order"] for row in some], [row["k_f"] for row in some], marker=marker, color=colour,
+                     label=method)
+        axes[1].plot([row["order"] for row in some], [abs(row["conservation"]) for row in some], marker=marker,
+                     color=colour,
                      label=method)
     axes[0].axhspan(direct["k_f"] - 1.96 * direct["k_f_std_error"], direct["k_f"] + 1.96 * direct["k_f_std_error"],
                     color=style.ORANGE, label="direct simulation, 95 %")

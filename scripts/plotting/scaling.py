@@ -8,14 +8,17 @@ def mean(values):
 
 def scaling(tables):
     duration = 1000 if tables.quick else 5000
-    rows = tables.make("scaling_eta", "friction_curve", "--eta", "0.5:9:%g" % (0.1 if tables.quick else 0.02), "--gamma", 0.7,
+    rows = tables.make("scaling_eta", "friction_curve", "--eta", "0.5:9:%g" % (0.1 if tables.quick else 0.02),
+                       "--gamma", 0.7,
                        "--cutoff", 0.05, "--duration", duration)
-    gammas = tables.make("scaling_gamma", "continue_orbits", "--eta", 4, "--gamma", 0.7, "--cutoff", 0.05, "--vary", "gamma",
+    gammas = tables.make("scaling_gamma", "continue_orbits", "--eta", 4, "--gamma", 0.7, "--cutoff", 0.05,
+                         "--vary", "gamma",
                          "--to", 0.9)
     figure, axes = style.new(10.0, 4.5, 1, 2)
     for shift, colour in zip((0, 2, 4, 6), (style.BLUE, style.ORANGE, style.GREEN, style.PINK)):
         some = [row for row in rows if shift + 1 <= row["eta"] <= shift + 3]
-        axes[0].plot([row["eta"] - shift for row in some], [row["mean_flight_time"] for row in some], color=colour, linewidth=1,
+        axes[0].plot([row["eta"] - shift for row in some], [row["mean_flight_time"] for row in some],
+                     color=colour, linewidth=1,
                      label=r"$\eta$ = %d to %d" % (shift + 1, shift + 3))
     axes[0].set_xlabel(r"$\eta$ less 0, 2, 4, 6")
     axes[0].set_ylabel(r"mean time between impacts / $\tau$")
@@ -23,7 +26,8 @@ def scaling(tables):
     points = [row for row in gammas if not row["event"] and row["k_f"] > 1.0]
     axes[1].plot([row["value"] for row in points], [row["k_f"] for row in points], "o", color=style.BLUE, markersize=3,
                  label=r"the orbit at $\eta$ = 4")
-    axes[1].plot([row["value"] for row in points], [style.closed_form(row["value"]) for row in points], color=style.ORANGE,
+    axes[1].plot([row["value"] for row in points], [style.closed_form(row["value"]) for row in points],
+                 color=style.ORANGE,
                  label="closed form")
     natural = [0.5 * (1.0 - row["value"] ** 2) * style.AMPLITUDE ** 2 for row in points]
     axes[1].plot([row["value"] for row in points], [2571 * k for k in natural], color=style.GREY, linestyle="--",

@@ -90,7 +90,8 @@ void describe(const PeriodicOrbit& orbit, Attractor& found) {
   found.impacts = static_cast<int>(orbit.length());
   found.cells = std::abs(orbit.cells);
   found.cells_per_impact = static_cast<double>(found.cells) / found.impacts;
-  for (std::size_t i = 0; i < 4; ++i) found.lyapunov.exponents[i] = std::log(std::abs(orbit.multipliers[i])) / orbit.period;
+  for (std::size_t i = 0; i < 4; ++i)
+    found.lyapunov.exponents[i] = std::log(std::abs(orbit.multipliers[i])) / orbit.period;
 }
 
 // Comes back slowly: Newton's method finds where it goes, from its nearest return. Impacts one by one only.
@@ -107,7 +108,8 @@ bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const Mo
   for (std::size_t n = 1; n <= kLongestOrbit && n < run.size() && attempts < kMostAttempts; ++n) {
     if (distance(run[n], run[0]) > kNearReturn) continue;
     ++attempts;
-    const OrbitResult r = find_orbit(PoincareMap(model, tip.eta()), {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(n)});
+    const OrbitResult r =
+        find_orbit(PoincareMap(model, tip.eta()), {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(n)});
     if (r.outcome == OrbitOutcome::found && is_prime(r.orbit) && draws(r.orbit, run[0])) {
       describe(r.orbit, found);
       return true;
@@ -126,7 +128,9 @@ double rotation_number(Observer& observer, const ModelTime& limit) {
   double X = 0.0, g = 0.0, XX = 0.0, gg = 0.0, turns = 0.0;
   for (const TipState& s : run) X += s.X / n, g += s.g1 / n;
   for (const TipState& s : run) XX += (s.X - X) * (s.X - X), gg += (s.g1 - g) * (s.g1 - g);
-  const auto angle = [&](const TipState& s) { return std::atan2((s.g1 - g) / std::sqrt(gg), (s.X - X) / std::sqrt(XX)); };
+  const auto angle = [&](const TipState& s) {
+    return std::atan2((s.g1 - g) / std::sqrt(gg), (s.X - X) / std::sqrt(XX));
+  };
   for (std::size_t i = 1; i < run.size(); ++i) {
     const double step = (angle(run[i]) - angle(run[i - 1])) / kTwoPi;
     turns += step - std::floor(step);
@@ -142,6 +146,41 @@ AttractorKind kind_of(const LyapunovSpectrum& s) {
   if (s.outcome != LyapunovOutcome::measured) return AttractorKind::undecided;
   if (s.exponents[0] > std::max(kNoGrowth, kStandardErrors * s.std_errors[0])) return AttractorKind::chaotic;
   return s.exponents[0] > -kNoGrowth ? AttractorKind::quasi_periodic : AttractorKind::undecided;
+}
+
+Period look_for_period(Observer& observer, const Tip& tip, const AttractorSettings& settings) {
+  const ModelTime end = tip.now() + settings.duration;
+  Period period;
+  while (tip.now() < end && !observer.stopped() && period.marks == 0) {
+    period = find_period(observer, tip.eta(), end, settings);
+  }
+  return period;
+}
+
+void describe(const Model& model, Tip& tip, const Period& period, Attractor& found) {
+  found.kind = AttractorKind::periodic;
+  found.impacts = period.impacts;
+  found.cells = period.cells;
+  if (period.impacts > 0) found.cells_per_impact = static_cast<double>(period.cells) / period.impacts;
+  found.lyapunov = exponents_of(model, tip, period);
+}
+
+// By its exponents; where they say that it draws its surroundings in, it repeats itself after all, only later.
+void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const AttractorSettings& settings,
+                         Attractor& found) {
+  found.lyapunov = lyapunov(model, tip, {0.0, settings.duration, observer.left(), 0.0});
+  found.kind = kind_of(found.lyapunov);
+  if (found.lyapunov.outcome != LyapunovOutcome::measured || found.kind == AttractorKind::chaotic) return;
+  if (find_slow_period(model, observer, tip, tip.now() + settings.duration, found)) return;
+  if (found.kind == AttractorKind::quasi_periodic) {
+    found.rotation_number = rotation_number(observer, tip.now() + settings.duration);
+    return;
+  }
+  constexpr double kFolds = 25.0;  // until a displacement is e^-25 of itself
+  if (!std::isfinite(found.lyapunov.exponents[0])) return;
+  observer.run_until(tip.now() + kFolds / -found.lyapunov.exponents[0]);
+  const Period period = look_for_period(observer, tip, settings);
+  if (period.marks > 0) describe(model, tip, period, found);
 }
 
 }  // namespace
@@ -172,31 +211,18 @@ Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& 
   Observer observer(tip, settings.most_events);
   observer.run_until(tip.now() + settings.transient);
   observer.take_contact_time();
-  const ModelTime begin = tip.now(), end = begin + settings.duration;
+  const ModelTime begin = tip.now();
   const int impacts_before = observer.mark().impacts;
-  Period period;
-  while (tip.now() < end && !observer.stopped() && period.marks == 0) {
-    period = find_period(observer, tip.eta(), end, settings);
-  }
+  const Period period = look_for_period(observer, tip, settings);
   const double seen = tip.now() - begin;
   if (observer.stopped() || !(seen > 0.0)) return found;
   found.contact_share = observer.take_contact_time() / seen;
   const int impacts = observer.mark().impacts - impacts_before;
   found.cells_per_impact = impacts > 0 ? std::abs(tip.eta()) * seen / impacts : 0.0;
   if (period.marks > 0) {
-    found.kind = AttractorKind::periodic;
-    found.impacts = period.impacts;
-    found.cells = period.cells;
-    if (period.impacts > 0) found.cells_per_impact = static_cast<double>(period.cells) / period.impacts;
-    found.lyapunov = exponents_of(model, tip, period);
+    describe(model, tip, period, found);
   } else {
-    found.lyapunov = lyapunov(model, tip, {0.0, settings.duration, observer.left(), 0.0});
-    found.kind = kind_of(found.lyapunov);
-    const bool regular = found.lyapunov.outcome == LyapunovOutcome::measured && found.kind != AttractorKind::chaotic;
-    const ModelTime later = tip.now() + settings.duration;
-    if (regular && !find_slow_period(model, observer, tip, later, found)) {
-      found.rotation_number = rotation_number(observer, later);
-    }
+    describe_unrepeated(model, observer, tip, settings, found);
   }
   if (found.contact_share > 0.5) found.kind = AttractorKind::contact;
   return found;

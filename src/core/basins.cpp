@@ -34,8 +34,8 @@ std::vector<Basin> find_basins(const SweepPoint& point, const BasinSettings& set
   std::vector<Basin> basins;
   for (int i = 0; i < settings.starts; ++i) {
     const Visit v = visit(point, static_cast<std::uint64_t>(i), settings);
-    const auto known = std::find_if(basins.begin(), basins.end(),
-                                    [&](const Basin& basin) { return same_attractor(basin.first, v); });
+    const auto known =
+        std::find_if(basins.begin(), basins.end(), [&](const Basin& basin) { return same_attractor(basin.first, v); });
     if (known == basins.end()) {
       basins.push_back({v, 1, 0.0, 0.0});
     } else {

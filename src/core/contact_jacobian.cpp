@@ -27,12 +27,14 @@ Held<T> held(const Mechanics<T>& m, const SlideState<T>& s) {
   return {-(spring + surface.h1 * q) / N2, (q - surface.h1 * spring) / sqrt(N2)};
 }
 
-// The slide with its chatter: z = P^(1/3) / v grows evenly (v^3/P is kept by a bounce that loses nothing), n counts bounces.
+// The slide with its chatter: z = P^(1/3) / v grows evenly (v^3/P is kept by a bounce that loses nothing), n counts
+// bounces.
 using Riding = std::array<Dual4, 5>;  // x, X, u, z, n
 
 struct LossLaw {
   LossLaw(const Model& model, double v)
-      : geometric(!(v < model.v_c)), loss(geometric ? 1.0 - model.gamma : (1.0 - model.gamma) / model.v_c),
+      : geometric(!(v < model.v_c)),
+        loss(geometric ? 1.0 - model.gamma : (1.0 - model.gamma) / model.v_c),
         logarithm(-std::log(std::max(model.gamma, 1e-9))) {}
 
   bool geometric;

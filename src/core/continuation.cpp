@@ -9,8 +9,8 @@ namespace {
 
 using Points = std::vector<TipState>;
 
-constexpr double kTouch = 1e-9;         // a gap this small on the way is a graze [a]
-constexpr double kNoSpeed = 1e-3;        // an impact this slow, against the drag, is one
+constexpr double kTouch = 1e-9;    // a gap this small on the way is a graze [a]
+constexpr double kNoSpeed = 1e-3;  // an impact this slow, against the drag, is one
 constexpr double kSmallestStep = 1e-13;
 constexpr double kNear = 1e-11;  // of an orbit, while the branch is followed [a, a/tau]; its points are refined after
 
@@ -23,7 +23,11 @@ struct Place {
 class Continuation {
  public:
   Continuation(const Model& model, double eta, Parameter vary, double target, const ContinuationSettings& settings)
-      : model_(model), eta_(eta), vary_(vary), target_(target), settings_(settings),
+      : model_(model),
+        eta_(eta),
+        vary_(vary),
+        target_(target),
+        settings_(settings),
         weight_(1.0, 1.0, 1.0 / (1.0 + std::abs(eta)), 1.0 / (1.0 + std::abs(eta))) {}
 
   Branch follow(const PeriodicOrbit& start) {
@@ -53,7 +57,8 @@ class Continuation {
   Eigen::VectorXd difference(const Place& b, const Place& a) const {
     Eigen::VectorXd d(size(a) + 1);
     for (std::size_t i = 0; i < a.points.size(); ++i) {
-      d.segment<4>(static_cast<Eigen::Index>(4 * i)) = weight_.cwiseProduct(section_difference(b.points[i], a.points[i]));
+      d.segment<4>(static_cast<Eigen::Index>(4 * i)) =
+          weight_.cwiseProduct(section_difference(b.points[i], a.points[i]));
     }
     d[size(a)] = b.parameter - a.parameter;
     return d;
@@ -142,7 +147,8 @@ class Continuation {
     if (!above && !below) return false;
     Eigen::VectorXd here;
     if (!(above && below)) residual(at, here, nullptr);
-    const Eigen::VectorXd slope = ((above ? high : here) - (below ? low : here)) / (above && below ? 2.0 * kStep : kStep);
+    const Eigen::VectorXd slope =
+        ((above ? high : here) - (below ? low : here)) / (above && below ? 2.0 * kStep : kStep);
     A.col(4 * n).head(4 * n) = slope.head(4 * n);
     A.row(4 * n) = direction.transpose();
     return true;

@@ -64,7 +64,8 @@ struct Series {
   std::vector<double> value, energy, time;
 };
 
-// Coefficients of sum over orbits and repeats of z^(nr) e^(r field) n / |det(1 - J^r)|: n c_n of the logarithm -sum c_n z^n.
+// Coefficients of sum over orbits and repeats of z^(nr) e^(r field) n / |det(1 - J^r)|: n c_n of the logarithm -sum c_n
+// z^n.
 Series traces(const std::vector<PeriodicOrbit>& orbits, std::size_t longest) {
   Series c(longest);
   for (const PeriodicOrbit& orbit : orbits) {
@@ -96,7 +97,8 @@ std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits
 
 std::vector<CycleAverage> stability_averages(const std::vector<PeriodicOrbit>& orbits, double eta, double largest) {
   std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(-1), largest);
-  std::stable_sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.instability < b.instability; });
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const Term& a, const Term& b) { return a.instability < b.instability; });
   Sum sum(eta);
   std::vector<CycleAverage> rows;
   for (const Term& t : terms) {

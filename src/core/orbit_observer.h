@@ -19,7 +19,8 @@ struct Mark {
 
 inline double distance(const TipState& a, const TipState& b) {
   const double phase = a.phase - b.phase;
-  return std::max({std::abs(phase - std::round(phase)), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)});
+  return std::max(
+      {std::abs(phase - std::round(phase)), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)});
 }
 
 // A bounce that does not lift the tip: by less than 1e-5 a where the surface presses as it mostly does.

@@ -17,9 +17,7 @@ struct Shot {
   std::vector<MapStep> steps;
   Eigen::VectorXd error;
 
-  double residual() const {
-    return landed ? error.lpNorm<Eigen::Infinity>() : std::numeric_limits<double>::infinity();
-  }
+  double residual() const { return landed ? error.lpNorm<Eigen::Infinity>() : std::numeric_limits<double>::infinity(); }
 };
 
 Shot shoot(const PoincareMap& map, const Points& points) {
@@ -138,9 +136,7 @@ namespace {
 // Different orbits of one length are never so close, and one orbit found twice is closer [a, a/tau].
 constexpr double kSame = 1e-7;
 
-bool close(const TipState& a, const TipState& b) {
-  return section_difference(a, b).lpNorm<Eigen::Infinity>() < kSame;
-}
+bool close(const TipState& a, const TipState& b) { return section_difference(a, b).lpNorm<Eigen::Infinity>() < kSame; }
 
 bool matches(const PeriodicOrbit& a, const PeriodicOrbit& b, std::size_t shift) {
   for (std::size_t i = 0; i < a.length(); ++i) {

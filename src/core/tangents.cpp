@@ -59,8 +59,8 @@ void Tangents::carry_bounce(double dt) {
   restart(bounce.after);
 }
 
-// From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A tip that
-// has begun a burst tells its guide alone; then the bounce is as good.
+// From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A
+// tip that has begun a burst tells its guide alone; then the bounce is as good.
 void Tangents::restart(const TipState& bounce) {
   start_ = tip_.tip_state();
   if (!(start_.g1 > 0.0)) start_ = bounce;

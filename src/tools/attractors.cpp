@@ -19,14 +19,16 @@
 namespace {
 
 const char kDescription[] =
-    "Finds what attractors there are (units a, tau, tip mass): tips are started at random above the surface, and each is followed\n"
-    "until what it ends on is known. A row for each attractor: its kind, impacts and cells in a period (0: it does not repeat),\n"
-    "K_f with its standard error, Lyapunov exponents [1/tau], rotation number, share of the time in contact, share of the starts\n"
-    "that it draws with its standard error, and a start that leads to it (surface phase, extension, height, lab velocity).\n"
-    "--eta and --gamma may be ranges FROM:TO:STEP; --cutoff is absolute, or a share of eta with --relative-cutoff.";
+    "Finds what attractors there are (units a, tau, tip mass): tips are started at random above the surface, and\n"
+    "each is followed until what it ends on is known. A row for each attractor: its kind, impacts and cells in a\n"
+    "period (0: it does not repeat), K_f with its standard error, Lyapunov exponents [1/tau], rotation number,\n"
+    "share of the time in contact, share of the starts that it draws with its standard error, and a start that\n"
+    "leads to it (surface phase, extension, height, lab velocity). --eta and --gamma may be ranges FROM:TO:STEP;\n"
+    "--cutoff is absolute, or a share of eta with --relative-cutoff.";
 
 const char kHeader[] =
-    "eta,gamma,cutoff,attractor,impacts,cells,k_f,k_f_std_error,lyapunov_1,lyapunov_2,lyapunov_3,lyapunov_4,rotation_number,"
+    "eta,gamma,cutoff,attractor,impacts,cells,k_f,k_f_std_error,lyapunov_1,lyapunov_2,lyapunov_3,lyapunov_4,rotation_"
+    "number,"
     "contact_share,basin,basin_std_error,phase,extension,y,u,w";
 
 struct Options {
@@ -42,7 +44,9 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
   app.add_option("--cutoff", o.dynamics.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
   app.add_flag("--relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
-  app.add_option("--starts", o.basins.starts, "tips started at each point")->capture_default_str()->check(CLI::Range(1, 1000000));
+  app.add_option("--starts", o.basins.starts, "tips started at each point")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.basins.seed, "of the starts")->capture_default_str();
   app.add_option("--transient", o.basins.attractor.transient, "before anything is looked at [tau]")
       ->capture_default_str()
@@ -54,7 +58,9 @@ void add_options(CLI::App& app, Options& o) {
       ->capture_default_str()
       ->check(CLI::Range(1.0, 1e9));
   app.add_option("--model", o.dynamics.model, "oscillator")->capture_default_str();
-  app.add_option("--threads", o.threads, "0: one for each processor")->capture_default_str()->check(CLI::Range(0, 1024));
+  app.add_option("--threads", o.threads, "0: one for each processor")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
 }
 
 std::vector<double> range(const std::string& name, const std::string& text) {
@@ -87,8 +93,9 @@ void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins) 
     std::cout << afm::join_numbers({point.eta, point.gamma, point.v_c}) << "," << a.name() << ","
               << afm::join_numbers({static_cast<double>(a.impacts), static_cast<double>(a.cells), basin.first.K_f,
                                     basin.first.K_f_std_error, a.lyapunov.exponents[0], a.lyapunov.exponents[1],
-                                    a.lyapunov.exponents[2], a.lyapunov.exponents[3], a.rotation_number, a.contact_share,
-                                    basin.share, basin.share_std_error, start.phase, start.X, start.y, start.u, start.w})
+                                    a.lyapunov.exponents[2], a.lyapunov.exponents[3], a.rotation_number,
+                                    a.contact_share, basin.share, basin.share_std_error, start.phase, start.X, start.y,
+                                    start.u, start.w})
               << "\n";
   }
 }

@@ -17,9 +17,9 @@
 namespace {
 
 const char kDescription[] =
-    "A bifurcation diagram: one tip is carried along a parameter, each value from where the one before ended, and after a transient\n"
-    "its impacts are printed (units a, tau, tip mass): the value, surface phase, normal speed before the impact, extension, and the\n"
-    "kind of attractor.";
+    "A bifurcation diagram: one tip is carried along a parameter, each value from where the one before ended, and\n"
+    "after a transient its impacts are printed (units a, tau, tip mass): the value, surface phase, normal speed\n"
+    "before the impact, extension, and the kind of attractor.";
 
 struct Options {
   afm::DynamicsOptions dynamics;

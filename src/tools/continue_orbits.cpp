@@ -13,9 +13,10 @@
 namespace {
 
 const char kDescription[] =
-    "Finds the periodic orbits at given parameters and follows each through one of them, round folds, to a target or to where it\n"
-    "ends. Rows: number of the orbit, the value of the parameter, what happens there (empty, a bifurcation, or how the branch\n"
-    "ends), impacts and cells in a period, K_f, the slowest impact, the smallest gap on the way (inf: none), and the multipliers.";
+    "Finds the periodic orbits at given parameters and follows each through one of them, round folds, to a target\n"
+    "or to where it ends. Rows: number of the orbit, the value of the parameter, what happens there (empty, a\n"
+    "bifurcation, or how the branch ends), impacts and cells in a period, K_f, the slowest impact, the smallest\n"
+    "gap on the way (inf: none), and the multipliers.";
 
 const char kHeader[] =
     "orbit,value,event,length,cells,k_f,slowest_impact,clearance,multiplier_1_re,multiplier_1_im,multiplier_2_re,"
@@ -24,11 +25,12 @@ const char kHeader[] =
 const std::map<std::string, afm::Parameter> kParameters{
     {"eta", afm::Parameter::eta}, {"gamma", afm::Parameter::gamma}, {"cutoff", afm::Parameter::cutoff}};
 
-const std::map<afm::BranchEnd, std::string> kEnds{{afm::BranchEnd::target, "end: target"},
-                                                  {afm::BranchEnd::grazing, "end: grazing"},
-                                                  {afm::BranchEnd::resonance, "end: resonance of the horizontal spring"},
-                                                  {afm::BranchEnd::lost, "end: lost"},
-                                                  {afm::BranchEnd::steps_spent, "end: steps spent"}};
+const std::map<afm::BranchEnd, std::string> kEnds{
+    {afm::BranchEnd::target, "end: target"},
+    {afm::BranchEnd::grazing, "end: grazing"},
+    {afm::BranchEnd::resonance, "end: resonance of the horizontal spring"},
+    {afm::BranchEnd::lost, "end: lost"},
+    {afm::BranchEnd::steps_spent, "end: steps spent"}};
 
 struct Options {
   afm::DynamicsOptions dynamics;
@@ -44,7 +46,9 @@ void add_options(CLI::App& app, Options& o) {
   afm::add_options(app, o.dynamics);
   app.add_option("--vary", o.vary, "eta, gamma or cutoff")->capture_default_str();
   app.add_option("--to", o.to, "value to go to")->required();
-  app.add_option("--length", o.length, "of the orbits followed [impacts]")->capture_default_str()->check(CLI::Range(1, 32));
+  app.add_option("--length", o.length, "of the orbits followed [impacts]")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 32));
   app.add_option("--guesses", o.search.guesses, "of the search, of each kind")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
@@ -59,8 +63,8 @@ void print_row(int number, const afm::BranchPoint& point, const std::string& eve
     numbers.push_back(multiplier.real());
     numbers.push_back(multiplier.imag());
   }
-  std::cout << number << "," << afm::join_numbers({point.parameter}) << "," << event << "," << afm::join_numbers(numbers)
-            << "\n";
+  std::cout << number << "," << afm::join_numbers({point.parameter}) << "," << event << ","
+            << afm::join_numbers(numbers) << "\n";
 }
 
 void print(int number, const afm::Branch& branch) {
@@ -73,7 +77,8 @@ int run(Options options) {
   const afm::Model model = checked_model(options.dynamics);
   const double eta = options.dynamics.eta;
   const auto vary = kParameters.find(options.vary);
-  if (vary == kParameters.end()) throw std::invalid_argument("vary = " + options.vary + ": must be eta, gamma or cutoff");
+  if (vary == kParameters.end())
+    throw std::invalid_argument("vary = " + options.vary + ": must be eta, gamma or cutoff");
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
   options.search.longest = options.length;
   const auto found = search_orbits(afm::PoincareMap(model, eta), options.search);

@@ -25,7 +25,8 @@ Model checked_model(const DynamicsOptions& o) {
   for (const ParameterError& fault : find_faults(model)) {
     faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
   }
-  if (!(std::abs(o.eta) <= kMaxEta)) faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
+  if (!(std::abs(o.eta) <= kMaxEta))
+    faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
   return model;
 }

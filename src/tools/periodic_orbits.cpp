@@ -17,13 +17,15 @@
 namespace {
 
 const char kDescription[] =
-    "Finds the periodic orbits of the map from impact to impact, stable or not, and prints a row for each (units a, tau, tip\n"
-    "mass): impacts and cells in a period, period, K_f, residual (the largest error of any coordinate over a flight), the first\n"
-    "point just after an impact (surface phase, extension, lab velocity), and the four multipliers, largest first. What speaks\n"
-    "for there being no more goes to stderr: how often each length was found, and how near the long run comes to each orbit.";
+    "Finds the periodic orbits of the map from impact to impact, stable or not, and prints a row for each (units\n"
+    "a, tau, tip mass): impacts and cells in a period, period, K_f, residual (the largest error of any coordinate\n"
+    "over a flight), the first point just after an impact (surface phase, extension, lab velocity), and the four\n"
+    "multipliers, largest first. What speaks for there being no more goes to stderr: how often each length was\n"
+    "found, and how near the long run comes to each orbit.";
 
 const char kHeader[] =
-    "length,cells,period,k_f,residual,phase,extension,u,w,multiplier_1_re,multiplier_1_im,multiplier_2_re,multiplier_2_im,"
+    "length,cells,period,k_f,residual,phase,extension,u,w,multiplier_1_re,multiplier_1_im,multiplier_2_re,multiplier_2_"
+    "im,"
     "multiplier_3_re,multiplier_3_im,multiplier_4_re,multiplier_4_im";
 
 struct Options {
@@ -46,9 +48,10 @@ void add_options(CLI::App& app, Options& o) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   app.add_option("--seed", o.search.seed, "of what is random in the search")->capture_default_str();
-  app.add_option("--averages", o.averages,
-                 "file for K_f from these orbits by periodic orbit theory: method, order of truncation, terms, K_f, and by how\n"
-                 "much the expansion misses the conservation of flow");
+  app.add_option(
+      "--averages", o.averages,
+      "file for K_f from these orbits by periodic orbit theory: method, order of truncation, terms, K_f, and by how\n"
+      "much the expansion misses the conservation of flow");
   app.add_option("--attractor-distance", o.attractor_distance,
                  "orbits that the long run does not approach so far are not of the attractor: left out of the averages")
       ->capture_default_str();
@@ -77,8 +80,8 @@ void report(const afm::OrbitSearchResult& found) {
   for (const afm::LengthReport& length : found.lengths) {
     std::cerr << "length " << length.length << ": of " << length.prime + length.repeats + length.none << " guesses "
               << length.prime << " led to prime orbits, " << length.repeats << " to repeats of shorter ones, "
-              << length.none << " nowhere; nearest return of the run " << length.closest_return << "; orbits missed, estimated: "
-              << length.missed << "\n";
+              << length.none << " nowhere; nearest return of the run " << length.closest_return
+              << "; orbits missed, estimated: " << length.missed << "\n";
     for (const afm::FoundOrbit& orbit : found.orbits) {
       if (orbit.orbit.length() != static_cast<std::size_t>(length.length)) continue;
       std::cerr << "  K_f " << orbit.orbit.K_f << ": found " << orbit.times_found << " times, the run comes within "
@@ -89,8 +92,8 @@ void report(const afm::OrbitSearchResult& found) {
 
 void write_rows(std::ostream& out, const std::string& method, const std::vector<afm::CycleAverage>& rows) {
   for (const afm::CycleAverage& row : rows) {
-    out << method << ","
-        << afm::join_numbers({row.order, static_cast<double>(row.terms), row.K_f, row.conservation}) << "\n";
+    out << method << "," << afm::join_numbers({row.order, static_cast<double>(row.terms), row.K_f, row.conservation})
+        << "\n";
   }
 }
 

@@ -16,9 +16,9 @@
 namespace {
 
 const char kDescription[] =
-    "Scans the box of the section in which the attractor lies, on a grid over all four coordinates, for points that come back after\n"
-    "--length impacts. Rows: surface phase and gap rate after the impact; extension and lab velocity u, w at which the return is\n"
-    "nearest there; and how near, in parts of the box.";
+    "Scans the box of the section in which the attractor lies, on a grid over all four coordinates, for points\n"
+    "that come back after --length impacts. Rows: surface phase and gap rate after the impact; extension and lab\n"
+    "velocity u, w at which the return is nearest there; and how near, in parts of the box.";
 
 struct Options {
   afm::DynamicsOptions dynamics;
@@ -39,7 +39,8 @@ Box find_box(const afm::PoincareMap& map) {
   afm::TipState now{0.5, 0.0, map.eta(), 0.0, 0.5 * (1.0 + std::abs(map.eta()))};
   for (int i = 0; i < kTransient + kRun; ++i) {
     const afm::MapStep step = map(now);
-    if (step.outcome != afm::MapOutcome::impact) throw std::runtime_error("the tip has ended in contact: there is no section");
+    if (step.outcome != afm::MapOutcome::impact)
+      throw std::runtime_error("the tip has ended in contact: there is no section");
     now = step.after;
     const std::array<double, 4> q = coordinates(now);
     for (std::size_t k = 0; k < 4 && i >= kTransient; ++k) {
@@ -105,7 +106,9 @@ int main(int argc, char** argv) {
   CLI::App app{kDescription, "return_scan"};
   Options options;
   add_options(app, options.dynamics);
-  app.add_option("--length", options.length, "impacts until the return")->capture_default_str()->check(CLI::Range(1, 32));
+  app.add_option("--length", options.length, "impacts until the return")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 32));
   app.add_option("--points", options.points, "of the grid over phase and over gap rate")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000));

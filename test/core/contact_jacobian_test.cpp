@@ -47,7 +47,8 @@ std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
   return found;
 }
 
-// The slide until the pressure is nothing, in pieces a quarter as long as the series allow; then the flight to the next impact.
+// The slide until the pressure is nothing, in pieces a quarter as long as the series allow; then the flight to the next
+// impact.
 class QuadContact {
  public:
   QuadContact(const Model& model, const Dwell& dwell)
@@ -110,7 +111,8 @@ TEST(SlideJacobian, CarriesTheDirectionOfTheSlideAlongIt) {
   }
 }
 
-// A slide, its release and a flight, to just after the next impact. Of the three directions one, along the slide, is lost.
+// A slide, its release and a flight, to just after the next impact. Of the three directions one, along the slide, is
+// lost.
 TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
   for (const double eta : kEtas) {
     const Model model = model_with(0.05);
@@ -120,8 +122,7 @@ TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
       const auto truth = quad_differences<4>(map, quad_slide(dwell.begin), Quad(1e-12));
       const Flight<double> flight(Mechanics<double>(model), eta, dwell.release);
       const SectionJacobian<double> flown = section_jacobian(model, flight, dwell.flight, flight.gap(dwell.flight));
-      const Eigen::Matrix<double, 4, 3> J =
-          flown.leftCols<3>() * slide_jacobian(model, eta, dwell.begin, dwell.slide);
+      const Eigen::Matrix<double, 4, 3> J = flown.leftCols<3>() * slide_jacobian(model, eta, dwell.begin, dwell.slide);
       ASSERT_LE(relative_distance(J, truth), 1e-9) << "eta " << eta;
       const Eigen::Vector3d along = slide_velocity(model, eta, dwell.begin);
       ASSERT_LE((J * along).norm(), 1e-7 * J.norm() * along.norm());
@@ -140,8 +141,8 @@ TEST(SettleJacobian, IsTheDerivativeOfSettling) {
     up.*parts[j] += kStep;
     down.*parts[j] -= kStep;
     const Settled high = settle(model, up), low = settle(model, down);
-    const Eigen::Vector4d column(high.guide.phase - low.guide.phase, high.guide.X - low.guide.X, high.guide.u - low.guide.u,
-                                 high.normal_speed - low.normal_speed);
+    const Eigen::Vector4d column(high.guide.phase - low.guide.phase, high.guide.X - low.guide.X,
+                                 high.guide.u - low.guide.u, high.normal_speed - low.normal_speed);
     EXPECT_LE((column / (2.0 * kStep) - J.col(j)).norm(), 1e-8) << j;
   }
 }

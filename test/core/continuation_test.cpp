@@ -15,8 +15,8 @@ double closed_form(double gamma) {
   return 4.0 * (1.0 + gamma) / (1.0 - gamma) * s * s / (1.0 + s * s);
 }
 
-// Just after an impact of the orbit at even eta: mid-height of the rising flank. Each impact kicks the horizontal spring by -2 U,
-// and half a tau later finds it as it was.
+// Just after an impact of the orbit at even eta: mid-height of the rising flank. Each impact kicks the horizontal
+// spring by -2 U, and half a tau later finds it as it was.
 TipState closed_point(double eta, double gamma) {
   const double s = kTwoPi * Model().H, N = std::sqrt(1.0 + s * s), speed = 2.0 * eta * s / ((1.0 - gamma) * N);
   const double U = -s * (1.0 + gamma) * speed / (2.0 * N), omega = kTwoPi * Model().frequency_ratio;
@@ -90,7 +90,8 @@ TEST(Continuation, TwoOrbitsDieInOneGraze) {
   EXPECT_NE(find(four, BifurcationKind::corner), nullptr);
 }
 
-// Why there is no orbit of two impacts at eta = 3.4: the one born in the period doubling at 3.2938 grazes and ends before.
+// Why there is no orbit of two impacts at eta = 3.4: the one born in the period doubling at 3.2938 grazes and ends
+// before.
 TEST(Continuation, TheOrbitOfTwoImpactsEndsShortOfThePapersDrag) {
   const PeriodicOrbit two = orbit_at(3.3, 0.7, 2);
   ASSERT_EQ(two.length(), 2u);

@@ -17,7 +17,8 @@ bool is_least_rotation(const std::string& word) {
   return true;
 }
 
-// All prime orbits of the map that stretches by `stretch` of `symbols` equal branches: branch k takes time 1 + k, energy 5 - k.
+// All prime orbits of the map that stretches by `stretch` of `symbols` equal branches: branch k takes time 1 + k,
+// energy 5 - k.
 std::vector<PeriodicOrbit> full_shift(double stretch, std::size_t longest) {
   std::vector<PeriodicOrbit> orbits;
   for (std::size_t n = 1; n <= longest; ++n) {
@@ -68,7 +69,8 @@ TEST(CycleExpansion, StabilityOrderTakesTheLeastUnstableFirst) {
   EXPECT_NEAR(rows.back().conservation, 0.0, 1e-14);
 }
 
-// The paper's attractor: orbits up to six impacts come within 3 % of direct simulation, 0.2531; the first alone misses 10 %.
+// The paper's attractor: orbits up to six impacts come within 3 % of direct simulation, 0.2531; the first alone misses
+// 10 %.
 TEST(CycleExpansion, OfThePapersAttractorComesNearToSimulation) {
   OrbitSearchSettings settings;
   settings.trajectory = 50000;

@@ -50,7 +50,11 @@ class Bounces {
   Bounce from(double eta, const TipState& start) const {
     const Flight<double> flight(Mechanics<double>(model_), eta, start);
     const Landing<double> landing = find_landing(model_, flight, 8.0);
-    return {eta, start, flight, landing, section_jacobian(model_, flight, landing.s, landing.jet),
+    return {eta,
+            start,
+            flight,
+            landing,
+            section_jacobian(model_, flight, landing.s, landing.jet),
             reflect(model_, eta, landing.jet.state, landing.jet.g1).after};
   }
 
@@ -104,7 +108,8 @@ TEST(SectionJacobian, IsTheDerivativeOfTheMap) {
   }
 }
 
-// Flight keeps volume, so that the section's is what the restitution makes of it, over the rate at which the flow crosses.
+// Flight keeps volume, so that the section's is what the restitution makes of it, over the rate at which the flow
+// crosses.
 TEST(SectionJacobian, ShrinksVolumeByTheRestitutionAlone) {
   for (const Model& model : kModels) {
     Bounces bounces(model, 2);

@@ -1,4 +1,5 @@
-// From one impact to the next in 113 bits, written from the paper's formulas alone (Eq. 9-11): what Jacobians are compared with.
+// From one impact to the next in 113 bits, written from the paper's formulas alone (Eq. 9-11): what Jacobians are
+// compared with.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +18,12 @@ inline QuadPoint quad_point(const TipState& s) { return {s.phase, s.X, s.u, s.g1
 class QuadImpacts {
  public:
   QuadImpacts(const Model& model, double eta)
-      : eta_(eta), gamma_(model.gamma), v_c_(model.v_c), H_(model.H), y0_(model.y0), wv_(two_pi<Quad>()),
+      : eta_(eta),
+        gamma_(model.gamma),
+        v_c_(model.v_c),
+        H_(model.H),
+        y0_(model.y0),
+        wv_(two_pi<Quad>()),
         wh_(wv_ * model.frequency_ratio) {}
 
   // The root of the gap next to `guess`.
@@ -59,7 +65,8 @@ class QuadImpacts {
 
 // Central differences of a function of N numbers: good to step^2 of its third derivatives.
 template <std::size_t M, std::size_t N, class F>
-Eigen::Matrix<double, static_cast<int>(M), static_cast<int>(N)> quad_differences(const F& f, const std::array<Quad, N>& at,
+Eigen::Matrix<double, static_cast<int>(M), static_cast<int>(N)> quad_differences(const F& f,
+                                                                                 const std::array<Quad, N>& at,
                                                                                  const Quad& step) {
   Eigen::Matrix<double, static_cast<int>(M), static_cast<int>(N)> J;
   for (std::size_t j = 0; j < N; ++j) {
