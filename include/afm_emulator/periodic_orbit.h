@@ -48,8 +48,13 @@ struct NewtonSettings {
   double smallest_share = 1e-3;
 };
 
-// From a guess of each of its points, in order.
+// From a guess of each of its points, in order. Points, period and K_f of an orbit found are right to the last digit
+// (they are refined in twice the digits), multipliers as the double Jacobians at these points give them.
 OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess, const NewtonSettings& settings = {});
+
+// An orbit whose points are known, as they are: what its residual is tells how good they are. Empty where a point does
+// not land.
+PeriodicOrbit orbit_at(const PoincareMap& map, const std::vector<TipState>& points);
 
 // Its Jacobian from each point all around: product of those of the flights.
 SectionJacobian<double> orbit_jacobian(const PoincareMap& map, const PeriodicOrbit& orbit);

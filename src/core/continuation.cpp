@@ -154,12 +154,8 @@ class Continuation {
     return true;
   }
 
-  BranchPoint describe(const Place& p) const {
-    NewtonSettings newton;
-    newton.residual = 1e-11;
-    const OrbitResult r = find_orbit(map(p.parameter), p.points, newton);
-    return {p.parameter, r.orbit};
-  }
+  // Without Newton's steps once more: at a fold they would lead to the other branch.
+  BranchPoint describe(const Place& p) const { return {p.parameter, orbit_at(map(p.parameter), p.points)}; }
 
   // What has happened between one point and the next; false where the branch is at its end.
   bool take(const Place& before, const Eigen::VectorXd& direction, double step, const Place& now) {

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "afm_emulator/double_double.h"
+#include "orbit_polish.h"
+
 namespace afm {
 namespace {
 
@@ -37,14 +40,14 @@ Shot shoot(const PoincareMap& map, const Points& points) {
 }
 
 // J_i d_i - d_(i+1) = -error_i around the orbit.
-Eigen::VectorXd newton_step(const Shot& shot) {
+Eigen::VectorXd newton_step(const Shot& shot, const Eigen::VectorXd& error) {
   const Eigen::Index n = static_cast<Eigen::Index>(shot.steps.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4 * n, 4 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     A.block<4, 4>(4 * i, 4 * i) += shot.steps[static_cast<std::size_t>(i)].J;
     A.block<4, 4>(4 * i, 4 * ((i + 1) % n)) -= Eigen::Matrix4d::Identity();
   }
-  return A.partialPivLu().solve(-shot.error);
+  return A.partialPivLu().solve(-error);
 }
 
 Points moved(const Points& points, const Eigen::VectorXd& step, double share) {
@@ -66,27 +69,54 @@ Multipliers eigenvalues(const SectionJacobian<double>& J) {
   return sorted;
 }
 
-PeriodicOrbit describe(const PoincareMap& map, Points points, Shot shot) {
-  const auto first = std::min_element(points.begin(), points.end(),
-                                      [](const TipState& a, const TipState& b) { return a.phase < b.phase; });
-  const auto shift = first - points.begin();
-  std::rotate(points.begin(), points.begin() + shift, points.end());
-  std::rotate(shot.steps.begin(), shot.steps.begin() + shift, shot.steps.end());
-  PeriodicOrbit orbit;
-  orbit.points = points;
-  orbit.residual = shot.residual();
-  orbit.slowest_impact = orbit.clearance = std::numeric_limits<double>::infinity();
+// The points of an orbit good to rounding, its energy, times and friction, all to the last digit.
+void refine(const PoincareMap& map, const Shot& shot, Points points, PeriodicOrbit& orbit) {
+  std::vector<double> times;
+  for (const MapStep& step : shot.steps) times.push_back(step.dt);
+  const FineOrbit fine =
+      polish(map, points, times, [&](const Eigen::VectorXd& error) { return newton_step(shot, error); });
+  DoubleDouble energy(0.0), period(0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const MapStep& step = shot.steps[i];
-    orbit.times.push_back(step.dt);
-    orbit.period += step.dt;
-    orbit.energy_loss += step.energy_loss;
-    orbit.slowest_impact = std::min(orbit.slowest_impact, step.normal_speed);
-    orbit.clearance = std::min(orbit.clearance, map.clearance(points[i], step.dt));
+    const FinePoint& p = fine.points[i];
+    orbit.points.push_back({wrap_phase(static_cast<double>(p.phase)), static_cast<double>(p.X),
+                            static_cast<double>(p.u), 0.0, static_cast<double>(p.g1)});
+    orbit.times.push_back(static_cast<double>(fine.steps[i].dt));
+    energy = energy + fine.steps[i].energy_loss;
+    period = period + fine.steps[i].dt;
   }
+  const DoubleDouble eta(map.eta());
+  orbit.energy_loss = static_cast<double>(energy);
+  orbit.period = static_cast<double>(period);
+  orbit.K_f = static_cast<double>(energy / (eta * eta * period));
+}
+
+// The point with the smallest phase first.
+void turn_to_first(PeriodicOrbit& orbit) {
+  const auto first = std::min_element(orbit.points.begin(), orbit.points.end(),
+                                      [](const TipState& a, const TipState& b) { return a.phase < b.phase; });
+  const auto shift = first - orbit.points.begin();
+  std::rotate(orbit.points.begin(), orbit.points.begin() + shift, orbit.points.end());
+  std::rotate(orbit.times.begin(), orbit.times.begin() + shift, orbit.times.end());
+}
+
+// All that does not need the last digit. Precondition: every point lands.
+void measure(const PoincareMap& map, PeriodicOrbit& orbit) {
+  const Shot shot = shoot(map, orbit.points);
+  orbit.residual = shot.residual();
   orbit.cells = static_cast<int>(std::lround(map.eta() * orbit.period));
-  orbit.K_f = orbit.energy_loss / (map.eta() * map.eta() * orbit.period);
+  orbit.slowest_impact = orbit.clearance = std::numeric_limits<double>::infinity();
+  for (const MapStep& step : shot.steps) orbit.slowest_impact = std::min(orbit.slowest_impact, step.normal_speed);
+  for (std::size_t i = 0; i < orbit.points.size(); ++i) {
+    orbit.clearance = std::min(orbit.clearance, map.clearance(orbit.points[i], orbit.times[i]));
+  }
   orbit.multipliers = eigenvalues(orbit_jacobian(map, orbit));
+}
+
+PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot& shot) {
+  PeriodicOrbit orbit;
+  refine(map, shot, points, orbit);
+  turn_to_first(orbit);
+  measure(map, orbit);
   return orbit;
 }
 
@@ -107,7 +137,7 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
   Shot shot = shoot(map, points);
   OrbitOutcome outcome = shot.landed && !points.empty() ? OrbitOutcome::slow : OrbitOutcome::singular;
   for (int i = 0; i < settings.most_steps && outcome == OrbitOutcome::slow; ++i) {
-    const Eigen::VectorXd step = newton_step(shot);
+    const Eigen::VectorXd step = newton_step(shot, shot.error);
     Shot next;
     const double share = step.allFinite() ? find_share(map, points, step, shot, settings.smallest_share, next) : 0.0;
     if (share > 0.0) {
@@ -123,6 +153,22 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
   // without speed the map is the identity nearly everywhere on the surface: a tip in contact, not an orbit
   if (map.eta() != 0.0 && orbit.cells == 0) outcome = OrbitOutcome::contact;
   return {outcome, std::move(orbit)};
+}
+
+PeriodicOrbit orbit_at(const PoincareMap& map, const std::vector<TipState>& points) {
+  PeriodicOrbit orbit;
+  const Shot shot = shoot(map, points);
+  if (!shot.landed) return orbit;
+  orbit.points = points;
+  for (const MapStep& step : shot.steps) {
+    orbit.times.push_back(step.dt);
+    orbit.period += step.dt;
+    orbit.energy_loss += step.energy_loss;
+  }
+  orbit.K_f = orbit.energy_loss / (map.eta() * map.eta() * orbit.period);
+  turn_to_first(orbit);
+  measure(map, orbit);
+  return orbit;
 }
 
 SectionJacobian<double> orbit_jacobian(const PoincareMap& map, const PeriodicOrbit& orbit) {

@@ -23,13 +23,13 @@ TEST(PeriodicOrbit, ThePapersOrbitComesOutToAllDigits) {
   const PeriodicOrbit& orbit = r.orbit;
   EXPECT_LE(orbit.residual, 1e-13);
   EXPECT_EQ(orbit.cells, 2);
-  EXPECT_NEAR(orbit.period, 2.0 / 3.4, 1e-15);
-  EXPECT_NEAR(orbit.K_f, 0.22902622884216517, 1e-15);
+  EXPECT_EQ(orbit.period, 2.0 / 3.4);
+  EXPECT_EQ(orbit.K_f, 0.22902622884216517);
   const FreeState first = to_free_state(model.H, orbit.points[0]);
-  EXPECT_NEAR(first.phase, 0.5290552555567710, 1e-15);
-  EXPECT_NEAR(first.X, 0.0036110865500110, 1e-15);
-  EXPECT_NEAR(first.u, 3.1709737711578348, 2e-15);
-  EXPECT_NEAR(first.w, 2.0880897958488404, 2e-15);
+  EXPECT_NEAR(first.phase, 0.5290552555567710, 6e-17);  // sixteen digits are given
+  EXPECT_NEAR(first.X, 0.0036110865500110, 6e-17);
+  EXPECT_NEAR(first.u, 3.1709737711578348, 4.5e-16);  // an ulp
+  EXPECT_NEAR(first.w, 2.0880897958488404, 9e-16);    // two: from gap rate and slope
   const std::complex<double> expected[] = {{-0.5274355542, 1.396024991},
                                            {-0.5274355542, -1.396024991},
                                            {-0.2232941408, 0.4125037623},
@@ -46,8 +46,8 @@ TEST(PeriodicOrbit, AtEvenEtaIsTheClosedForm) {
     const TipState guess{0.75, 0.0, eta - s * 0.7 * before / N + 0.01, 0.0, 0.7 * before * N + 0.01};
     const OrbitResult r = find_orbit(PoincareMap(model, eta), {guess});
     ASSERT_EQ(r.outcome, OrbitOutcome::found) << eta;
-    EXPECT_NEAR(r.orbit.K_f, 4.0 * 1.7 / 0.3 * s * s / (1.0 + s * s), 1e-13);
-    EXPECT_NEAR(r.orbit.period, 0.5, 1e-14);
+    EXPECT_NEAR(r.orbit.K_f, 4.0 * 1.7 / 0.3 * s * s / (1.0 + s * s), 4e-15);
+    EXPECT_EQ(r.orbit.period, 0.5);
     EXPECT_NEAR(r.orbit.slowest_impact, before, 1e-12);
   }
 }
@@ -115,7 +115,7 @@ TEST(OrbitSearch, FindsTheSameOrbitsFromOtherGuesses) {
   for (const std::uint64_t seed : {1u, 2u}) {
     OrbitSearchSettings settings;
     settings.trajectory = 30000;
-    settings.guesses = 600;
+    settings.guesses = 300;
     settings.seed = seed;
     const OrbitSearchResult found = search_orbits(PoincareMap(model_with(0.05), 3.4), settings);
     std::vector<std::size_t> lengths;
@@ -125,7 +125,7 @@ TEST(OrbitSearch, FindsTheSameOrbitsFromOtherGuesses) {
     }
     EXPECT_EQ(lengths, (std::vector<std::size_t>{1, 1, 3, 4, 5, 6})) << seed;
     EXPECT_EQ(found.lengths[1].prime, 0);
-    EXPECT_GT(found.lengths[1].repeats, 200);
+    EXPECT_GT(found.lengths[1].repeats, 100);
   }
 }
 
