@@ -34,6 +34,9 @@ struct Model {
   ModelKind kind = ModelKind::oscillator;
 };
 
+// "oscillator" or "hammer"; false where the name is neither.
+bool parse(const std::string& name, ModelKind& kind);
+
 // 1 where the tip is free along the surface, 0 where it is held.
 inline double mobility(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
 

@@ -22,6 +22,12 @@ ParameterError::ParameterError(std::string name_, double value_, std::string rea
       value(value_),
       reason(std::move(reason_)) {}
 
+bool parse(const std::string& name, ModelKind& kind) {
+  if (name != "oscillator" && name != "hammer") return false;
+  kind = name == "hammer" ? ModelKind::hammer : ModelKind::oscillator;
+  return true;
+}
+
 std::vector<ParameterError> find_faults(const Model& m) {
   std::vector<ParameterError> faults;
   // written so that NaN fails every condition

@@ -1,4 +1,6 @@
 // The configuration of a run as a message, and back: what it takes to simulate it again.
+#include <stdexcept>
+
 #include "message_conversion.h"
 
 namespace afm::node {
@@ -67,6 +69,7 @@ EmulatorSettings emulator_settings(const afm_emulator::Configuration& message) {
   const SiModel si = si_model(message);
   EmulatorSettings settings;
   settings.model = Units(si).to_natural(si);
+  if (!parse(message.model, settings.model.kind)) throw std::invalid_argument("unknown model: " + message.model);
   settings.eta = to_eta(message.drag_velocity, si);
   settings.initial = {message.initial_phase, message.initial_extension, message.initial_height, message.initial_u,
                       message.initial_w};

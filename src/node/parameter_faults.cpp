@@ -45,10 +45,9 @@ class Check {
 
 void check_model(const Parameters& p, Check& check) {
   for (const ParameterError& fault : find_faults(p.si)) check.add(fault);
-  if (p.model == "hammer") {
-    check.add({"model", "\"hammer\"", "is not emulated live yet: use oscillator"});
-  } else if (p.model != "oscillator") {
-    check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator"});
+  ModelKind kind;
+  if (!parse(p.model, kind)) {
+    check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator or hammer"});
   }
   check.within("contact_tolerance", p.contact_tolerance, 0.0, kMaxContactTolerance);
 }
@@ -147,6 +146,7 @@ EmulatorSettings emulator_settings(const Parameters& p) {
   const Units units(p.si);
   EmulatorSettings settings;
   settings.model = units.to_natural(p.si);
+  parse(p.model, settings.model.kind);  // another name is a fault, told of elsewhere
   settings.eta = to_eta(p.drag_velocity, p.si);
   settings.initial = p.initial;
   settings.sample_period = 1.0 / (p.sample_rate_hz * units.time());

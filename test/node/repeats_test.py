@@ -98,6 +98,13 @@ class Repeats(NodeTest):
         self.assertGreater(len(paths), 3)
         checks.assert_identical(self, *paths)
 
+    def test_the_hammer_too(self):
+        self.run_emulator(record=True, model='hammer')
+        self.command(100, 0.005)
+        self.step_through()
+        self.deflection.wait_for_more(100)
+        checks.assert_identical(self, *self.end())
+
     def test_under_load(self):
         load = [multiprocessing.Process(target=burn, daemon=True) for _ in range(4)]
         for process in load:

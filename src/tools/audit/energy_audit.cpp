@@ -38,7 +38,7 @@ void EnergyReport::merge(const EnergyReport& other) {
 
 EnergyAudit::EnergyAudit(const afm_emulator::Configuration& configuration)
     : units_(node::si_model(configuration)),
-      model_(units_.to_natural(node::si_model(configuration))),
+      model_(node::emulator_settings(configuration).model),
       period_(configuration.sample_period_tau),
       omega_{kTwoPi * model_.frequency_ratio, kTwoPi},
       conditioning_(std::max(amplification(omega_[0], period_), amplification(omega_[1], period_))),
@@ -126,16 +126,17 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   const afm_emulator::Impact& told = *event.impact;
   const double loss = told.energy_loss / units_.energy(), scale = energy(in) + 0.5 * square(event.eta);
   // the holder moves on through the springs: what is conserved in flight is the energy in its frame
-  const double balance = energy(out) - energy(in) + event.eta * (out.U - in.U) + loss;
-  note(report_.balance_error, balance / scale);
   const double length = std::sqrt(2.0 * scale) / omega_[1], speed = std::sqrt(2.0 * scale);
   const double angle = kTwoPi * told.surface_phase, slope = -kTwoPi * model_.H * std::sin(angle);
+  // of the hammer it takes what the surface gives along x
+  const double free = mobility(model_), given = free * (out.U - in.U) - (1.0 - free) * slope * (out.W - in.W);
+  note(report_.balance_error, (energy(out) - energy(in) + event.eta * given + loss) / scale);
   note(report_.position_error, (out.X - in.X) / length);
   note(report_.position_error, (out.Y - in.Y) / length);
   note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);
-  const double u = in.U + event.eta, per_norm = 1.0 / std::sqrt(1.0 + square(slope));
+  const double u = in.U + event.eta, per_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
   note(report_.speed_error, (std::abs(in.W - slope * u) * per_norm - told.normal_speed / units_.velocity()) / speed);
-  note(report_.speed_error, ((u + slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
+  note(report_.speed_error, ((u + free * slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
   report_.judged_energy += told.energy_loss;
   ++report_.judged;
 }
