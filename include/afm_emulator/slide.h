@@ -15,7 +15,7 @@ class SlidePiece {
   SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start);
 
   SlideState<T> at(const T& s) const;
-  T pressure(const T& s) const { return horner(pressure_, s); }  // [a/tau^2]; >= 0 while the surface holds the tip
+  T pressure(const T& s) const { return horner(pressure_, s); }  // reaction along y [a/tau^2]
   T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
   std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
 
@@ -44,7 +44,7 @@ SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const Sli
   const SlideSeries<T> series(mechanics, eta, start);
   d_ = series.d;
   u_ = series.u;
-  pressure_ = series.p;
+  pressure_ = series.lambda;
   length_ = choose_length();
 }
 

@@ -47,50 +47,56 @@ T product(const Series<T>& a, const Series<T>& b) {
   }
 }
 
-// (1 + h'^2) x'' = -omega_h^2 X - h' q with q = omega_v^2 (h - y0) + h'' x'^2; the pressure is minus the acceleration that
-// the gap would have in free flight, q - h' omega_h^2 X.
+// With the reaction lambda (of the surface on a tip of mass 1, along y): x'' = -omega_h^2 X - h' lambda and
+// lambda = q + h' x'', where q = omega_v^2 (h - y0) + h'' x'^2.
 template <class T>
 struct SlideSeries {
   SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start);
 
-  Series<T> d{}, u{}, p{};  // x - x(start), x', pressure
+  Series<T> d{}, u{}, lambda{};  // x - x(start), x', reaction
 
  private:
   template <std::size_t n>
   void add_order();
 
-  T k, H, wv2, wh2, y0, inertia;
-  Series<T> S{}, C{}, X{}, u2{}, q{}, slope2{}, a{};  // sine, cosine, extension, u^2, q, h'^2 less its constant, x''
+  T k, H, wv2, wh2, y0, mobility, inertia;
+  Series<T> S{}, C{}, X{}, uC{}, a{};  // sine, cosine, extension, x' times cosine, x''
 };
 
 template <class T>
 SlideSeries<T>::SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start)
-    : k(two_pi<T>()), H(m.H), wv2(m.omega_v * m.omega_v), wh2(m.omega_h * m.omega_h), y0(m.y0) {
+    : k(two_pi<T>()),
+      H(m.H),
+      wv2(m.omega_v * m.omega_v),
+      wh2(m.omega_h * m.omega_h),
+      y0(m.y0),
+      mobility(m.mobility) {
   const SinCos<T> turn = sin_cos_turns(start.phase);
   S[0] = turn.sin;
   C[0] = turn.cos;
   u[0] = d[1] = start.u;
   X[0] = start.X;
   X[1] = start.u - eta;
-  inertia = m.mobility / (T(1.0) + k * k * H * H * turn.sin * turn.sin);
+  inertia = mobility / (T(1.0) + k * k * H * H * turn.sin * turn.sin);
   add_order<0>();
 }
 
-// S, C and u are known to order n, X to order n + 1.
+// S, C and u are known to order n, X to order n + 1; x'' and lambda of order n follow from each other: lambda = rest + h' x''.
 template <class T>
 template <std::size_t n>
 void SlideSeries<T>::add_order() {
-  u2[n] = product<n>(u, u);
-  if constexpr (n > 0) slope2[n] = k * k * H * H * product<n>(S, S);
-  q[n] = H * (wv2 * C[n] - k * k * product<n>(C, u2));
-  if constexpr (n == 0) q[0] = q[0] - wv2 * y0;
-  p[n] = q[n] + k * H * wh2 * product<n>(S, X);
+  uC[n] = product<n>(u, C);
+  T rest = H * (wv2 * C[n] - k * k * product<n>(u, uC));
+  if constexpr (n == 0) rest = rest - wv2 * y0;
+  // a[n] and lambda[n] are still 0 in these products
+  if constexpr (n > 0) rest = rest - k * H * product<n>(S, a);
+  T push = rest * S[0];
+  if constexpr (n > 0) push = push + product<n>(S, lambda);
+  a[n] = (k * H * push - wh2 * X[n]) * inertia;
+  lambda[n] = rest - k * H * S[0] * a[n];
   if constexpr (n < kSlideOrder) {
-    T force = k * H * product<n>(S, q) - wh2 * X[n];
-    if constexpr (n > 0) force = force - product<n>(slope2, a);
-    a[n] = force * inertia;
     u[n + 1] = a[n] / T(static_cast<double>(n + 1));
-    S[n + 1] = k * product<n>(u, C) / T(static_cast<double>(n + 1));
+    S[n + 1] = k * uC[n] / T(static_cast<double>(n + 1));
     C[n + 1] = -k * product<n>(u, S) / T(static_cast<double>(n + 1));
     if constexpr (n + 2 <= kSlideOrder) d[n + 2] = X[n + 2] = u[n + 1] / T(static_cast<double>(n + 2));
     add_order<n + 1>();

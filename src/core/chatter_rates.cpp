@@ -102,16 +102,16 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece
   // held along x, the tip sees no slope: only that the pressure changes
   h.h1 *= free_, h.h2 *= free_, h.h3 *= free_;
   const double u = q.u, N2 = 1.0 + square(h.h1), per_N2 = 1.0 / N2, per_N = std::sqrt(per_N2), per_a = 1.0 / a[0];
-  const double x2 = -wh2_ * q.X - h.h1 * a[0] * per_N2;  // of the guide, with the pressure on it
-  // the rate at which the surface turns under the tip, and its rate; from them those of ln N, and from these P'/P, ...
+  const double x2 = -wh2_ * q.X - h.h1 * a[0];  // of the guide, with the reaction on it
+  // the rate at which the surface turns under the tip, and its rate; from them those of ln N, and from these P'/P, ... with P = N a
   const double turn = h.h2 * u * per_N2, turn1 = (h.h3 * u * u + h.h2 * x2) * per_N2 - 2.0 * h.h1 * square(turn);
   const double L1 = h.h1 * turn, L2 = h.h2 * u * turn + h.h1 * turn1;
   const double q1 = a[1] * per_a, q2 = a[2] * per_a, q3 = a[3] * per_a;
-  const double p1 = q1 - L1, b2 = q2 - square(q1) - L2, b3 = q3 - 3.0 * q1 * q2 + 2.0 * q1 * square(q1);
+  const double p1 = q1 + L1, b2 = q2 - square(q1) + L2, b3 = q3 - 3.0 * q1 * q2 + 2.0 * q1 * square(q1);
   const double p2 = b2 + square(p1), p3 = b3 + 3.0 * p1 * b2 + p1 * square(p1);
   const double K = 3.0 * square(turn) + (wh2_ * square(h.h1) + wv2_) * per_N2;
   const double K1 = 6.0 * turn * turn1 + 2.0 * L1 * (wh2_ - wv2_) * per_N2;
-  const double P = a[0] * per_N, per_P = per_a * N2 * per_N, per_P2 = square(per_P);
+  const double P = a[0] * N2 * per_N, per_P = per_a * per_N, per_P2 = square(per_P);
   ChatterSurroundings at{};
   at.P = P;
   at.per_P = per_P;

@@ -8,12 +8,13 @@ namespace afm {
 
 using Piece = SlidePiece<double>;
 
-// Minus what the gap's acceleration would be in free flight.
+// Minus what the gap's acceleration would be in free flight, over 1 + h'^2.
 template <class T>
 T pressure_of(const Model& model, const SlideState<T>& s) {
   const Mechanics<T> m(model);
   const SurfaceJet<T> h = surface_jet(m.H, s.phase);
-  return m.omega_v * m.omega_v * (h.h - m.y0) + h.h2 * s.u * s.u - h.h1 * m.omega_h * m.omega_h * s.X;
+  return (m.omega_v * m.omega_v * (h.h - m.y0) + h.h2 * s.u * s.u - h.h1 * m.omega_h * m.omega_h * s.X) /
+         (T(1.0) + h.h1 * h.h1);
 }
 
 inline double end_of(const Piece& piece) {
