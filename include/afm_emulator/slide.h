@@ -84,12 +84,27 @@ std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
   return {c[0], c[1], T(2.0) * c[2], T(6.0) * c[3]};
 }
 
+// Of the sum of a series from its value at 0, up to s.
+template <class T>
+T largest_change(const Series<T>& series, const T& s) {
+  using std::abs;
+  using std::fma;
+  const T s2 = s * s;
+  T even(0.0), odd(0.0);
+  for (std::size_t k = kSlideOrder; k >= 2; k -= 2) {
+    even = fma(even, s2, abs(series[k]));
+    odd = fma(odd, s2, abs(series[k - 1]));
+  }
+  return s * fma(even, s, odd);
+}
+
 template <class T>
 T SlidePiece<T>::find_release() const {
   using std::abs;
   using std::sqrt;
   constexpr int kMostSteps = 200;  // each step converges quadratically on a release: far more than ever needed
   const T noise(kReleaseNoise);
+  if (pressure_[0] + noise > largest_change(pressure_, length_)) return T(-1.0);
   T bound2(0.0);
   Series<T> slope{};
   for (std::size_t k = kSlideOrder; k >= 1; --k) slope[k - 1] = pressure_[k] * T(static_cast<double>(k));

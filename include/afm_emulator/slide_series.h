@@ -29,26 +29,37 @@ T horner(const Series<T>& c, const T& s) {
   return sum;
 }
 
+// The part of coefficient n of the product of two series that terms n - 1 of either need not be waited for.
+template <std::size_t n, class T>
+T early_product(const Series<T>& a, const Series<T>& b) {
+  using std::fma;
+  T even(0.0), odd(0.0);
+#pragma GCC unroll 32
+  for (std::size_t k = 2; k + 1 < n; k += 2) even = fma(a[k], b[n - k], even);
+#pragma GCC unroll 32
+  for (std::size_t k = 3; k + 1 < n; k += 2) odd = fma(a[k], b[n - k], odd);
+  return even + odd;
+}
+
+// The same with terms n - 1, without terms n.
+template <std::size_t n, class T>
+T inner_product(const Series<T>& a, const Series<T>& b) {
+  using std::fma;
+  if constexpr (n < 2) return T(0.0);
+  if constexpr (n == 2) return a[1] * b[1];
+  if constexpr (n > 2) return fma(a[1], b[n - 1], fma(a[n - 1], b[1], early_product<n>(a, b)));
+}
+
 // Coefficient n of the product of two series.
 template <std::size_t n, class T>
 T product(const Series<T>& a, const Series<T>& b) {
   using std::fma;
-  if constexpr (n == 0) {
-    return a[0] * b[0];
-  } else {
-    T even(0.0), odd(0.0);
-#pragma GCC unroll 32
-    for (std::size_t k = 1; k + 1 < n; k += 2) {
-      odd = fma(a[k], b[n - k], odd);
-      even = fma(a[k + 1], b[n - k - 1], even);
-    }
-    if constexpr (n % 2 == 0) odd = fma(a[n - 1], b[1], odd);
-    return fma(a[0], b[n], fma(a[n], b[0], odd + even));
-  }
+  if constexpr (n == 0) return a[0] * b[0];
+  if constexpr (n > 0) return fma(a[0], b[n], fma(a[n], b[0], inner_product<n>(a, b)));
 }
 
-// With the reaction lambda (of the surface on a tip of mass 1, along y): x'' = -omega_h^2 X - h' lambda and
-// lambda = q + h' x'', where q = omega_v^2 (h - y0) + h'' x'^2.
+// With r = -h', c = -h'' and the reaction lambda (of the surface on a tip of mass 1, along y): x'' = -omega_h^2 X + r lambda and
+// lambda = q - r x'', where q = omega_v^2 (h - y0) - c x'^2; as omega_v is the surface's wave number too, omega_v^2 h = c.
 template <class T>
 struct SlideSeries {
   SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start);
@@ -59,46 +70,45 @@ struct SlideSeries {
   template <std::size_t n>
   void add_order();
 
-  T k, H, wv2, wh2, y0, mobility, inertia;
-  Series<T> S{}, C{}, X{}, uC{}, a{};  // sine, cosine, extension, x' times cosine, x''
+  T k2, wh2, inertia, pull, r_inertia;
+  Series<T> r{}, c{}, X{}, r1{}, a{};  // of them r' = c x', a = x''
 };
 
 template <class T>
 SlideSeries<T>::SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start)
-    : k(two_pi<T>()),
-      H(m.H),
-      wv2(m.omega_v * m.omega_v),
-      wh2(m.omega_h * m.omega_h),
-      y0(m.y0),
-      mobility(m.mobility) {
+    : k2(two_pi<T>() * two_pi<T>()), wh2(m.omega_h * m.omega_h), pull(m.omega_v * m.omega_v * m.y0) {
   const SinCos<T> turn = sin_cos_turns(start.phase);
-  S[0] = turn.sin;
-  C[0] = turn.cos;
+  r[0] = two_pi<T>() * m.H * turn.sin;
+  c[0] = k2 * m.H * turn.cos;
   u[0] = d[1] = start.u;
   X[0] = start.X;
   X[1] = start.u - eta;
-  inertia = mobility / (T(1.0) + k * k * H * H * turn.sin * turn.sin);
+  inertia = m.mobility / (T(1.0) + r[0] * r[0]);
+  r_inertia = r[0] * inertia;
   add_order<0>();
 }
 
-// S, C and u are known to order n, X to order n + 1; x'' and lambda of order n follow from each other: lambda = rest + h' x''.
+// r, c and u are known to order n, X to order n + 1; x'' and lambda of order n follow from each other: lambda = rest - r x''.
 template <class T>
 template <std::size_t n>
 void SlideSeries<T>::add_order() {
-  uC[n] = product<n>(u, C);
-  T rest = H * (wv2 * C[n] - k * k * product<n>(u, uC));
-  if constexpr (n == 0) rest = rest - wv2 * y0;
-  // a[n] and lambda[n] are still 0 in these products
-  if constexpr (n > 0) rest = rest - k * H * product<n>(S, a);
-  T push = rest * S[0];
-  if constexpr (n > 0) push = push + product<n>(S, lambda);
-  a[n] = (k * H * push - wh2 * X[n]) * inertia;
-  lambda[n] = rest - k * H * S[0] * a[n];
+  using std::fma;
+  // a[n] and lambda[n] are not known yet, and stand only beside r[0]
+  T early = -wh2 * X[n], rest = c[n];
+  if constexpr (n == 0) rest = rest - pull;
+  if constexpr (n > 0) early = fma(r[n], lambda[0], inner_product<n>(r, lambda) + early);
+  if constexpr (n > 0) rest = rest - fma(r[n], a[0], inner_product<n>(r, a));
+  r1[n] = product<n>(c, u);
+  if constexpr (n == 0) rest = fma(-u[0], r1[0], rest);
+  if constexpr (n > 0) rest = fma(-u[0], r1[n], fma(-u[n], r1[0], rest - inner_product<n>(u, r1)));
+  a[n] = fma(r_inertia, rest, inertia * early);
+  lambda[n] = fma(-r[0], a[n], rest);
   if constexpr (n < kSlideOrder) {
-    u[n + 1] = a[n] / T(static_cast<double>(n + 1));
-    S[n + 1] = k * uC[n] / T(static_cast<double>(n + 1));
-    C[n + 1] = -k * product<n>(u, S) / T(static_cast<double>(n + 1));
-    if constexpr (n + 2 <= kSlideOrder) d[n + 2] = X[n + 2] = u[n + 1] / T(static_cast<double>(n + 2));
+    constexpr double kPerNext = 1.0 / static_cast<double>(n + 1), kPerSecond = 1.0 / static_cast<double>(n + 2);
+    u[n + 1] = a[n] * T(kPerNext);
+    r[n + 1] = r1[n] * T(kPerNext);
+    c[n + 1] = -k2 * product<n>(r, u) * T(kPerNext);
+    if constexpr (n + 2 <= kSlideOrder) d[n + 2] = X[n + 2] = u[n + 1] * T(kPerSecond);
     add_order<n + 1>();
   }
 }
