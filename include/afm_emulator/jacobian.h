@@ -1,7 +1,8 @@
 // How small displacements of the tip are carried along (sections II and IV of the paper). A displacement at one time is
 // (dx, dX, du, dy, dw): lab position and velocity, and the extension X = x - xc, as x alone does not know where the
 // holder is. On the surface, just after an impact, it is (dx, dX, du, dg1), with the gap rate g1: the height follows
-// from the place.
+// from the place. The hammer's X and u are its holder's: their rows and columns on the section are 0, so that what is
+// left is the Jacobian of its own two dimensions, dx and dg1.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,6 +20,18 @@ template <class T>
 using FlowJacobian = Eigen::Matrix<T, 5, 5>;
 template <class T>
 using SectionJacobian = Eigen::Matrix<T, 4, 4>;
+
+// On the section, or in a slide (dx, dX, du), what a tip held along x cannot do taken out.
+template <class T, int N>
+Eigen::Matrix<T, N, N> held(const T& mobility, const Eigen::Matrix<T, N, N>& J) {
+  if (mobility != T(0.0)) return J;
+  Eigen::Matrix<T, N, N> H = J;
+  for (const int i : {1, 2}) {
+    H.row(i).setZero();
+    H.col(i).setZero();
+  }
+  return H;
+}
 
 // A flight of duration s (Eq. 9-10), exact; its determinant is 1.
 template <class T>
@@ -83,23 +96,35 @@ RestitutionJet<T> restitution_jet(const Model& model, const T& speed) {
 template <class T>
 struct Incidence {
   SurfaceJet<T> surface;
-  T normal_speed;         // -n.v > 0
-  T tangential_velocity;  // t.v
+  T normal_speed;         // -n.v > 0; of the hammer the gap rate
+  T tangential_velocity;  // t.v; of the hammer u
 
   Incidence(const Mechanics<T>& m, const T& eta, const FlightState<T>& q, const T& g1)
       : surface(surface_jet(m.H, q.phase)) {
     using std::sqrt;
-    const T N = sqrt(T(1.0) + surface.h1 * surface.h1), u = eta + q.U;
+    const T slope = m.mobility * surface.h1, N = sqrt(T(1.0) + slope * slope), u = eta + q.U;
     normal_speed = -g1 / N;
-    tangential_velocity = (u + surface.h1 * (g1 + surface.h1 * u)) / N;
+    tangential_velocity = (u + slope * (g1 + slope * u)) / N;
   }
 };
+
+// The hammer's: w' = w - (1 + restitution) r, r = w - h'(x) u; u is the holder's.
+template <class T>
+FlowJacobian<T> hammer_reflection_derivative(const RestitutionJet<T>& law, const Incidence<T>& in) {
+  const T gain = T(1.0) + law.slope;
+  FlowJacobian<T> R = FlowJacobian<T>::Identity();
+  R(4, 0) = gain * in.surface.h2 * in.tangential_velocity;
+  R(4, 2) = gain * in.surface.h1;
+  R(4, 4) -= gain;
+  return R;
+}
 
 // Derivative of the reflection (Eq. 11) where it takes place, Eq. 4: velocities by velocities, and by the turn of the
 // normal.
 template <class T>
 FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in) {
   using std::sqrt;
+  if (model.kind == ModelKind::hammer) return hammer_reflection_derivative(restitution_jet(model, in.normal_speed), in);
   const T h1 = in.surface.h1, N2 = T(1.0) + h1 * h1, N = sqrt(N2);
   const RestitutionJet<T> law = restitution_jet(model, in.normal_speed);
   const T turn = in.surface.h2 / N2;  // -t.dn/dx
@@ -115,7 +140,7 @@ FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in
 }
 
 // Eq. 13-16 with the signs put right and the slope of the law: in the frame of tangent and normal at the impact,
-// positions before velocities. A_n is the normal acceleration. The determinant is (restitution * slope).
+// positions before velocities. A_n is the normal acceleration. The determinant is (restitution * slope). Of the oscillator.
 template <class T>
 Eigen::Matrix<T, 4, 4> local_reflection_jacobian(const Model& model, const Incidence<T>& in, const T& A_n) {
   using std::sqrt;
@@ -152,7 +177,7 @@ Eigen::Matrix<T, 4, 5> to_section(const SurfaceJet<T>& surface, const T& u) {
 }
 
 // From one impact to just after the next: a flight that starts on the surface, and ends after s with the gap rate and
-// state of `landing`. The determinant is slope * restitution * g1(start) / g1(after).
+// state of `landing`. The determinant (of the hammer that of dx and dg1) is slope * restitution * g1(start) / g1(after).
 template <class T>
 SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight, const T& s, const GapJet<T>& landing) {
   const Mechanics<T>& m = flight.mechanics();
@@ -160,12 +185,13 @@ SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight,
   const Incidence<T> in(m, flight.eta(), end, landing.g1);
   const T u_start = flight.eta() + start.U, u_end = flight.eta() + end.U, h1 = in.surface.h1;
   const RestitutionJet<T> law = restitution_jet(model, in.normal_speed);
-  const T u_after = u_end + (T(1.0) + law.restitution) * h1 * landing.g1 / (T(1.0) + h1 * h1);
+  const T u_after = u_end + m.mobility * ((T(1.0) + law.restitution) * h1 * landing.g1 / (T(1.0) + h1 * h1));
   const Eigen::Matrix<T, 5, 4> flown = flight_jacobian(m, s) * off_section(surface_jet(m.H, start.phase), u_start);
   const FlowVector<T> F = flight_velocity(m, flight.eta(), end), G = gap_gradient(in.surface);
   const Eigen::Matrix<T, 1, 4> gap = G.transpose() * flown;
   const Eigen::Matrix<T, 5, 4> met = flown - F * (gap / landing.g1);
-  return to_section(in.surface, u_after) * (reflection_derivative(model, in) * met);
+  const SectionJacobian<T> J = to_section(in.surface, u_after) * (reflection_derivative(model, in) * met);
+  return held(m.mobility, J);
 }
 
 }  // namespace afm

@@ -36,9 +36,13 @@ struct Model {
 
 // "oscillator" or "hammer"; false where the name is neither.
 bool parse(const std::string& name, ModelKind& kind);
+const char* name(ModelKind kind);
 
 // 1 where the tip is free along the surface, 0 where it is held.
 inline double mobility(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
+
+// Of the section of impacts: a held tip has its phase and gap rate only.
+inline int section_dimension(const Model& model) { return model.kind == ModelKind::hammer ? 2 : 4; }
 
 constexpr double kMaxEta = 1e3;             // above it a flight crosses more cells than the search is tested for
 constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizontal spring

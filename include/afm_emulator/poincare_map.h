@@ -1,5 +1,6 @@
 // The map from just after one impact to just after the next, every bounce by itself: bursts and contact are off. A
-// point of its section is a TipState with gap 0; its coordinates, here and in the Jacobian, are (phase, X, u, g1).
+// point of its section is a TipState with gap 0; its coordinates, here and in the Jacobian, are (phase, X, u, g1). The
+// hammer's X and u are 0 and eta, whatever a start has there.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,6 +47,8 @@ class PoincareMap {
   double eta() const { return eta_; }
 
  private:
+  TipState held(const TipState& start) const;
+
   Model model_;
   Mechanics<double> mechanics_;
   double eta_;

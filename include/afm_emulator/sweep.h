@@ -13,6 +13,7 @@ namespace afm {
 
 struct SweepPoint {
   double eta, gamma, v_c;
+  ModelKind kind = ModelKind::oscillator;
 };
 
 struct SweepSettings {

@@ -19,7 +19,7 @@ struct Stretch {
 class Tangents {
  public:
   // The tip is moved by advance(), and by nothing else meanwhile.
-  Tangents(const Model& model, Tip& tip) : model_(model), mechanics_(model), tip_(tip) {}
+  Tangents(const Model& model, Tip& tip);
 
   // To the first event after which the displacements are known: an impact, or a slide under way. False where none
   // comes.
@@ -51,7 +51,7 @@ class Tangents {
   ModelTime since_;
   Eigen::Matrix4d columns_ = Eigen::Matrix4d::Identity();
   SectionJacobian<double> jacobian_ = Eigen::Matrix4d::Identity();
-  int rank_ = 4;
+  int rank_;
   Stretch stretch_;
 };
 

@@ -69,7 +69,7 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
   s.outcome = LyapunovOutcome::measured;
   s.rank = tangents.rank();
   s.duration = duration;
-  s.volume_rate = s.rank < 4 ? -kInfinity : volume / duration;
+  s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume / duration;
   Eigen::Vector4d sizes = J.eigenvalues().cwiseAbs();
   std::sort(sizes.data(), sizes.data() + 4, std::greater<double>());
   for (int i = 0; i < 4; ++i) {
@@ -118,12 +118,16 @@ bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const Mo
   return false;
 }
 
-// Turns by an impact about the middle of the section, in the plane of extension and gap rate.
-double rotation_number(Observer& observer, const ModelTime& limit) {
+// Turns by an impact about the middle of the section, in the plane of extension and gap rate; of the hammer, whose extension
+// is 0, of phase and gap rate.
+double rotation_number(const Model& model, Observer& observer, const ModelTime& limit) {
   constexpr std::size_t kMost = 4000;
   std::vector<TipState> run;
   while (run.size() < kMost && observer.next(limit)) run.push_back(observer.mark().state);
   if (run.size() < 2) return 0.0;
+  if (model.kind == ModelKind::hammer) {
+    for (TipState& s : run) s.X = section_difference(s, run.front())[0];
+  }
   const double n = static_cast<double>(run.size());
   double X = 0.0, g = 0.0, XX = 0.0, gg = 0.0, turns = 0.0;
   for (const TipState& s : run) X += s.X / n, g += s.g1 / n;
@@ -173,7 +177,7 @@ void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const
   if (found.lyapunov.outcome != LyapunovOutcome::measured || found.kind == AttractorKind::chaotic) return;
   if (find_slow_period(model, observer, tip, tip.now() + settings.duration, found)) return;
   if (found.kind == AttractorKind::quasi_periodic) {
-    found.rotation_number = rotation_number(observer, tip.now() + settings.duration);
+    found.rotation_number = rotation_number(model, observer, tip.now() + settings.duration);
     return;
   }
   constexpr double kFolds = 25.0;  // until a displacement is e^-25 of itself

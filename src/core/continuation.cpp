@@ -104,6 +104,7 @@ class Continuation {
   }
 
   bool resonates(const BranchPoint& at) const {
+    if (model_.kind == ModelKind::hammer) return false;
     const double turns = at.orbit.period * model_.frequency_ratio;
     return std::abs(turns - std::round(turns)) < 5e-3 && std::abs(at.orbit.multipliers[1] - 1.0) < 0.02;
   }

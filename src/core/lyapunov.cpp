@@ -21,7 +21,7 @@ class Growth {
     volume_ += stretch.volume;
   }
 
-  void finish(LyapunovSpectrum& s) const {
+  void finish(const Model& model, LyapunovSpectrum& s) const {
     const double n = static_cast<double>(kBatches), width = s.duration / n;
     for (std::size_t i = 0; i < 4; ++i) {
       double sum = 0.0, squares = 0.0;
@@ -31,7 +31,7 @@ class Growth {
       s.exponents[i] = finite ? sum / s.duration : -kInfinity;
       s.std_errors[i] = finite ? std::sqrt(squares / (n - 1.0) / n) / width : 0.0;
     }
-    s.volume_rate = s.rank < 4 ? -kInfinity : volume_ / s.duration;
+    s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume_ / s.duration;
   }
 
  private:
@@ -70,7 +70,7 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
   }
   s.duration = tangents.carried_to() - begin;
   s.rank = tangents.rank();
-  if (s.duration > 0.0) growth.finish(s);
+  if (s.duration > 0.0) growth.finish(model, s);
   return s;
 }
 

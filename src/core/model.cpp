@@ -28,6 +28,8 @@ bool parse(const std::string& name, ModelKind& kind) {
   return true;
 }
 
+const char* name(ModelKind kind) { return kind == ModelKind::hammer ? "hammer" : "oscillator"; }
+
 std::vector<ParameterError> find_faults(const Model& m) {
   std::vector<ParameterError> faults;
   // written so that NaN fails every condition

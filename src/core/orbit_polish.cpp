@@ -39,7 +39,9 @@ Eigen::Vector4d difference(const FinePoint& b, const FinePoint& a) {
 
 }  // namespace
 
-FineStep fine_map(const Model& model, double eta, const FinePoint& start, double guess) {
+FineStep fine_map(const Model& model, double eta, const FinePoint& point, double guess) {
+  FinePoint start = point;
+  if (model.kind == ModelKind::hammer) start.X = Fine(0.0), start.u = eta;
   const Mechanics<Fine> m(model);
   constexpr int kSteps = 4;  // of Newton's method, from a time good to rounding
   Fine s(guess);
@@ -48,11 +50,12 @@ FineStep fine_map(const Model& model, double eta, const FinePoint& start, double
     s = s - at.g / at.g1;
   }
   const Incident in = fly(m, eta, start, s);
-  const Fine one(1.0), gamma(model.gamma), N2 = one + in.surface.h1 * in.surface.h1;
+  const bool free = model.kind == ModelKind::oscillator;
+  const Fine one(1.0), gamma(model.gamma), N2 = free ? one + in.surface.h1 * in.surface.h1 : one;
   const Fine speed = -in.g1 / sqrt(N2);
   const bool slow = speed < Fine(model.v_c);
   const Fine e = slow ? one - (one - gamma) * speed / Fine(model.v_c) : gamma;
-  const Fine u = in.u + (one + e) * in.surface.h1 * in.g1 / N2;
+  const Fine u = free ? in.u + (one + e) * in.surface.h1 * in.g1 / N2 : eta;
   return {{in.phase, in.X, u, -(e * in.g1)}, s, Fine(0.5) * (one - e) * (one + e) * speed * speed};
 }
 

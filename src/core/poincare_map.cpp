@@ -9,10 +9,14 @@
 
 namespace afm {
 
+TipState PoincareMap::held(const TipState& start) const {
+  return model_.kind == ModelKind::oscillator ? start : TipState{start.phase, 0.0, eta_, start.g, start.g1};
+}
+
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
   if (!(start.g1 > 0.0) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
-  const Flight<double> flight(mechanics_, eta_, start);
+  const Flight<double> flight(mechanics_, eta_, held(start));
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
@@ -29,7 +33,7 @@ MapStep PoincareMap::operator()(const TipState& start) const {
 
 // Looked for on a grid, which the fastest term of the gap does not slip through, and then by halves.
 double PoincareMap::clearance(const TipState& start, double dt) const {
-  const Flight<double> flight(mechanics_, eta_, start);
+  const Flight<double> flight(mechanics_, eta_, held(start));
   const double turns = dt * (mechanics_.ratio + std::abs(eta_) + 1.0);
   const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
   double smallest = std::numeric_limits<double>::infinity();

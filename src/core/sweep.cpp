@@ -61,6 +61,7 @@ Model model_of(const SweepPoint& point) {
   Model model;
   model.gamma = point.gamma;
   model.v_c = point.v_c;
+  model.kind = point.kind;
   return model;
 }
 

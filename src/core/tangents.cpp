@@ -14,6 +14,12 @@ SlideState<double> guide_of(const TipState& s) { return {s.phase, s.X, s.u}; }
 
 }  // namespace
 
+// The hammer's displacements are its own two, of phase and gap rate.
+Tangents::Tangents(const Model& model, Tip& tip)
+    : model_(model), mechanics_(model), tip_(tip), rank_(section_dimension(model)) {
+  if (rank_ == 2) columns_.col(1).swap(columns_.col(3));
+}
+
 bool Tangents::start(double within) {
   const ModelTime end = tip_.now() + within;
   while (!tip_.in_contact()) {
@@ -77,6 +83,7 @@ void Tangents::carry_burst(double dt) {
     SectionJacobian<double> J = settle_jacobian(model_, start_);
     J.topRows<3>() = slide_jacobian(model_, tip_.eta(), settle(model_, start_).guide, dt) * J.topRows<3>().eval();
     J.row(3).setZero();
+    J = held(mechanics_.mobility, J);
     columns_ = J * columns_;
     jacobian_ = J;
   }
@@ -86,13 +93,13 @@ void Tangents::carry_burst(double dt) {
 
 void Tangents::begin_contact() {
   const SlideState<double> guide = settle(model_, start_).guide;
-  SectionJacobian<double> J = settle_jacobian(model_, start_);
+  SectionJacobian<double> J = held(mechanics_.mobility, settle_jacobian(model_, start_));
   J.row(3).setZero();
   const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), guide).normalized();
   columns_ = J * columns_;
   columns_.topRows<3>() -= F * (F.transpose() * columns_.topRows<3>()).eval();
   jacobian_ = J;
-  rank_ = std::min(rank_, 2);
+  rank_ = std::min(rank_, section_dimension(model_) - 2);
   orthonormalize();
   start_ = tip_.tip_state();
   since_ = tip_.now();

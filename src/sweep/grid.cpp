@@ -50,19 +50,19 @@ std::string identity(const CurveSettings& s) {
   add("gamma", s.gamma);
   add("cutoff", s.cutoff);
   text << "duration=" << shortest(s.sweep.duration) << " transient=" << shortest(s.sweep.transient)
-       << " model=" << s.model << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
+       << " model=" << name(s.model) << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
   text << " version=" << AFM_EMULATOR_VERSION;
   return text.str();
 }
 
 SweepGrid::SweepGrid(const CurveSettings& s)
-    : eta_(s.eta), gamma_(s.gamma), cutoff_(s.cutoff), chained_(s.direction != SweepDirection::fresh) {
+    : eta_(s.eta), gamma_(s.gamma), cutoff_(s.cutoff), kind_(s.model), chained_(s.direction != SweepDirection::fresh) {
   if (s.direction == SweepDirection::down) std::reverse(eta_.begin(), eta_.end());
 }
 
 SweepPoint SweepGrid::at(std::size_t position) const {
   const std::size_t row = position / eta_.size();
-  return {eta_[position % eta_.size()], gamma_[row % gamma_.size()], cutoff_[row / gamma_.size()]};
+  return {eta_[position % eta_.size()], gamma_[row % gamma_.size()], cutoff_[row / gamma_.size()], kind_};
 }
 
 }  // namespace afm

@@ -16,7 +16,7 @@ enum class SweepDirection { fresh, up, down };
 struct CurveSettings {
   std::vector<double> eta, gamma, cutoff;  // rising
   SweepDirection direction = SweepDirection::fresh;
-  std::string model = "oscillator";
+  ModelKind model = ModelKind::oscillator;
   SweepSettings sweep;
 };
 
@@ -37,6 +37,7 @@ class SweepGrid {
 
  private:
   std::vector<double> eta_, gamma_, cutoff_;
+  ModelKind kind_;
   bool chained_;
 };
 

@@ -57,7 +57,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 1e9));
-  app.add_option("--model", o.dynamics.model, "oscillator")->capture_default_str();
+  afm::add_model_option(app, o.dynamics.model);
   app.add_option("--threads", o.threads, "0: one for each processor")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
@@ -79,8 +79,7 @@ std::vector<afm::SweepPoint> grid(Options options) {
       at.eta = eta;
       at.gamma = gamma;
       if (options.relative_cutoff) at.cutoff *= std::abs(eta);
-      checked_model(at);
-      points.push_back({eta, gamma, at.cutoff});
+      points.push_back({eta, gamma, at.cutoff, checked_model(at).kind});
     }
   }
   return points;

@@ -70,7 +70,7 @@ int run(const Options& o) {
   afm::ProgressBar bar(values.size(), 0);
   std::cout << o.vary << ",phase,normal_speed,extension,attractor\n";
   const afm::DynamicsOptions first = parameters_at(o, values.front());
-  afm::TipState state = afm::random_start({first.eta, first.gamma, first.cutoff}, 1, 0);
+  afm::TipState state = afm::random_start({first.eta, first.gamma, first.cutoff, checked_model(first).kind}, 1, 0);
   std::size_t done = 0;
   for (const double value : values) {
     const afm::DynamicsOptions at = parameters_at(o, value);

@@ -6,19 +6,26 @@
 
 namespace afm {
 
+void add_model_option(CLI::App& app, std::string& model) {
+  app.add_option("--model", model, "oscillator, or hammer: the horizontal spring infinitely stiff")->capture_default_str();
+}
+
+ModelKind checked_kind(const std::string& name) {
+  ModelKind kind = ModelKind::oscillator;
+  if (!parse(name, kind)) throw std::invalid_argument("model = " + name + ": must be oscillator or hammer");
+  return kind;
+}
+
 void add_options(CLI::App& app, DynamicsOptions& o) {
   app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
   app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
   app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
-  app.add_option("--model", o.model, "oscillator")->capture_default_str();
+  add_model_option(app, o.model);
 }
 
 Model checked_model(const DynamicsOptions& o) {
-  if (o.model == "hammer") {
-    throw std::invalid_argument("model = hammer: this version computes the oscillator only");
-  }
-  if (o.model != "oscillator") throw std::invalid_argument("model = " + o.model + ": must be oscillator");
   Model model;
+  model.kind = checked_kind(o.model);
   model.gamma = o.gamma;
   model.v_c = o.cutoff;
   std::vector<ParameterError> faults;

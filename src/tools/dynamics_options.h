@@ -15,6 +15,10 @@ struct DynamicsOptions {
 };
 
 void add_options(CLI::App& app, DynamicsOptions& options);
+void add_model_option(CLI::App& app, std::string& model);
+
+// Throws std::invalid_argument where there is no such model.
+ModelKind checked_kind(const std::string& name);
 
 // Throws std::invalid_argument with every fault, by the names of the options.
 Model checked_model(const DynamicsOptions& options);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics_options.h"
 #include "sweep/curve_run.h"
 #include "sweep/decimal_range.h"
 
@@ -24,7 +25,7 @@ const char kDescription[] =
     "name them: not on threads, ranks or interruptions.";
 
 struct Options {
-  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", sweep = "fresh", output = "-";
+  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", sweep = "fresh", model = "oscillator", output = "-";
   std::int64_t seed = 1;
   int threads = 0;
   afm::CurveSettings settings;
@@ -43,7 +44,7 @@ void parse(CLI::App& app, Options& o) {
   app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
   app.add_option("--duration", sweep.duration, "measured at each point [tau]")->capture_default_str();
   app.add_option("--transient", sweep.transient, "before it [tau]")->capture_default_str();
-  app.add_option("--model", o.settings.model, "oscillator")->capture_default_str();
+  afm::add_model_option(app, o.model);
   app.add_option("--sweep", o.sweep,
                  "fresh: each point from a random start; up, down: each from where the eta before it ended")
       ->capture_default_str();
@@ -69,8 +70,7 @@ void check(Options& o) {
   const auto direction = kDirections.find(o.sweep);
   if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
   s.direction = direction->second;
-  if (s.model == "hammer") refuse("model = hammer: this version computes the oscillator only");
-  if (s.model != "oscillator") refuse("model = " + s.model + ": must be oscillator");
+  s.model = afm::checked_kind(o.model);
   if (o.threads < 0 || o.threads > 1024)
     refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
   if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");

@@ -44,9 +44,9 @@ void parse_inputs(const std::string& line, std::vector<double>& values) {
   if (!faults.empty()) throw std::invalid_argument(faults);
 }
 
-void compute_row(const std::string& line, std::vector<double>& row) {
+void compute_row(afm::ModelKind kind, const std::string& line, std::vector<double>& row) {
   parse_inputs(line, row);
-  const afm::FlightResult r = afm::fly_to_next_impact({row[0], row[1], row[2], row[3], row[4], row[5], row[6]});
+  const afm::FlightResult r = afm::fly_to_next_impact({row[0], row[1], row[2], row[3], row[4], row[5], row[6], kind});
   const double results[kOutputs] = {r.dt, r.phase,        r.extension,           r.u,
                                     r.w,  r.normal_speed, r.tangential_velocity, r.energy_loss};
   std::copy(results, results + kOutputs, row.begin() + kInputs);
@@ -55,7 +55,7 @@ void compute_row(const std::string& line, std::vector<double>& row) {
 bool is_header(const std::string& line) { return afm::split_fields(line) == afm::split_fields(kInputHeader); }
 
 // Whether every row could be computed.
-bool filter(std::istream& in, const std::string& name) {
+bool filter(afm::ModelKind kind, std::istream& in, const std::string& name) {
   afm::CsvLines lines(in);
   std::string line;
   const auto complain = [&](const std::string& what) {
@@ -68,7 +68,7 @@ bool filter(std::istream& in, const std::string& name) {
   while (lines.next(line)) {
     std::vector<double> row(kInputs + kOutputs, kNaN);
     try {
-      compute_row(line, row);
+      compute_row(kind, line, row);
     } catch (const std::exception& fault) {
       good = complain(fault.what());
     }
@@ -78,10 +78,10 @@ bool filter(std::istream& in, const std::string& name) {
   return good;
 }
 
-bool filter_file(const std::string& path) {
-  if (path == "-") return filter(std::cin, "stdin");
+bool filter_file(afm::ModelKind kind, const std::string& path) {
+  if (path == "-") return filter(kind, std::cin, "stdin");
   std::ifstream file(path);
-  if (file) return filter(file, path);
+  if (file) return filter(kind, file, path);
   std::cerr << "next_impact: cannot open '" << path << "'\n";
   return false;
 }
@@ -92,12 +92,19 @@ int main(int argc, char** argv) {
   CLI::App app{kDescription, "next_impact"};
   std::vector<std::string> paths;
   app.add_option("files", paths, "tables to read; none, or -, is standard input");
+  std::string model = "oscillator";
+  app.add_option("--model", model, "oscillator; or hammer, which has no extension, and eta for u")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  afm::ModelKind kind = afm::ModelKind::oscillator;
+  if (!afm::parse(model, kind)) {
+    std::cerr << "next_impact: model = " << model << ": must be oscillator or hammer\n";
+    return 2;
+  }
   if (paths.empty()) paths.emplace_back("-");
 
   std::cout << kOutputHeader << "\n";
   bool good = true;
-  for (const std::string& path : paths) good = filter_file(path) && good;
+  for (const std::string& path : paths) good = filter_file(kind, path) && good;
   std::cout.flush();
   if (!std::cout) std::cerr << "next_impact: cannot write the output\n";
   return good && std::cout ? 0 : 1;

@@ -61,7 +61,10 @@ double return_distance(const afm::PoincareMap& map, const Box& box, const afm::T
   }
   if (cells < 0.5) return kNoReturn;  // bounces without speed come back at once
   Eigen::Vector4d d = section_difference(now, start);
-  for (std::size_t k = 0; k < 4; ++k) d[static_cast<Eigen::Index>(k)] /= box[k][1] - box[k][0];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double side = box[k][1] - box[k][0];
+    if (side > 0.0) d[static_cast<Eigen::Index>(k)] /= side;  // the hammer's box has no extension and no velocity
+  }
   return d.norm();
 }
 
@@ -88,8 +91,9 @@ void scan_column(const afm::PoincareMap& map, const Box& box, const Options& o, 
   std::cout << afm::join_numbers({lab.phase, best.g1, lab.X, lab.u, lab.w, nearest}) << "\n";
 }
 
-int run(const Options& o) {
+int run(Options o) {
   const afm::PoincareMap map(checked_model(o.dynamics), o.dynamics.eta);
+  if (section_dimension(map.model()) == 2) o.depth = 1;
   const Box box = find_box(map);
   afm::ProgressBar bar(static_cast<std::size_t>(o.points), 0);
   std::cout << "phase,gap_rate,extension,u,w,distance\n";

@@ -20,6 +20,7 @@ Model model_of(const FlightInput& input) {
   Model model;
   model.gamma = input.gamma;
   model.v_c = input.cutoff;
+  model.kind = input.kind;
   return model;
 }
 
@@ -51,8 +52,10 @@ void check(const FlightInput& input) {
 // w - h'(phase) u is a small difference of velocities after a slow impact: taken in twice the digits.
 TipState start_of(const FlightInput& input) {
   const DoubleDouble slope = surface_jet(DoubleDouble(model_of(input).H), DoubleDouble(input.phase)).h1;
-  const double gap_rate = static_cast<double>(DoubleDouble(input.w) - slope * DoubleDouble(input.u));
-  if (gap_rate > 0.0) return {input.phase, input.extension, input.u, 0.0, gap_rate};
+  const bool held = input.kind == ModelKind::hammer;
+  const double extension = held ? 0.0 : input.extension, u = held ? input.eta : input.u;
+  const double gap_rate = static_cast<double>(DoubleDouble(input.w) - slope * DoubleDouble(u));
+  if (gap_rate > 0.0) return {input.phase, extension, u, 0.0, gap_rate};
   std::ostringstream text;
   text << "the tip does not leave the surface: w - h'(phase) u = " << gap_rate << " is not above 0";
   throw std::invalid_argument(text.str());

@@ -3,11 +3,14 @@
 
 #include <stdexcept>
 
+#include "afm_emulator/model.h"
+
 namespace afm {
 
 // A post-impact state on the surface, and the model it flies in.
 struct FlightInput {
   double eta, gamma, cutoff, phase, extension, u, w;
+  ModelKind kind = ModelKind::oscillator;  // of the hammer extension and u are 0 and eta, whatever is given
 };
 
 // The next impact; velocities u and w after it, normal speed and tangential velocity before it.

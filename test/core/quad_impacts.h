@@ -24,10 +24,12 @@ class QuadImpacts {
         H_(model.H),
         y0_(model.y0),
         wv_(two_pi<Quad>()),
-        wh_(wv_ * model.frequency_ratio) {}
+        wh_(wv_ * model.frequency_ratio),
+        held_(model.kind == ModelKind::hammer) {}
 
-  // The root of the gap next to `guess`.
-  QuadPoint next(const QuadPoint& p, const Quad& guess) {
+  // The root of the gap next to `guess`. The hammer's X and u are taken as its holder's.
+  QuadPoint next(const QuadPoint& start, const Quad& guess) {
+    const QuadPoint p = held_ ? QuadPoint{start[0], 0, eta_, start[3]} : start;
     const Quad y = h(p[0]) - y0_, w = p[3] + h1(p[0]) * p[2], U = p[2] - eta_;
     Quad x, X, u, Y, W, s = guess;
     for (int i = 0; i < 60; ++i) {
@@ -51,16 +53,23 @@ class QuadImpacts {
   Quad h(const Quad& x) const { return H_ * cos(wv_ * x); }
   Quad h1(const Quad& x) const { return -wv_ * H_ * sin(wv_ * x); }
 
+  Quad restitution(const Quad& speed) const { return speed >= v_c_ ? gamma_ : 1 - (1 - gamma_) * speed / v_c_; }
+
   QuadPoint reflected(const Quad& x, const Quad& X, const Quad& u, const Quad& w) {
+    if (held_) {
+      speed_ = h1(x) * u - w;
+      return {x, X, u, restitution(speed_) * speed_};
+    }
     const Quad slope = h1(x), N = sqrt(1 + slope * slope), nx = -slope / N, ny = 1 / N;
     const Quad v = nx * u + ny * w;
     speed_ = -v;
-    const Quad e = -v >= v_c_ ? gamma_ : 1 - (1 - gamma_) * -v / v_c_;
+    const Quad e = restitution(-v);
     const Quad u2 = u - (1 + e) * nx * v, w2 = w - (1 + e) * ny * v;
     return {x, X, u2, w2 - slope * u2};
   }
 
   Quad eta_, gamma_, v_c_, H_, y0_, wv_, wh_, time_, speed_;
+  bool held_;
 };
 
 // Central differences of a function of N numbers: good to step^2 of its third derivatives.

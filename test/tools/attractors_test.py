@@ -32,6 +32,12 @@ class Table(unittest.TestCase):
         self.assertEqual(rows[0]['attractor'], 'period-1')
         self.assertAlmostEqual(float(rows[0]['k_f']), 6.0610520411, delta=1e-8)
 
+    def test_the_hammer(self):
+        _, rows, _ = run('--eta', '2', '--model', 'hammer', '--starts', '5', '--friction-duration', '200')
+        self.assertEqual(rows[0]['attractor'], 'period-1')
+        self.assertAlmostEqual(float(rows[0]['k_f']), 8.27333702260941, delta=1e-11)
+        self.assertEqual(rows[0]['lyapunov_3'], '-inf')
+
     def test_any_number_of_threads_gives_the_same_table(self):
         grid = ['--eta', '1:3:0.5', '--gamma', '0.6:0.7:0.1', '--starts', '2', '--friction-duration', '50',
                 '--relative-cutoff', '--cutoff', '0.1']
@@ -53,7 +59,7 @@ class Refused(unittest.TestCase):
         self.refuse('eta = 2000', '--eta', '2000')
         self.refuse('cutoff = -1', '--cutoff', '-1')
         self.refuse('--starts', '--starts', '0')
-        self.refuse('hammer', '--model', 'hammer')
+        self.refuse('model = anvil', '--model', 'anvil')
 
 
 if __name__ == '__main__':

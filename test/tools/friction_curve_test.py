@@ -130,7 +130,7 @@ class Refusals(Case):
         self.assert_refused(['--threads', '-1'], 'threads = -1')
         self.assert_refused(['--seed', '-1'], 'seed = -1')
         self.assert_refused(['--sweep', 'sideways'], 'sweep = sideways')
-        self.assert_refused(['--model', 'hammer'], 'model = hammer')
+        self.assert_refused(['--model', 'anvil'], 'model = anvil')
         self.assert_refused(['--output', '/no/such/place.csv'], '/no/such/place.csv', 'No such file')
         self.assert_refused(['stray'], 'stray')
 

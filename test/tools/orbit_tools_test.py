@@ -32,6 +32,18 @@ class Continue(unittest.TestCase):
             self.assertEqual(run('continue_orbits', *arguments)[0], 2)
 
 
+class Hammer(unittest.TestCase):
+    def test_every_tool_takes_it(self):
+        code, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'gamma', '--to', '0.6', '--guesses', '50',
+                            '--model', 'hammer')
+        self.assertEqual((code, rows[-1]['event']), (0, 'end: target'))
+        self.assertAlmostEqual(float(rows[-1]['multiplier_1_re']), 0.6, delta=1e-6)
+        code, rows, _ = run('bifurcations', '--range', '2:2:1', '--impacts', '5', '--model', 'hammer')
+        self.assertEqual({row['extension'] for row in rows}, {'0'})
+        code, rows, _ = run('return_scan', '--eta', '2.7', '--model', 'hammer', '--points', '20', '--length', '1')
+        self.assertEqual((code, len(rows)), (0, 400))
+
+
 class Bifurcations(unittest.TestCase):
     def test_impacts_on_a_period_one(self):
         code, rows, _ = run('bifurcations', '--range', '1.9:2:0.05', '--impacts', '5')
@@ -40,7 +52,7 @@ class Bifurcations(unittest.TestCase):
         self.assertAlmostEqual(float(rows[-1]['phase']), 0.75, delta=1e-9)
 
     def test_refuses(self):
-        for arguments in (['--range', '1:2'], ['--vary', 'mass'], ['--sweep', 'left'], ['--model', 'hammer']):
+        for arguments in (['--range', '1:2'], ['--vary', 'mass'], ['--sweep', 'left'], ['--model', 'anvil']):
             self.assertEqual(run('bifurcations', *arguments)[0], 2)
 
 

@@ -37,6 +37,13 @@ class Table(unittest.TestCase):
             self.assertTrue(all(a > b * (1 - 1e-9) for a, b in zip(sizes, sizes[1:])))
         self.assertIn('length 2: ', report)
 
+    def test_the_hammer(self):
+        code, rows, _ = run('--eta', '4', '--max-length', '1', '--model', 'hammer', *QUICK)
+        self.assertEqual((code, len(rows[0])), (0, 17))
+        even = min(rows, key=lambda row: abs(float(row['phase']) - 0.75))
+        self.assertAlmostEqual(float(even['k_f']), 8.27333702260941, delta=1e-12)
+        self.assertEqual((even['extension'], even['multiplier_3_re']), ('0', '0'))
+
     def test_the_same_command_gives_the_same_table(self):
         arguments = ['--eta', '2.5', '--max-length', '3', *QUICK, '--quiet']
         self.assertEqual(run(*arguments), run(*arguments))
@@ -54,7 +61,6 @@ class Refused(unittest.TestCase):
         self.refuse('eta = ', '--eta', 'inf')
         self.refuse('eta = 0', '--eta', '0')
         self.refuse('--max-length', '--max-length', '0')
-        self.refuse('hammer', '--model', 'hammer')
         self.refuse('model = spring', '--model', 'spring')
 
 

@@ -1,0 +1,52 @@
+// How far a simpler level of the model is from a fuller one: friction and deflection of both. Natural units.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "afm_emulator/attractor.h"
+#include "afm_emulator/model.h"
+#include "afm_emulator/time_average.h"
+#include "afm_emulator/tip.h"
+
+namespace afm {
+
+// Hammer, oscillator with bursts and contact at a tolerance, oscillator with every bounce (tolerance 0).
+struct Level {
+  ModelKind kind = ModelKind::oscillator;
+  double contact_tolerance = kDefaultContactTolerance;
+};
+
+struct ErrorSettings {
+  double transient = 500.0;            // [tau]
+  double duration = 2000.0;            // of the measurement of K_f [tau]
+  std::uint64_t most_events = 500000;  // a level that needs more is measured for a shorter time
+  int samples = 20000;                 // of the deflection, a golden section of tau apart: phases of tau evenly
+  int pairs = 200;                     // of runs from one state, compared over one tau
+};
+
+// One level, followed from a start to its attractor and along it.
+struct LevelRun {
+  Attractor attractor;
+  FrictionAverage friction;
+  std::vector<double> vertical;                    // deflections y - y0 in order of size [a]
+  double vertical_rms = 0.0;                       // [a]
+  double vertical_noise = 0.0;                     // distance of the samples' first half from the second [a]
+  double stretch_rms = 0.0, stretch_largest = 0.0;  // of the horizontal spring, x - xc [a]
+  double share_measured = 1.0;                     // of the duration; 0: the budget was gone before anything was seen
+};
+
+// `model` as the level has it. Precondition: no faults.
+Model at_level(Model model, const Level& level);
+
+// Leaves `tip`, which is of the level, on its attractor.
+LevelRun run_level(const Model& model, Tip& tip, const ErrorSettings& settings);
+
+// Mean distance of equal quantiles (Wasserstein's of order 1) of two sets in order of size, of one length [a].
+double quantile_distance(const std::vector<double>& a, const std::vector<double>& b);
+
+// Root mean square difference of the vertical deflection over one tau, where the level takes over the reference's phase,
+// height and vertical velocity in the midst of its motion [a]. Moves the reference on.
+double tracking_error(const Model& model, const Level& level, Tip& reference, const ErrorSettings& settings);
+
+}  // namespace afm
