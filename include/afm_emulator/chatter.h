@@ -41,8 +41,6 @@ class ChatterLaw {
 
  private:
   bool smooth(const ChatterSurroundings& at, double v) const;
-  EvenChatter step(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,
-                   const ChatterSurroundings& end, const EvenChatter& start) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
   double step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const;
   ChatterRun whole_bounce(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,

@@ -64,6 +64,9 @@ class ChatterRates {
 
   // d/dt. In `c` v stands for what it would be on the guide itself.
   EvenChatter operator()(const ChatterSurroundings& at, const EvenChatter& c) const;
+  // Over dt, by the classical Runge-Kutta method: from the rate at s and what is seen at s + dt.
+  EvenChatter step(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,
+                   const ChatterSurroundings& end, const EvenChatter& c) const;
 
   // The time in which v falls by the factor e, or, evenly, to nothing, through the losses alone [tau].
   double fall_time(const ChatterSurroundings& at, double v) const;
@@ -72,6 +75,8 @@ class ChatterRates {
   double loss(double v) const { return loss_ * v; }  // w
 
  private:
+  ChatterSurroundings look(const SlidePiece<double>& guide, double s) const;
+  EvenChatter rate(const ChatterSurroundings& at, const EvenChatter& c) const;
   double speed(double x) const;
   double bounces_at(double v) const;
 

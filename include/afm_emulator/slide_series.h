@@ -21,12 +21,17 @@ constexpr std::size_t kSlideOrder = 16;
 template <class T>
 using Series = std::array<T, kSlideOrder + 1>;
 
+// Even and odd powers side by side.
 template <class T>
 T horner(const Series<T>& c, const T& s) {
   using std::fma;
-  T sum = c[kSlideOrder];
-  for (std::size_t k = kSlideOrder; k-- > 0;) sum = fma(sum, s, c[k]);
-  return sum;
+  const T s2 = s * s;
+  T even = c[kSlideOrder], odd = c[kSlideOrder - 1];
+  for (std::size_t k = kSlideOrder - 2; k >= 2; k -= 2) {
+    even = fma(even, s2, c[k]);
+    odd = fma(odd, s2, c[k - 1]);
+  }
+  return fma(fma(even, s, odd), s, c[0]);
 }
 
 // The part of coefficient n of the product of two series that terms n - 1 of either need not be waited for.

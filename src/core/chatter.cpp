@@ -15,7 +15,7 @@ constexpr double kMostLoss = 0.2;
 constexpr double kMostShortness = 0.05;
 
 // A step, in parts of the times in which v falls and the reaction changes.
-constexpr double kFallPerStep = 0.7, kChangePerStep = 0.125;
+constexpr double kFallPerStep = 0.7, kChangePerStep = 0.2;
 // the pressure may fall to this part of itself in a step
 constexpr double kMostFall = 0.75;
 
@@ -43,19 +43,11 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   return smooth(rates_.surroundings(bounce), 1.6 * v);
 }
 
-// Classical Runge-Kutta.
-EvenChatter ChatterLaw::step(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& k1,
-                             const ChatterSurroundings& end, const EvenChatter& c) const {
-  const ChatterSurroundings middle = rates_.surroundings(guide, s + dt / 2.0);
-  const EvenChatter k2 = rates_(middle, c + dt / 2.0 * k1);
-  const EvenChatter k3 = rates_(middle, c + dt / 2.0 * k2);
-  const EvenChatter k4 = rates_(end, c + dt * k3);
-  return c + dt / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
-}
-
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
 double ChatterLaw::step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const {
-  const double dt = fineness_ * std::min(kFallPerStep * rates_.fall_time(at, v), kChangePerStep / at.quickness);
+  // with a cutoff, the less a bounce loses the more evenly ln v falls
+  const double loss = v_c_ > threshold_ ? std::min(kMostLoss, rates_.loss(v)) : kMostLoss, evenness = 0.5 + 2.5 * loss;
+  const double dt = fineness_ * std::min(kFallPerStep / evenness * rates_.fall_time(at, v), kChangePerStep / at.quickness);
   // and not far beyond the threshold, so that n counts the bounces down to it
   return fall > 0.0 ? std::min(dt, 1.02 * (c.x - threshold_x_) / fall) : dt;
 }
@@ -69,7 +61,7 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
   constexpr int kMostSteps = 40;
   for (int i = 0; i < kMostSteps; ++i) {
     const ChatterSurroundings there = rates_.surroundings(guide, s + part);
-    c = rates_.plain(there, step(guide, s, part, rate, there, start));
+    c = rates_.plain(there, rates_.step(guide, s, part, rate, there, start));
     const double rest = n - c.n;
     if (std::abs(rest) < 1e-9) break;
     (rest > 0.0 ? low : high) = part;
@@ -98,7 +90,7 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
       dt *= 0.5;
       if (!(s + dt > s)) return {ChatterEnd::exits, s, now};
     }
-    const EvenChatter next = step(guide, s, dt, rate, then, c);
+    const EvenChatter next = rates_.step(guide, s, dt, rate, then, c);
     const Chatter plain = rates_.plain(then, next);
     if (exits && !smooth(then, plain.v) && plain.n >= std::floor(now.n) + 1.0)
       return whole_bounce(guide, s, dt, rate, c, now.n, plain.n);

@@ -12,14 +12,14 @@
 namespace afm {
 namespace {
 
-// The interpolation of w -> w (1 - w): R = G/T and 1/T.
+// The interpolation of w -> w (1 - w): R = G/T and 1/T. Terms are paired, to shorten the chain of dependencies.
 double series_R(double w) {
-  return 1.0 + w * (1.0 / 2 +
-                    w * (7.0 / 12 + w * (7.0 / 8 + w * (1049.0 / 720 + w * (727.0 / 288 + w * (264917.0 / 60480))))));
+  const double w2 = w * w, low = std::fma(w2, std::fma(w, 7.0 / 8, 7.0 / 12), std::fma(w, 0.5, 1.0));
+  return std::fma(w2 * w2, std::fma(w2, 264917.0 / 60480, std::fma(w, 727.0 / 288, 1049.0 / 720)), low);
 }
 double series_1_over_T(double w) {
-  return 1.0 - w * (1.0 / 2 +
-                    w * (5.0 / 12 + w * (5.0 / 8 + w * (811.0 / 720 + w * (629.0 / 288 + w * (261679.0 / 60480))))));
+  const double w2 = w * w, low = std::fma(-w2, std::fma(w, 5.0 / 8, 5.0 / 12), std::fma(-w, 0.5, 1.0));
+  return std::fma(-w2 * w2, std::fma(w2, 261679.0 / 60480, std::fma(w, 629.0 / 288, 811.0 / 720)), low);
 }
 
 // Natural logarithm to 1e-15 of 0 < x, the same bits on every machine.
@@ -42,12 +42,15 @@ double portable_exp(double x) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
   constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding and taking it away rounds to a whole number
   const double k = (x * 1.4426950408889634 + kRounder) - kRounder;
-  const double r = (x - k * kLog2High) - k * kLog2Low;
-  const double r2 = r * r;  // even and odd powers side by side
-  double even = 1.0 / 479001600, odd = 1.0 / 6227020800.0;
-  for (const double c : {1.0 / 3628800, 1.0 / 40320, 1.0 / 720, 1.0 / 24, 0.5, 1.0}) even = even * r2 + c;
-  for (const double c : {1.0 / 39916800, 1.0 / 362880, 1.0 / 5040, 1.0 / 120, 1.0 / 6, 1.0}) odd = odd * r2 + c;
-  const double sum = even + r * odd;
+  const double r = std::fma(-k, kLog2Low, std::fma(-k, kLog2High, x));
+  const double r2 = r * r, r4 = r2 * r2;
+  // terms in pairs, pairs in pairs: little waits for what is before it
+  const auto pair = [&](double c0, double c1) { return std::fma(r, c1, c0); };
+  const double p0 = std::fma(r2, pair(1.0 / 2, 1.0 / 6), 1.0 + r);
+  const double p4 = std::fma(r2, pair(1.0 / 720, 1.0 / 5040), pair(1.0 / 24, 1.0 / 120));
+  const double p8 = std::fma(r2, pair(1.0 / 3628800, 1.0 / 39916800), pair(1.0 / 40320, 1.0 / 362880));
+  const double p12 = pair(1.0 / 479001600, 1.0 / 6227020800.0);
+  const double sum = std::fma(r4 * r4, std::fma(r4, p12, p8), std::fma(r4, p4, p0));
   const std::uint64_t bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52;  // 2^k
   double power;
   std::memcpy(&power, &bits, sizeof power);
@@ -95,7 +98,7 @@ ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) con
   return at;
 }
 
-AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
+ChatterSurroundings ChatterRates::look(const SlidePiece<double>& guide, double s) const {
   const SlideState<double> q = guide.at(s);
   const auto a = guide.pressure_jet(s);
   SurfaceJet<double> h = surface_jet(H_, q.phase);
@@ -164,7 +167,7 @@ double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
 }
 
 // Products of two terms of the second order are left out: what is kept is no better.
-AFM_MULTIVERSION EvenChatter ChatterRates::operator()(const ChatterSurroundings& at, const EvenChatter& c) const {
+EvenChatter ChatterRates::rate(const ChatterSurroundings& at, const EvenChatter& c) const {
   const double on_guide = speed(c.x), per_v = 1.0 / on_guide;
   const double more = disturbance(at, c.sigma, c.p), v = on_guide * (1.0 + more / 3.0), v2 = v * v;
   const double height = v2 * at.per_P / 3.0, longer = at.stretch * v2, shorter = 1.0 - longer * (1.0 - longer);
@@ -179,6 +182,23 @@ AFM_MULTIVERSION EvenChatter ChatterRates::operator()(const ChatterSurroundings&
   const double w = loss_ * v, delay = at.squeeze * at.per_P * v * w * (1.0 / 3.0 + 0.5 * w), per_T = series_1_over_T(w);
   const double change = adiabatic * per_T * (1.0 - 0.5 * w * w) - w * (bounces * series_R(w) + v * at.lag);
   return {change, bounces * per_T * (1.0 - delay) + even_ * per_v * change, sigma, p, drift};
+}
+
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
+  return look(guide, s);
+}
+
+AFM_MULTIVERSION EvenChatter ChatterRates::operator()(const ChatterSurroundings& at, const EvenChatter& c) const {
+  return rate(at, c);
+}
+
+AFM_MULTIVERSION EvenChatter ChatterRates::step(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& k1,
+                                                const ChatterSurroundings& end, const EvenChatter& c) const {
+  const ChatterSurroundings middle = look(guide, s + dt / 2.0);
+  const EvenChatter k2 = rate(middle, c + dt / 2.0 * k1);
+  const EvenChatter k3 = rate(middle, c + dt / 2.0 * k2);
+  const EvenChatter k4 = rate(end, c + dt * k3);
+  return c + dt / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
 }
 
 SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {

@@ -53,7 +53,7 @@ AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanic
 }
 
 // Kinetic and in the springs.
-double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
+AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
   const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
   const double Y = surface.h - m.y0;
   return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
@@ -61,6 +61,10 @@ double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
 }
 
 AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
+
+AFM_MULTIVERSION SlideState<double> guide_moved(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {
+  return moved_guide(model, guide, chatter);
+}
 
 AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
 
@@ -118,7 +122,7 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
 // To where the chatter has moved the tip. A guide conserves energy by itself; what the move stores more, the drag has worked or
 // the bounces have given.
 SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatter& chatter) {
-  const SlideState<double> moved = moved_guide(model_, guide, chatter);
+  const SlideState<double> moved = guide_moved(model_, guide, chatter);
   const double work = -mechanics_.omega_h * mechanics_.omega_h * eta_ * chatter.drift;
   burst_gain_ += work - (slide_energy(mechanics_, moved) - slide_energy(mechanics_, guide));
   work_off_guide_ += work;
