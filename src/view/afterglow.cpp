@@ -1,0 +1,70 @@
+#include "view/afterglow.h"
+
+#include <algorithm>
+
+namespace afm::view {
+namespace {
+
+// [begin, end), at most so many of them, evenly.
+template <class Iterator, class Use>
+void take_evenly(Iterator begin, Iterator end, std::size_t most, const Use& use) {
+  const auto count = static_cast<std::size_t>(end - begin);
+  const std::size_t taken = std::min(count, most);
+  for (std::size_t i = 0; i < taken; ++i) use(begin[static_cast<std::ptrdiff_t>(i * count / taken)]);
+}
+
+template <class Item>
+auto first_from(const std::deque<Item>& items, std::uint64_t index) {
+  return std::lower_bound(items.begin(), items.end(), index,
+                          [](const Item& item, std::uint64_t wanted) { return item.index < wanted; });
+}
+
+}  // namespace
+
+void Afterglow::look(const Heard& heard, const Strobe& strobe) {
+  if (heard.configuration().epoch != epoch_ || heard.now() < now_) clear();
+  epoch_ = heard.configuration().epoch;
+  now_ = heard.now();
+  ++picture_;
+  take_impacts(heard, strobe.too_fast());
+  take_positions(heard, strobe.too_fast());
+  forget();
+}
+
+void Afterglow::take_impacts(const Heard& heard, bool too_fast) {
+  const auto& events = heard.trace().events();
+  const auto end = std::upper_bound(events.begin(), events.end(), now_,
+                                    [](const ModelTime& t, const Event& e) { return t < e.impact.time; });
+  auto begin = first_from(events, next_event_);
+  if (!too_fast) {  // all that the path shows
+    impacts_.clear();
+    begin = std::lower_bound(events.begin(), end, now_ + -kPathTau,
+                             [](const Event& e, const ModelTime& t) { return e.impact.time < t; });
+  }
+  if (begin >= end) return;
+  next_event_ = std::prev(end)->index + 1;
+  take_evenly(begin, end, too_fast ? kNewImpacts : kMostImpacts, [&](const Event& event) {
+    const Corner corner = heard.trace().place(event, heard.model(), heard.holder());
+    impacts_.push_back({corner, event.impact.energy_loss, event.impact.kind, picture_});
+  });
+}
+
+void Afterglow::take_positions(const Heard& heard, bool wanted) {
+  const auto& samples = heard.trace().samples();
+  const auto begin = first_from(samples, next_sample_);
+  next_sample_ = samples.back().index + 1;
+  if (!wanted) return positions_.clear();
+  take_evenly(begin, samples.end(), kNewPositions, [&](const Sample& sample) {
+    const double x = heard.holder().position(sample.time).value_or(0.0) + sample.X;
+    const Corner corner{sample.time, x, heard.model().y0 + sample.Y, heard.trace().in_contact(sample.time)};
+    positions_.push_back({corner, 0.0, ImpactKind::impact, picture_});
+  });
+}
+
+void Afterglow::forget() {
+  const auto is_old = [&](const Spot& spot) { return spot.picture + kGlow < picture_; };
+  while (!impacts_.empty() && is_old(impacts_.front())) impacts_.pop_front();
+  while (!positions_.empty() && is_old(positions_.front())) positions_.pop_front();
+}
+
+}  // namespace afm::view

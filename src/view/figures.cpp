@@ -1,0 +1,40 @@
+#include <cmath>
+
+#include "view/scenery.h"
+#include "view/text.h"
+
+namespace afm::view {
+namespace {
+
+std::string friction_text(const afm_emulator::Friction& friction, const Units& units) {
+  if (std::isnan(friction.k_f)) return "K_f: none at rest";
+  const double error = friction.k_f_std_error / units.friction();
+  if (std::isnan(error)) return text("K_f %.4f m/tau", friction.k_f_tau_per_m);
+  return text("K_f %.4f +- %.4f m/tau", friction.k_f_tau_per_m, error);
+}
+
+std::string speed_text(const Heard& heard, const Strobe& strobe) {
+  const double scale = heard.configuration().time_scale;
+  const std::string speed = scale == 1.0  ? "real time"
+                            : scale < 1.0 ? text("%.6g times slower than real time", 1.0 / scale)
+                                          : text("%.6g times faster than real time", scale);
+  if (!heard.knows_place()) return speed + ": the first impact will tell where the surface is";
+  if (strobe.frozen()) return speed + ": every picture taken over a crest; dots: the last second";
+  return strobe.too_fast() ? speed + "; dots: the last second" : speed;
+}
+
+}  // namespace
+
+void draw_figures(Canvas& canvas, const Heard& heard, const Strobe& strobe) {
+  const double row = -0.72, height = 0.24;
+  const double eta = heard.holder().eta(strobe.moment());
+  canvas.add_text("drag", text("drag %.3f um/s", eta * heard.units().velocity() * 1e6), point(-2.4, 0.0, row), height);
+  canvas.add_text("eta", text("eta %.3f", eta), point(-0.5, 0.0, row), height);
+  const auto& friction = heard.friction();
+  canvas.add_text("friction", friction ? friction_text(*friction, heard.units()) : "", point(1.8, 0.0, row), height);
+  const ModelTime& now = strobe.moment();
+  canvas.add_text("time", text("%lld tau; %s", static_cast<long long>(now.tau), speed_text(heard, strobe).c_str()),
+                  point(0.0, 0.0, row - 0.35), 0.16);
+}
+
+}  // namespace afm::view

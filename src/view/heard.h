@@ -1,0 +1,46 @@
+// Everything heard of a run, live or replayed. The topics come in any order: each message is taken by itself, and a
+// picture is drawn when all that it needs tells of one epoch.
+#pragma once
+
+#include <afm_emulator/Friction.h>
+
+#include <optional>
+
+#include "view/trace.h"
+
+namespace afm::view {
+
+class Heard {
+ public:
+  void take(const afm_emulator::Configuration& message);
+  void take(const afm_emulator::AppliedDrag& message) { holder_.obey(message); }
+  void take(const afm_emulator::Deflection& message);
+  void take(const afm_emulator::ImpactArray& message);
+  void take(const afm_emulator::Friction& message) { friction_ = message; }
+
+  // Brings the holder to its place; false as long as something is missing. The accessors below need it.
+  bool complete();
+  bool knows_place() const { return holder_.position(now()).has_value(); }
+
+  const afm_emulator::Configuration& configuration() const { return *configuration_; }
+  const std::optional<afm_emulator::Friction>& friction() const { return friction_; }
+  const Units& units() const { return *units_; }
+  const Model& model() const { return model_; }
+  const Trace& trace() const { return trace_; }
+  const Holder& holder() const { return holder_; }
+  ModelTime now() const { return trace_.samples().back().time; }
+
+ private:
+  std::optional<afm_emulator::Configuration> configuration_;
+  std::optional<afm_emulator::Friction> friction_;
+  std::optional<Units> units_;
+  Model model_;
+  Trace trace_;
+  Holder holder_;
+};
+
+constexpr double kPictureRate = 30.0;  // [1/s] of wall time
+// How far back a path is drawn, at most [tau].
+constexpr double kPathTau = 8.0;
+
+}  // namespace afm::view

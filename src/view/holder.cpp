@@ -1,0 +1,69 @@
+#include "view/holder.h"
+
+#include <cmath>
+
+#include "node/message_conversion.h"
+
+namespace afm::view {
+namespace {
+
+constexpr std::size_t kMostLegs = 1000;  // a picture reaches back over few of them
+
+}  // namespace
+
+void Holder::begin(const afm_emulator::Configuration& configuration) {
+  configured_ = true;
+  start_epoch_ = configuration.epoch;
+  start_ = configuration.initial_phase - configuration.initial_extension;
+  const double speed_unit = Units(node::si_model(configuration)).velocity();
+  for (Leg& leg : legs_) leg.eta *= speed_unit_ / speed_unit;  // a command may come before the first configuration
+  speed_unit_ = speed_unit;
+}
+
+void Holder::obey(const afm_emulator::AppliedDrag& command) {
+  const ModelTime time = node::from_message(command.time);
+  if (command.epoch != epoch_ || (!legs_.empty() && time < legs_.back().begin)) {
+    legs_.clear();
+    correction_.reset();
+  }
+  epoch_ = command.epoch;
+  const double eta = command.drag_velocity / speed_unit_;
+  const double x = legs_.empty() ? 0.0 : travelled(time);
+  if (!legs_.empty() && legs_.back().begin == time) legs_.pop_back();
+  legs_.push_back({time, x, eta});
+  if (legs_.size() > kMostLegs) legs_.pop_front();
+}
+
+void Holder::correct(const ModelTime& time, double x) {
+  if (legs_.empty()) return;
+  const double now = position(time).value_or(travelled(time));
+  const double error = x - now;
+  correction_ = now + (error - std::round(error)) - travelled(time);
+}
+
+std::optional<double> Holder::position(const ModelTime& time) const {
+  if (legs_.empty()) return {};
+  if (correction_) return travelled(time) + *correction_;
+  if (knows_start()) return travelled(time) + start_;
+  return {};
+}
+
+// The first command of an epoch is the drag at its start, at time 0: who heard that one has missed none.
+bool Holder::knows_start() const {
+  return configured_ && start_epoch_ == epoch_ && legs_.size() < kMostLegs && legs_.front().begin == ModelTime{};
+}
+
+const Holder::Leg& Holder::leg(const ModelTime& time) const {
+  static const Leg standstill;
+  for (auto leg = legs_.rbegin(); leg != legs_.rend(); ++leg) {
+    if (leg->begin <= time) return *leg;
+  }
+  return legs_.empty() ? standstill : legs_.front();
+}
+
+double Holder::travelled(const ModelTime& time) const {
+  const Leg& now = leg(time);
+  return now.x + now.eta * (time - now.begin);
+}
+
+}  // namespace afm::view

@@ -1,0 +1,15 @@
+// What the tip moves before: the surface, a scale of lengths, the key to the colours, and the figures as text.
+#pragma once
+
+#include "view/canvas.h"
+#include "view/heard.h"
+#include "view/strobe.h"
+
+namespace afm::view {
+
+void draw_surface(Canvas& canvas, const Model& model);
+void draw_length_scale(Canvas& canvas, const Units& units);
+void draw_key(Canvas& canvas, const Units& units);
+void draw_figures(Canvas& canvas, const Heard& heard, const Strobe& strobe);
+
+}  // namespace afm::view

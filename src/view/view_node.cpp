@@ -1,0 +1,68 @@
+// view_node: draws an emulator, live or replayed, as markers for rviz (~markers), thirty pictures a second.
+// Parameters: ~emulator, its name (default: afm, beside this node); ~cells, how much of the surface is seen; ~frame.
+#include <ros/ros.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "node/topics.h"
+#include "view/picture.h"
+
+namespace {
+
+using namespace afm;
+using afm::view::Heard;
+
+template <class Message>
+ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned queue_size, Heard& heard) {
+  const boost::function<void(const Message&)> take = [&heard](const Message& message) { heard.take(message); };
+  return emulator.subscribe<Message>(topic, queue_size, take, {}, ros::TransportHints().tcpNoDelay());
+}
+
+// Listens and keeps what it hears, as long as it is.
+class Looking {
+ public:
+  Looking(ros::NodeHandle& emulator, const view::Look& look)
+      : picture_(look),
+        subscribers_{
+            subscribe<afm_emulator::Configuration>(emulator, node::kConfigurationTopic, node::kConfigurationQueueSize,
+                                                   heard_),
+            subscribe<afm_emulator::AppliedDrag>(emulator, node::kAppliedDragTopic, node::kCommandQueueSize, heard_),
+            subscribe<afm_emulator::Deflection>(emulator, node::kDeflectionTopic, node::kBatchQueueSize, heard_),
+            subscribe<afm_emulator::ImpactArray>(emulator, node::kImpactsTopic, node::kBatchQueueSize, heard_),
+            subscribe<afm_emulator::Friction>(emulator, node::kFrictionTopic, node::kBatchQueueSize, heard_)} {}
+
+  visualization_msgs::MarkerArray draw() { return picture_.draw(heard_, ros::Time(ros::WallTime::now().toSec())); }
+
+ private:
+  Heard heard_;
+  view::Picture picture_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "afm_view");
+  ros::NodeHandle handle("~");
+  view::Look look;
+  handle.param("frame", look.frame, look.frame);
+  handle.param("cells", look.cells, look.cells);
+  if (!(look.cells >= 1.0 && look.cells <= 100.0)) {
+    ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", look.cells);
+    return 1;
+  }
+  ros::NodeHandle emulator(handle.param<std::string>("emulator", "afm"));
+  const auto publisher = handle.advertise<visualization_msgs::MarkerArray>("markers", 2);
+  std::optional<Looking> looking;  // while somebody looks: otherwise nothing is listened to, and nothing is kept
+  const auto draw = [&](const ros::WallTimerEvent&) {
+    if (publisher.getNumSubscribers() == 0) return looking.reset();
+    if (!looking) looking.emplace(emulator, look);
+    publisher.publish(looking->draw());
+  };
+  // of wall time: a replay may come without a clock
+  const ros::WallTimer timer = handle.createWallTimer(ros::WallDuration(1.0 / view::kPictureRate), draw);
+  ros::spin();  // one thread: messages and pictures take turns
+  return 0;
+}

@@ -1,0 +1,247 @@
+#!/usr/bin/python3
+"""The view draws what the emulator tells: tip, path and impacts over the surface where they were, at any speed."""
+import math
+import os
+from pathlib import Path
+
+import rospy
+from afm_emulator.msg import AppliedDrag, EmulatorStatus, Friction, Impact
+from afm_emulator.srv import Step
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import MarkerArray
+
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, Process, run
+from pictures import CELLS, CONTACT_RED, Picture, Told, View, luminance, open_rviz, surface
+from topics import TOPICS, Topic, tau_between, wait_until
+
+SLOW = {'time_scale': 3e-4, 'sample_rate_hz': 1e6, 'batch_rate_hz': 50.0}
+EXACT = 1e-6          # cells: the exact place, after sums over some hundred tau
+PLOTTED = {Friction: ('drag_velocity', 'eta', 'force', 'k_f', 'k_f_std_error', 'k_f_tau_per_m', 'window_k_f'),
+           AppliedDrag: ('drag_velocity',),
+           EmulatorStatus: ('real_time_factor', 'lag', 'impacts_per_tau', 'late_batches')}
+
+
+def hears_deflection():
+    _, subscribers, _ = rospy.get_master().getSystemState()[2]
+    return '/afm_view' in dict(subscribers).get('/afm/deflection', [])
+
+
+class ViewTest(NodeTest):
+    view = None
+
+    def begin(self, parameters, view_first=True):
+        self.topics = {name: Topic(name) for name in TOPICS}
+        self.view = self.start(View()) if view_first else None
+        self.emulator = self.start(Emulator(parameters))
+        for topic in self.topics.values():
+            topic.wait_for_connection()
+        self.topics['deflection'].wait_for()
+        if view_first:
+            self.wait_for_tip()
+
+    def tearDown(self):
+        if self.view:
+            self.assertIsNone(self.view.child.poll(), 'the view has ended')
+
+    def call(self, service, kind, **request):
+        answer = self.emulator.call(service, kind, **request)
+        self.assertTrue(answer.success, answer.message)
+
+    def pause(self):
+        self.call('pause', SetBool, data=True)
+        self.topics['status'].wait_for_next(lambda m: m.paused, 'paused')
+
+    def advance(self, tau):
+        """In short steps: the batches of a step come all at once, and a queue holds 100 of them."""
+        for _ in range(2 * tau):
+            end = self.emulator.call('step', Step, tau=0.5).time
+            wait_until(lambda: self.told_until(end), 'what was stepped')
+
+    def told_until(self, end):
+        """Whether the last batch before that time has come, with its samples and its impacts."""
+        told = Told(self.topics)
+        batch, impacts = [self.topics[name].messages[-1] for name in ('deflection', 'impacts')]
+        return (told.batches and batch.header.seq == impacts.header.seq and
+                tau_between(told.last_sample()[0], end) < told.configuration.sample_period_tau)
+
+    def wait_for_tip(self):
+        return self.view.markers.wait_for(lambda m: Picture(m).has('tip'), 'a picture with the tip')
+
+    def picture_of_now(self):
+        """And what it must show: the emulator is paused, and the view comes to where it stands."""
+        def shown():
+            picture, told = Picture(self.view.markers.messages[-1]), Told(self.topics)
+            time, X, Y = told.last_sample()
+            right = (told.centre(time) - told.middle(time) + X, Y)
+            here = picture.has('tip') and math.dist(picture.tip(), right) < EXACT
+            complete = picture.spots() == len(told.events_seen(time))  # impacts come on another topic than the tip
+            return (picture, told, time) if here and complete else None
+        return wait_until(shown, 'a picture of where the emulator has stopped')
+
+    def assert_sane(self, picture):
+        self.assertTrue(all(math.isfinite(number) for number in picture.numbers()))
+        self.assertEqual({m.header.frame_id for m in picture.markers.values()}, {'afm'})
+        self.assertEqual([m.pose.orientation.w for m in picture.markers.values()], [1.0] * len(picture.markers))
+
+    def assert_surface(self, picture, middle):
+        profile = picture.places('surface')
+        self.assertAlmostEqual(profile[-1][0] - profile[0][0], CELLS, delta=EXACT)
+        for x, y in profile:
+            self.assertAlmostEqual(y, surface(x + middle), delta=10 * EXACT)
+
+    def assert_above_surface(self, places, middle):
+        self.assertTrue(places)
+        for x, y in places:
+            self.assertGreater(y, surface(x + middle) - 10 * EXACT)
+
+    def assert_impacts(self, picture, told, time):
+        seen = told.events_seen(time)
+        for name, kinds in (('impacts', (Impact.IMPACT, Impact.BURST)),
+                            ('contacts', (Impact.CONTACT_BEGUN, Impact.CONTACT_ENDED))):
+            wanted, places = [x for x, e in seen if e.kind in kinds], picture.places(name)
+            self.assertEqual(len(places), len(wanted), name)
+            for (x, y), right in zip(places, wanted):
+                self.assertAlmostEqual(x, right, delta=EXACT)
+                self.assertAlmostEqual(y, surface(x + told.middle(time)), delta=10 * EXACT)
+        return [e for _, e in seen if e.kind in (Impact.IMPACT, Impact.BURST)]
+
+    def assert_lighter_is_more(self, picture, impacts):
+        light = [luminance(c) for c in picture.markers['impacts'].colors]
+        by_energy = [l for _, l in sorted(zip([i.energy_loss for i in impacts], light))]
+        self.assertEqual(by_energy, sorted(light))
+        self.assertGreater(len(set(light)), 1)
+
+    def assert_shows_all(self):
+        picture, told, time = self.picture_of_now()
+        middle = told.middle(time)
+        self.assert_sane(picture)
+        self.assert_surface(picture, middle)
+        self.assert_above_surface(picture.places('path') + [picture.tip()], middle)
+        impacts = self.assert_impacts(picture, told, time)
+        self.assertFalse(picture.has('positions'))
+        self.assertEqual(picture.has('contact'), told.events[-1].kind == Impact.CONTACT_BEGUN)
+        return picture, impacts
+
+    def test_tip_path_and_impacts(self):
+        self.begin(SLOW)
+        self.pause()
+        self.advance(9)
+        picture, impacts = self.assert_shows_all()
+        self.assertGreater(len(impacts), 1)
+        self.assert_lighter_is_more(picture, impacts)
+        path = picture.places('path')
+        for place in picture.places('impacts'):
+            self.assertLess(min(math.dist(place, corner) for corner in path), EXACT)
+        friction = self.topics['friction'].messages[-1]
+        self.assertEqual(picture.text('drag'), 'drag 11.255 um/s')
+        self.assertEqual(picture.text('eta'), 'eta 3.400')
+        self.assertIn('K_f %.4f' % friction.k_f_tau_per_m, picture.text('friction'))
+
+    def test_finds_its_place_when_it_comes_late(self):
+        self.begin(SLOW, view_first=False)
+        for eta in (-2.3, 1.7):
+            self.emulator.drag(eta * SPEED_UNIT)
+            self.topics['applied_drag'].wait_for(lambda m: m.drag_velocity == eta * SPEED_UNIT)
+        self.view = self.start(View())
+        self.wait_for_tip()
+        self.pause()
+        self.advance(9)
+        self.assert_shows_all()
+
+    def test_obeys_a_command_and_a_reset(self):
+        self.begin(SLOW)
+        self.emulator.drag(-1.3 * SPEED_UNIT)
+        self.topics['applied_drag'].wait_for(lambda m: m.drag_velocity < 0.0)
+        self.pause()
+        self.advance(9)
+        picture, _ = self.assert_shows_all()
+        self.assertEqual(picture.text('eta'), 'eta -1.300')
+        self.call('reset', Trigger)
+        self.advance(2)
+        picture, _ = self.assert_shows_all()
+        self.assertEqual(picture.text('eta'), 'eta 3.400')
+
+    def test_marks_contact(self):
+        eta = 0.2  # a third of the time in contact
+        self.begin(dict(SLOW, drag_velocity=eta * SPEED_UNIT, initial_u=eta, cutoff_speed=0.1 * eta * SPEED_UNIT))
+        self.pause()
+        self.advance(9)
+
+        def slides():
+            self.advance(1)
+            return Told(self.topics).events[-1].kind == Impact.CONTACT_BEGUN
+        wait_until(slides, 'contact', deadline_s=60.0)
+        picture, told, time = self.picture_of_now()
+        self.assert_surface(picture, told.middle(time))
+        x, y = picture.tip()
+        self.assertAlmostEqual(y, surface(x + told.middle(time)), delta=1e-3)
+        self.assertEqual(picture.text('contact'), 'contact')
+        for colour in (picture.markers['tip'].color, picture.markers['path'].colors[-1],
+                       picture.markers['contacts'].colors[-1]):
+            self.assertAlmostEqual(colour.r, CONTACT_RED, delta=1e-6)
+
+    def test_listens_only_while_somebody_looks(self):
+        self.begin({})
+        self.assertTrue(hears_deflection())
+        self.view.markers.close()
+        wait_until(lambda: not hears_deflection(), 'the view listens no more')
+        self.view.markers = Topic('/afm_view/markers', MarkerArray)
+        self.wait_for_tip()
+
+    def test_real_time_is_a_stroboscope(self):
+        self.begin({})
+        wait_until(lambda: len(self.topics['deflection'].messages) > 200, 'two seconds of the run')
+        first = len(self.view.markers.messages)
+        self.view.markers.wait_for_more(60)
+        pictures = [Picture(m) for m in self.view.markers.messages[first:]]
+        self.assertLess(max(len(raw) for raw in self.view.markers.raw), 400000)  # of some 6700 samples a picture
+        self.assertLess((len(pictures) - 1) / (pictures[-1].stamp - pictures[0].stamp), 33.0)
+        for picture in pictures[::10]:
+            self.assert_sane(picture)
+            self.assert_surface(picture, 0.0)  # which stands still, a crest in the middle
+            self.assertLessEqual(len(picture.places('positions')), 31 * 64)
+            self.assertLessEqual(len(picture.places('impacts')), 31 * 40)
+            self.assert_above_surface(picture.places('positions') + picture.places('path'), 0.0)
+            for x, y in picture.places('impacts'):
+                self.assertAlmostEqual(y, surface(x), delta=1e-4)
+        self.assertGreater(len(pictures[-1].places('positions')), 20 * 64)
+        self.emulator.assert_alive()
+
+    def test_without_rviz_or_a_display_everything_else_runs(self):
+        nowhere = open_rviz(PATH=self.temporary_directory(), DISPLAY=':0')
+        self.assertEqual(nowhere.returncode, 0)
+        self.assertIn('install', nowhere.stdout)
+        environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
+        play = self.start(Process(['roslaunch', 'afm_emulator', 'emulator.launch', 'view:=true'], env=environment))
+        markers, deflection = Topic('/afm_view/markers', MarkerArray), Topic('deflection')
+        markers.wait_for(lambda m: Picture(m).has('tip'), 'the tip')
+        wait_until(lambda: 'so there is no window' in play.output(), 'why there is no window')
+        deflection.wait_for_next()
+        play.stop()
+
+    def test_a_replay_looks_the_same(self):
+        directory = self.temporary_directory()
+        emulator = self.start(Emulator({'record': True, 'bag_directory': directory}))
+        Topic('deflection').wait_for(lambda m: m.first_sample >= 200000, 'a second of the run')
+        self.assertEqual(emulator.stop(), 0)
+        environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
+        bag = next(Path(directory).glob('*.bag'))
+        replay = self.start(Process(['roslaunch', 'afm_emulator', 'replay.launch', 'view:=true', 'bag:=%s' % bag],
+                                    env=environment))
+        markers = Topic('/afm_view/markers', MarkerArray)
+        drawn = markers.wait_for(lambda m: Picture(m).has('tip') and Picture(m).has('positions'), 'the tip')
+        self.assert_surface(Picture(drawn), 0.0)
+        wait_until(lambda: '[replay' in replay.output() and 'finished cleanly' in replay.output(), 'the bag has ended')
+        markers.wait_for_next(what='the last picture stays')
+        replay.stop()
+
+    def test_what_is_plotted_is_a_plain_number(self):
+        for kind, names in PLOTTED.items():
+            types = dict(zip(kind.__slots__, kind._slot_types))
+            for name in names:
+                self.assertIn(types[name], ('float64', 'uint64'), '%s/%s' % (kind.__name__, name))
+            self.assertEqual(types['header'], 'std_msgs/Header')
+
+
+if __name__ == '__main__':
+    run(ViewTest)
