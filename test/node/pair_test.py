@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""pair.launch runs two emulators on one master, which know nothing of each other: each obeys its own commands alone."""
+import unittest
+
+import rospy
+from std_msgs.msg import Float64
+
+from emulator_under_test import SPEED_UNIT, run
+from topics import TOPICS, Topic, wait_until
+
+START = {'left': 3.4, 'right': 2.0}  # eta of their scenes
+
+
+class Tip:
+    def __init__(self, side):
+        self.side, name, topics = side, '/%s/afm/' % side, ('applied_drag', 'deflection', 'friction')
+        self.topics = {topic: Topic(name + topic, TOPICS[topic]) for topic in topics}
+        self.drag_publisher = rospy.Publisher(name + 'drag_velocity', Float64, queue_size=10)
+        for topic in self.topics.values():
+            topic.wait_for_connection()
+
+    def drag(self, eta):
+        wait_until(lambda: self.drag_publisher.get_num_connections() == 1, self.side + ': listens')
+        self.drag_publisher.publish(eta * SPEED_UNIT)
+        self.topics['friction'].wait_for(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'eta = %g' % eta)
+
+    def velocities(self):
+        return [m.drag_velocity / SPEED_UNIT for m in self.topics['applied_drag'].messages]
+
+    def wait_for_samples(self, count):
+        self.topics['applied_drag'].wait_for()
+        last = self.topics['deflection'].wait_for_next().first_sample
+        self.topics['deflection'].wait_for(lambda m: m.first_sample > last + count, '%d more samples' % count)
+
+
+class Pair(unittest.TestCase):
+    def setUp(self):
+        self.addCleanup(Topic.close_all)
+        self.left, self.right = Tip('left'), Tip('right')
+
+    def test_each_obeys_its_own_commands(self):
+        for tip in (self.left, self.right):
+            tip.wait_for_samples(20000)
+            self.assertEqual([round(v, 9) for v in tip.velocities()], [START[tip.side]])
+        self.left.drag(1.5)
+        self.right.wait_for_samples(100000)  # half a second in which a command gone astray would show
+        self.assertEqual([round(v, 9) for v in self.right.velocities()], [2.0])
+        self.right.drag(-2.5)
+        self.left.wait_for_samples(100000)
+        self.assertEqual([round(v, 9) for v in self.left.velocities()], [3.4, 1.5])
+        self.assertEqual([round(v, 9) for v in self.right.velocities()], [2.0, -2.5])
+
+    def test_each_tip_goes_its_own_way(self):
+        for tip in (self.left, self.right):
+            tip.wait_for_samples(20000)
+        heights = [tip.topics['deflection'].messages[-1].vertical for tip in (self.left, self.right)]
+        self.assertNotEqual(*heights)
+        nodes = {name for name, _ in rospy.get_published_topics('/') if name.endswith('/status')}
+        self.assertEqual(nodes, {'/left/afm/status', '/right/afm/status'})
+
+
+if __name__ == '__main__':
+    run(Pair)
