@@ -259,8 +259,10 @@ Outcome Tip::end_flight() {
 }
 
 ModelTime Tip::arc_end() {
-  if (mode_ == Mode::sliding) return start_ + slide_end_;
-  if (mode_ == Mode::bursting) return start_ + chatter_run_.s;
+  if (on_guide()) {
+    const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
+    return end < now_ ? now_ : end;  // a jolt ends it now, and not a rounding before the command
+  }
   if (mode_ == Mode::touching) return start_;
   if (!landing_known_) find_landing();
   return start_ + landing_.s;

@@ -46,7 +46,7 @@ TEST(Hammer, AtEvenEtaItsFrictionIsTheClosedForm) {
 TEST(Hammer, FollowsItsHolder) {
   RandomLaunches random(1);
   Tip tip(hammer(), 3.4, FreeState{0.25, 0.3, 0.2, -7.0, 0.0});
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 20000; ++i) {
     const Outcome outcome = tip.advance(tip.now() + random.within(0.0, 1.0));
     ASSERT_NE(outcome, Outcome::search_failed);
     const FreeState now = tip.state();
@@ -90,6 +90,24 @@ TEST(Hammer, IsDraggedOverAtRestAndWakesUp) {
   while (tip.advance({2010, 0.0}) != Outcome::time_limit) ++impacts;
   EXPECT_GT(impacts, 0);
   EXPECT_GE(tip.tip_state().g, 0.0);
+}
+
+TEST(Hammer, NoCommandThrowsItOffBeforeItCame) {
+  RandomLaunches random(3);
+  Tip tip(hammer(), 0.0, FreeState{0.25, 0.0, 0.2, 0.0, 0.0});
+  int thrown = 0;
+  for (int i = 0; i < 20000; ++i) {
+    ModelTime last = tip.now();
+    const ModelTime limit = last + random.within(0.0, tip.eta() == 0.0 ? 100.0 : 0.5);
+    const bool rides = tip.in_contact();
+    for (Outcome o = tip.advance(limit); o != Outcome::time_limit; o = tip.advance(limit)) {
+      ASSERT_FALSE(tip.last_impact().time < last) << i;
+      thrown += rides && o == Outcome::released;
+      last = tip.last_impact().time;
+    }
+    tip.drag(i % 2 == 0 ? 0.3 : 0.0);
+  }
+  EXPECT_GT(thrown, 300);
 }
 
 // Loss up to a time: over the impacts that settle into a valley, of which every bounce can still be made.

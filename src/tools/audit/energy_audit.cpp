@@ -125,12 +125,14 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   const Motion in = motion(last - 1, event.time), out = motion(last + 1, event.time);
   const afm_emulator::Impact& told = *event.impact;
   const double loss = told.energy_loss / units_.energy(), scale = energy(in) + 0.5 * square(event.eta);
+  // a tip that has come to rest still has its place rounded as a height of the surface is
+  const double length = std::sqrt(2.0 * scale) / omega_[1] + model_.H + std::abs(model_.y0);
+  const double speed = omega_[1] * length, energy_scale = 0.5 * std::sqrt(2.0 * scale) * speed;
   // the holder moves on through the springs: what is conserved in flight is the energy in its frame
-  const double length = std::sqrt(2.0 * scale) / omega_[1], speed = std::sqrt(2.0 * scale);
   const double angle = kTwoPi * told.surface_phase, slope = -kTwoPi * model_.H * std::sin(angle);
   // of the hammer it takes what the surface gives along x
   const double free = mobility(model_), given = free * (out.U - in.U) - (1.0 - free) * slope * (out.W - in.W);
-  note(report_.balance_error, (energy(out) - energy(in) + event.eta * given + loss) / scale);
+  note(report_.balance_error, (energy(out) - energy(in) + event.eta * given + loss) / energy_scale);
   note(report_.position_error, (out.X - in.X) / length);
   note(report_.position_error, (out.Y - in.Y) / length);
   note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);

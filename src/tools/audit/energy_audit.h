@@ -21,7 +21,7 @@ struct EnergyReport {
   std::uint64_t events = 0, judged = 0, by_law = 0;
   double energy = 0.0, judged_energy = 0.0;  // lost [J]
   double allowed = 0.0;                      // of the errors below: what rounding of the samples makes of them
-  // worst, relative: of the energy in flight, of lengths a, of speeds
+  // worst, relative: of lengths (how far the springs swing, and the surface's own), of speeds and energies made of them
   double balance_error = 0.0, position_error = 0.0, speed_error = 0.0;
   double law_error = 0.0;  // energy lost against normal speed and restitution, for every single impact
 
