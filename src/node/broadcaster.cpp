@@ -54,6 +54,7 @@ void Broadcaster::stop() {
 
 void Broadcaster::run() {
   name_thread("afm_publish");
+  follow_real_time();  // or on a busy machine chatter comes faster than we would be let to take it, and is lost
   Event event;
   Batch batch;
   for (bool last = false; !last;) {

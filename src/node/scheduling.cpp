@@ -32,17 +32,25 @@ bool lock_memory() {
   return mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
 }
 
+// Returns why not, or nothing.
+std::string become_fifo(int priority) {
+  if (processors() < 2) return "normal: on one processor a real-time thread would starve the rest";
+  sched_param parameter{};
+  parameter.sched_priority = priority;
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
+  return error == 0 ? "" : std::string("normal: SCHED_FIFO: ") + std::strerror(error);
+}
+
 }  // namespace
 
 std::string claim_real_time() {
   prctl(PR_SET_TIMERSLACK, 1);  // the normal scheduler may otherwise wake us 50 us late
-  if (processors() < 2) return "normal: on one processor a real-time thread would starve the rest";
-  sched_param parameter{};
-  parameter.sched_priority = kPriority;
-  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
-  if (error != 0) return std::string("normal: SCHED_FIFO: ") + std::strerror(error);
+  const std::string refused = become_fifo(kPriority);
+  if (!refused.empty()) return refused;
   return lock_memory() ? "fifo" : "fifo, memory not locked: RLIMIT_MEMLOCK";
 }
+
+void follow_real_time() { become_fifo(kPriority - 1); }
 
 void name_thread(const char* name) { pthread_setname_np(pthread_self(), name); }
 

@@ -11,6 +11,9 @@ namespace afm::node {
 // "fifo", "fifo, ..." with what is missing, or "normal: " and the reason.
 std::string claim_real_time();
 
+// One step below it, where that is permitted: for a thread that must carry off what the real-time thread makes.
+void follow_real_time();
+
 // Names the calling thread for top -H and debuggers: 15 letters at most.
 void name_thread(const char* name);
 

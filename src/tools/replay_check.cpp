@@ -103,7 +103,7 @@ Verdict judge(const Difference& d) {
   if (!d.altered) {
     std::cout << "DIFFERENT; no digest stands after it to tell whether the recording was altered\n";
   } else if (*d.altered) {
-    std::cout << "ALTERED: the recording contradicts the digests that were recorded with it\n";
+    std::cout << "ALTERED: the recording contradicts the digests that were recorded with it, or itself\n";
   } else {
     std::cout << "DIFFERENT: the recording agrees with its digests, it is as it was published; here the same "
                  "configuration and commands give other bits\n";
@@ -134,8 +134,13 @@ Verdict check_run(const Recording& recording, const Options& options) {
   if (check.gaps().messages > 0) {
     std::cout << "MISSING: " << check.gaps().messages << " messages, the first " << check.gaps().first << "\n";
   }
+  if (check.unpublished().messages > 0) {
+    std::cout << "MISSING: " << check.unpublished().messages << " messages that the emulator never published, as its "
+              << "machine was too busy, the first " << check.unpublished().first << "\n";
+  }
   if (check.difference()) return judge(*check.difference());
-  return check.gaps().messages > 0 ? Verdict::missing : judge_end(recording, options);
+  const bool whole = check.gaps().messages + check.unpublished().messages == 0;
+  return whole ? judge_end(recording, options) : Verdict::missing;
 }
 
 Verdict check_digests(const Recording& recording, const Options& options) {

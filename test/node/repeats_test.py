@@ -87,8 +87,11 @@ class Repeats(NodeTest):
             self.assertEqual(bags.info_exit_code(path), 0)
             answer = checks.replay_check(path)
             self.assertEqual(answer.code, checks.SOUND, answer.text)
-        lost = checks.replay_check(paths[0], *paths[2:])  # the second is not there: two recordings, each sound
-        self.assertIn('goes on in another bag', lost.text)
+        self.assertIn('goes on in another bag', checks.replay_check(paths[0]).text)
+        lost = checks.replay_check(paths[0], *paths[2:])
+        self.assertEqual(lost.code, checks.MISSING, lost.text)
+        self.assertIn('part 1 is missing', lost.text)
+        self.assertEqual(checks.bag_check(paths[1], paths[1]).code, checks.REORDERED)
 
     def test_faster_than_real_time_and_split_by_size(self):
         self.run_emulator(record=True, time_scale=4.0, split_size_mb=2.0)

@@ -194,6 +194,20 @@ class SpoiledBags(NodeTest):
         mark = self.of('recording')[-1]
         mark.edit(messages=mark.message().messages - len(digests))
 
+    def test_a_batch_that_was_never_published(self):
+        """As on a machine too busy to publish: the numbers of the messages run on, those of samples do not."""
+        self.remove_digests()
+        lost = [self.of(topic)[100] for topic in ('deflection', 'impacts', 'friction')]
+        self.remove(*lost)
+        for entry in self.entries:
+            message = entry.message()
+            if entry.topic in ('deflection', 'impacts', 'friction') and message.header.seq > 100:
+                message.header.seq -= 1
+                entry.put(message)
+        mark = self.of('recording')[-1]
+        mark.edit(messages=mark.message().messages - 3)
+        self.assert_told(checks.MISSING, 'MISSING: 3 messages', 'never published', 'before batch 100')
+
     def assert_bad(self, *subjects):
         answer = checks.bag_check(self.write())
         bad = [line.split('  ')[1][4:].strip() for line in answer.text.splitlines() if line.startswith('  BAD')]
@@ -249,6 +263,19 @@ class SpoiledBags(NodeTest):
             self.assertIn('rosbag reindex', answer.text)
             self.assertNotEqual(checks.bag_check(path).code, 0)
 
+    def test_two_in_one_file(self):
+        path = self.directory / 'joined.bag'
+        path.write_bytes(2 * self.good.read_bytes())
+        for answer in (checks.replay_check(path), checks.bag_check(path)):
+            self.assertEqual(answer.code, checks.ALTERED, answer.text)
+            self.assertIn('%d bytes behind its end' % self.good.stat().st_size, answer.text)
+
+    def test_the_time_of_a_batch(self):
+        message = self.of('deflection')[100].message()
+        message.time.phase = (message.time.phase + 0.25) % 1
+        self.of('deflection')[100].put(message)
+        self.assert_told(checks.ALTERED, 'deflection.time', 'or itself')
+
     def test_damaged(self):
         """A length in the index that leads out of the file: rosbag's reader falls over it, our tools tell."""
         data = bytearray(self.good.read_bytes())
@@ -278,10 +305,11 @@ class SpoiledBags(NodeTest):
         path = self.directory / 'foreign.bag'
         with rosbag.Bag(str(path), 'w') as bag:
             bag.write('/chatter', String('hello'))
-        text = self.directory / 'text.bag'
+        text, empty = self.directory / 'text.bag', self.directory / 'empty.bag'
         text.write_text('not a bag')
-        for spoiled, words in ((path, 'no configuration'), (text, 'not a ROS bag'), ('/nowhere.bag', 'opened'),
-                               (self.directory, 'not a ROS bag')):
+        empty.touch()
+        for spoiled, words in ((path, 'no configuration'), (text, 'not a ROS bag'), (empty, 'is empty'),
+                               ('/nowhere.bag', 'opened'), (self.directory, 'is a directory')):
             answer = checks.replay_check(spoiled)
             self.assertEqual(answer.code, checks.FOREIGN, answer.text)
             self.assertIn(words, answer.text)

@@ -8,10 +8,12 @@
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
 
+#include "bag_end.h"
 #include "message_stream.h"
 #include "node/topics.h"
 
@@ -41,12 +43,15 @@ std::map<std::string, std::string> expected_md5sums() {
   return sums;
 }
 
-bool has_magic(const std::string& path) {
+void check_magic(const std::string& path) {
+  const auto refuse = [&](const std::string& why) { throw Problem(Verdict::foreign, path + ": " + why); };
+  if (std::filesystem::is_directory(path)) refuse("is a directory: give the bags in it");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw Problem(Verdict::foreign, path + ": cannot be opened");
+  if (!file) refuse("cannot be opened");
+  if (file.peek() == std::ifstream::traits_type::eof()) refuse("is empty");
   std::string head(kMagic.size(), '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return file && head == kMagic;
+  if (!file || head != kMagic) refuse("is not a ROS bag (version 2.0)");
 }
 
 std::string find_node(const rosbag::Bag& bag, const std::string& path) {
@@ -67,10 +72,20 @@ std::string find_node(const rosbag::Bag& bag, const std::string& path) {
   throw Problem(Verdict::usage, path + ": holds several emulators, choose one with --node:" + names);
 }
 
+// Of two bags of one split recording.
+void check_follows(const afm_emulator::Recording& last, const afm_emulator::Recording& first, const std::string& path) {
+  if (first.part == last.part + 1) return;
+  const std::string found = path + ": is part " + std::to_string(first.part) + " of " + last.name;
+  if (first.part <= last.part) {
+    throw Problem(Verdict::reordered, found + ", given after part " + std::to_string(last.part));
+  }
+  throw Problem(Verdict::missing, found + ", and part " + std::to_string(last.part + 1) + " is missing");
+}
+
 }  // namespace
 
 std::unique_ptr<RecordedBag> open_bag(const std::string& path) {
-  if (!has_magic(path)) throw Problem(Verdict::foreign, path + ": is not a ROS bag (version 2.0)");
+  check_magic(path);
   auto opened = std::make_unique<RecordedBag>();
   opened->path = path;
   try {
@@ -82,7 +97,10 @@ std::unique_ptr<RecordedBag> open_bag(const std::string& path) {
     throw Problem(Verdict::truncated, path + ": is damaged or cut off (" + error.what() + "); rosbag reindex '" + path +
                                           "' recovers what is left");
   }
-  return opened;
+  const std::uint64_t behind = bytes_behind(path);
+  if (behind == 0) return opened;
+  throw Problem(Verdict::altered, path + ": has " + std::to_string(behind) +
+                                      " bytes behind its end, as when bags are joined into one file; nobody would read them");
 }
 
 Recording::Recording(std::unique_ptr<RecordedBag> first, const std::string& node)
@@ -133,7 +151,8 @@ bool Recording::append(std::unique_ptr<RecordedBag>& bag) {
   MessageStream<afm_emulator::Recording> marks(topic(node::kRecordingTopic));
   marks.add(bag->bag, bag->path);
   const auto* first = marks.head();
-  if (first == nullptr || first->name != last.name || first->part != last.part + 1) return false;
+  if (first == nullptr || first->part == 0 || first->name != last.name) return false;
+  check_follows(last, *first, bag->path);
   add(std::move(bag));
   return true;
 }

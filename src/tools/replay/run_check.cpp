@@ -23,6 +23,12 @@ ModelTime time_of(const afm_emulator::Friction& batch, std::size_t, const Resimu
   return node::from_message(batch.time);
 }
 
+// Of the grid of samples; no digest covers it, but where it is not as configured the recording contradicts itself.
+bool follows_from_the_rest(const FieldDifference& difference) {
+  const std::string& name = difference.field;
+  return name == "deflection.time.tau" || name == "deflection.time.phase" || name == "deflection.sample_period";
+}
+
 }  // namespace
 
 RunCheck::RunCheck(const Recording& recording, Progress progress)
@@ -65,21 +71,39 @@ void RunCheck::begin_epoch(const RecordedBatch& batch) {
 // Figures that decide how far to simulate must fit together, or an altered one would keep us busy for ever.
 bool RunCheck::is_plausible(const RecordedBatch& batch) {
   if (!batch.deflection) return true;
-  const afm_emulator::Deflection& deflection = *batch.deflection;
-  const std::uint64_t missing = last_batch_ ? batch.sequence - *last_batch_ - 1 : 0;
-  const std::uint64_t most = missing * simulation_->settings().samples_per_batch;
-  if (next_sample_ && (deflection.first_sample < *next_sample_ || deflection.first_sample - *next_sample_ > most)) {
-    const FieldDifference field{"deflection.first_sample", std::to_string(deflection.first_sample),
+  if (!follows_on(batch)) {
+    const FieldDifference field{"deflection.first_sample", std::to_string(batch.deflection->first_sample),
                                 std::to_string(*next_sample_), 0};
     differ(batch, field, simulation_->now());
     return false;
   }
-  if (!batch.friction) return true;
-  const ModelTime end = node::from_message(batch.friction->time), limit = simulation_->sample_time(end_of(deflection));
-  const bool after_last = end_of(deflection) == 0 || simulation_->sample_time(end_of(deflection) - 1) < end;
-  if (after_last && end <= limit) return true;
-  differ(batch, {"friction.time", to_text(end), "not after " + to_text(limit), 0}, limit);
+  if (!batch.friction || ends_in_time(batch)) return true;
+  const ModelTime limit = simulation_->sample_time(end_of(*batch.deflection));
+  const std::string end = to_text(node::from_message(batch.friction->time));
+  differ(batch, {"friction.time", end, "not after " + to_text(limit), 0}, limit);
   return false;
+}
+
+// Batches that the emulator let go were never given a number: whole ones are missed, and what follows is at its time.
+bool RunCheck::follows_on(const RecordedBatch& batch) {
+  const std::uint64_t missing = last_batch_ ? batch.sequence - *last_batch_ - 1 : 0;
+  const std::uint64_t size = simulation_->settings().samples_per_batch, first = batch.deflection->first_sample;
+  if (!next_sample_) return true;
+  if (first < *next_sample_) return false;
+  if (first - *next_sample_ <= missing * size) return true;
+  const bool at_its_time = node::from_message(batch.deflection->time) == simulation_->sample_time(first);
+  if (!batch.friction || !at_its_time || !ends_in_time(batch)) return false;
+  if (unpublished_.messages == 0) unpublished_.first = "before batch " + std::to_string(batch.sequence);
+  unpublished_.messages += 3 * ((first - *next_sample_ + size - 1) / size - missing);
+  return true;
+}
+
+// After its last sample, and no later than the next is due.
+bool RunCheck::ends_in_time(const RecordedBatch& batch) const {
+  const std::uint64_t samples = end_of(*batch.deflection);
+  const ModelTime end = node::from_message(batch.friction->time);
+  const bool after_last = samples == 0 || simulation_->sample_time(samples - 1) < end;
+  return after_last && end <= simulation_->sample_time(samples);
 }
 
 void RunCheck::run_to_end_of(const RecordedBatch& batch) {
@@ -124,7 +148,9 @@ template <class Message>
 void RunCheck::expect_same(const RecordedBatch& batch, const Message& recorded, const Message& simulated) {
   if (difference_) return;
   const auto field = find_difference(recorded, simulated);
-  if (field) differ(batch, *field, time_of(recorded, field->index, *simulation_));
+  if (!field) return;
+  differ(batch, *field, time_of(recorded, field->index, *simulation_));
+  if (follows_from_the_rest(*field)) difference_->altered = true;
 }
 
 void RunCheck::differ(const RecordedBatch& batch, const FieldDifference& field, const ModelTime& time) {
@@ -135,7 +161,7 @@ void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Dige
                             const std::optional<FieldDifference>& contradiction) {
   ++extent_.digests;
   if (difference_) {
-    difference_->altered = contradiction.has_value();
+    difference_->altered = difference_->altered.value_or(false) || contradiction.has_value();
   } else if (contradiction) {
     differ(batch, *contradiction, node::from_message(told.time));
     difference_->altered = true;

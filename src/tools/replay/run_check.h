@@ -44,6 +44,7 @@ class RunCheck {
   const Extent& extent() const { return extent_; }
   const std::optional<Difference>& difference() const { return difference_; }
   const Gaps& gaps() const { return batches_.gaps(); }
+  const Gaps& unpublished() const { return unpublished_; }  // what the emulator itself had to let go
   const RunLog& log() const { return log_; }
   ModelTime end() const { return end_; }
 
@@ -51,6 +52,8 @@ class RunCheck {
   void begin_epoch(const RecordedBatch& batch);
   void compare(const RecordedBatch& batch);
   bool is_plausible(const RecordedBatch& batch);
+  bool follows_on(const RecordedBatch& batch);
+  bool ends_in_time(const RecordedBatch& batch) const;
   void run_to_end_of(const RecordedBatch& batch);
   template <class Message>
   void expect_same(const RecordedBatch& batch, const Message& recorded, const Message& simulated);
@@ -67,6 +70,7 @@ class RunCheck {
   std::optional<std::uint32_t> epoch_, last_batch_;
   std::optional<std::uint64_t> next_sample_;  // that the next batch should begin with
   ModelTime begin_, end_;                     // of what is compared, in this epoch
+  Gaps unpublished_;
   std::optional<Difference> difference_;
   Extent extent_;
 };
