@@ -102,12 +102,17 @@ def read(paths):
     return run
 
 
+def put_legend(axes, **options):
+    """Above, where it hides nothing."""
+    axes.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=4, frameon=False, borderaxespad=0.1, **options)
+
+
 def draw_deflection(axes, run):
     times, vertical, lateral = np.hstack(run.samples)
     axes.plot(times, vertical, lw=0.6, label='vertical')
     axes.plot(times, lateral, lw=0.6, label='lateral', alpha=0.8)
     axes.set_ylabel('deflection [nm]')
-    axes.legend(loc='upper right')
+    put_legend(axes)
     return times
 
 
@@ -125,7 +130,7 @@ def draw_impacts(axes, run):
                          transform=axes.get_xaxis_transform(), rasterized=True)
     axes.set_yscale('log')
     axes.set_ylabel('normal speed\nof impacts [$\\mu$m/s]')
-    axes.legend(loc='upper right', markerscale=2)
+    put_legend(axes, markerscale=2)
 
 
 def draw_friction(axes, run):
@@ -136,7 +141,7 @@ def draw_friction(axes, run):
     axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color='C0')
     axes.set_yscale('log')
     axes.set_ylabel('$K_f$ [m/$\\tau$]')
-    axes.legend(loc='upper right')
+    put_legend(axes)
 
 
 def draw_drag(axes, run):
