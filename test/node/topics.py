@@ -56,6 +56,7 @@ class Topic:
             wait_until(connected, 'connected', deadline_s=2.0)
         except AssertionError:
             self._subscriber.unregister()
+            self.raw, self.messages = [], []  # what came just before would look like a gap
             self._subscribe()
             wait_until(connected, self.name + ': connected at the second attempt')
 
