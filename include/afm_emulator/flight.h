@@ -40,11 +40,12 @@ struct FlightState {
   T phase, X, U, Y, W;
 };
 
-// The gap y - h(x) and its time derivatives, with the state they belong to.
+// The gap y - h(x) and its time derivatives, with the state they belong to and the surface below it.
 template <class T>
 struct GapJet {
-  T g, g1, g2;
+  T g, g1, g2, g3;
   FlightState<T> state;
+  T h, h1;
 };
 
 template <class T>
@@ -69,37 +70,57 @@ class Flight {
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 
-  // Bounds that hold for the whole flight: amplitudes of X and Y, and |g'''|.
+  // The gap at s + step, sooner, from its jet at s near by. Within a few ulp more.
+  GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
+
+  // Bounds that hold for the whole flight, a little more than needed: of |X| and |Y|, |g'''| and |g''''|.
   const T& amplitude_X() const { return amplitude_X_; }
   const T& amplitude_Y() const { return amplitude_Y_; }
   const T& third_derivative_bound() const { return bound3_; }
+  const T& fourth_derivative_bound() const { return bound4_; }
   // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on x
   // alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
 
  private:
   void set_bounds();
-  GapJet<T> small_gap(const T& s) const;
+  // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by is
+  // within a few ulp of itself. Precondition: |t| <= small_until_.
+  GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
+  template <class Turn>
+  GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
   GapJet<T> jet_at(const FlightState<T>& state) const;
+  T third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const;
 
   Mechanics<T> m_;
   T eta_;
   TipState launch_;
   GapJet<T> start_;
-  SurfaceJet<T> surface_;  // at the start
-  T amplitude_X_, amplitude_Y_, bound2_, bound3_;
+  T amplitude_X_, amplitude_Y_, bound2_, bound3_, bound4_;
   T bound_drive_;  // of |p'|
   T small_until_;  // up to here every turn is at most 1/8
 };
 
+// |(x, y)| from above, by at most a twelfth.
+template <class T>
+T length_bound(const T& x, const T& y) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  const T a = abs(x), b = abs(y);
+  return max(a, b) + T(0.41422) * min(a, b);
+}
+
 template <class T>
 Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start, const SurfaceJet<T>& surface)
-    : m_(mechanics), eta_(eta), launch_(start), surface_(surface) {
-  const T W = T(start.g1) + surface_.h1 * T(start.u);
-  const T Y = (surface_.h - mechanics.y0) + T(start.g);
+    : m_(mechanics), eta_(eta), launch_(start) {
+  const T W = T(start.g1) + surface.h1 * T(start.u);
+  const T Y = (surface.h - mechanics.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);
-  const T g2 = -m_.omega_v * m_.omega_v * Y - surface_.h2 * u * u + surface_.h1 * (m_.omega_h * m_.omega_h * X);
-  start_ = {T(start.g), T(start.g1), g2, {T(start.phase), X, u - eta, Y, W}};
+  const T g2 = -m_.omega_v * m_.omega_v * Y - surface.h2 * u * u + surface.h1 * (m_.omega_h * m_.omega_h * X);
+  const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
+  start_ = {T(start.g), T(start.g1), g2, third_derivative(state, u, surface.h, surface.h1), state, surface.h,
+            surface.h1};
   set_bounds();
 }
 
@@ -107,22 +128,25 @@ template <class T>
 void Flight<T>::set_bounds() {
   using std::abs;
   using std::max;
-  using std::sqrt;
   const Mechanics<T>& m = m_;
   const FlightState<T>& o = start_.state;
   const T k = two_pi<T>();
-  amplitude_X_ = sqrt(o.X * o.X + (o.U * m.per_omega_h) * (o.U * m.per_omega_h));
-  amplitude_Y_ = sqrt(o.Y * o.Y + (o.W * m.per_omega_v) * (o.W * m.per_omega_v));
+  amplitude_X_ = length_bound(o.X, T(o.U * m.per_omega_h));
+  amplitude_Y_ = length_bound(o.Y, T(o.W * m.per_omega_v));
   const T u_max = abs(eta_) + m.omega_h * amplitude_X_;
   const T u_low = max(T(0.0), abs(eta_) - m.omega_h * amplitude_X_);
   const T a_max = m.omega_h * m.omega_h * amplitude_X_;
-  const T slope = k * m.H;
-  bound2_ = m.omega_v * m.omega_v * amplitude_Y_ + slope * (k * u_max * u_max + a_max);
-  // g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x'''
-  bound3_ = m.omega_v * m.omega_v * m.omega_v * amplitude_Y_ +
-            slope * (k * k * u_max * u_max * u_max + T(3.0) * k * u_max * a_max + m.omega_h * a_max);
+  const T slope = k * m.H, v = k * u_max, wv2 = m.omega_v * m.omega_v;
+  bound2_ = wv2 * amplitude_Y_ + slope * (v * u_max + a_max);
+  // g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x''', and once more. U and x'' are a sine and a cosine of one angle: of
+  // u x'' no more than (|eta| + U_max/2) a is reached at once, of u^2 x'' (eta^2 + |eta| U_max + 0.385 U_max^2) a
+  const T U = m.omega_h * amplitude_X_, eta = abs(eta_), k_a = k * a_max, wh_a = m.omega_h * a_max;
+  const T ua = (eta + U / T(2.0)) * a_max, u2a = (eta * (eta + U) + T(0.385) * U * U) * a_max;
+  bound3_ = m.omega_v * wv2 * amplitude_Y_ + slope * (v * v * u_max + T(3.0) * k * ua + wh_a);
+  bound4_ = wv2 * wv2 * amplitude_Y_ + slope * (v * v * v * u_max + T(6.0) * k * k * u2a + T(3.0) * k_a * a_max +
+                                                T(4.0) * v * wh_a + m.omega_h * wh_a);
   const T u_change = max(abs(u_max * u_max - T(1.0)), abs(u_low * u_low - T(1.0)));
-  bound_drive_ = slope * (k * k * u_max * u_change + T(3.0) * k * u_max * a_max + m.omega_h * a_max);
+  bound_drive_ = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
   small_until_ = T(0.125) / max(max(T(1.0), m.ratio), u_max);
 }
 
@@ -148,49 +172,73 @@ FlightState<T> Flight<T>::at(const T& s) const {
 }
 
 template <class T>
+T Flight<T>::third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const {
+  const Mechanics<T>& m = m_;
+  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h;
+  // h'' = -k^2 h, h''' = -k^2 h', x'' = -omega_h^2 X, x''' = -omega_h^2 U
+  return h1 * (k2 * u * u * u + wh2 * q.U) - T(3.0) * k2 * h * u * (wh2 * q.X) - m.omega_v * m.omega_v * q.W;
+}
+
+template <class T>
 GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
   const Mechanics<T>& m = m_;
   const SurfaceJet<T> surface = surface_jet(m.H, q.phase);
   const T u = eta_ + q.U;
   // x'' = -omega_h^2 X, y'' = -omega_v^2 Y
   const T g2 = -m.omega_v * m.omega_v * q.Y - surface.h2 * u * u + surface.h1 * (m.omega_h * m.omega_h * q.X);
-  return {q.Y + m.y0 - surface.h, q.W - surface.h1 * u, g2, q};
+  return {q.Y + m.y0 - surface.h, q.W - surface.h1 * u, g2, third_derivative(q, u, surface.h, surface.h1), q,
+          surface.h, surface.h1};
 }
 
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
-  return s <= small_until_ ? small_gap(s) : jet_at(at(s));
+  return s <= small_until_ ? moved(start_, s) : jet_at(at(s));
 }
 
-// The terms linear in s cancel on paper, into start_.g1 s: what is left is small of second order, each term to a few ulp.
 template <class T>
-GapJet<T> Flight<T>::small_gap(const T& s) const {
+GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) const {
+  using std::abs;
+  const T tiny = small_until_ / T(128.0);
+  const T size = abs(step);
+  if (s + step <= small_until_) return gap(s + step);
+  if (size <= tiny) return moved_by(jet, step, [](const T& x) { return tiny_turn(x); });
+  return size <= small_until_ ? moved(jet, step) : gap(s + step);
+}
+
+// The terms linear in t cancel on paper, into g1 t: what is left is small of second order, each term to a few ulp.
+template <class T>
+template <class Turn>
+GapJet<T> Flight<T>::moved_by(const GapJet<T>& jet, const T& t, Turn turn) const {
   const Mechanics<T>& m = m_;
-  const FlightState<T>& o = start_.state;
+  const FlightState<T>& o = jet.state;
   const T k = two_pi<T>();
   const T u0 = eta_ + o.U;
-  const SmallTurn<T> h = small_turn(T(m.ratio * s)), v = small_turn(s);
+  const SmallTurn<T> h = turn(T(m.ratio * t)), v = turn(t);
 
-  // dx = u0 s + dx2, u = u0 + du
+  // dx = u0 t + dx2, u = u0 + du
   const T dx2 = o.U * m.per_omega_h * h.sin_minus_angle - o.X * h.versine;
   const T du = -o.U * h.versine - m.omega_h * o.X * h.sin;
-  const T dx = u0 * s + dx2;
-  const SmallTurn<T> d = small_turn(dx);
+  const T dx = u0 * t + dx2;
+  const SmallTurn<T> d = turn(dx);
 
-  const T rise = surface_.h * d.versine - surface_.h1 * (dx2 + d.sin_minus_angle * m.per_omega_v);
-  const T g = start_.g + start_.g1 * (v.sin * m.per_omega_v) + surface_.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) -
+  const T rise = jet.h * d.versine - jet.h1 * (dx2 + d.sin_minus_angle * m.per_omega_v);
+  const T g = jet.g + jet.g1 * (v.sin * m.per_omega_v) + jet.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) -
               o.Y * v.versine + rise;
   const T u = u0 + du;
-  const T g1 = start_.g1 * (T(1.0) - v.versine) - surface_.h1 * u0 * v.versine - m.omega_v * o.Y * v.sin -
-               surface_.h1 * (du - u * d.versine) + k * surface_.h * u * d.sin;
+  const T g1 = jet.g1 - (o.W * v.versine + m.omega_v * o.Y * v.sin + jet.h1 * (du - u * d.versine) - k * jet.h * u * d.sin);
 
   const T cos_d = T(1.0) - d.versine;
-  const T h_now = surface_.h * cos_d + surface_.h1 * d.sin * m.per_omega_v;
-  const T h1_now = surface_.h1 * cos_d - k * surface_.h * d.sin;
-  const T X = o.X * (T(1.0) - h.versine) + o.U * m.per_omega_h * h.sin;
+  const T h_now = jet.h * cos_d + jet.h1 * d.sin * m.per_omega_v;
+  const T h1_now = jet.h1 * cos_d - k * jet.h * d.sin;
+  const T X = o.X + (o.U * m.per_omega_h * h.sin - o.X * h.versine);
   const FlightState<T> q{o.phase + dx, X, o.U + du, h_now + g - m.y0, h1_now * u + g1};
   const T g2 = -m.omega_v * m.omega_v * q.Y + k * k * h_now * u * u + h1_now * (m.omega_h * m.omega_h * q.X);
-  return {g, g1, g2, q};
+  return {g, g1, g2, third_derivative(q, u, h_now, h1_now), q, h_now, h1_now};
+}
+
+template <class T>
+GapJet<T> Flight<T>::moved(const GapJet<T>& jet, const T& t) const {
+  return moved_by(jet, t, [](const T& x) { return small_turn(x); });
 }
 
 template <class T>

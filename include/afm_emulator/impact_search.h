@@ -27,57 +27,105 @@ constexpr int kMaxSearchSteps = 20000;
 
 namespace search_detail {
 
-// Finishes a certified root near f.gap(s + t), t in [0, d]. Halley's steps, clamped: outside there is nothing to find.
+// As far as a step reaches forwards it reaches backwards too, if the gap does not shrink.
+constexpr double kAhead = 0.8;
+
+// Where to look first below the crest: the tip has that far to fall at least in most flights.
 template <class T>
-Landing<T> finish(const Flight<T>& f, const T& s, T t, const T& d, int evaluations) {
+T descent(const Flight<T>& f, const T& reach) {
+  using std::min;
+  const Mechanics<T>& m = f.mechanics();
+  return min(T(kAhead) * reach, T(0.5) * m.H / (m.omega_v * f.amplitude_Y()));
+}
+
+// Leaves the surface: certified up to s; where to look next, and how far a step may reach.
+template <class T>
+void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
+  const T first = leave_surface(f), aloft = time_aloft(f, first);
+  s = aloft > first ? aloft : first;
+  // where the parabola's own root was nearest, it is the impact
+  const bool bounces = f.start().g2 * first < T(-1.6) * f.start().g1;
+  ahead = aloft > first ? descent(f, first) : bounces ? T(0.0) : T(kAhead) * first;
+  guess = T(2.0) * first;
+}
+
+// A step of the third order from here ends within an ulp of the time: nothing is left to look at there.
+template <class T>
+bool settles(const Flight<T>& f, const GapJet<T>& jet, const T& step, const T& time) {
+  using std::abs;
+  const T bend = abs(jet.g2 * step), rest = (f.fourth_derivative_bound() * step * step) * (step * step);
+  const T allowed = epsilon<T>() * time * abs(jet.g1) / T(64.0);
+  return rest < T(24.0) * allowed && bend * bend * bend * abs(step) < allowed * (jet.g1 * jet.g1);
+}
+
+// Finishes the certified root about `jet`, of time s. Steps of the third order, clamped: outside there is nothing to find.
+template <class T>
+Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, int evaluations) {
   using std::abs;
   using std::sqrt;
   const T near_enough = sqrt(epsilon<T>()) / T(16.0);
   constexpr int kMaxFinish = 60;
+  T t = T(0.0), step = root.estimate;
   for (int i = 0; i < kMaxFinish; ++i) {
-    GapJet<T> jet = f.gap(s + t);
+    jet = f.gap_near(jet, s + t, step);
+    t = t + step;
     ++evaluations;
-    const T ratio = jet.g / jet.g1;
-    const T halley = -ratio / (T(1.0) - ratio * jet.g2 / (jet.g1 * T(2.0)));
-    const T next = clamp(t + halley, T(0.0), d);
-    const T step = next - t;
+    step = root_step(jet);
+    if (t + step < root.low || root.high < t + step) step = clamp(t + step, root.low, root.high) - t;
     // well below an ulp of the velocities: what is left out there always adds energy
     const bool smooth = T(16.0) * f.third_derivative_bound() * step * step <= epsilon<T>() * abs(jet.g1);
     const bool hidden = abs(step * jet.g1) <= f.gap_error(s + t);  // by the rounding of the gap
     if (hidden || (smooth && abs(step) <= near_enough * (s + t))) {
       // what is left is of second order at most: move the evaluated state instead of evaluating again
-      return {SearchOutcome::impact, s + next, drift(f, jet, step), evaluations};
+      return {SearchOutcome::impact, s + (t + step), drift(f, jet, step), evaluations};
     }
-    t = next;
+    if (settles(f, jet, step, T(s + t))) {
+      return {SearchOutcome::impact, s + (t + step), f.gap_near(jet, s + t, step), evaluations + 1};
+    }
   }
   return {SearchOutcome::cap, s, f.gap(s), evaluations};
 }
 
 }  // namespace search_detail
 
-// Searches from the start to the horizon. A flight that starts on
-// the surface falling is an impact at once; one that neither rises nor is let go has no flight: contact is the tip's affair.
+// Searches from the start to the horizon. A flight that starts on the surface falling is an impact at once; one that neither
+// rises nor is let go has no flight: contact is the tip's affair.
+// The gap is evaluated `ahead` of the time `s` that is certified, as far as it is likely to certify what lies behind it too.
 template <class T>
 Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
+  using std::min;
+  using search_detail::finish;
   const bool on_surface = !(f.start().g > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
-  T s = on_surface ? leave_surface(f) : T(0.0);
-  T guess = on_surface ? s : T(0.05);
+  T s = T(0.0), ahead = T(0.0), guess = T(0.05);
+  if (on_surface) search_detail::take_off(f, s, ahead, guess);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
     if (s > horizon) s = horizon;
-    const GapJet<T> jet = f.gap(s);
-    const T error = f.gap_error(s);
+    if (s + ahead > horizon) ahead = horizon - s;
+    const T p = s + ahead;
+    const GapJet<T> jet = f.gap(p);
+    const T error = f.gap_error(p);
+    if (ahead > T(0.0) && !positive_behind(f, jet, error, ahead)) {
+      const RootInterval<T> root = certify_root_behind(f, jet, error, ahead);
+      if (root.certain) return finish(f, p, jet, root, evaluations);
+      ahead = T(0.0);
+      continue;
+    }
+    s = p;
     const RootInterval<T> root = certify_root(f, jet, error);
-    if (root.certain) return search_detail::finish(f, s, root.estimate, root.length, evaluations);
+    if (root.certain) return finish(f, s, jet, root, evaluations);
     if (!(s < horizon)) return {SearchOutcome::clear, s, jet, evaluations};
     const T above = time_above_crest(f, jet.state);
     if (above > T(0.0)) {
       s = s + above;
+      ahead = search_detail::descent(f, guess);
       continue;
     }
     const T step = safe_step(f, jet, error, guess);
     if (!(step > T(4.0) * epsilon<T>() * s)) return {SearchOutcome::undecided, s, jet, evaluations};
     guess = step * T(2.0);
+    ahead = step * T(search_detail::kAhead);
+    if (root.estimate > step) ahead = min(ahead, T(root.estimate - step));
     s = s + step;
   }
   return {SearchOutcome::cap, s, f.gap(s), kMaxSearchSteps};

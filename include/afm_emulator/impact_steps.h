@@ -13,26 +13,19 @@ T clamp(const T& x, const T& low, const T& high) {
   return x < low ? low : (high < x ? high : x);
 }
 
-// The third derivative of the gap at the start, and a bound of the fourth for the whole flight.
+// Bounds of the third derivative over the next S, or the last, sharp enough for g >= g + g1 t + g2 t^2/2 + low t^3/6 on all of [0, S], and
+// likewise from above for gap and gap rate: from what it is now and the fourth derivative, or from its own bound.
 template <class T>
-struct HigherDerivatives {
-  T g3, bound4;
+struct ThirdDerivative {
+  T low, high;
 };
 
 template <class T>
-HigherDerivatives<T> higher_derivatives(const Flight<T>& f) {
-  using std::abs;
-  const Mechanics<T>& m = f.mechanics();
-  const FlightState<T>& q = f.start().state;
-  const SurfaceJet<T> h = surface_jet(m.H, q.phase);
-  const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
-  const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U;
-  const T g3 = -wv2 * q.W - (h.h3 * u * u * u + T(3.0) * h.h2 * u * x2 + h.h1 * x3);
-  const T v = abs(f.eta()) + m.omega_h * f.amplitude_X(), a = wh2 * f.amplitude_X();
-  const T bound4 = wv2 * wv2 * f.amplitude_Y() + k * m.H *
-                                                     (k * k * k * v * v * v * v + T(6.0) * k * k * v * v * a +
-                                                      T(3.0) * k * a * a + T(4.0) * k * v * m.omega_h * a + wh2 * a);
-  return {g3, bound4};
+ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& jet, const T& S) {
+  using std::max;
+  using std::min;
+  const T bound3 = f.third_derivative_bound(jet, S), change = f.fourth_derivative_bound() * S;
+  return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + change / T(3.0)))};
 }
 
 // Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. A little less than
@@ -46,8 +39,7 @@ T leave_surface(const Flight<T>& f) {
   const T root = sqrt(b * b + T(4.0) * a * g1);
   const T first = T(0.999) * (b > T(0.0) ? (b + root) / (a * T(2.0)) : T(2.0) * g1 / (root - b));
   if (g1 > T(0.0) || b < T(-kReleaseNoise)) return first;
-  const HigherDerivatives<T> next = higher_derivatives(f);
-  return max(b > T(0.0) ? first : T(0.0), T(3.0) * next.g3 / next.bound4);
+  return max(b > T(0.0) ? first : T(0.0), T(3.0) * f.start().g3 / f.fourth_derivative_bound());
 }
 
 // First positive root of g + g1 t + q t^2/2, or `none` where there is none. Precondition: g > 0.
@@ -60,16 +52,17 @@ T first_root(const T& g, const T& g1, const T& q, const T& none) {
   return q < T(0.0) ? (g1 + sqrt(discriminant)) / (-q) : none;
 }
 
-// A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 - bound3 S/3) t^2/2.
-// Any S is safe; a good one lies just beyond the root it gives.
+// A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 + low S/3) t^2/2 where low, its
+// third derivative's bound, is negative. Any S is safe; a good one lies just beyond the root it gives.
 template <class T>
 T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& guess) {
+  using std::min;
   const T g = jet.g - error;
   if (!(g > T(0.0))) return T(0.0);
   T step = T(0.0), S = guess;
   for (int i = 0; i < 2; ++i) {
-    const T bound3 = f.third_derivative_bound(jet, S);
-    const T root = first_root(g, jet.g1, jet.g2 - bound3 * S / T(3.0), S);
+    const T low = min(T(0.0), third_derivative_over(f, jet, S).low);
+    const T root = first_root(g, jet.g1, jet.g2 + low * S / T(3.0), S);
     if (!(root < S)) return S;
     step = root;
     S = T(1.25) * root;
@@ -77,26 +70,58 @@ T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& g
   return step;
 }
 
-// An interval [0, length] from the present time on which the gap falls all the way and ends below zero.
+// The gap is certainly positive over all of the time `back` before the jet.
+template <class T>
+bool positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& back) {
+  using std::max;
+  const T g = jet.g - error;
+  if (!(g > T(0.0))) return false;
+  const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
+  const T q = jet.g2 - high * back / T(3.0), end = g + back * (q * back / T(2.0) - jet.g1);
+  // a parabola that opens downwards has its least value at an end; another may dip in between
+  return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
+}
+
+// An interval [low, high] about the present time on which the gap falls all the way, from above zero to below.
 template <class T>
 struct RootInterval {
   bool certain;
-  T estimate, length;
+  T estimate, low, high;
 };
+
+// The cubic's root near that of the parabola, `t`.
+template <class T>
+T cubic_root(const GapJet<T>& jet, const T& t) {
+  return t - jet.g3 * t * t * t / (T(6.0) * (jet.g1 + t * (jet.g2 + t * jet.g3 / T(2.0))));
+}
 
 template <class T>
 RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& error) {
   using std::max;
-  const RootInterval<T> none{false, T(0.0), T(0.0)};
+  const RootInterval<T> none{false, T(0.0), T(0.0), T(0.0)};
   if (!(jet.g1 < T(0.0))) return none;
   const T high = jet.g + error;
   const T t = high > T(0.0) ? first_root(high, jet.g1, jet.g2, T(-1.0)) : T(0.0);
   if (t < T(0.0)) return none;
   const T d = T(1.25) * t + T(4.0) * error / -jet.g1;
-  const T bound3 = f.third_derivative_bound(jet, d);
-  const T slope = jet.g1 + max(T(0.0), jet.g2 * d + bound3 * d * d / T(2.0));
-  const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + d * bound3 / T(6.0)));
-  return {slope < T(0.0) && end < T(0.0), t, d};
+  const T third = third_derivative_over(f, jet, d).high;
+  const T slope = jet.g1 + max(T(0.0), jet.g2 * d + max(T(0.0), third) * d * d / T(2.0));
+  const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + d * third / T(6.0)));
+  return {slope < T(0.0) && end < T(0.0), clamp(cubic_root(jet, t), T(0.0), d), T(0.0), d};
+}
+
+// The same behind, where the gap is certainly positive at a time `back` before, and certainly negative now.
+template <class T>
+RootInterval<T> certify_root_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& back) {
+  using std::max;
+  using std::sqrt;
+  const RootInterval<T> none{false, T(0.0), T(0.0), T(0.0)};
+  const T discriminant = jet.g1 * jet.g1 - T(2.0) * jet.g2 * jet.g;
+  if (!(jet.g1 < T(0.0)) || !(jet.g + error < T(0.0)) || discriminant < T(0.0)) return none;
+  const T third = max(T(0.0), third_derivative_over(f, jet, back).high);
+  const T slope = jet.g1 + max(T(0.0), third * back * back / T(2.0) - jet.g2 * back);
+  const T t = T(2.0) * jet.g / (sqrt(discriminant) - jet.g1);
+  return {slope < T(0.0), clamp(cubic_root(jet, t), T(-back), T(0.0)), T(-back), T(0.0)};
 }
 
 // angle / 2 pi of the point (x, y), y > 0, within 3e-6: it only isolates.
@@ -112,18 +137,42 @@ inline double rough_turn(double x, double y) {
   return x < 0.0 ? 0.5 - turn : turn;
 }
 
-// Above the crest nothing can happen: how long the tip stays there, less a margin; 0 when that is not worth a step.
+// How long the tip needs from here over its top and down to the crest, less a margin; 0 where that is not worth a step.
 template <class T>
-T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
+T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
   constexpr double kMargin = 1e-5;  // [tau]: three times the error of rough_turn
   constexpr double kWorthwhile = 1e-3;
   const double crest = static_cast<double>(f.mechanics().H - f.mechanics().y0);
   const double Y = static_cast<double>(q.Y), V = static_cast<double>(q.W * f.mechanics().per_omega_v);
-  if (!(Y > crest)) return T(0.0);
   // turn from now to the top plus from the top down to the crest: the angle of a product of two complex numbers
   const double Q = std::sqrt(std::max(0.0, Y * Y + V * V - crest * crest));
-  const double down = rough_turn(Y * crest - V * Q, Y * Q + V * crest) - kMargin;
+  const double sine = Y * Q + V * crest;
+  if (!(sine > 0.0)) return T(0.0);
+  const double down = rough_turn(Y * crest - V * Q, sine) - kMargin;
   return T(down > kWorthwhile ? down : 0.0);
+}
+
+// Above the crest nothing can happen: how long the tip stays there.
+template <class T>
+T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
+  return q.Y > f.mechanics().H - f.mechanics().y0 ? time_to_crest(f, q) : T(0.0);
+}
+
+// The same from the surface, where the tip certainly is above the crest at a time `s` up to which it certainly has left the surface.
+template <class T>
+T time_aloft(const Flight<T>& f, const T& s) {
+  const Mechanics<T>& m = f.mechanics();
+  const FlightState<T>& q = f.start().state;
+  const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * f.amplitude_Y() / T(2.0)));
+  return least > m.H - m.y0 ? time_to_crest(f, q) : T(0.0);
+}
+
+// The step to the root near by, correct to the third order: the series of the inverse function.
+template <class T>
+T root_step(const GapJet<T>& jet) {
+  const T per = T(1.0) / jet.g1;
+  const T r = jet.g * per, a2 = jet.g2 * per / T(2.0), a3 = jet.g3 * per / T(6.0);
+  return -r * (T(1.0) + r * (a2 + r * (T(2.0) * a2 * a2 - a3)));
 }
 
 // The jet a tiny step further on.
@@ -135,7 +184,7 @@ GapJet<T> drift(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   const T A = -m.omega_h * m.omega_h * q.X, B = -m.omega_v * m.omega_v * q.Y;
   FlightState<T> moved{q.phase + t * (f.eta() + q.U + half * A), q.X + t * (q.U + half * A), q.U + t * A,
                        q.Y + t * (q.W + half * B), q.W + t * B};
-  return {jet.g + t * (jet.g1 + half * jet.g2), jet.g1 + t * jet.g2, jet.g2, moved};
+  return {jet.g + t * (jet.g1 + half * jet.g2), jet.g1 + t * jet.g2, jet.g2, jet.g3, moved, jet.h, jet.h1};
 }
 
 }  // namespace afm

@@ -39,7 +39,8 @@ namespace turns_detail {
 
 // (2 pi)^n / n! with alternating signs: at an eighth turn the first term left out is below 1e-18
 constexpr double kTwoPiHigh = 6.283185307179586, kTwoPiLow = 2.4492935982947064e-16;
-constexpr double kS3 = -41.34170224039976, kS5 = 81.60524927607506, kS7 = -76.70585975306139;
+constexpr double kS3 = -41.34170224039976, kS3Low = 1.8132498260631558e-15;  // and its rounding
+constexpr double kS5 = 81.60524927607506, kS7 = -76.70585975306139;
 constexpr double kS9 = 42.058693944897655, kS11 = -15.09464257682299, kS13 = 3.819952584848282;
 constexpr double kS15 = -0.7181223017785006, kS17 = 0.10422916220813984;
 constexpr double kC2 = -19.739208802178716, kC2Low = -1.2530591017506564e-15;  // and its rounding
@@ -50,7 +51,7 @@ constexpr double kC14 = -1.714390711088672, kC16 = 0.28200596845579123;
 // (sin(2 pi x) - 2 pi x) / x^3 and (cos(2 pi x) - 1) / x^2, z = x^2, paired to shorten the chain of dependencies
 inline double sine_tail(double z) {
   const double z2 = z * z, z4 = z2 * z2;
-  const double low = std::fma(std::fma(z, kS9, kS7), z2, std::fma(z, kS5, kS3));
+  const double low = std::fma(std::fma(z, kS9, kS7), z2, kS3 + std::fma(z, kS5, kS3Low));
   const double high = std::fma(std::fma(z, kS17, kS15), z2, std::fma(z, kS13, kS11));
   return std::fma(high, z4, low);
 }
@@ -60,7 +61,7 @@ inline double cosine_rest(double z) {  // the same less kC2, over z
   const double high = std::fma(kC16, z2, std::fma(z, kC14, kC12));
   return std::fma(std::fma(high, z, kC10), z2 * z, low);
 }
-inline double cosine_tail(double z) { return std::fma(z, cosine_rest(z), kC2); }
+inline double cosine_tail(double z) { return kC2 + std::fma(z, cosine_rest(z), kC2Low); }
 // 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from nothing
 inline double cosine(double x, double z) {
   const double z_low = std::fma(x, x, -z);
@@ -97,6 +98,19 @@ inline SinCos<double> sin_cos_turns(double x) {
 inline SmallTurn<double> small_turn(double x) {
   const double z = x * x;
   return {turns_detail::sine(x, z), x * z * turns_detail::sine_tail(z), -z * turns_detail::cosine_tail(z)};
+}
+
+// The same in fewer terms. Precondition: |x| <= 2^-10.
+inline SmallTurn<double> tiny_turn(double x) {
+  using namespace turns_detail;
+  const double z = x * x;
+  const double sine_tail = std::fma(z, std::fma(z, kS7, kS5), kS3);
+  const double cosine_tail = std::fma(z, std::fma(z, kC6, kC4), kC2);
+  return {std::fma(x, kTwoPiHigh, x * std::fma(z, sine_tail, kTwoPiLow)), x * z * sine_tail, -z * cosine_tail};
+}
+template <class T>
+SmallTurn<T> tiny_turn(const T& x) {
+  return small_turn(x);
 }
 
 }  // namespace afm

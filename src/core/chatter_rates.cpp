@@ -86,7 +86,7 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
 ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
   const SurfaceJet<double> h = surface_jet(H_, q.phase);
-  const double a = -bounce.start().g2, a1 = -higher_derivatives(bounce).g3, N2 = 1.0 + free_ * square(h.h1);
+  const double a = -bounce.start().g2, a1 = -bounce.start().g3, N2 = 1.0 + free_ * square(h.h1);
   ChatterSurroundings at{};
   at.P = a / std::sqrt(N2);
   at.per_P = 1.0 / at.P;

@@ -13,8 +13,9 @@ AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, do
 Landing<double> rounded(const Landing<DoubleDouble>& landing) {
   const auto d = [](const DoubleDouble& x) { return static_cast<double>(x); };
   const FlightState<DoubleDouble>& q = landing.jet.state;
-  const GapJet<double> jet{
-      d(landing.jet.g), d(landing.jet.g1), d(landing.jet.g2), {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)}};
+  const GapJet<DoubleDouble>& j = landing.jet;
+  const GapJet<double> jet{d(j.g), d(j.g1), d(j.g2), d(j.g3), {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)}, d(j.h),
+                           d(j.h1)};
   return {landing.outcome, d(landing.s), jet, landing.evaluations};
 }
 
