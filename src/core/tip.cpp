@@ -274,7 +274,7 @@ Outcome Tip::advance_arc(const ModelTime& limit) {
     now_ = now_ < limit ? limit : now_;
     return Outcome::time_limit;
   }
-  now_ = end;
+  now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
   switch (mode_) {
     case Mode::bursting:
       return end_burst();

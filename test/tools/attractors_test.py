@@ -24,8 +24,10 @@ class Table(unittest.TestCase):
         self.assertGreaterEqual(len(rows), 2)
         self.assertAlmostEqual(sum(float(row['basin']) for row in rows), 1.0, delta=1e-12)
         self.assertIn('period-1', [row['attractor'] for row in rows])
-        frictions = [float(row['k_f']) for row in rows]
-        self.assertGreater(max(frictions) - min(frictions), 0.01)
+        exponents = [float(row['lyapunov_1']) for row in rows]
+        self.assertLess(min(exponents), -0.01)
+        self.assertGreater(max(exponents), 0.01)
+        self.assertGreater(len({row['k_f'] for row in rows}), 1)
 
     def test_the_closed_form_at_eta_2(self):
         _, rows, _ = run('--eta', '2', '--starts', '20', '--friction-duration', '200')
