@@ -139,7 +139,9 @@ def draw_friction(axes, run):
     axes.plot(times, window, lw=0.7, c='0.6', label='sliding window')
     axes.plot(times, mean, lw=1.2, c='C0', label='since the last command')
     axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color='C0')
-    axes.set_yscale('log')
+    positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
+    if len(positive) and positive.max() > 10 * positive.min():
+        axes.set_yscale('log')
     axes.set_ylabel('$K_f$ [m/$\\tau$]')
     put_legend(axes)
 

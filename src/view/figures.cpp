@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "view/scenery.h"
@@ -10,7 +11,9 @@ std::string friction_text(const afm_emulator::Friction& friction, const Units& u
   if (std::isnan(friction.k_f)) return "K_f: none at rest";
   const double error = friction.k_f_std_error / units.friction();
   if (std::isnan(error)) return text("K_f %.4f m/tau", friction.k_f_tau_per_m);
-  return text("K_f %.4f +- %.4f m/tau", friction.k_f_tau_per_m, error);
+  // two digits of the error
+  const int decimals = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(error)), 2.0, 6.0));
+  return text("K_f %.*f +- %.*f m/tau", decimals, friction.k_f_tau_per_m, decimals, error);
 }
 
 std::string speed_text(const Heard& heard, const Strobe& strobe) {
@@ -31,7 +34,7 @@ void draw_figures(Canvas& canvas, const Heard& heard, const Strobe& strobe) {
   canvas.add_text("drag", text("drag %.3f um/s", eta * heard.units().velocity() * 1e6), point(-2.4, 0.0, row), height);
   canvas.add_text("eta", text("eta %.3f", eta), point(-0.5, 0.0, row), height);
   const auto& friction = heard.friction();
-  canvas.add_text("friction", friction ? friction_text(*friction, heard.units()) : "", point(1.8, 0.0, row), height);
+  canvas.add_text("friction", friction ? friction_text(*friction, heard.units()) : "", point(1.75, 0.0, row), height);
   const ModelTime& now = strobe.moment();
   canvas.add_text("time", text("%lld tau; %s", static_cast<long long>(now.tau), speed_text(heard, strobe).c_str()),
                   point(0.0, 0.0, row - 0.35), 0.16);

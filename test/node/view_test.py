@@ -2,6 +2,7 @@
 """The view draws what the emulator tells: tip, path and impacts over the surface where they were, at any speed."""
 import math
 import os
+import re
 from pathlib import Path
 
 import rospy
@@ -10,7 +11,7 @@ from afm_emulator.srv import Step
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, Process, run
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, NodeTest, Process, run
 from pictures import CELLS, CONTACT_RED, Picture, Told, View, luminance, open_rviz, surface
 from topics import TOPICS, Topic, tau_between, wait_until
 
@@ -111,6 +112,14 @@ class ViewTest(NodeTest):
         self.assertEqual(by_energy, sorted(light))
         self.assertGreater(len(set(light)), 1)
 
+    def shows_friction(self):
+        """K_f and its error as they were told last, to the decimals shown."""
+        friction = self.topics['friction'].messages[-1]
+        shown = re.match(r'K_f ([\d.]+) \+- ([\d.]+) m/tau$', Picture(self.view.markers.messages[-1]).text('friction'))
+        return shown and all(
+            float(number) > 0.0 and abs(float(number) - right) < 0.51 * 10.0 ** -len(number.split('.')[1])
+            for number, right in zip(shown.groups(), (friction.k_f_tau_per_m, friction.k_f_std_error / FRICTION_UNIT)))
+
     def assert_shows_all(self):
         picture, told, time = self.picture_of_now()
         middle = told.middle(time)
@@ -132,10 +141,9 @@ class ViewTest(NodeTest):
         path = picture.places('path')
         for place in picture.places('impacts'):
             self.assertLess(min(math.dist(place, corner) for corner in path), EXACT)
-        friction = self.topics['friction'].messages[-1]
         self.assertEqual(picture.text('drag'), 'drag 11.255 um/s')
         self.assertEqual(picture.text('eta'), 'eta 3.400')
-        self.assertIn('K_f %.4f' % friction.k_f_tau_per_m, picture.text('friction'))
+        wait_until(self.shows_friction, 'K_f as told')
 
     def test_finds_its_place_when_it_comes_late(self):
         self.begin(SLOW, view_first=False)
