@@ -38,14 +38,22 @@ T descent(const Flight<T>& f, const T& reach) {
   return min(T(kAhead) * reach, T(0.5) * m.H / (m.omega_v * f.amplitude_Y()));
 }
 
+// The root of g1 + g2 t/2 + g3 t^2/6, near that of the first two.
+template <class T>
+T end_of_bounce(const GapJet<T>& start) {
+  const T t = T(-2.0) * start.g1 / start.g2;
+  return t - start.g3 * t * t / (T(3.0) * start.g2 + T(2.0) * start.g3 * t);
+}
+
 // Leaves the surface: certified up to s; where to look next, and how far a step may reach.
 template <class T>
 void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
+  using std::max;
   const T first = leave_surface(f), aloft = time_aloft(f, first);
   s = aloft > first ? aloft : first;
   // where the parabola's own root was nearest, it is the impact
   const bool bounces = f.start().g2 * first < T(-1.6) * f.start().g1;
-  ahead = aloft > first ? descent(f, first) : bounces ? T(0.0) : T(kAhead) * first;
+  ahead = aloft > first ? descent(f, first) : bounces ? max(T(0.0), T(end_of_bounce(f.start()) - first)) : T(kAhead) * first;
   guess = T(2.0) * first;
 }
 
@@ -66,10 +74,13 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
   const T near_enough = sqrt(epsilon<T>()) / T(16.0);
   constexpr int kMaxFinish = 60;
   T t = T(0.0), step = root.estimate;
-  for (int i = 0; i < kMaxFinish; ++i) {
-    jet = f.gap_near(jet, s + t, step);
-    t = t + step;
-    ++evaluations;
+  bool there = settles(f, jet, step, s);
+  for (int i = 0; i < kMaxFinish; ++i, there = false) {
+    if (!there) {
+      jet = f.gap_near(jet, s + t, step);
+      t = t + step;
+      ++evaluations;
+    }
     step = root_step(jet);
     if (t + step < root.low || root.high < t + step) step = clamp(t + step, root.low, root.high) - t;
     // well below an ulp of the velocities: what is left out there always adds energy

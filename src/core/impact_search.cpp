@@ -22,13 +22,14 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
 }  // namespace
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
-  const Landing<double> landing = find_in_double(flight, horizon);
-  if (landing.outcome != SearchOutcome::undecided) return landing;
-  const Mechanics<DoubleDouble> mechanics(model);
-  const Flight<DoubleDouble> finer(mechanics, DoubleDouble(flight.eta()), flight.launch());
-  Landing<double> decided = rounded(find_impact(finer, DoubleDouble(horizon)));
-  if (decided.outcome == SearchOutcome::undecided) decided.outcome = SearchOutcome::impact;
-  return decided;
+  Landing<double> landing = find_in_double(flight, horizon);
+  if (landing.outcome == SearchOutcome::undecided) {
+    const Mechanics<DoubleDouble> mechanics(model);
+    const Flight<DoubleDouble> finer(mechanics, DoubleDouble(flight.eta()), flight.launch());
+    landing = rounded(find_impact(finer, DoubleDouble(horizon)));
+    if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
+  }
+  return landing;
 }
 
 }  // namespace afm
