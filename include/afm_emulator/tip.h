@@ -35,7 +35,8 @@ class Tip {
   Outcome advance_arc(const ModelTime& limit);
   ModelTime arc_end();  // up to here, exclusive, deflection() holds
 
-  // A new drag velocity from now() on: the flight under way is split here, and only here.
+  // A new drag velocity from now() on: the flight, burst or slide under way is split here, and only here. The present one again
+  // changes no bit.
   void drag(double eta);
 
   ModelTime now() const { return now_; }

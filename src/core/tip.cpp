@@ -147,6 +147,7 @@ void Tip::leave_or_press() {
 }
 
 void Tip::drag(double eta) {
+  if (eta == eta_) return;
   if (model_.kind == ModelKind::hammer && on_guide()) return jolt(eta);
   const TipState state = tip_state();
   SlideState<double> guide{state.phase, state.X, state.u};
@@ -165,7 +166,6 @@ void Tip::drag(double eta) {
 
 // A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at once.
 void Tip::jolt(double eta) {
-  if (eta == eta_) return;
   const double s = now_ - start_;
   if (mode_ == Mode::sliding) {
     slide_end_ = s;

@@ -131,7 +131,7 @@ TEST(Tip, TheSameDragAgainOnlySplitsTheFlight) {
     Tip whole = tip_at(eta), split = tip_at(eta);
     ASSERT_EQ(whole.advance(kNever), Outcome::impact);
     split.advance(ModelTime{} + 0.5 * (whole.now() - ModelTime{}));
-    split.drag(eta);
+    split.drag(std::nextafter(eta, 0.0));
     ASSERT_EQ(split.advance(kNever), Outcome::impact);
     EXPECT_NEAR(split.now() - whole.now(), 0.0, 1e-14) << eta;
     EXPECT_NEAR(split.last_impact().normal_speed, whole.last_impact().normal_speed, 1e-12 * eta);
