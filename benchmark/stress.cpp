@@ -12,7 +12,7 @@ struct Options {
   std::uint64_t seed = 1, scenes = 0;
   std::int64_t tau = 1000;
   double seconds = 20.0, tolerance = afm::kDefaultContactTolerance;
-  bool go_on = false;
+  bool go_on = false, mica = false;
 };
 
 void add(afm::StressCount& sum, const afm::StressCount& c) {
@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", o.seconds, "no new scene after this time");
   app.add_option("--tolerance", o.tolerance, "contact tolerance");
   app.add_flag("--go-on", o.go_on, "report violations and go on with the next scene");
+  app.add_flag("--mica", o.mica, "the paper's model at cutoffs of 0.001 to 0.1, dragged at up to 9 a/tau either way");
   CLI11_PARSE(app, argc, argv);
   const auto start = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
@@ -58,7 +59,7 @@ int main(int argc, char** argv) {
   std::uint64_t scenes = 0, violations = 0;
   double progress = 0.0;
   for (; (o.scenes == 0 || scenes < o.scenes) && passed() < o.seconds; ++scenes) {
-    afm::StressScene scene(o.seed + scenes, o.tolerance);
+    afm::StressScene scene(o.seed + scenes, o.tolerance, o.mica);
     const bool kept = scene.run(o.tau);
     add(sum, scene.count());
     if (!kept) {

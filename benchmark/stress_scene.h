@@ -19,7 +19,8 @@ struct StressCount {
 
 class StressScene {
  public:
-  StressScene(std::uint64_t seed, double contact_tolerance);
+  // mica: the paper's model at any usual cutoff, dragged at up to 9 a/tau; otherwise any model at any drag speed.
+  StressScene(std::uint64_t seed, double contact_tolerance, bool mica);
 
   // Runs for `tau`; false at the first violation.
   bool run(std::int64_t tau);
@@ -43,6 +44,7 @@ class StressScene {
   void enter(Outcome outcome);
 
   std::uint64_t seed_;
+  bool mica_;
   std::mt19937_64 random_;
   Model model_;
   double eta_;
