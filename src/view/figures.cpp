@@ -31,8 +31,8 @@ std::string speed_text(const Heard& heard, const Strobe& strobe) {
 void draw_figures(Canvas& canvas, const Heard& heard, const Strobe& strobe) {
   const double row = -0.72, height = 0.24;
   const double eta = heard.holder().eta(strobe.moment());
-  canvas.add_text("drag", text("drag %.3f um/s", eta * heard.units().velocity() * 1e6), point(-2.4, 0.0, row), height);
-  canvas.add_text("eta", text("eta %.3f", eta), point(-0.5, 0.0, row), height);
+  canvas.add_text("drag", text("drag %.3f um/s", eta * heard.units().velocity() * 1e6), point(-2.45, 0.0, row), height);
+  canvas.add_text("eta", text("eta %.3f", eta), point(-0.78, 0.0, row), height);
   const auto& friction = heard.friction();
   canvas.add_text("friction", friction ? friction_text(*friction, heard.units()) : "", point(1.75, 0.0, row), height);
   const ModelTime& now = strobe.moment();
