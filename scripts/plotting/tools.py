@@ -44,6 +44,7 @@ class Tables:
 
     def side_table(self, name):
         """Where a tool writes a second table."""
+        self.made.add(name)
         return self.directory / (name + ".csv")
 
     @staticmethod

@@ -53,6 +53,18 @@ std::vector<std::string> missing(const Counts& shorter, const Counts& longer, st
   return words;
 }
 
+// Sum of squared deviations from the mean, carried along (Welford).
+struct Moments {
+  double count = 0.0, mean = 0.0, squares = 0.0;
+
+  void add(double x) {
+    count += 1.0;
+    const double step = x - mean;
+    mean += step / count;
+    squares += step * (x - mean);
+  }
+};
+
 // Phases at which bands begin: after each gap of the circle that is wide enough.
 std::vector<double> band_begins(const std::vector<TipState>& points, double gap) {
   std::vector<double> phases, begins;
@@ -72,13 +84,12 @@ std::size_t band(const std::vector<double>& begins, double phase) {
   return after == begins.begin() ? begins.size() - 1 : static_cast<std::size_t>(after - begins.begin()) - 1;
 }
 
-double told(const Partition& partition, const std::vector<TipState>& points) {
-  constexpr std::size_t kLetters = 5;
-  const std::string letters = word_of(partition, points);
-  return entropy(count(letters, kLetters)) - entropy(count(letters, kLetters - 1));
+double left_unsaid(const Partition& partition, const std::vector<TipState>& points) {
+  constexpr int kLetters = 10;
+  return word_spread(word_of(partition, points), points, kLetters).mean;
 }
 
-// The cut of one band that tells the most, the others as they are.
+// The cut of one band that leaves least unsaid, the others as they are.
 void improve(Partition& partition, std::size_t k, const std::vector<TipState>& points) {
   constexpr std::size_t kTrials = 50;
   std::vector<double> rates;
@@ -86,11 +97,11 @@ void improve(Partition& partition, std::size_t k, const std::vector<TipState>& p
     if (band(partition.begins, p.phase) == k) rates.push_back(p.g1);
   }
   std::sort(rates.begin(), rates.end());
-  double best = -1.0, best_cut = partition.cuts[k];
+  double best = INFINITY, best_cut = partition.cuts[k];
   for (std::size_t i = 1; i < kTrials; ++i) {
     partition.cuts[k] = rates.front() + (rates.back() - rates.front()) * static_cast<double>(i) / kTrials;
-    const double value = told(partition, points);
-    if (value > best) best = value, best_cut = partition.cuts[k];
+    const double value = left_unsaid(partition, points);
+    if (value < best) best = value, best_cut = partition.cuts[k];
   }
   partition.cuts[k] = best_cut;
 }
@@ -158,6 +169,23 @@ std::string cyclic_word(const Partition& partition, const std::vector<TipState>&
     first = std::min(first, word);
   }
   return first;
+}
+
+WordSpread word_spread(const std::string& letters, const std::vector<TipState>& points, int length) {
+  const auto n = static_cast<std::size_t>(length);
+  std::map<std::string_view, Moments> words;
+  Moments all;
+  for (std::size_t i = 0; i + n <= letters.size(); ++i) {
+    const double rate = points[i + n / 2].g1;
+    words[std::string_view(letters).substr(i, n)].add(rate);
+    all.add(rate);
+  }
+  double within = 0.0, largest = 0.0;
+  for (const auto& word : words) {
+    within += word.second.squares;
+    largest = std::max(largest, word.second.squares / word.second.count);
+  }
+  return {std::sqrt(within / all.squares), std::sqrt(largest * all.count / all.squares)};
 }
 
 std::vector<WordCount> count_words(const std::string& letters, std::size_t alphabet, int longest) {

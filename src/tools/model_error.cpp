@@ -20,7 +20,7 @@ namespace {
 const char kDescription[] =
     "Compares a level of the model (--model, --contact-tolerance) with the oscillator at --reference-tolerance (0: every\n"
     "bounce), on the same starts (units a, tau, tip mass). --eta, --gamma, --cutoff and --frequency-ratio may be ranges\n"
-    "FROM:TO:STEP. A row for each start: K_f of both with standard errors and kinds of attractor; k_f_error, relative;\n"
+    "FROM:TO:STEP and lists A,B. A row for each start: K_f of both with standard errors and kinds of attractor; k_f_error, relative;\n"
     "deflection_error, the mean distance of equal quantiles of the vertical deflection, beside that of two halves of one\n"
     "run (deflection_noise) and its rms; tracking_error, the rms difference over one tau from the same height and vertical\n"
     "velocity; rms and largest stretch of the reference's horizontal spring; and the time of this thread for a tau of each\n"
@@ -68,12 +68,17 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::Range(1000, 1000000000));
 }
 
+// Numbers and ranges with commas between.
 std::vector<double> range(const std::string& name, const std::string& text) {
-  try {
-    return afm::parse_range(text);
-  } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument(name + " = " + text + ": " + fault.what());
+  std::vector<double> values;
+  for (const std::string& part : afm::split_fields(text)) {
+    try {
+      for (const double value : afm::parse_range(part)) values.push_back(value);
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument(name + " = " + text + ": " + fault.what());
+    }
   }
+  return values;
 }
 
 struct Point {

@@ -19,7 +19,8 @@ const char kDescription[] =
     "Cuts the section of the hammer's attractor (surface phase, gap rate after an impact; units a, tau, tip mass) into\n"
     "bands and each band in two, and counts words of the letters. Rows: length; words that occur; the shortest words that\n"
     "do not, though all their parts do (pruning); the entropy of a letter given those before it, to be compared with the\n"
-    "exponent of an impact: a partition that tells everything reaches it, none can go beyond. With --orbits the periodic\n"
+    "exponent of an impact: a partition that tells everything reaches it, none can go beyond; and the spread of the gap rate at the middle of a\n"
+    "word, over that of all, in the mean and of the word that says least. With --orbits the periodic\n"
     "orbits up to --max-length follow by their words; with --section the points and where the map takes them.";
 
 struct Options {
@@ -118,13 +119,15 @@ int run(const Options& o) {
   const afm::SymbolicRun run = run_on_section(map, static_cast<std::size_t>(o.impacts), o.search.seed);
   if (!run.on_section) throw std::runtime_error("the hammer has ended in contact: there is no section");
   const afm::Partition partition = find_partition(run.points, o.gap);
-  const auto counts = afm::count_words(word_of(partition, run.points), partition.letters(), o.longest);
+  const std::string letters = word_of(partition, run.points);
+  const auto counts = afm::count_words(letters, partition.letters(), o.longest);
   report(partition, run);
-  std::cout << "length,words,forbidden,entropy,exponent,exponent_std_error\n";
+  std::cout << "length,words,forbidden,entropy,exponent,exponent_std_error,spread,largest_spread\n";
   for (const afm::WordCount& row : counts) {
+    const afm::WordSpread spread = afm::word_spread(letters, run.points, row.length);
     std::cout << afm::join_numbers({static_cast<double>(row.length), static_cast<double>(row.words),
                                     static_cast<double>(row.forbidden.size()), row.entropy, run.exponent,
-                                    run.exponent_std_error})
+                                    run.exponent_std_error, spread.mean, spread.largest})
               << "\n";
   }
   if (!o.section.empty()) write_section(o, partition, run.points);

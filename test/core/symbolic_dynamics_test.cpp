@@ -48,16 +48,18 @@ TEST(Words, OfAnOrbitDoNotDependOnWhereItBegins) {
   EXPECT_EQ(cyclic_word(partition, {b, a, d}), "adb");
 }
 
-// A partition tells no more than the map makes, and a good one nearly all of it: entropy = exponent (Pesin).
+// A partition tells no more than the map makes, and a good one nearly all of it (Pesin: entropy = exponent).
 TEST(SymbolicDynamics, AtEta3_2TheWordsTellTheWholeMotion) {
   const SymbolicRun run = run_on_section(hammer_map(3.2), 300000, 1);
   ASSERT_TRUE(run.on_section);
   const Partition partition = find_partition(run.points);
   ASSERT_EQ(partition.letters(), 4u);
-  const std::vector<WordCount> counts = count_words(word_of(partition, run.points), 4, 11);
+  const std::vector<WordCount> counts = count_words(word_of(partition, run.points), 4, 12);
   for (std::size_t i = 1; i < counts.size(); ++i) EXPECT_LT(counts[i].entropy, counts[i - 1].entropy);
   EXPECT_GT(counts.back().entropy, run.exponent - 4.0 * run.exponent_std_error);
   EXPECT_LT(counts.back().entropy, 1.1 * run.exponent);
+  const std::string letters = word_of(partition, run.points);
+  EXPECT_LT(word_spread(letters, run.points, 10).mean, 0.6 * word_spread(letters, run.points, 6).mean);
 }
 
 TEST(SymbolicDynamics, AtEta3_2OrbitsHaveNamesAndGiveTheFriction) {
