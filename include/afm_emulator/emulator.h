@@ -7,6 +7,7 @@
 
 #include "afm_emulator/friction.h"
 #include "afm_emulator/model.h"
+#include "afm_emulator/sample_grid.h"
 #include "afm_emulator/state.h"
 #include "afm_emulator/tip.h"
 
@@ -25,6 +26,15 @@ struct EmulatorSettings {
 
 // Every fault, named as in EmulatorSettings; natural units.
 std::vector<ParameterError> find_faults(const EmulatorSettings& settings);
+
+// The settings that may change while running.
+struct LiveSettings {
+  double gamma, v_c, y0;  // of the model
+  double sample_period;   // [tau]
+  std::uint64_t samples_per_batch;
+  double friction_window;  // [tau]
+};
+LiveSettings live_settings(const EmulatorSettings& settings);
 
 // What one advance produced: the samples and impacts of [begin, end).
 struct Batch {
@@ -51,7 +61,11 @@ class Emulator {
   explicit Emulator(const EmulatorSettings& settings);  // throws the first ParameterError
 
   void drag(double eta);  // from now() on. Precondition: finite and |eta| <= kMaxEta
-  void reset();           // initial state and drag velocity, model time 0, indices and counters 0
+  // From now() on, the tip's state kept; what stays the same goes on as if nothing had been said. A new model begins the
+  // friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
+  // Precondition: settings() with these have no faults.
+  void change(const LiveSettings& live);
+  void reset();  // initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now
 
   // Each clears the batch, keeps its capacity and fills it. Never allocates while the batch has room for
   // samples_per_batch samples and impact_budget impacts (see reserve).
@@ -64,6 +78,8 @@ class Emulator {
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   FreeState state() const { return tip_.state(); }  // at now()
+  std::uint64_t samples() const { return next_sample_; }  // so far
+  const SampleGrid& grid() const { return grid_; }        // on which they are taken at present
   const Counters& counters() const { return counters_; }
   const EmulatorSettings& settings() const { return settings_; }
 
@@ -79,6 +95,7 @@ class Emulator {
   Tip tip_;
   Friction friction_;
   ModelTime now_;
+  SampleGrid grid_;
   std::uint64_t next_sample_ = 0;
   std::uint64_t impact_index_ = 0;
   Counters counters_;

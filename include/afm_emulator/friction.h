@@ -62,12 +62,13 @@ class Friction {
 
   // a new drag velocity: everything starts again at `now`
   void restart(const ModelTime& now, double eta);
+  void set_window(const ModelTime& now, double window_tau);  // the window alone starts again at `now`
   void add(const Impact& impact);
   FrictionEstimate estimate(const ModelTime& now);
 
  private:
   double window_tau_;
-  ModelTime start_;
+  ModelTime start_, window_start_;
   double eta_ = 0.0;
   double energy_ = 0.0, energy_rest_ = 0.0;  // compensated sum
   std::uint64_t impact_count_ = 0;

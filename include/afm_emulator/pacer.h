@@ -16,6 +16,7 @@ class Pacer {
   Duration deadline() const;      // when the next batch is due: absolute, so that lateness never adds up
   void batch_done(Duration now);  // the batch due at deadline() is complete
   void resume(Duration now);      // after a pause: the time in between was not owed
+  void set_period(Duration period);  // of the batches after the next one, which stays due when it is
 
   double lag() const { return lag_; }              // [s] of the last batch behind the end of its period
   double worst_lag() const { return worst_lag_; }  // [s]
@@ -31,7 +32,7 @@ class Pacer {
   double lag_ = 0.0, worst_lag_ = 0.0;
   // real-time factor: a reference point that moves up about once a second
   Duration mark_time_, last_time_;
-  std::uint64_t mark_batches_ = 0;
+  Duration emulated_{0};  // since the reference point
   double factor_ = 1.0;
 };
 

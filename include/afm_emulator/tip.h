@@ -39,6 +39,11 @@ class Tip {
   // changes no bit.
   void drag(double eta);
 
+  // Another restitution, cutoff or height of the harmonic centre from now() on: where the tip is and how fast stays. Lifting the
+  // centre works on the spring; a burst ends with the bounce it is at; contact goes on if the surface still presses.
+  // Precondition: a model without faults that differs in gamma, v_c and y0 at most.
+  void retune(const Model& model);
+
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   bool in_contact() const { return mode_ == Mode::sliding; }
@@ -55,6 +60,7 @@ class Tip {
 
   TipState held(const TipState& state) const;
   void jolt(double eta);
+  void adopt(const Model& model);
   void fly(const TipState& start);
   void slide(const SlideState<double>& start);
   void burst(const SlideState<double>& guide, const Chatter& chatter);
@@ -72,6 +78,7 @@ class Tip {
   Model model_;
   Mechanics<double> mechanics_;
   double eta_;
+  double slowest_chatter_;  // [a/tau] below it, contact
   ChatterLaw law_;
   double burst_gap_rate_;  // slower chatter moves the tip along the surface by less than the tolerance
   Flight<double> flight_;

@@ -50,7 +50,8 @@ Emulator::Emulator(const EmulatorSettings& settings)
     : settings_(checked(settings)),
       eta_(settings.eta),
       tip_(settings.model, settings.eta, settings.initial, settings.contact_tolerance),
-      friction_(settings.friction_window) {
+      friction_(settings.friction_window),
+      grid_{settings.sample_period, 0, {}} {
   friction_.restart(now_, eta_);
 }
 
@@ -64,6 +65,26 @@ void Emulator::drag(double eta) {
   friction_.restart(now_, eta);
 }
 
+LiveSettings live_settings(const EmulatorSettings& s) {
+  return {s.model.gamma, s.model.v_c, s.model.y0, s.sample_period, s.samples_per_batch, s.friction_window};
+}
+
+void Emulator::change(const LiveSettings& live) {
+  Model& model = settings_.model;
+  if (live.friction_window != settings_.friction_window) friction_.set_window(now_, live.friction_window);
+  if (live.gamma != model.gamma || live.v_c != model.v_c || live.y0 != model.y0) {
+    model.gamma = live.gamma;
+    model.v_c = live.v_c;
+    model.y0 = live.y0;
+    tip_.retune(model);
+    friction_.restart(now_, eta_);
+  }
+  if (live.sample_period != settings_.sample_period) grid_ = {live.sample_period, next_sample_, now_};
+  settings_.sample_period = live.sample_period;
+  settings_.samples_per_batch = live.samples_per_batch;
+  settings_.friction_window = live.friction_window;
+}
+
 void Emulator::reserve(Batch& batch) const {
   batch.vertical.reserve(settings_.samples_per_batch);
   batch.lateral.reserve(settings_.samples_per_batch);
@@ -73,7 +94,7 @@ void Emulator::reserve(Batch& batch) const {
 ModelTime Emulator::next_boundary() const {
   // a boundary is the time of every samples_per_batch-th sample; the one just reached is behind us
   const std::uint64_t n = settings_.samples_per_batch;
-  return multiply((next_sample_ / n + 1) * n, settings_.sample_period);
+  return grid_.time(grid_.first + ((next_sample_ - grid_.first) / n + 1) * n);
 }
 
 Outcome Emulator::run_batch(Batch& batch) { return run_until(next_boundary(), batch); }
@@ -93,7 +114,7 @@ void Emulator::begin(Batch& batch) const {
   batch.begin = now_;
   batch.eta = eta_;
   batch.first_sample = next_sample_;
-  batch.first_sample_time = multiply(next_sample_, settings_.sample_period);
+  batch.first_sample_time = grid_.time(next_sample_);
   batch.first_impact = impact_index_;
   batch.vertical.clear();
   batch.lateral.clear();
@@ -102,7 +123,7 @@ void Emulator::begin(Batch& batch) const {
 
 void Emulator::sample_until(const ModelTime& time, Batch& batch) {
   for (;; ++next_sample_) {
-    const ModelTime t = multiply(next_sample_, settings_.sample_period);
+    const ModelTime t = grid_.time(next_sample_);
     if (!(t < time)) return;
     const Deflection d = tip_.deflection(t);
     batch.vertical.push_back(d.vertical);

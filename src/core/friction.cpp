@@ -84,7 +84,13 @@ void Friction::restart(const ModelTime& now, double eta) {
   energy_ = energy_rest_ = 0.0;
   impact_count_ = 0;
   bins_ = PowerBins(kFirstBinWidth);
-  window_ = PowerWindow(window_tau_);
+  set_window(now, window_tau_);
+}
+
+void Friction::set_window(const ModelTime& now, double window_tau) {
+  window_tau_ = window_tau;
+  window_start_ = now;
+  window_ = PowerWindow(window_tau);
 }
 
 void Friction::add(const Impact& impact) {
@@ -95,7 +101,7 @@ void Friction::add(const Impact& impact) {
   energy_ = sum;
   impact_count_ += impact.count;
   bins_.add(age, impact.energy_loss);
-  window_.add(age, impact.energy_loss);
+  window_.add(std::max(0.0, impact.time - window_start_), impact.energy_loss);
 }
 
 FrictionEstimate Friction::estimate(const ModelTime& now) {
@@ -112,10 +118,11 @@ FrictionEstimate Friction::estimate(const ModelTime& now) {
   e.force_std_error = std::abs(to_force(error));
   e.K_f = to_K_f(power);
   e.K_f_std_error = to_K_f(error);
-  const double window_power = window_.mean(age);
+  const double window_age = now - window_start_;
+  const double window_power = window_.mean(window_age);
   e.window_force = to_force(window_power);
   e.window_K_f = to_K_f(window_power);
-  e.window_K_f_std_error = to_K_f(window_.std_error(age));
+  e.window_K_f_std_error = to_K_f(window_.std_error(window_age));
   return e;
 }
 

@@ -21,19 +21,26 @@ void Pacer::batch_done(Duration now) {
   if (now > deadline() + period_) ++late_;
   ++due_;
   ++batches_;
+  emulated_ += period_;
   last_time_ = now;
   const double span = seconds(now - mark_time_);
   if (span < kFactorSpan) return;
-  factor_ = static_cast<double>(batches_ - mark_batches_) * seconds(period_) / span;
+  factor_ = seconds(emulated_) / span;
   mark_time_ = now;
-  mark_batches_ = batches_;
+  emulated_ = Duration(0);
 }
 
 void Pacer::resume(Duration now) {
   origin_ = now + period_;
   due_ = 0;
   mark_time_ = last_time_ = now;
-  mark_batches_ = batches_;
+  emulated_ = Duration(0);
+}
+
+void Pacer::set_period(Duration period) {
+  origin_ = deadline();
+  due_ = 0;
+  period_ = period;
 }
 
 double Pacer::real_time_factor() const { return factor_; }

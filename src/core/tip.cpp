@@ -79,7 +79,8 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
     : model_(checked(model)),
       mechanics_(model),
       eta_(eta),
-      law_(model, contact_tolerance / kGrowth),
+      slowest_chatter_(contact_tolerance / kGrowth),
+      law_(model, slowest_chatter_),
       burst_gap_rate_(std::sqrt(kEntry * contact_tolerance)),
       flight_(mechanics_, eta, held(checked(start))),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
@@ -174,6 +175,31 @@ void Tip::jolt(double eta) {
     chatter_run_ = {ChatterEnd::exits, s, law_.at(slide_, s, chatter_)};
   }
   eta_ = eta;
+}
+
+void Tip::adopt(const Model& model) {
+  model_ = model;
+  mechanics_ = Mechanics<double>(model);
+  law_ = ChatterLaw(model, slowest_chatter_);
+}
+
+void Tip::retune(const Model& model) {
+  const TipState state = tip_state();
+  SlideState<double> guide{state.phase, state.X, state.u};
+  if (mode_ == Mode::bursting) {
+    const Chatter chatter = law_.at(slide_, now_ - start_, chatter_);
+    guide = leave_guide(guide, chatter);
+    adopt(model);
+    slide(guide);
+    mode_ = Mode::bursting;
+    chatter_ = {chatter.v, chatter.n};
+    chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
+    return;
+  }
+  adopt(model);
+  if (mode_ == Mode::sliding) return slide(guide);
+  fly(state);
+  if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
 }
 
 TipState Tip::tip_state() const {

@@ -16,7 +16,7 @@ namespace afm::node {
 class BagSeries {
  public:
   struct Topics {
-    BagTopic configuration, applied_drag, recording;
+    BagTopic configuration, applied_drag, applied_parameters, recording;
   };
   struct Settings {
     Topics topics;

@@ -1,6 +1,7 @@
 #include "broadcaster.h"
 
 #include "arithmetic_digest.h"
+#include "diagnosis.h"
 #include "scheduling.h"
 #include "topics.h"
 #include "version.h"
@@ -33,13 +34,16 @@ Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, So
       impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
       friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize),
       applied_drag_(node, sources_.recorder, kAppliedDragTopic, kCommandQueueSize, true),
+      applied_parameters_(node, sources_.recorder, kAppliedParametersTopic, kCommandQueueSize, true),
       status_(node, sources_.recorder, kStatusTopic, kStatusQueueSize),
       configuration_(node, sources_.recorder, kConfigurationTopic, kConfigurationQueueSize, true),
-      digest_(node, sources_.recorder, kDigestTopic, kDigestQueueSize) {
+      digest_(node, sources_.recorder, kDigestTopic, kDigestQueueSize),
+      health_tracker_(parameters.si.lattice_spacing_m, parameters.command_timeout_s, parameters.disk_reserve_mb) {
   diagnostics_.setHardwareID("none");
-  using Wrapper = diagnostic_updater::DiagnosticStatusWrapper;
-  diagnostics_.add("emulation", [this](Wrapper& out) { diagnose_emulation(latest_status_, out); });
-  diagnostics_.add("recording", [this](Wrapper& out) { diagnose_recording(latest_status_, out); });
+  diagnostics_.add("emulation", [this](Diagnosis& out) { diagnose_pace(health_, out); });
+  diagnostics_.add("commands", [this](Diagnosis& out) { diagnose_commands(health_, out); });
+  diagnostics_.add("numerics", [this](Diagnosis& out) { diagnose_numerics(health_, out); });
+  diagnostics_.add("recording", [this](Diagnosis& out) { diagnose_recording(health_, out); });
 }
 
 void Broadcaster::start(const std::string& scheduler) {
@@ -72,12 +76,17 @@ void Broadcaster::run() {
 void Broadcaster::publish(const Event& event, const Batch& batch) {
   const Label label{to_stamp(event.wall_ns), event.state.epoch};
   tracker_->observe(event);
+  set_live(event.live, parameters_);
   switch (event.kind) {
     case Event::Kind::reset:
       begin_epoch(label);
       break;
     case Event::Kind::drag_applied:
       send(to_applied_drag(event.state, event.drag_velocity, label), applied_drag_);
+      break;
+    case Event::Kind::parameters_applied:
+      send(to_applied_parameters(event.state, parameters_, label), applied_parameters_);
+      sources_.applied(event.live);
       break;
     case Event::Kind::batch:
       publish_batch(event, batch, label);
@@ -132,12 +141,19 @@ void Broadcaster::answer_request() {
 
 void Broadcaster::tell_status() {
   if (is_due(status_due_, kStatusPeriod)) {
-    latest_status_ = tracker_->make(sources_.recorder.status(), sources_.refused_commands);
+    latest_status_ = tracker_->make(sources_.recorder.status(), sources_.refusals.commands());
     status_.send(afm_emulator::EmulatorStatus(latest_status_));
   }
   if (is_due(digest_due_, kDigestPeriod)) tell_digest();
   answer_request();
-  if (is_due(diagnostics_due_, kDiagnosticsPeriod)) diagnostics_.force_update();
+  if (is_due(diagnostics_due_, kDiagnosticsPeriod)) tell_diagnostics();
+}
+
+void Broadcaster::tell_diagnostics() {
+  health_ = health_tracker_.look(
+      {latest_status_, tracker_->state(), sources_.recorder.status(), sources_.refusals, sources_.disk.free_bytes()},
+      std::chrono::steady_clock::now());
+  diagnostics_.force_update();
 }
 
 }  // namespace afm::node

@@ -14,10 +14,13 @@
 #include <thread>
 
 #include "channel.h"
+#include "disk_space.h"
 #include "hand_over.h"
+#include "health.h"
 #include "message_conversion.h"
 #include "parameters.h"
 #include "recorder.h"
+#include "refusals.h"
 #include "run_digest.h"
 #include "status.h"
 
@@ -28,8 +31,10 @@ class Broadcaster {
   struct Sources {
     HandOver& hand_over;
     Recorder& recorder;
-    const std::atomic<std::uint64_t>& refused_commands;
+    const Refusals& refusals;
+    const DiskSpace& disk;
     std::function<void(const Answer&)> deliver;  // answers to requests, each after all that it answers for
+    std::function<void(const LiveParameters&)> applied;  // of parameters that have taken effect
   };
 
   Broadcaster(ros::NodeHandle& node, const Parameters& parameters, Sources sources);
@@ -48,10 +53,11 @@ class Broadcaster {
   template <class Message>
   void send(Message&& message, Channel<Message>& channel);
   void tell_status();
+  void tell_diagnostics();
   void tell_digest();
   void answer_request();
 
-  const Parameters parameters_;
+  Parameters parameters_;  // as they are at the event that is told of
   const Units units_;
   const std::string arithmetic_digest_;
   Sources sources_;
@@ -59,12 +65,15 @@ class Broadcaster {
   Channel<afm_emulator::ImpactArray> impacts_;
   Channel<afm_emulator::Friction> friction_;
   Channel<afm_emulator::AppliedDrag> applied_drag_;
+  Channel<afm_emulator::AppliedParameters> applied_parameters_;
   Channel<afm_emulator::EmulatorStatus> status_;
   Channel<afm_emulator::Configuration> configuration_;
   Channel<afm_emulator::Digest> digest_;
   diagnostic_updater::Updater diagnostics_;
   std::unique_ptr<StatusTracker> tracker_;
   afm_emulator::EmulatorStatus latest_status_;
+  HealthTracker health_tracker_;
+  Health health_;
   RunDigest run_digest_;  // of all that is published
   bool digest_told_ = true;
   std::chrono::steady_clock::time_point status_due_, digest_due_, diagnostics_due_;

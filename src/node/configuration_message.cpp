@@ -65,6 +65,22 @@ SiModel si_model(const afm_emulator::Configuration& message) {
   return si;
 }
 
+Parameters to_parameters(const afm_emulator::Configuration& c) {
+  Parameters p;
+  p.si = si_model(c);
+  p.model = c.model;
+  p.drag_velocity = c.drag_velocity;
+  p.max_drag_velocity = c.max_drag_velocity;
+  p.initial = {c.initial_phase, c.initial_extension, c.initial_height, c.initial_u, c.initial_w};
+  p.time_scale = c.time_scale;
+  p.batch_rate_hz = c.batch_rate_hz;
+  p.sample_rate_hz = c.sample_rate_hz;
+  p.friction_window_tau = c.friction_window_tau;
+  p.impact_budget = c.impact_budget;
+  p.contact_tolerance = c.contact_tolerance;
+  return p;
+}
+
 EmulatorSettings emulator_settings(const afm_emulator::Configuration& message) {
   const SiModel si = si_model(message);
   EmulatorSettings settings;

@@ -52,6 +52,13 @@ ControlReply Control::reset() {
   return ask(request, "model time 0, initial state, new epoch");
 }
 
+ControlReply Control::change(const LiveParameters& live) {
+  Request request;
+  request.kind = Request::Kind::change;
+  request.live = live;
+  return ask(request, "changed");
+}
+
 ControlReply Control::step(double tau, std::uint32_t impacts) {
   const std::string fault = find_fault(tau, impacts);
   if (!fault.empty()) return {false, fault, {}};

@@ -25,6 +25,7 @@ class Control {
 
   ControlReply pause(bool paused);
   ControlReply reset();
+  ControlReply change(const LiveParameters& live);
   ControlReply step(double tau, std::uint32_t impacts);  // exactly one of them is not 0
 
   void deliver(const Answer& answer);  // from the publishing thread, in its place among what it publishes

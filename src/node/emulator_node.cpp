@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "topics.h"
@@ -13,24 +14,33 @@ namespace afm::node {
 namespace {
 
 constexpr double kHandOverSeconds = 2.0;              // how far publishing may fall behind before batches are dropped
+constexpr double kHandOverSecondsAtMost = 0.5;        // and at the highest sample rate, if it was raised to that
 constexpr std::size_t kMaxHandOverSamples = 2000000;  // 32 MB, if the batches themselves are not larger
 constexpr std::size_t kMinBatches = 4;
 constexpr std::size_t kMinHandOverImpacts = 200000;  // 11 MB: hundreds of batches of an ordinary run
+constexpr double kDiskLookSeconds = 1.0;
+
+std::size_t batches_in(double seconds, const Parameters& p) {
+  const double seconds_per_batch = std::chrono::duration<double>(batch_period(p)).count();
+  const auto wanted = static_cast<std::size_t>(seconds / seconds_per_batch);
+  return std::max(kMinBatches, std::min(wanted, kMaxHandOverSamples / samples_per_batch(p)));
+}
 
 HandOver::Capacity hand_over_capacity(const Parameters& p) {
-  const std::size_t batch = samples_per_batch(p);
-  const double seconds_per_batch = std::chrono::duration<double>(batch_period(p)).count();
-  const auto wanted = static_cast<std::size_t>(kHandOverSeconds / seconds_per_batch);
-  const std::size_t batches = std::max(kMinBatches, std::min(wanted, kMaxHandOverSamples / batch));
+  Parameters fastest = p;  // the sample rate may rise while running
+  fastest.sample_rate_hz = most_sample_rate(p);
+  const std::size_t samples = std::max(batches_in(kHandOverSeconds, p) * samples_per_batch(p),
+                                       batches_in(kHandOverSecondsAtMost, fastest) * samples_per_batch(fastest));
   // batches that spend their budget come in rows
   const std::size_t impacts = std::max<std::size_t>(kMinHandOverImpacts, 2 * p.impact_budget);
-  return {batches, batches * batch, impacts};
+  return {std::max(batches_in(kHandOverSeconds, p), batches_in(kHandOverSeconds, fastest)), samples, impacts};
 }
 
 Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Parameters& p) {
   const BagSeries::Topics topics{
       make_bag_topic<afm_emulator::Configuration>(node.resolveName(kConfigurationTopic), true),
       make_bag_topic<afm_emulator::AppliedDrag>(node.resolveName(kAppliedDragTopic), true),
+      make_bag_topic<afm_emulator::AppliedParameters>(node.resolveName(kAppliedParametersTopic), true),
       make_bag_topic<afm_emulator::Recording>(node.resolveName(kRecordingTopic), false)};
   const auto bytes = [](double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); };
   BagSeries::Settings settings{topics, bytes(p.disk_reserve_mb), bytes(p.split_size_mb), p.split_duration_s,
@@ -42,6 +52,7 @@ Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Paramete
 
 EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     : parameters_(parameters),
+      disk_(parameters.bag_directory),
       recorder_(recorder_settings(node, parameters)),
       hand_over_(hand_over_capacity(parameters)),
       stepper_(parameters, hand_over_),
@@ -50,9 +61,12 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     const Recorder::Reply reply = recorder_.start("");
     if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
   }
+  disk_.measure();
+  reconfigure_.emplace(node, parameters, refusals_, [this](const LiveParameters& live) { return control_.change(live); });
   broadcaster_.emplace(node, parameters,
-                       Broadcaster::Sources{hand_over_, recorder_, refused_commands_,
-                                            [this](const Answer& answer) { control_.deliver(answer); }});
+                       Broadcaster::Sources{hand_over_, recorder_, refusals_, disk_,
+                                            [this](const Answer& answer) { control_.deliver(answer); },
+                                            [this](const LiveParameters& live) { reconfigure_->applied(live); }});
   stepper_.start();
   broadcaster_->start(stepper_.scheduler());
   accept_commands(node);
@@ -64,6 +78,8 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
 EmulatorNode::~EmulatorNode() {
   control_.close();  // services that wait for an answer return, and can then be shut down
   drag_velocity_.shutdown();
+  disk_look_.stop();
+  reconfigure_->shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
   stepper_.stop();
   if (broadcaster_) broadcaster_->stop();
@@ -72,6 +88,7 @@ EmulatorNode::~EmulatorNode() {
 void EmulatorNode::accept_commands(ros::NodeHandle& node) {
   drag_velocity_ = node.subscribe(kDragVelocityTopic, kCommandQueueSize, &EmulatorNode::on_drag_velocity, this,
                                   ros::TransportHints().tcpNoDelay());
+  disk_look_ = node.createWallTimer(ros::WallDuration(kDiskLookSeconds), [this](const auto&) { disk_.measure(); });
   services_.push_back(node.advertiseService(kPauseService, &EmulatorNode::on_pause, this));
   services_.push_back(node.advertiseService(kResetService, &EmulatorNode::on_reset, this));
   services_.push_back(node.advertiseService(kStepService, &EmulatorNode::on_step, this));
@@ -85,9 +102,11 @@ void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
   request.value = command.data;
   const bool possible = std::abs(command.data) <= parameters_.max_drag_velocity;  // false for NaN
   if (possible && stepper_.submit(request)) return;
-  ++refused_commands_;
-  ROS_WARN_THROTTLE(1.0, "drag_velocity = %g m/s refused: %s", command.data,
-                    possible ? "too many commands are waiting" : "must be finite and within max_drag_velocity");
+  char text[160];
+  std::snprintf(text, sizeof text, "drag_velocity = %g m/s: %s", command.data,
+                possible ? "too many commands are waiting" : "must be finite and within max_drag_velocity");
+  refusals_.add(possible ? Refusal::overload : Refusal::faulty_command, text);
+  ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text);
 }
 
 bool EmulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {

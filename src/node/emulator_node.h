@@ -4,20 +4,22 @@
 #include <afm_emulator/StartRecording.h>
 #include <afm_emulator/Step.h>
 #include <ros/node_handle.h>
+#include <ros/wall_timer.h>
 #include <std_msgs/Float64.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <atomic>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "broadcaster.h"
 #include "control.h"
+#include "disk_space.h"
 #include "hand_over.h"
 #include "parameters.h"
+#include "reconfigure_server.h"
 #include "recorder.h"
+#include "refusals.h"
 #include "stepper.h"
 
 namespace afm::node {
@@ -39,14 +41,17 @@ class EmulatorNode {
   bool on_stop_recording(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   const Parameters parameters_;
-  std::atomic<std::uint64_t> refused_commands_{0};
+  Refusals refusals_;
+  DiskSpace disk_;
   Recorder recorder_;
   HandOver hand_over_;
   Stepper stepper_;
   Control control_;
-  std::optional<Broadcaster> broadcaster_;  // advertises, so it is made after all that can fail
+  std::optional<ReconfigureServer> reconfigure_;  // these advertise, so they are made after all that can fail
+  std::optional<Broadcaster> broadcaster_;
   ros::Subscriber drag_velocity_;
   std::vector<ros::ServiceServer> services_;
+  ros::WallTimer disk_look_;
 };
 
 }  // namespace afm::node

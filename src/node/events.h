@@ -4,15 +4,17 @@
 #include <cstdint>
 
 #include "afm_emulator/emulator.h"
+#include "live_parameters.h"
 
 namespace afm::node {
 
 struct Request {
-  enum class Kind : std::uint8_t { drag, pause, resume, reset, step_time, step_impacts };
+  enum class Kind : std::uint8_t { drag, change, pause, resume, reset, step_time, step_impacts };
   Kind kind = Kind::drag;
   std::uint64_t ticket = 0;   // names the answer; 0: nobody waits for one
   double value = 0.0;         // drag velocity [m/s] or time to step [tau]
   std::uint64_t impacts = 0;  // to step
+  LiveParameters live;        // of kind change
 };
 
 struct Answer {
@@ -27,13 +29,16 @@ struct Answer {
 struct StepperState {
   std::uint32_t epoch = 0;
   ModelTime time;
-  std::uint64_t impacts = 0;  // of this epoch, up to then
+  std::uint64_t impacts = 0;  // of this epoch, up to then, like the next two
+  std::uint64_t samples = 0;
+  std::uint64_t commands = 0;  // drag velocities applied
   double real_time_factor = 1.0;
   double lag = 0.0, worst_lag = 0.0;  // [s]
-  std::uint64_t late_batches = 0;
+  std::uint64_t batches = 0, late_batches = 0;
   std::uint64_t dropped_batches = 0;  // emulated, but the publishing thread had no room for them
   Counters counters;
   bool paused = false;
+  bool timed_out = false;  // the drag was stopped as no command came
 };
 
 // The part of a Batch that is not its samples and impacts, of which it holds the numbers.
@@ -46,10 +51,11 @@ struct BatchHead {
 };
 
 struct Event {
-  enum class Kind : std::uint8_t { reset, drag_applied, batch, answer };
+  enum class Kind : std::uint8_t { reset, drag_applied, parameters_applied, batch, answer };
   Kind kind = Kind::batch;
   std::int64_t wall_ns = 0;    // wall clock [ns since 1970]
   double drag_velocity = 0.0;  // in force [m/s], to the bit as it was commanded
+  LiveParameters live;         // in force
   StepperState state;
   BatchHead batch;  // of kind batch
   Answer answer;    // of kind answer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>
+#include <afm_emulator/AppliedParameters.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/EmulatorStatus.h>
@@ -40,13 +41,18 @@ afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, con
 // The state is that at which the command takes effect.
 afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const Label& label);
 
+afm_emulator::AppliedParameters to_applied_parameters(const StepperState& state, const Parameters& parameters,
+                                                      const Label& label);
+
 // Those fields of the status that the stepping thread knows.
 afm_emulator::EmulatorStatus to_status(const StepperState& state, const Units& units, const Label& label);
 
 // version and digest are of the program that runs.
 afm_emulator::Configuration to_configuration(const Parameters& parameters, const std::string& version,
                                              const std::string& digest, const Label& label);
-// The run again: exactly the settings that the configuration was made from.
+// The run again: exactly what the messages were made from. Parameters that are no part of a run are at their defaults.
+Parameters to_parameters(const afm_emulator::Configuration& configuration);
+LiveParameters to_live(const afm_emulator::AppliedParameters& applied);
 SiModel si_model(const afm_emulator::Configuration& configuration);
 EmulatorSettings emulator_settings(const afm_emulator::Configuration& configuration);
 

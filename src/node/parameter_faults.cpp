@@ -16,6 +16,7 @@ constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
 constexpr double kMaxImpactBudget = 1e6;     // 56 MB a batch
 constexpr double kMinReserveMb = 16.0;       // room for the last chunk and the index of a long recording
 constexpr double kMaxReserveMb = 1e9;
+constexpr double kMaxTimeout = 1e6;          // [s]: eleven days
 
 std::string text_of(double value) {
   std::ostringstream out;
@@ -86,11 +87,16 @@ void check_drag(const Parameters& p, Check& check) {
   check.require(std::isfinite(p.drag_velocity), "drag_velocity", p.drag_velocity, "must be finite");
   check.require(!(std::abs(p.drag_velocity) > p.max_drag_velocity), "drag_velocity", p.drag_velocity,
                 "is beyond max_drag_velocity");
+  const double batch = std::chrono::duration<double>(batch_period(p)).count();
+  check.require(p.command_timeout_s == 0.0 || (p.command_timeout_s >= batch && p.command_timeout_s <= kMaxTimeout),
+                "command_timeout_s", p.command_timeout_s,
+                "must be 0 (off), or between " + text_of(batch) + " (a batch, as commands take effect between batches) and " +
+                    text_of(kMaxTimeout));
 }
 
 // The core judges its settings in natural units: tell its faults by the names and values that were given.
 void check_settings(const Parameters& p, Check& check) {
-  check.within("friction_window_tau", p.friction_window_tau, 1.0, 1e9);
+  check.within("friction_window_tau", p.friction_window_tau, kLeastFrictionWindow, kMostFrictionWindow);
   check.within("impact_budget", static_cast<double>(p.impact_budget), 1.0, kMaxImpactBudget);
   EmulatorSettings settings = emulator_settings(p);
   // told of already, in the user's terms
@@ -129,6 +135,15 @@ Faults find_faults(const Parameters& parameters) {
     for (const Fault& fault : check->faults()) faults.push_back(fault);
   }
   return faults;
+}
+
+double least_sample_rate(const Parameters& p) {
+  return std::max(1.0, (p.time_scale < 1.0 ? 1.0 : p.batch_rate_hz) / p.time_scale);
+}
+
+double most_sample_rate(const Parameters& p) {
+  return std::min({kMaxSampleRate, kMaxWallSampleRate / p.time_scale,
+                   kMaxSamplesPerBatch * p.batch_rate_hz / p.time_scale});
 }
 
 std::uint64_t samples_per_batch(const Parameters& p) {

@@ -35,6 +35,7 @@ std::map<std::string, Field> fields_of(Parameters& p) {
           {"batch_rate_hz", &p.batch_rate_hz},
           {"sample_rate_hz", &p.sample_rate_hz},
           {"friction_window_tau", &p.friction_window_tau},
+          {"command_timeout_s", &p.command_timeout_s},
           {"impact_budget", &p.impact_budget},
           {"contact_tolerance", &p.contact_tolerance},
           {"record", &p.record},

@@ -10,6 +10,7 @@
 
 #include "afm_emulator/emulator.h"
 #include "afm_emulator/units.h"
+#include "live_parameters.h"
 
 namespace afm::node {
 
@@ -24,6 +25,7 @@ struct Parameters {
   double batch_rate_hz = 100.0;                   // of wall time
   double sample_rate_hz = 200000.0;               // of model time
   double friction_window_tau = 1000.0;
+  double command_timeout_s = 0.0;                 // of wall time without a drag command, after which the drag stops; 0: never
   std::uint64_t impact_budget = 20000;            // a batch
   double contact_tolerance = kDefaultContactTolerance;  // [a, a/tau]
   bool record = false;
@@ -33,6 +35,8 @@ struct Parameters {
   double split_size_mb = 0.0;                     // a recording goes on in a new bag after so much; 0: never
   double split_duration_s = 0.0;                  // or after so long, of wall time; 0: never
 };
+
+constexpr double kLeastFrictionWindow = 1.0, kMostFrictionWindow = 1e9;  // [tau]
 
 // What is wrong with one parameter, told as given.
 struct Fault {
@@ -50,6 +54,10 @@ Parameters read_parameters(XmlRpc::XmlRpcValue tree, Faults& faults);
 
 // Faults of values that have the right types.
 Faults find_faults(const Parameters& parameters);
+
+// Sample rates that may be had at these rates of batches and of time [1/s].
+double least_sample_rate(const Parameters& parameters);
+double most_sample_rate(const Parameters& parameters);
 
 // What follows from them. A batch holds whole samples, so its length gives way to the sample rate, not the other way.
 std::uint64_t samples_per_batch(const Parameters& parameters);

@@ -86,7 +86,7 @@ Recorder::Reply Recorder::stop() {
 
 Recorder::Status Recorder::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {bags_ ? path_ : "", error_, dropped_messages_};
+  return {bags_ ? path_ : "", error_, dropped_messages_, dropped_messages_ - dropped_before_};
 }
 
 void Recorder::enqueue_history() {
@@ -94,6 +94,9 @@ void Recorder::enqueue_history() {
   enqueue(settings_.bags.topics.configuration, history_.configuration());
   for (const auto& command : history_.commands()) {
     enqueue(settings_.bags.topics.applied_drag, boost::make_shared<const afm_emulator::AppliedDrag>(command));
+  }
+  for (const auto& change : history_.changes()) {
+    enqueue(settings_.bags.topics.applied_parameters, boost::make_shared<const afm_emulator::AppliedParameters>(change));
   }
 }
 

@@ -81,6 +81,20 @@ void RunDigest::add(const afm_emulator::AppliedDrag& command) {
   ++commands_;
 }
 
+void RunDigest::add(const afm_emulator::AppliedParameters& change) {
+  node::add(change.time, commands_digest_);
+  for (const std::uint64_t number : {change.first_impact, change.first_sample, change.first_command}) {
+    commands_digest_.add(number);
+  }
+  for (const double value : {change.restitution_gamma, change.cutoff_speed, change.rest_height_m,
+                             change.sample_rate_hz, change.friction_window_tau}) {
+    commands_digest_.add(value);
+  }
+  commands_digest_.add(change.samples_per_batch);
+  commands_digest_.add(change.sample_period_tau);
+  ++commands_;
+}
+
 afm_emulator::Digest RunDigest::message() const {
   afm_emulator::Digest message;
   message.epoch = epoch_;

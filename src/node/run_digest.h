@@ -3,6 +3,7 @@
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>
+#include <afm_emulator/AppliedParameters.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Digest.h>
@@ -25,6 +26,7 @@ class RunDigest {
   void add(const afm_emulator::ImpactArray& batch);
   void add(const afm_emulator::Friction& estimate);
   void add(const afm_emulator::AppliedDrag& command);
+  void add(const afm_emulator::AppliedParameters& change);
 
   afm_emulator::Digest message() const;  // all but the header
 

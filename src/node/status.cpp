@@ -5,19 +5,8 @@
 namespace afm::node {
 namespace {
 
-constexpr double kMarkTau = 100.0;              // impacts are counted over so long: some hundreds of them
-constexpr double kTroublingLag = 0.5;           // [s]: what a person notices
+constexpr double kMarkTau = 100.0;  // impacts are counted over so long: some hundreds of them
 constexpr std::uint64_t kMessagesPerBatch = 3;  // deflection, impacts, friction
-
-using Level = diagnostic_msgs::DiagnosticStatus;
-
-std::string trouble(const afm_emulator::EmulatorStatus& status) {
-  if (status.lag > kTroublingLag) return "behind the wall clock: the machine is too slow for these rates";
-  if (status.search_failures > 0) return "impact searches have failed";
-  if (status.dropped_messages > 0) return "messages were dropped";
-  if (status.budget_exhausted > 0) return "batches were cut short by the impact budget";
-  return {};
-}
 
 }  // namespace
 
@@ -58,36 +47,6 @@ afm_emulator::EmulatorStatus StatusTracker::make(const Recorder::Status& recorde
   message.recording = recorder.recording;
   message.recorder_error = recorder.error;
   return message;
-}
-
-void diagnose_emulation(const afm_emulator::EmulatorStatus& status, diagnostic_updater::DiagnosticStatusWrapper& out) {
-  const std::string wrong = trouble(status);
-  if (wrong.empty()) {
-    out.summary(Level::OK, status.paused ? "paused" : "running");
-  } else {
-    out.summary(Level::WARN, wrong);
-  }
-  out.add("real-time factor", status.real_time_factor);
-  out.add("lag [s]", status.lag);
-  out.add("worst lag [s]", status.worst_lag);
-  out.add("late batches", status.late_batches);
-  out.add("impacts per tau", status.impacts_per_tau);
-  out.add("refused commands", status.refused_commands);
-  out.add("batches cut short by the impact budget", status.budget_exhausted);
-  out.add("failed impact searches", status.search_failures);
-  out.add("dropped messages", status.dropped_messages);
-  out.add("worst penetration [m]", status.worst_penetration);
-  out.add("scheduler", status.scheduler);
-}
-
-void diagnose_recording(const afm_emulator::EmulatorStatus& status, diagnostic_updater::DiagnosticStatusWrapper& out) {
-  if (!status.recorder_error.empty()) {
-    out.summary(Level::ERROR, status.recorder_error);
-  } else {
-    out.summary(Level::OK, status.recording.empty() ? "not recording" : "recording");
-  }
-  out.add("bag", status.recording);
-  out.add("dropped messages", status.dropped_messages);
 }
 
 }  // namespace afm::node

@@ -1,10 +1,8 @@
-// The status message and what diagnostics say of it.
+// The status message.
 #pragma once
 
 #include <afm_emulator/EmulatorStatus.h>
-#include <diagnostic_updater/diagnostic_updater.h>
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -22,6 +20,7 @@ class StatusTracker {
       : units_(units), model_(std::move(model)), scheduler_(std::move(scheduler)) {}
 
   void observe(const Event& event);
+  const StepperState& state() const { return state_; }
   afm_emulator::EmulatorStatus make(const Recorder::Status& recorder, std::uint64_t refused_commands);
 
  private:
@@ -37,9 +36,5 @@ class StatusTracker {
   std::uint64_t mark_impacts_ = 0;
   double impacts_per_tau_ = 0.0;
 };
-
-// For diagnostic_updater: OK, or what is wrong in words, and the figures.
-void diagnose_emulation(const afm_emulator::EmulatorStatus& status, diagnostic_updater::DiagnosticStatusWrapper& out);
-void diagnose_recording(const afm_emulator::EmulatorStatus& status, diagnostic_updater::DiagnosticStatusWrapper& out);
 
 }  // namespace afm::node

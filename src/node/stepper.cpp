@@ -23,6 +23,10 @@ Stepper::Stepper(const Parameters& parameters, HandOver& hand_over)
       drag_velocity_(parameters.drag_velocity),
       requests_(kMaxWaitingRequests) {
   emulator_.reserve(batch_);
+  Parameters fastest = parameters;  // the sample rate may rise
+  fastest.sample_rate_hz = most_sample_rate(parameters);
+  batch_.vertical.reserve(samples_per_batch(fastest));
+  batch_.lateral.reserve(samples_per_batch(fastest));
 }
 
 void Stepper::start() {
@@ -46,12 +50,13 @@ bool Stepper::submit(const Request& request) {
 void Stepper::run() {
   name_thread("afm_step");
   running_.set_value(claim_real_time());
-  pacer_.resume(monotonic_now());
-  publish(Event::Kind::reset);
-  publish(Event::Kind::drag_applied);
+  last_command_ = monotonic_now();
+  pacer_.resume(last_command_);
+  publish_start();
   while (!stopping_) {
     wait_for_work();
     serve_requests();
+    watch_for_commands();
     if (!paused_ && !stopping_) run_batch();
   }
 }
@@ -74,7 +79,12 @@ void Stepper::serve(const Request& request) {
   Answer told = answer(Answer::Result::done, 0);
   switch (request.kind) {
     case Request::Kind::drag:
+      timed_out_ = false;
+      last_command_ = monotonic_now();
       apply_drag(request.value);
+      break;
+    case Request::Kind::change:
+      apply_change(request.live);
       break;
     case Request::Kind::pause:
       pause(true);
@@ -101,10 +111,30 @@ void Stepper::apply_drag(double drag_velocity) {
   drag_velocity_ = drag_velocity;
   emulator_.drag(to_eta(drag_velocity, parameters_.si));
   publish(Event::Kind::drag_applied);
+  ++commands_;
+}
+
+void Stepper::apply_change(const LiveParameters& live) {
+  set_live(live, parameters_);
+  emulator_.change(live_settings(emulator_settings(parameters_)));
+  pacer_.set_period(batch_period(parameters_));
+  publish(Event::Kind::parameters_applied);
+}
+
+// A stop is a command like any other, applied and told of at a batch boundary: who simulates the run again needs no clock.
+void Stepper::watch_for_commands() {
+  if (parameters_.command_timeout_s == 0.0 || drag_velocity_ == 0.0 || paused_) return;
+  const double silence = std::chrono::duration<double>(monotonic_now() - last_command_).count();
+  if (silence < parameters_.command_timeout_s || !hand_over_.has_room_for_request()) return;
+  timed_out_ = true;
+  apply_drag(0.0);
 }
 
 void Stepper::pause(bool paused) {
-  if (paused_ && !paused) pacer_.resume(monotonic_now());
+  if (paused_ && !paused) {
+    last_command_ = monotonic_now();
+    pacer_.resume(last_command_);
+  }
   paused_ = paused;
 }
 
@@ -113,9 +143,18 @@ void Stepper::reset() {
   batch_.first_impact = 0;
   batch_.impacts.clear();
   drag_velocity_ = parameters_.drag_velocity;
+  last_command_ = monotonic_now();
+  timed_out_ = false;
   ++epoch_;
+  publish_start();
+}
+
+void Stepper::publish_start() {
+  commands_ = 0;
   publish(Event::Kind::reset);
   publish(Event::Kind::drag_applied);
+  ++commands_;
+  publish(Event::Kind::parameters_applied);
 }
 
 void Stepper::run_batch() {
@@ -136,6 +175,7 @@ Event Stepper::event(Event::Kind kind) {
   event.kind = kind;
   event.wall_ns = wall_now_ns();
   event.drag_velocity = drag_velocity_;
+  event.live = live_parameters(parameters_);
   event.state = state();
   return event;
 }
@@ -147,14 +187,18 @@ StepperState Stepper::state() {
   state.epoch = epoch_;
   state.time = emulator_.now();
   state.impacts = batch_.first_impact + batch_.impacts.size();
+  state.samples = emulator_.samples();
+  state.commands = commands_;
   state.real_time_factor = paused_ ? 0.0 : pacer_.real_time_factor();
   state.lag = std::max(pacer_.lag(), overdue);
   worst_lag_ = std::max({worst_lag_, pacer_.worst_lag(), overdue});
   state.worst_lag = worst_lag_;
+  state.batches = pacer_.batches();
   state.late_batches = pacer_.late_batches();
   state.dropped_batches = dropped_batches_;
   state.counters = emulator_.counters();
   state.paused = paused_;
+  state.timed_out = timed_out_;
   return state;
 }
 

@@ -38,9 +38,12 @@ class Stepper {
   void serve_requests();
   void serve(const Request& request);
   void apply_drag(double drag_velocity);
+  void apply_change(const LiveParameters& live);
+  void watch_for_commands();
   void pause(bool paused);
   void reset();
   void run_batch();
+  void publish_start();
   void publish(Event::Kind kind, const Answer& answer = {});
 
   // long steps, chopped into batches
@@ -52,12 +55,15 @@ class Stepper {
   Event event(Event::Kind kind);
   StepperState state();
 
-  const Parameters parameters_;
+  Parameters parameters_;  // as they are now
   Emulator emulator_;
   Batch batch_;
   HandOver& hand_over_;
   Pacer pacer_;
   double drag_velocity_;  // in force [m/s]
+  std::chrono::nanoseconds last_command_{0};  // when one was last obeyed, on the monotonic clock
+  bool timed_out_ = false;                    // and none since the drag was stopped for that
+  std::uint64_t commands_ = 0;                // applied in this epoch
   std::uint32_t epoch_ = 0;
   std::uint64_t dropped_batches_ = 0;
   double worst_lag_ = 0.0;

@@ -8,10 +8,16 @@ constexpr char kDeflectionTopic[] = "deflection";
 constexpr char kImpactsTopic[] = "impacts";
 constexpr char kFrictionTopic[] = "friction";
 constexpr char kAppliedDragTopic[] = "applied_drag";
+constexpr char kAppliedParametersTopic[] = "applied_parameters";
 constexpr char kStatusTopic[] = "status";
 constexpr char kConfigurationTopic[] = "configuration";
 constexpr char kDigestTopic[] = "digest";
 constexpr char kRecordingTopic[] = "recording";  // in bags alone
+
+// of the protocol of dynamic_reconfigure
+constexpr char kDescriptionsTopic[] = "parameter_descriptions";
+constexpr char kUpdatesTopic[] = "parameter_updates";
+constexpr char kSetParametersService[] = "set_parameters";
 
 constexpr char kResetService[] = "reset";
 constexpr char kPauseService[] = "pause";

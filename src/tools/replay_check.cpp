@@ -92,10 +92,7 @@ void print_difference(const Difference& d) {
   std::cout << "FIRST DIFFERENCE in epoch " << d.epoch << ", batch " << d.batch << ", at model time " << to_text(d.time)
             << "\n  " << d.field.field << ", number " << d.field.index << "\n    recorded   " << d.field.first
             << "\n    simulated  " << d.field.second << "\n";
-  if (!d.last_command) return;
-  const auto& command = *d.last_command;
-  std::printf("  last command %.17g m/s at %s\n", command.drag_velocity,
-              to_text({command.time.tau, command.time.phase}).c_str());
+  if (d.last_command) std::cout << "  last command " << afm::replay::to_text(*d.last_command) << "\n";
 }
 
 Verdict judge(const Difference& d) {

@@ -40,6 +40,13 @@ class EnergyLedger {
     return outcome;
   }
 
+  // Tip::retune, entered in the books: who lifts the centre stretches the spring by as much.
+  void retune(Tip& tip, const Model& model) {
+    tip.retune(model);
+    work_ += stored_energy(model, tip.state()) - stored_energy(model_, tip.state());
+    model_ = model;
+  }
+
   // Energy from nothing, and what it is to be compared with: all that has been turned over.
   double imbalance(const Tip& tip) const {
     return static_cast<double>(lost_ - work_ - tip.work_off_guide()) + (stored_energy(model_, tip.state()) + in_bounces_ - at_start_);

@@ -75,6 +75,17 @@ TEST(Pacer, TimeInAPauseIsNotOwed) {
   EXPECT_EQ(pacer.deadline(), at(60020));
 }
 
+TEST(Pacer, ANewPeriodHoldsAfterTheNextBatch) {
+  Pacer pacer(kPeriod, kStart);
+  for (int batch = 1; batch <= 50; ++batch) pacer.batch_done(at(10 * batch));
+  pacer.set_period(std::chrono::milliseconds(4));
+  EXPECT_EQ(pacer.deadline(), at(510));
+  for (int batch = 0; batch <= 200; ++batch) pacer.batch_done(at(510 + 4 * batch));
+  EXPECT_EQ(pacer.deadline(), at(510 + 4 * 201));
+  EXPECT_EQ(pacer.late_batches(), 0u);
+  EXPECT_NEAR(pacer.real_time_factor(), 1.0, 0.01);
+}
+
 TEST(Pacer, InTimeTheRealTimeFactorIsOne) {
   Pacer pacer(kPeriod, kStart);
   for (int batch = 1; batch <= 350; ++batch) pacer.batch_done(at(10 * batch));

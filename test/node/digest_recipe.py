@@ -46,9 +46,25 @@ def of_impacts(messages, state=START):
     return state
 
 
+def in_order(drags, changes):
+    """Of one epoch: drag velocities and changes of parameters as they took effect."""
+    applied, rest = [], list(drags)
+    for change in changes:
+        while len(drags) - len(rest) < change.first_command:
+            applied.append(rest.pop(0))
+        applied.append(change)
+    return applied + rest
+
+
 def of_commands(messages, state=START):
-    for message in messages:
-        state = add(state, time_words(message.time) + bits(message.drag_velocity) + (message.first_impact,))
+    for m in messages:
+        if hasattr(m, 'drag_velocity'):
+            words = bits(m.drag_velocity) + (m.first_impact,)
+        else:
+            words = ((m.first_impact, m.first_sample, m.first_command) +
+                     bits(m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau) +
+                     (m.samples_per_batch,) + bits(m.sample_period_tau))
+        state = add(state, time_words(m.time) + words)
     return state
 
 

@@ -9,7 +9,7 @@ import bags
 from emulator_under_test import EmulatorTest, run
 from topics import wait_until
 
-SINCE_THE_EPOCH_BEGAN = ('configuration', 'applied_drag')  # of these a bag holds all, whenever it was begun
+SINCE_THE_EPOCH_BEGAN = ('configuration', 'applied_drag', 'applied_parameters')  # of these a bag holds all, whenever it was begun
 
 
 def position(sequence, part):

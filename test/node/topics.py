@@ -3,11 +3,12 @@ import threading
 import time
 
 import rospy
-from afm_emulator.msg import AppliedDrag, Configuration, Deflection, Digest, EmulatorStatus, Friction, ImpactArray
+from afm_emulator.msg import (AppliedDrag, AppliedParameters, Configuration, Deflection, Digest, EmulatorStatus, Friction,
+                              ImpactArray)
 
 NAMESPACE = '/afm'
 TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied_drag': AppliedDrag,
-          'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest}
+          'applied_parameters': AppliedParameters, 'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest}
 
 _news = threading.Condition()
 

@@ -54,6 +54,8 @@ void BagAudit::begin_epoch(const RecordedBatch& batch) {
   history_known_ = from_start;
   epoch_ = batch.epoch;
   next_command_ = 0;
+  parameters_ = node::to_parameters(configuration);
+  grid_ = {configuration.sample_period_tau, 0, {}};
   last_time_ = {};
   first_time_ = batch.deflection ? node::from_message(batch.deflection->time) : ModelTime{};
   ++epochs_;
@@ -75,23 +77,44 @@ void BagAudit::follow_commands(const RecordedBatch& batch) {
   const auto& commands = log_.epoch(batch.epoch).commands;
   const ModelTime end = node::from_message(batch.friction->time);
   for (; next_command_ < commands.size(); ++next_command_) {
-    const auto& command = commands[next_command_];
-    const ModelTime time = node::from_message(command.time);
-    const bool at_end = time == end && !(batch.impacts && command.first_impact < end_of(*batch.impacts));
+    const replay::Applied& command = commands[next_command_];
+    const ModelTime time = replay::time_of(command);
+    const bool at_end = time == end && !(batch.impacts && replay::first_impact_of(command) < end_of(*batch.impacts));
     if (end < time || at_end) return;
-    energy_->add_command(time, command.drag_velocity);
-    friction_->command(time, command.drag_velocity);
+    std::visit([this](const auto& applied) { follow(applied); }, command);
   }
+}
+
+void BagAudit::follow(const afm_emulator::AppliedDrag& drag) {
+  energy_->add_command(node::from_message(drag.time), drag.drag_velocity);
+  friction_->command(node::from_message(drag.time), drag.drag_velocity);
+}
+
+void BagAudit::follow(const afm_emulator::AppliedParameters& change) {
+  const node::LiveParameters before = node::live_parameters(parameters_), after = node::to_live(change);
+  if (after == before) return;
+  const ModelTime time = node::from_message(change.time);
+  node::set_live(after, parameters_);
+  if (after.sample_rate_hz != before.sample_rate_hz) grid_ = {change.sample_period_tau, change.first_sample, time};
+  energy_->change(node::emulator_settings(parameters_).model, grid_);
+  node::LiveParameters same_model = before;  // but for what the tip knows nothing of
+  same_model.sample_rate_hz = after.sample_rate_hz;
+  same_model.friction_window_tau = after.friction_window_tau;
+  if (!(after == same_model)) friction_->change(time);
+  ++changes_;
 }
 
 // Samples follow without a gap, on their grid of time.
 void BagAudit::check_grid(const RecordedBatch& batch) {
   if (!batch.deflection) return;
   const auto& deflection = *batch.deflection;
-  const double period = log_.epoch(batch.epoch).configuration.sample_period_tau;
   const bool follows_on = !last_batch_ || batch.sequence == *last_batch_ + 1;
   if (follows_on && next_sample_ && deflection.first_sample != *next_sample_) ++grid_errors_;
-  if (!(node::from_message(deflection.time) == multiply(deflection.first_sample, period))) ++grid_errors_;
+  // without its end it is not known which commands took effect before it
+  const bool in_grid = deflection.first_sample >= grid_.first;
+  if (batch.friction && !(in_grid && node::from_message(deflection.time) == grid_.time(deflection.first_sample))) {
+    ++grid_errors_;
+  }
   if (deflection.vertical.size() != deflection.lateral.size()) ++grid_errors_;
   next_sample_ = end_of(deflection);
   samples_ += deflection.vertical.size();
@@ -101,10 +124,10 @@ void BagAudit::check_grid(const RecordedBatch& batch) {
 
 // It ends after its last sample, and no later than the next is due.
 bool BagAudit::has_its_end(const RecordedBatch& batch) const {
-  const double period = log_.epoch(batch.epoch).configuration.sample_period_tau;
   const std::uint64_t samples = end_of(*batch.deflection);
   const ModelTime end = node::from_message(batch.friction->time);
-  return last_time_ <= end && end <= multiply(samples, period) && (samples == 0 || multiply(samples - 1, period) < end);
+  if (samples < grid_.first || !(last_time_ <= end && end <= grid_.time(samples))) return false;
+  return samples == grid_.first || grid_.time(samples - 1) < end;
 }
 
 bool BagAudit::has_ordered_impacts(const RecordedBatch& batch) const {

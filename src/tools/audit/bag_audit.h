@@ -36,6 +36,8 @@ class BagAudit {
   void begin_epoch(const replay::RecordedBatch& batch);
   void finish_epoch();
   void follow_commands(const replay::RecordedBatch& batch);
+  void follow(const afm_emulator::AppliedDrag& drag);
+  void follow(const afm_emulator::AppliedParameters& change);
   void check_grid(const replay::RecordedBatch& batch);
   bool has_its_end(const replay::RecordedBatch& batch) const;
   bool has_ordered_impacts(const replay::RecordedBatch& batch) const;
@@ -58,6 +60,9 @@ class BagAudit {
   std::unique_ptr<FrictionAudit> friction_;
   std::optional<std::uint32_t> epoch_, last_batch_;
   std::size_t next_command_ = 0;
+  node::Parameters parameters_;  // as they are now, like the next
+  SampleGrid grid_;
+  std::uint64_t changes_ = 0;    // of parameters, beside those that every epoch begins with
   std::optional<std::uint64_t> next_sample_, next_impact_;
   ModelTime first_time_, last_time_;
   bool history_known_ = false;

@@ -3,13 +3,14 @@
 #include <cstdio>
 
 #include "bag_audit.h"
+#include "node/diagnosis.h"
 
 namespace afm::audit {
 namespace {
 
 constexpr double kSumRounding = 1e-11;  // of thousands of impacts, each rounded to SI
 constexpr double kLawRounding = 1e-12;  // of a handful of products
-constexpr double kPenetration = 1e-10;  // [a]: rounding, and far below any sample's meaning
+
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
   char text[512];
@@ -40,6 +41,9 @@ void BagAudit::report_extent(std::vector<Finding>& findings) const {
        format("%llu samples, %llu records of %llu impacts, %llu epochs; %.6g s of model time in %.6g s of "
               "wall time",
               number(samples_), number(impacts_), number(bounces_), number(epochs_), model_seconds_, wall)});
+  if (changes_ > 0) {
+    findings.push_back({Finding::Kind::note, "steered", format("%llu changes of live parameters", number(changes_))});
+  }
 }
 
 void BagAudit::report_sequence(std::vector<Finding>& findings) const {
@@ -111,7 +115,7 @@ void BagAudit::report_counters(std::vector<Finding>& findings) const {
   }
   const auto& s = *status_;
   const double a = log_.epochs().rbegin()->second.configuration.lattice_spacing_m;
-  const bool good = s.search_failures == 0 && s.dropped_messages == 0 && s.worst_penetration <= kPenetration * a;
+  const bool good = s.search_failures == 0 && s.dropped_messages == 0 && s.worst_penetration <= node::kPenetration * a;
   findings.push_back(judge(good, "counters",
                            format("search failures %llu, dropped messages %llu, worst penetration %.1e m",
                                   number(s.search_failures), number(s.dropped_messages), s.worst_penetration)));

@@ -39,11 +39,20 @@ void EnergyReport::merge(const EnergyReport& other) {
 EnergyAudit::EnergyAudit(const afm_emulator::Configuration& configuration)
     : units_(node::si_model(configuration)),
       model_(node::emulator_settings(configuration).model),
-      period_(configuration.sample_period_tau),
+      grid_{configuration.sample_period_tau, 0, {}},
       omega_{kTwoPi * model_.frequency_ratio, kTwoPi},
-      conditioning_(std::max(amplification(omega_[0], period_), amplification(omega_[1], period_))),
-      eta_(node::to_eta(configuration.drag_velocity, node::si_model(configuration))) {
-  report_.allowed = kRoundings * square(conditioning_);
+      conditioning_(conditioning()),
+      eta_(node::to_eta(configuration.drag_velocity, node::si_model(configuration))) {}
+
+double EnergyAudit::conditioning() const {
+  return std::max(amplification(omega_[0], grid_.period), amplification(omega_[1], grid_.period));
+}
+
+void EnergyAudit::change(const Model& model, const SampleGrid& grid) {
+  gap();
+  model_ = model;
+  grid_ = grid;
+  conditioning_ = conditioning();
 }
 
 void EnergyAudit::add(const afm_emulator::Deflection& batch) {
@@ -85,7 +94,7 @@ void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
 }
 
 void EnergyAudit::judge(const ModelTime& until) {
-  for (; events_.size() > 2 && events_[1].time + 3.0 * period_ < until; events_.pop_front()) {
+  for (; events_.size() > 2 && events_[1].time + 3.0 * grid_.period < until; events_.pop_front()) {
     if (events_[1].impact && events_[1].impact->kind == afm_emulator::Impact::IMPACT) {
       judge_impact(events_[0], events_[1], events_[2]);
     }
@@ -99,17 +108,17 @@ void EnergyAudit::judge(const ModelTime& until) {
 
 // At that time or before it.
 std::uint64_t EnergyAudit::last_sample_before(const ModelTime& time) const {
-  auto sample = static_cast<std::uint64_t>((time - ModelTime{}) / period_);
-  while (sample > 0 && time < multiply(sample, period_)) --sample;
-  while (multiply(sample + 1, period_) <= time) ++sample;
+  auto sample = grid_.first + static_cast<std::uint64_t>(std::max(0.0, (time - grid_.origin) / grid_.period));
+  while (sample > grid_.first && time < grid_.time(sample)) --sample;
+  while (grid_.time(sample + 1) <= time) ++sample;
   return sample;
 }
 
 EnergyAudit::Motion EnergyAudit::motion(std::uint64_t first, const ModelTime& at) const {
   const Sample& a = samples_[first - first_sample_];
   const Sample& b = samples_[first + 1 - first_sample_];
-  const double s = at - multiply(first, period_);
-  const SpringPair x(omega_[0], a.X, b.X, period_), y(omega_[1], a.Y, b.Y, period_);
+  const double s = at - grid_.time(first);
+  const SpringPair x(omega_[0], a.X, b.X, grid_.period), y(omega_[1], a.Y, b.Y, grid_.period);
   return {x.position(s), y.position(s), x.velocity(s), y.velocity(s)};
 }
 
@@ -121,7 +130,7 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   const std::uint64_t last = last_sample_before(event.time);
   if (conditioning_ > kTooNearlyBlind || last < first_sample_ + 1 || last + 2 >= first_sample_ + samples_.size())
     return;
-  if (multiply(last - 1, period_) < before.time || after.time < multiply(last + 2, period_)) return;
+  if (grid_.time(last - 1) < before.time || after.time < grid_.time(last + 2)) return;
   const Motion in = motion(last - 1, event.time), out = motion(last + 1, event.time);
   const afm_emulator::Impact& told = *event.impact;
   const double loss = told.energy_loss / units_.energy(), scale = energy(in) + 0.5 * square(event.eta);
@@ -139,6 +148,7 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   const double u = in.U + event.eta, per_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
   note(report_.speed_error, (std::abs(in.W - slope * u) * per_norm - told.normal_speed / units_.velocity()) / speed);
   note(report_.speed_error, ((u + free * slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
+  note(report_.allowed, kRoundings * square(conditioning_));
   report_.judged_energy += told.energy_loss;
   ++report_.judged;
 }

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "afm_emulator/model.h"
+#include "afm_emulator/sample_grid.h"
 #include "afm_emulator/state.h"
 #include "afm_emulator/units.h"
 
@@ -36,6 +37,7 @@ class EnergyAudit {
   void add(const afm_emulator::ImpactArray& batch);
   void add_command(const ModelTime& time, double drag_velocity);
   void gap();                          // something is missing here
+  void change(const Model& model, const SampleGrid& grid);  // what is near is not judged
   void judge(const ModelTime& until);  // all that lies well before
 
   const EnergyReport& report() const { return report_; }
@@ -53,6 +55,7 @@ class EnergyAudit {
     double X, Y, U, W;  // against the harmonic centre
   };
 
+  double conditioning() const;
   void judge_law(const afm_emulator::Impact& impact);
   void judge_impact(const Event& before, const Event& event, const Event& after);
   std::uint64_t last_sample_before(const ModelTime& time) const;
@@ -60,10 +63,10 @@ class EnergyAudit {
   double energy(const Motion& motion) const;
 
   const Units units_;
-  const Model model_;
-  const double period_;    // [tau]
+  Model model_;
+  SampleGrid grid_;
   const double omega_[2];  // horizontal, vertical [rad/tau]
-  const double conditioning_;
+  double conditioning_;
   double eta_;
   std::deque<Event> events_;
   std::deque<Sample> samples_;

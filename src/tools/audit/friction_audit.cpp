@@ -39,8 +39,12 @@ FrictionAudit::FrictionAudit(const afm_emulator::Configuration& configuration)
 
 void FrictionAudit::command(const ModelTime& time, double drag_velocity) {
   if (drag_velocity == drag_velocity_) return;  // the same again changes nothing
-  close_stretch();
   drag_velocity_ = drag_velocity;
+  change(time);
+}
+
+void FrictionAudit::change(const ModelTime& time) {
+  close_stretch();
   start_ = time;
   sums_ = {};
   base_ = Sums{};

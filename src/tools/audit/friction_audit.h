@@ -39,6 +39,7 @@ class FrictionAudit {
   explicit FrictionAudit(const afm_emulator::Configuration& configuration);
 
   void command(const ModelTime& time, double drag_velocity);
+  void change(const ModelTime& time);  // of the model: the estimate begins anew
   void add(const afm_emulator::ImpactArray& batch);
   void judge(const afm_emulator::Friction& estimate);
   void gap();  // sums begin again at the next estimate

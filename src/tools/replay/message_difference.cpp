@@ -120,6 +120,24 @@ std::optional<FieldDifference> find_difference(const afm_emulator::AppliedDrag& 
   return c.found();
 }
 
+std::optional<FieldDifference> find_difference(const afm_emulator::AppliedParameters& a,
+                                               const afm_emulator::AppliedParameters& b) {
+  Comparison c;
+  c.field("applied_parameters.epoch", a.epoch, b.epoch);
+  c.field("applied_parameters.time", a.time, b.time);
+  c.field("applied_parameters.first_impact", a.first_impact, b.first_impact);
+  c.field("applied_parameters.first_sample", a.first_sample, b.first_sample);
+  c.field("applied_parameters.first_command", a.first_command, b.first_command);
+  c.field("applied_parameters.restitution_gamma", a.restitution_gamma, b.restitution_gamma);
+  c.field("applied_parameters.cutoff_speed", a.cutoff_speed, b.cutoff_speed);
+  c.field("applied_parameters.rest_height_m", a.rest_height_m, b.rest_height_m);
+  c.field("applied_parameters.sample_rate_hz", a.sample_rate_hz, b.sample_rate_hz);
+  c.field("applied_parameters.friction_window_tau", a.friction_window_tau, b.friction_window_tau);
+  c.field("applied_parameters.samples_per_batch", a.samples_per_batch, b.samples_per_batch);
+  c.field("applied_parameters.sample_period_tau", a.sample_period_tau, b.sample_period_tau);
+  return c.found();
+}
+
 std::optional<FieldDifference> find_difference(const afm_emulator::Configuration& a,
                                                const afm_emulator::Configuration& b) {
   using Message = afm_emulator::Configuration;

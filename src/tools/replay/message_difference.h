@@ -2,6 +2,7 @@
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>
+#include <afm_emulator/AppliedParameters.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Digest.h>
@@ -24,6 +25,8 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Deflection& a
 std::optional<FieldDifference> find_difference(const afm_emulator::ImpactArray& a, const afm_emulator::ImpactArray& b);
 std::optional<FieldDifference> find_difference(const afm_emulator::Friction& a, const afm_emulator::Friction& b);
 std::optional<FieldDifference> find_difference(const afm_emulator::AppliedDrag& a, const afm_emulator::AppliedDrag& b);
+std::optional<FieldDifference> find_difference(const afm_emulator::AppliedParameters& a,
+                                               const afm_emulator::AppliedParameters& b);
 std::optional<FieldDifference> find_difference(const afm_emulator::Configuration& a,
                                                const afm_emulator::Configuration& b);
 std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, const afm_emulator::Digest& b);

@@ -50,7 +50,9 @@ std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest&
   // commands are known from the beginning of the epoch on, wherever the recording was begun
   const EpochLog& log = log_.epoch(told.epoch);
   node::RunDigest commands(log.configuration);
-  for (std::size_t i = 0; i < log.commands.size() && i < told.commands; ++i) commands.add(log.commands[i]);
+  for (std::size_t i = 0; i < log.commands.size() && i < told.commands; ++i) {
+    std::visit([&](const auto& command) { commands.add(command); }, log.commands[i]);
+  }
   afm_emulator::Digest found = whole_ ? digest_.message() : told;
   found.commands = commands.message().commands;
   found.commands_digest = commands.message().commands_digest;

@@ -27,6 +27,7 @@ void drop_before(std::vector<T>& values, std::uint64_t base, std::uint64_t first
 Resimulation::Resimulation(const EpochLog& log)
     : log_(log),
       units_(node::si_model(log.configuration)),
+      parameters_(node::to_parameters(log.configuration)),
       emulator_(node::emulator_settings(log.configuration)),
       drag_velocity_(log.configuration.drag_velocity),
       digest_(log.configuration) {}
@@ -35,17 +36,16 @@ double Resimulation::batch_length() const {
   return static_cast<double>(settings().samples_per_batch) * settings().sample_period;
 }
 
-bool Resimulation::is_due(const afm_emulator::AppliedDrag& command, const ModelTime& time,
-                          std::optional<std::uint64_t> impacts) const {
-  const ModelTime begin = node::from_message(command.time);
+bool Resimulation::is_due(const Applied& command, const ModelTime& time, std::optional<std::uint64_t> impacts) const {
+  const ModelTime begin = time_of(command);
   // at the same time: before an impact that is asked for
-  return begin < time || (begin == time && impacts && command.first_impact < *impacts);
+  return begin < time || (begin == time && impacts && first_impact_of(command) < *impacts);
 }
 
 void Resimulation::run_to(const ModelTime& time, std::optional<std::uint64_t> impacts) {
   while (next_command_ < log_.commands.size() && is_due(log_.commands[next_command_], time, impacts)) {
-    const auto& command = log_.commands[next_command_];
-    run_flights(node::from_message(command.time), command.first_impact);
+    const Applied& command = log_.commands[next_command_];
+    run_flights(time_of(command), first_impact_of(command));
     apply_next_command();
   }
   run_flights(time, impacts);
@@ -53,18 +53,35 @@ void Resimulation::run_to(const ModelTime& time, std::optional<std::uint64_t> im
 
 void Resimulation::apply_commands(std::uint64_t commands) {
   while (next_command_ < std::min<std::uint64_t>(commands, log_.commands.size()) &&
-         node::from_message(log_.commands[next_command_].time) <= now()) {
+         time_of(log_.commands[next_command_]) <= now()) {
     apply_next_command();
   }
 }
 
 void Resimulation::apply_next_command() {
-  auto command = log_.commands[next_command_++];
-  drag_velocity_ = command.drag_velocity;
-  emulator_.drag(node::to_eta(drag_velocity_, node::si_model(log_.configuration)));
-  command.time = node::to_message(now());  // what we have come to, for the digest
-  command.first_impact = impacts();
-  digest_.add(command);
+  std::visit([this](const auto& command) { apply(command); }, log_.commands[next_command_++]);
+}
+
+// Into the digest goes what we have come to, not what was told.
+
+void Resimulation::apply(afm_emulator::AppliedDrag drag) {
+  drag_velocity_ = drag.drag_velocity;
+  emulator_.drag(node::to_eta(drag_velocity_, parameters_.si));
+  drag.time = node::to_message(now());
+  drag.first_impact = impacts();
+  digest_.add(drag);
+  ++drags_;
+}
+
+void Resimulation::apply(const afm_emulator::AppliedParameters& change) {
+  node::set_live(node::to_live(change), parameters_);
+  emulator_.change(live_settings(node::emulator_settings(parameters_)));
+  node::StepperState state;
+  state.time = now();
+  state.impacts = impacts();
+  state.samples = emulator_.samples();
+  state.commands = drags_;
+  digest_.add(node::to_applied_parameters(state, parameters_, {}));
 }
 
 // An impact and the end of a batch may have the same time; then the number tells which is first.
@@ -84,7 +101,7 @@ void Resimulation::run_flights(const ModelTime& time, std::optional<std::uint64_
 
 void Resimulation::take(const Batch& batch) {
   const node::Label label{{}, log_.configuration.epoch};
-  const auto deflection = node::to_deflection(batch, log_.configuration.sample_period, units_, label);
+  const auto deflection = node::to_deflection(batch, 1.0 / parameters_.sample_rate_hz, units_, label);
   const auto impacts = node::to_impacts(batch, units_, label);
   vertical_.insert(vertical_.end(), deflection.vertical.begin(), deflection.vertical.end());
   lateral_.insert(lateral_.end(), deflection.lateral.begin(), deflection.lateral.end());
@@ -96,9 +113,11 @@ void Resimulation::take(const Batch& batch) {
 
 afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint64_t count) const {
   afm_emulator::Deflection message;
-  message.time = node::to_message(sample_time(first));
+  // a batch without samples may lie before a change that then samples sooner
+  const SampleGrid& grid = emulator_.grid();
+  message.time = node::to_message(first < grid.first ? sample_time(first) : grid.time(first));
   message.first_sample = first;
-  message.sample_period = log_.configuration.sample_period;
+  message.sample_period = 1.0 / parameters_.sample_rate_hz;
   message.vertical = part_of(vertical_, first_sample_, first, count);
   message.lateral = part_of(lateral_, first_sample_, first, count);
   return message;

@@ -27,10 +27,11 @@ class Resimulation {
   ModelTime now() const { return emulator_.now(); }
   std::uint64_t samples() const { return first_sample_ + vertical_.size(); }
   std::uint64_t impacts() const { return first_impact_ + impacts_.size(); }
-  const afm_emulator::AppliedDrag& last_command() const {
+  const Applied& last_command() const {
     return log_.commands[next_command_ > 0 ? next_command_ - 1 : 0];
   }
-  ModelTime sample_time(std::uint64_t sample) const { return multiply(sample, settings().sample_period); }
+  ModelTime sample_time(std::uint64_t sample) const { return log_.sample_time(sample); }
+  std::uint64_t most_samples_per_batch() const { return log_.most_samples_per_batch(); }
   double batch_length() const;  // [tau]
   double time_unit() const { return units_.time(); }
   const EmulatorSettings& settings() const { return emulator_.settings(); }
@@ -44,18 +45,21 @@ class Resimulation {
   node::RunDigest& digest() { return digest_; }  // of all that was emulated; estimates are added by who asks for them
 
  private:
-  bool is_due(const afm_emulator::AppliedDrag& command, const ModelTime& time,
-              std::optional<std::uint64_t> impacts) const;
+  bool is_due(const Applied& command, const ModelTime& time, std::optional<std::uint64_t> impacts) const;
   void apply_next_command();
+  void apply(afm_emulator::AppliedDrag drag);
+  void apply(const afm_emulator::AppliedParameters& change);
   void run_flights(const ModelTime& time, std::optional<std::uint64_t> impacts);
   void take(const Batch& batch);
   void drop_unwanted();
 
   const EpochLog& log_;
   const Units units_;
+  node::Parameters parameters_;  // as they are now
   Emulator emulator_;
   Batch batch_;
   std::size_t next_command_ = 0;
+  std::uint64_t drags_ = 0;                              // of those commands
   double drag_velocity_;                                 // in force [m/s]
   std::uint64_t first_sample_ = 0, first_impact_ = 0;    // of those kept
   std::uint64_t wanted_sample_ = 0, wanted_impact_ = 0;  // of those before it none is kept

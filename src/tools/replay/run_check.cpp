@@ -87,7 +87,7 @@ bool RunCheck::is_plausible(const RecordedBatch& batch) {
 // Batches that the emulator let go were never given a number: whole ones are missed, and what follows is at its time.
 bool RunCheck::follows_on(const RecordedBatch& batch) {
   const std::uint64_t missing = last_batch_ ? batch.sequence - *last_batch_ - 1 : 0;
-  const std::uint64_t size = simulation_->settings().samples_per_batch, first = batch.deflection->first_sample;
+  const std::uint64_t size = simulation_->most_samples_per_batch(), first = batch.deflection->first_sample;
   if (!next_sample_) return true;
   if (first < *next_sample_) return false;
   if (first - *next_sample_ <= missing * size) return true;

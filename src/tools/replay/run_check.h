@@ -29,7 +29,7 @@ struct Difference {
   FieldDifference field;  // recorded, simulated
   std::uint32_t epoch = 0, batch = 0;
   ModelTime time;
-  std::optional<afm_emulator::AppliedDrag> last_command;
+  std::optional<Applied> last_command;
   std::optional<bool> altered;  // whether the recording contradicts its own digests there; unknown without one
 };
 

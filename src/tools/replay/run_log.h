@@ -1,23 +1,16 @@
 // What the run in a recording is a function of: the configuration of each epoch and its commands, complete and in order.
 #pragma once
 
-#include <afm_emulator/AppliedDrag.h>
-#include <afm_emulator/Configuration.h>
-
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "epoch_log.h"
 #include "message_stream.h"
 #include "recording.h"
 
 namespace afm::replay {
-
-struct EpochLog {
-  afm_emulator::Configuration configuration;
-  std::vector<afm_emulator::AppliedDrag> commands;  // the first at model time 0
-};
 
 class RunLog {
  public:
@@ -29,12 +22,21 @@ class RunLog {
 
  private:
   void take(const afm_emulator::Configuration& configuration, const std::string& where);
-  void take_all(MessageStream<afm_emulator::AppliedDrag>& commands, const std::string& where);
-  void take(const afm_emulator::AppliedDrag& command, const std::string& where);
+  // Of commands of one kind: where they belong, and the sequence number of the last one.
+  template <class Message>
+  struct Kind {
+    std::vector<Message> EpochLog::*messages;
+    std::optional<std::uint32_t> last;
+  };
+  template <class Message>
+  void take_all(const Recording& recording, const RecordedBag& bag, const char* topic, Kind<Message>& kind);
+  template <class Message>
+  void take(const Message& message, const std::string& where, Kind<Message>& kind);
 
   std::map<std::uint32_t, EpochLog> epochs_;
   const afm_emulator::Configuration* last_configuration_ = nullptr;
-  std::optional<std::uint32_t> last_command_;  // sequence number
+  Kind<afm_emulator::AppliedDrag> drags_{&EpochLog::drags, std::nullopt};
+  Kind<afm_emulator::AppliedParameters> changes_{&EpochLog::changes, std::nullopt};
 };
 
 }  // namespace afm::replay

@@ -1,0 +1,36 @@
+#include "live_parameters.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "parameters.h"
+
+namespace afm::node {
+
+bool operator==(const LiveParameters& a, const LiveParameters& b) {
+  return std::all_of(std::begin(kLiveFields), std::end(kLiveFields),
+                     [&](const LiveField& field) { return a.*field.value == b.*field.value; });
+}
+
+LiveParameters live_parameters(const Parameters& p) {
+  return {p.si.restitution_gamma, p.si.cutoff_speed, p.si.rest_height_m, p.sample_rate_hz, p.friction_window_tau};
+}
+
+void set_live(const LiveParameters& live, Parameters& p) {
+  p.si.restitution_gamma = live.restitution_gamma;
+  p.si.cutoff_speed = live.cutoff_speed;
+  p.si.rest_height_m = live.rest_height_m;
+  p.sample_rate_hz = live.sample_rate_hz;
+  p.friction_window_tau = live.friction_window_tau;
+}
+
+LiveParameters least_live(const Parameters& p) {
+  return {0.0, 0.0, -kMaxAmplitude * p.si.lattice_spacing_m, least_sample_rate(p), kLeastFrictionWindow};
+}
+
+LiveParameters most_live(const Parameters& p) {
+  return {1.0, std::numeric_limits<double>::infinity(), p.si.surface_amplitude_m, most_sample_rate(p),
+          kMostFrictionWindow};
+}
+
+}  // namespace afm::node

@@ -1,0 +1,133 @@
+#include "epoch_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "message_difference.h"
+#include "verdict.h"
+
+namespace afm::replay {
+namespace {
+
+[[noreturn]] void nonsense(std::uint32_t epoch, const std::string& what) {
+  throw Problem(Verdict::altered, "epoch " + std::to_string(epoch) + ": " + what);
+}
+
+[[noreturn]] void missing(std::uint32_t epoch, const std::string& what) {
+  throw Problem(Verdict::missing, "epoch " + std::to_string(epoch) + ": " + what);
+}
+
+// What a node would refuse to run, or would have derived in another way, is no configuration that ran.
+void check_configuration(const afm_emulator::Configuration& c) {
+  const node::Parameters parameters = node::to_parameters(c);
+  const node::Faults faults = node::find_faults(parameters);
+  if (!faults.empty()) nonsense(c.epoch, "its configuration cannot be run: " + node::describe(faults));
+  const node::Label label{c.header.stamp, c.epoch};
+  const auto derived = node::to_configuration(parameters, c.version, c.arithmetic_digest, label);
+  if (const auto difference = find_difference(c, derived)) {
+    nonsense(c.epoch, difference->field + " is " + difference->first + ", and from the rest of the configuration " +
+                          difference->second + " follows");
+  }
+}
+
+// Likewise.
+void check_change(const afm_emulator::AppliedParameters& change, node::Parameters parameters) {
+  node::set_live(node::to_live(change), parameters);
+  const node::Faults faults = node::find_faults(parameters);
+  if (!faults.empty()) nonsense(change.epoch, "a change of parameters cannot be: " + node::describe(faults));
+  auto derived = node::to_applied_parameters({}, parameters, {change.header.stamp, change.epoch});
+  derived.time = change.time;
+  derived.first_impact = change.first_impact;
+  derived.first_sample = change.first_sample;
+  derived.first_command = change.first_command;
+  if (const auto difference = find_difference(change, derived)) {
+    nonsense(change.epoch, difference->field + " is " + difference->first + ", and from the rest of the parameters " +
+                               difference->second + " follows");
+  }
+}
+
+// All samples that are due before a change are taken before it, and no others.
+bool fits(const afm_emulator::AppliedParameters& change, const SampleGrid& grid) {
+  const ModelTime time = node::from_message(change.time);
+  const std::uint64_t sample = change.first_sample;
+  return sample >= grid.first && time <= grid.time(sample) && (sample == grid.first || grid.time(sample - 1) < time);
+}
+
+}  // namespace
+
+std::string to_text(const Applied& applied) {
+  const ModelTime time = time_of(applied);
+  char text[256], when[64];
+  std::snprintf(when, sizeof when, "%lld + %.17g tau", static_cast<long long>(time.tau), time.phase);
+  if (const auto* drag = std::get_if<afm_emulator::AppliedDrag>(&applied)) {
+    std::snprintf(text, sizeof text, "%.17g m/s at %s", drag->drag_velocity, when);
+  } else {
+    const auto& p = std::get<afm_emulator::AppliedParameters>(applied);
+    std::snprintf(text, sizeof text, "gamma %g, cutoff %g m/s, rest height %g m, %g samples/s, window %g tau at %s",
+                  p.restitution_gamma, p.cutoff_speed, p.rest_height_m, p.sample_rate_hz, p.friction_window_tau, when);
+  }
+  return text;
+}
+
+std::uint64_t EpochLog::most_samples_per_batch() const {
+  std::uint64_t most = configuration.samples_per_batch;
+  for (const auto& change : changes) most = std::max(most, change.samples_per_batch);
+  return most;
+}
+
+SampleGrid EpochLog::grid_of(std::uint64_t sample) const {
+  const auto later = std::upper_bound(grids_.begin(), grids_.end(), sample,
+                                      [](std::uint64_t s, const SampleGrid& grid) { return s < grid.first; });
+  return *(later == grids_.begin() ? later : later - 1);
+}
+
+void EpochLog::put_in_order() {
+  check_configuration(configuration);
+  grids_ = {{configuration.sample_period_tau, 0, {}}};
+  commands.clear();
+  std::size_t next = 0;
+  for (const auto& change : changes) {
+    if (change.first_command > drags.size()) missing(change.epoch, "commands before a change of parameters are missing");
+    for (; next < change.first_command; ++next) commands.emplace_back(drags[next]);
+    commands.emplace_back(change);
+  }
+  for (; next < drags.size(); ++next) commands.emplace_back(drags[next]);
+  check_drags();
+  check_changes();
+  ModelTime last;
+  for (const Applied& command : commands) {
+    const ModelTime time = time_of(command);
+    if (!(last <= time) || !(time.phase >= 0.0 && time.phase < 1.0)) {
+      nonsense(configuration.epoch, "the model times of the commands do not rise");
+    }
+    last = time;
+  }
+}
+
+void EpochLog::check_drags() const {
+  if (drags.empty() || !(node::from_message(drags.front().time) == ModelTime{})) {
+    missing(configuration.epoch, "the history of commands does not reach back to its beginning");
+  }
+  for (const auto& drag : drags) {
+    if (!(std::abs(drag.drag_velocity) <= configuration.max_drag_velocity)) {
+      nonsense(configuration.epoch, "a command is beyond max_drag_velocity");
+    }
+  }
+}
+
+void EpochLog::check_changes() {
+  if (!changes.empty() && !(node::from_message(changes.front().time) == ModelTime{})) {
+    missing(configuration.epoch, "the history of changes of parameters does not reach back to its beginning");
+  }
+  const node::Parameters parameters = node::to_parameters(configuration);
+  for (const auto& change : changes) {
+    check_change(change, parameters);
+    if (!fits(change, grids_.back())) nonsense(change.epoch, "a change of parameters is not between its samples");
+    if (change.sample_period_tau != grids_.back().period) {
+      grids_.push_back({change.sample_period_tau, change.first_sample, node::from_message(change.time)});
+    }
+  }
+}
+
+}  // namespace afm::replay

@@ -1,0 +1,136 @@
+// Every level of every diagnosis, with its reason, from the state that leads to it.
+#include "node/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include "afm_emulator/units.h"
+
+namespace afm::node {
+namespace {
+
+constexpr std::uint8_t kOk = diagnostic_msgs::DiagnosticStatus::OK, kWarn = diagnostic_msgs::DiagnosticStatus::WARN,
+                       kError = diagnostic_msgs::DiagnosticStatus::ERROR;
+
+Health healthy() {
+  Health health;
+  health.lattice_spacing_m = SiModel{}.lattice_spacing_m;
+  health.free_mb = 1e5;
+  health.reserve_mb = 200.0;
+  health.status.scheduler = "normal: not permitted";
+  return health;
+}
+
+void expect(void (*diagnose)(const Health&, Diagnosis&), const Health& health, std::uint8_t level,
+            const std::string& reason) {
+  Diagnosis told;
+  diagnose(health, told);
+  EXPECT_EQ(told.level, level) << told.message;
+  EXPECT_NE(told.message.find(reason), std::string::npos) << told.message;
+}
+
+TEST(DiagnosePace, TellsLagLateBatchesAndLosses) {
+  Health health = healthy();
+  expect(diagnose_pace, health, kOk, "running");
+  health.status.paused = true;
+  expect(diagnose_pace, health, kOk, "paused");
+  health.late_share = 0.25;
+  expect(diagnose_pace, health, kWarn, "25 % of the batches are late (scheduler: normal: not permitted)");
+  health.status.lag = 0.7;
+  expect(diagnose_pace, health, kWarn, "0.7 s behind");
+  health.status.lag = 3.0;
+  expect(diagnose_pace, health, kError, "3.0 s behind");
+  health.lost_batch = true;
+  expect(diagnose_pace, health, kError, "lost");
+}
+
+TEST(DiagnoseCommands, TellsRefusalsAndSilence) {
+  Health health = healthy();
+  health.status.refused_commands = 7;  // long ago
+  expect(diagnose_commands, health, kOk, "");
+  health.timed_out = true;
+  health.command_timeout_s = 0.5;
+  expect(diagnose_commands, health, kWarn, "no command for 0.5 s (command_timeout_s)");
+  health.refusal = "drag_velocity = nan m/s: must be finite";
+  expect(diagnose_commands, health, kWarn, health.refusal);
+  health.overload = true;
+  expect(diagnose_commands, health, kError, health.refusal);
+}
+
+TEST(DiagnoseNumerics, TellsWhatMustStayZero) {
+  Health health = healthy();
+  health.status.worst_penetration = 1e-14 * health.lattice_spacing_m;  // rounding
+  expect(diagnose_numerics, health, kOk, "exact");
+  health.budget_spent = true;
+  expect(diagnose_numerics, health, kWarn, "impact budget");
+  health.status.worst_penetration = 1e-9 * health.lattice_spacing_m;
+  expect(diagnose_numerics, health, kError, "below the surface");
+  health.status.search_failures = 1;
+  expect(diagnose_numerics, health, kError, "given up");
+}
+
+TEST(DiagnoseRecording, TellsOfTheDisk) {
+  Health health = healthy();
+  expect(diagnose_recording, health, kOk, "not recording");
+  health.status.recording = "/bags/run.bag";
+  expect(diagnose_recording, health, kOk, "recording");
+  health.free_mb = -1.0;  // unknown
+  expect(diagnose_recording, health, kOk, "recording");
+  health.free_mb = 399.0;
+  expect(diagnose_recording, health, kWarn, "399 MB are free, and recordings end at 200 MB");
+  health.dropped_from_recording = 1;
+  expect(diagnose_recording, health, kError, "missing");
+  health.status.recorder_error = "the disk is full";
+  expect(diagnose_recording, health, kError, "ended early: the disk is full");
+}
+
+class HealthTracking : public testing::Test {
+ protected:
+  Health look(std::chrono::seconds at) {
+    return tracker_.look({status_, stepper_, recorder_, refusals_, 5000000}, start_ + at);
+  }
+
+  HealthTracker tracker_{1.0, 0.0, 16.0};
+  afm_emulator::EmulatorStatus status_;
+  StepperState stepper_;
+  Recorder::Status recorder_;
+  Refusals refusals_;
+  const RecentRise::Time start_ = std::chrono::steady_clock::now();
+};
+
+TEST_F(HealthTracking, CountsLateBatchesFromLookToLook) {
+  stepper_.batches = 100;
+  stepper_.late_batches = 50;
+  EXPECT_EQ(look(std::chrono::seconds(1)).late_share, 0.5);
+  stepper_.batches = 200;
+  EXPECT_EQ(look(std::chrono::seconds(2)).late_share, 0.0);
+  EXPECT_EQ(look(std::chrono::seconds(3)).late_share, 0.0);  // paused
+}
+
+TEST_F(HealthTracking, ForgetsWhatIsLongPast) {
+  stepper_.counters.budget_exhausted = 3;
+  stepper_.dropped_batches = 1;
+  EXPECT_TRUE(look(std::chrono::seconds(1)).budget_spent);
+  EXPECT_TRUE(look(std::chrono::seconds(10)).lost_batch);
+  EXPECT_FALSE(look(std::chrono::seconds(12)).budget_spent);
+  EXPECT_FALSE(look(std::chrono::seconds(12)).lost_batch);
+  stepper_.counters.budget_exhausted = 0;  // after a reset
+  EXPECT_FALSE(look(std::chrono::seconds(13)).budget_spent);
+  stepper_.counters.budget_exhausted = 1;
+  EXPECT_TRUE(look(std::chrono::seconds(14)).budget_spent);
+}
+
+TEST_F(HealthTracking, KeepsTheLatestRefusal) {
+  refusals_.add(Refusal::faulty_command, "a");
+  refusals_.add(Refusal::overload, "b");
+  Health health = look(std::chrono::seconds(1));
+  EXPECT_EQ(health.refusal, "b");
+  EXPECT_TRUE(health.overload);
+  EXPECT_EQ(refusals_.commands(), 2u);
+  health = look(std::chrono::seconds(60));
+  EXPECT_EQ(health.refusal, "");
+  EXPECT_FALSE(health.overload);
+  EXPECT_EQ(health.free_mb, 5.0);
+}
+
+}  // namespace
+}  // namespace afm::node

@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""What /diagnostics says of a node that is well, and of one that is not: the levels a running node can come to."""
+import math
+import os
+import shutil
+
+from afm_emulator.srv import StartRecording
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
+
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
+from topics import Topic, wait_until
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+
+class Diagnostics(NodeTest):
+    def run_emulator(self, **parameters):
+        self.emulator = self.start(Emulator(dict({'sample_rate_hz': 20000.0}, **parameters)))
+        self.diagnostics = Topic('/diagnostics', DiagnosticArray)
+        Topic('deflection').wait_for()
+
+    def end(self):
+        self.emulator.assert_alive()
+        self.assertEqual(self.emulator.stop(), 0)
+
+    def expect(self, name, level, reason=''):
+        """The entry, as soon as it is so."""
+        def found(begin=0):
+            for message in self.diagnostics.messages[begin:]:
+                for status in message.status:
+                    if status.name == 'afm: ' + name and status.level == level and reason in status.message:
+                        return status
+            return None
+        entry = wait_until(found, '%s: level %d, "%s"; was %s' % (name, level, reason, self.latest(name)))
+        return {value.key: value.value for value in entry.values}
+
+    def latest(self, name):
+        told = [s for m in self.diagnostics.messages for s in m.status if s.name == 'afm: ' + name]
+        return (told[-1].level, told[-1].message) if told else None
+
+    def test_well_then_refusing_then_silent(self):
+        self.run_emulator(command_timeout_s=2.0, batch_rate_hz=50.0, bag_directory=self.temporary_directory())
+        pace = self.expect('emulation', OK, 'running')
+        self.assertAlmostEqual(float(pace['real-time factor']), 1.0, delta=0.5)
+        self.assertTrue(pace['scheduler'].startswith(('fifo', 'normal')))
+        self.expect('numerics', OK)
+        self.assertGreater(float(self.expect('recording', OK, 'not recording')['free [MB]']), 0.0)
+        self.expect('commands', OK)
+        self.expect('commands', WARN, 'no command for 2 s')
+        self.emulator.drag(math.nan)
+        self.assertEqual(self.expect('commands', WARN, 'drag_velocity = nan m/s: must be finite')['refused drag commands'], '1')
+        self.emulator.call('set_parameters', Reconfigure,
+                           config=Config(doubles=[DoubleParameter('restitution_gamma', 2.0)]))
+        told = self.expect('commands', WARN, 'restitution_gamma = 2: ')
+        self.assertEqual(told['refused changes of parameters'], '1')
+        self.end()
+
+    def test_more_commands_than_can_wait(self):
+        self.run_emulator(batch_rate_hz=1.0)
+        self.emulator.drag_publisher.get_num_connections()
+        for i in range(3000):
+            self.emulator.drag((1.0 + i / 3000) * SPEED_UNIT)
+        self.expect('commands', ERROR, 'too many commands are waiting')
+        self.end()
+
+    def test_slower_than_time(self):
+        # chatter bounce by bounce: hundreds of times as many impacts as in real time
+        self.run_emulator(contact_tolerance=0.0, cutoff_speed=5e-8, drag_velocity=3.0 * SPEED_UNIT, time_scale=10.0,
+                          impact_budget=2000)
+        self.expect('emulation', WARN, 's behind the wall clock')
+        self.expect('emulation', ERROR, 's behind the wall clock')
+        self.expect('numerics', WARN, 'impact budget')
+        self.end()
+
+    def test_a_recording_near_its_end_and_one_that_failed(self):
+        directory = self.temporary_directory()
+        bags = os.path.join(directory, 'bags')
+        disk = os.statvfs(directory)
+        free_mb = disk.f_bavail * disk.f_frsize / 1e6
+        self.run_emulator(bag_directory=bags, disk_reserve_mb=0.7 * free_mb)
+        self.expect('recording', WARN, 'MB are free, and recordings end at')
+        answer = self.emulator.call('start_recording', StartRecording, name='lost.bag')
+        self.assertTrue(answer.success, answer.message)
+        shutil.rmtree(bags)
+        self.expect('recording', ERROR, 'ended early')
+        self.end()
+
+
+if __name__ == '__main__':
+    run(Diagnostics)
