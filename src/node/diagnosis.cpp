@@ -1,26 +1,46 @@
 #include "diagnosis.h"
 
+#include <cstdio>
+#include <string>
+
 namespace afm::node {
 namespace {
 
 using Level = diagnostic_msgs::DiagnosticStatus;
 
+// All that is wrong is told, the level is that of the worst.
+class Troubles {
+ public:
+  Troubles(Diagnosis& out, const std::string& if_none) : out_(out) { out_.summary(Level::OK, if_none); }
+
+  void add(bool found, Level::_level_type level, const std::string& text) {
+    if (found) out_.mergeSummary(level, text);
+  }
+
+ private:
+  Diagnosis& out_;
+};
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
 }  // namespace
 
 void diagnose_pace(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
-  if (health.lost_batch) {
-    out.summary(Level::ERROR, "batches were lost: publishing does not keep up");
-  } else if (status.lag > kHopelessLag) {
-    out.summaryf(Level::ERROR, "%.1f s behind the wall clock: the machine is too slow for this run", status.lag);
-  } else if (status.lag > kTroublingLag) {
-    out.summaryf(Level::WARN, "%.1f s behind the wall clock", status.lag);
-  } else if (health.late_share > kTroublingLateShare) {
-    out.summaryf(Level::WARN, "%.0f %% of the batches are late (scheduler: %s)", 100.0 * health.late_share,
-                 status.scheduler.c_str());
-  } else {
-    out.summary(Level::OK, status.paused ? "paused" : "running");
-  }
+  Troubles troubles(out, status.paused ? "paused" : "running");
+  troubles.add(status.lag > kHopelessLag, Level::ERROR,
+               format("%.1f s behind the wall clock: the machine is too slow for this run", status.lag));
+  troubles.add(status.lag > kTroublingLag && !(status.lag > kHopelessLag), Level::WARN,
+               format("%.1f s behind the wall clock", status.lag));
+  troubles.add(health.lost_batch, Level::ERROR, "batches were lost: publishing does not keep up");
+  troubles.add(health.late_share > kTroublingLateShare, Level::WARN,
+               format("%.0f %% of the batches are late (scheduler: %s)", 100.0 * health.late_share,
+                      status.scheduler.c_str()));
   out.add("real-time factor", status.real_time_factor);
   out.add("lag [s]", status.lag);
   out.add("worst lag [s]", status.worst_lag);
@@ -31,16 +51,10 @@ void diagnose_pace(const Health& health, Diagnosis& out) {
 }
 
 void diagnose_commands(const Health& health, Diagnosis& out) {
-  if (health.overload) {
-    out.summary(Level::ERROR, health.refusal);
-  } else if (!health.refusal.empty()) {
-    out.summary(Level::WARN, "refused: " + health.refusal);
-  } else if (health.timed_out) {
-    out.summaryf(Level::WARN, "the drag was stopped: no command for %g s (command_timeout_s)",
-                 health.command_timeout_s);
-  } else {
-    out.summary(Level::OK, "all obeyed of late");
-  }
+  Troubles troubles(out, "nothing was refused of late");
+  troubles.add(!health.refusal.empty(), health.overload ? Level::ERROR : Level::WARN, "refused: " + health.refusal);
+  troubles.add(health.timed_out, Level::WARN,
+               format("the drag was stopped: no command for %g s (command_timeout_s)", health.command_timeout_s));
   out.add("refused drag commands", health.status.refused_commands);
   out.add("refused changes of parameters", health.refused_changes);
   out.add("drag stopped as no command came", health.timed_out);
@@ -48,15 +62,13 @@ void diagnose_commands(const Health& health, Diagnosis& out) {
 
 void diagnose_numerics(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
-  if (status.search_failures > 0) {
-    out.summary(Level::ERROR, "searches for the next impact have given up: this epoch is not exact");
-  } else if (status.worst_penetration > kPenetration * health.lattice_spacing_m) {
-    out.summary(Level::ERROR, "the tip was below the surface: this epoch is not exact");
-  } else if (health.budget_spent) {
-    out.summary(Level::WARN, "batches are cut short by the impact budget: too many impacts for real time");
-  } else {
-    out.summary(Level::OK, "exact");
-  }
+  Troubles troubles(out, "exact");
+  troubles.add(status.search_failures > 0, Level::ERROR,
+               "searches for the next impact have given up: this epoch is not exact");
+  troubles.add(status.worst_penetration > kPenetration * health.lattice_spacing_m, Level::ERROR,
+               "the tip was below the surface: this epoch is not exact");
+  troubles.add(health.budget_spent, Level::WARN,
+               "batches are cut short by the impact budget: too many impacts for real time");
   out.add("failed impact searches", status.search_failures);
   out.add("worst penetration [m]", status.worst_penetration);
   out.add("batches cut short by the impact budget", status.budget_exhausted);
@@ -66,17 +78,13 @@ void diagnose_numerics(const Health& health, Diagnosis& out) {
 void diagnose_recording(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
   const bool recording = !status.recording.empty();
-  const bool scarce = health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb;
-  if (!status.recorder_error.empty()) {
-    out.summary(Level::ERROR, "ended early: " + status.recorder_error);
-  } else if (recording && health.dropped_from_recording > 0) {
-    out.summary(Level::ERROR, "messages are missing in the recording: the disk is too slow");
-  } else if (scarce) {
-    out.summaryf(Level::WARN, "%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)", health.free_mb,
-                 health.reserve_mb);
-  } else {
-    out.summary(Level::OK, recording ? "recording" : "not recording");
-  }
+  Troubles troubles(out, recording ? "recording" : "not recording");
+  troubles.add(!status.recorder_error.empty(), Level::ERROR, "ended early: " + status.recorder_error);
+  troubles.add(recording && health.dropped_from_recording > 0, Level::ERROR,
+               "messages are missing in the recording: the disk is too slow");
+  troubles.add(health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb, Level::WARN,
+               format("%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)", health.free_mb,
+                      health.reserve_mb));
   out.add("bag", status.recording);
   if (health.free_mb >= 0.0) out.addf("free [MB]", "%.0f", health.free_mb);
   out.add("messages missing in the recording", health.dropped_from_recording);
