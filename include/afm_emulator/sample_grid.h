@@ -15,7 +15,8 @@ struct SampleGrid {
   // Of the n-th sample, n >= first; from an origin at 0 to the bits of multiply().
   ModelTime time(std::uint64_t n) const {
     const ModelTime since = multiply(n - first, period);
-    return ModelTime{origin.tau + since.tau, origin.phase} + since.phase;
+    const double phase = origin.phase + since.phase;
+    return phase < 1.0 ? ModelTime{origin.tau + since.tau, phase} : ModelTime{origin.tau + since.tau + 1, phase - 1.0};
   }
 };
 

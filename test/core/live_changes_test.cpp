@@ -186,6 +186,16 @@ EmulatorSettings settings_at(double eta, double sample_period, std::uint64_t sam
   return settings;
 }
 
+TEST(SampleGrid, CountsFromItsOrigin) {
+  const SampleGrid plain{0.03, 0, {}}, moved{0.03, 7, {5, 0.9999}};
+  for (const std::uint64_t n : {0u, 1u, 33u, 34u, 1000000u}) {
+    EXPECT_TRUE(plain.time(n) == multiply(n, 0.03));
+    const ModelTime time = moved.time(7 + n);
+    EXPECT_TRUE(time == (ModelTime{5, 0.9999} + multiply(n, 0.03).phase) + static_cast<double>(multiply(n, 0.03).tau));
+    EXPECT_TRUE(time.phase >= 0.0 && time.phase < 1.0);
+  }
+}
+
 TEST(EmulatorChange, ToTheSameIsNoChange) {
   Emulator plain(settings_at(3.4, 0.03, 500)), told(settings_at(3.4, 0.03, 500));
   RecordedRun truth, run;

@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-ros_include='#[[:space:]]*include[[:space:]]*[<"](ros|rosbag|std_msgs|std_srvs|diagnostic_[a-z]+)/|#[[:space:]]*include[[:space:]]*[<"]afm_emulator/[A-Z]'
+ros_include='#[[:space:]]*include[[:space:]]*[<"](ros|rosbag|std_msgs|std_srvs|diagnostic_[a-z]+|dynamic_reconfigure)/|#[[:space:]]*include[[:space:]]*[<"]afm_emulator/[A-Z]'
 
 # the pattern works: it finds what the node includes
 if ! grep -rqE "$ros_include" src/node; then

@@ -79,7 +79,7 @@ class Steering(NodeTest):
 
     def test_a_change_takes_effect_at_a_batch_boundary_and_is_told(self):
         self.run_emulator()
-        self.friction.wait_for_more(5)
+        self.friction.wait_for_more(30)
         told = self.change(restitution_gamma=0.4, rest_height_m=-1.0e-11)
         first = self.friction.wait_for(lambda m: key(m.time) > key(told.time), 'the first batch after it')
         batch = self.deflection.wait_for(lambda m: m.first_sample == told.first_sample, 'begins with that sample')
@@ -178,15 +178,15 @@ class Steering(NodeTest):
         self.assertEqual(checks.replay_check(spoiled).code, checks.ALTERED)
 
     def test_without_commands_the_drag_stops(self):
-        self.run_emulator(command_timeout_s=0.5, drag_velocity=2.0 * SPEED_UNIT)
+        self.run_emulator(command_timeout_s=1.0, drag_velocity=2.0 * SPEED_UNIT)
         stop = self.drags.wait_for(lambda m: m.drag_velocity == 0.0, 'it stops by itself')
         self.assertEqual([m.drag_velocity for m in self.drags.messages], [2.0 * SPEED_UNIT, 0.0])
         self.assertGreater(key(stop.time), (0, 0.0))
         # with commands it goes on
         begin = time.monotonic()
-        while time.monotonic() - begin < 1.5:
+        while time.monotonic() - begin < 2.0:
             self.emulator.drag(SPEED_UNIT)
-            self.deflection.wait_for_more(10)
+            self.deflection.wait_for_more(5)
         moving = [m.drag_velocity for m in self.drags.messages[2:]]
         self.assertEqual(set(moving), {SPEED_UNIT})
         count = len(self.drags.messages)
@@ -200,10 +200,10 @@ class Steering(NodeTest):
         begin, status = time.monotonic(), Topic('status')
         status.wait_for(lambda m: m.paused and time.monotonic() - begin > 1.5, 'time passes')
         self.assertEqual(len(self.drags.messages), 1)
-        self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
         resumed = time.monotonic()
-        self.drags.wait_for_next(lambda m: m.drag_velocity == 0.0, 'stops after the pause')
-        self.assertGreater(time.monotonic() - resumed, 0.5)
+        self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
+        self.drags.wait_for(lambda m: m.drag_velocity == 0.0, 'stops after the pause')
+        self.assertGreaterEqual(time.monotonic() - resumed, 1.0)
         self.end()
 
     def test_off_by_default(self):

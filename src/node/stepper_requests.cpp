@@ -1,0 +1,95 @@
+// What the stepping thread does between batches: obeys, and stops the drag where nobody commands any more.
+#include "scheduling.h"
+#include "stepper.h"
+
+namespace afm::node {
+
+// A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
+void Stepper::serve_requests() {
+  Request request;
+  while (!stopping_ && hand_over_.has_room_for_request() && requests_.pop(request)) serve(request);
+}
+
+void Stepper::serve(const Request& request) {
+  Answer told = answer(Answer::Result::done, 0);
+  switch (request.kind) {
+    case Request::Kind::drag:
+      timed_out_ = false;
+      last_command_ = monotonic_now();
+      apply_drag(request.value);
+      break;
+    case Request::Kind::change:
+      apply_change(request.live);
+      break;
+    case Request::Kind::pause:
+      pause(true);
+      break;
+    case Request::Kind::resume:
+      pause(false);
+      break;
+    case Request::Kind::reset:
+      reset();
+      break;
+    case Request::Kind::step_time:
+      told = step_time(request.value);
+      break;
+    case Request::Kind::step_impacts:
+      told = step_impacts(request.impacts);
+      break;
+  }
+  told.ticket = request.ticket;
+  told.time = emulator_.now();
+  if (told.ticket != 0) publish(Event::Kind::answer, told);
+}
+
+void Stepper::apply_drag(double drag_velocity) {
+  drag_velocity_ = drag_velocity;
+  emulator_.drag(to_eta(drag_velocity, parameters_.si));
+  publish(Event::Kind::drag_applied);
+  ++commands_;
+}
+
+void Stepper::apply_change(const LiveParameters& live) {
+  set_live(live, parameters_);
+  emulator_.change(live_settings(emulator_settings(parameters_)));
+  pacer_.set_period(batch_period(parameters_));
+  publish(Event::Kind::parameters_applied);
+}
+
+// A stop is a command like any other, applied and told of at a batch boundary: who simulates the run again needs no clock.
+void Stepper::watch_for_commands() {
+  if (parameters_.command_timeout_s == 0.0 || drag_velocity_ == 0.0 || paused_) return;
+  const double silence = std::chrono::duration<double>(monotonic_now() - last_command_).count();
+  if (silence < parameters_.command_timeout_s || !hand_over_.has_room_for_request()) return;
+  timed_out_ = true;
+  apply_drag(0.0);
+}
+
+void Stepper::pause(bool paused) {
+  if (paused_ && !paused) {
+    last_command_ = monotonic_now();
+    pacer_.resume(last_command_);
+  }
+  paused_ = paused;
+}
+
+void Stepper::reset() {
+  emulator_.reset();
+  batch_.first_impact = 0;
+  batch_.impacts.clear();
+  drag_velocity_ = parameters_.drag_velocity;
+  last_command_ = monotonic_now();
+  timed_out_ = false;
+  ++epoch_;
+  publish_start();
+}
+
+void Stepper::publish_start() {
+  commands_ = 0;
+  publish(Event::Kind::reset);
+  publish(Event::Kind::drag_applied);
+  ++commands_;
+  publish(Event::Kind::parameters_applied);
+}
+
+}  // namespace afm::node
