@@ -18,14 +18,25 @@ void Heard::take(const afm_emulator::Configuration& message) {
   units_ = Units(si);
   model_ = units_->to_natural(si);
   holder_.begin(message);
-  const double kept = kPathTau / message.sample_period_tau +
-                      kKeptWallTime * message.sample_rate_hz * message.time_scale +
-                      4.0 * static_cast<double>(message.samples_per_batch);
+  keep(message.sample_rate_hz, message.sample_period_tau, message.samples_per_batch);
+}
+
+void Heard::take(const afm_emulator::AppliedParameters& message) {
+  holder_.obey(message);
+  if (configuration_) keep(message.sample_rate_hz, message.sample_period_tau, message.samples_per_batch);
+}
+
+void Heard::keep(double sample_rate_hz, double sample_period_tau, std::uint64_t samples_per_batch) {
+  const double kept = kPathTau / sample_period_tau + kKeptWallTime * sample_rate_hz * configuration_->time_scale +
+                      4.0 * static_cast<double>(samples_per_batch);
   trace_.keep(static_cast<std::size_t>(std::min(kept, kMostSamples)));
 }
 
 void Heard::take(const afm_emulator::Deflection& message) {
-  if (units_) trace_.add(message, *units_, configuration_->sample_period_tau);
+  if (!units_) return;
+  // the digits that the core uses, as long as the sample rate is that of the start
+  const bool as_at_start = message.sample_period == configuration_->sample_period;
+  trace_.add(message, *units_, as_at_start ? configuration_->sample_period_tau : message.sample_period / units_->time());
 }
 
 void Heard::take(const afm_emulator::ImpactArray& message) {

@@ -14,6 +14,7 @@ class Heard {
  public:
   void take(const afm_emulator::Configuration& message);
   void take(const afm_emulator::AppliedDrag& message) { holder_.obey(message); }
+  void take(const afm_emulator::AppliedParameters& message);
   void take(const afm_emulator::Deflection& message);
   void take(const afm_emulator::ImpactArray& message);
   void take(const afm_emulator::Friction& message) { friction_ = message; }
@@ -31,6 +32,8 @@ class Heard {
   ModelTime now() const { return trace_.samples().back().time; }
 
  private:
+  void keep(double sample_rate_hz, double sample_period_tau, std::uint64_t samples_per_batch);
+
   std::optional<afm_emulator::Configuration> configuration_;
   std::optional<afm_emulator::Friction> friction_;
   std::optional<Units> units_;

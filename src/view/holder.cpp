@@ -1,5 +1,6 @@
 #include "view/holder.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "node/message_conversion.h"
@@ -8,6 +9,7 @@ namespace afm::view {
 namespace {
 
 constexpr std::size_t kMostLegs = 1000;  // a picture reaches back over few of them
+constexpr std::size_t kMostLifts = kMostLegs;
 
 }  // namespace
 
@@ -15,6 +17,8 @@ void Holder::begin(const afm_emulator::Configuration& configuration) {
   configured_ = true;
   start_epoch_ = configuration.epoch;
   start_ = configuration.initial_phase - configuration.initial_extension;
+  start_height_m_ = configuration.rest_height_m;
+  length_unit_ = configuration.lattice_spacing_m;
   const double speed_unit = Units(node::si_model(configuration)).velocity();
   for (Leg& leg : legs_) leg.eta *= speed_unit_ / speed_unit;  // a command may come before the first configuration
   speed_unit_ = speed_unit;
@@ -64,6 +68,21 @@ const Holder::Leg& Holder::leg(const ModelTime& time) const {
 double Holder::travelled(const ModelTime& time) const {
   const Leg& now = leg(time);
   return now.x + now.eta * (time - now.begin);
+}
+
+void Holder::obey(const afm_emulator::AppliedParameters& change) {
+  const ModelTime time = node::from_message(change.time);
+  if (change.epoch != lifts_epoch_ || (!lifts_.empty() && time < lifts_.back().begin)) lifts_.clear();
+  lifts_epoch_ = change.epoch;
+  lifts_.push_back({time, change.rest_height_m});
+  if (lifts_.size() > kMostLifts) lifts_.pop_front();
+}
+
+double Holder::height(const ModelTime& time) const {
+  const auto after = std::upper_bound(lifts_.begin(), lifts_.end(), time,
+                                      [](const ModelTime& t, const Lift& lift) { return t < lift.begin; });
+  const bool told = lifts_epoch_ == start_epoch_ && after != lifts_.begin();
+  return (told ? std::prev(after)->height_m : start_height_m_) / length_unit_;
 }
 
 }  // namespace afm::view

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>
+#include <afm_emulator/AppliedParameters.h>
 #include <afm_emulator/Configuration.h>
 
 #include <cstdint>
@@ -17,6 +18,7 @@ class Holder {
  public:
   void begin(const afm_emulator::Configuration& configuration);
   void obey(const afm_emulator::AppliedDrag& command);
+  void obey(const afm_emulator::AppliedParameters& change);
 
   std::uint32_t epoch() const { return epoch_; }
 
@@ -25,6 +27,8 @@ class Holder {
 
   // Along the surface [a], a crest at every whole number. Empty when neither the start nor an impact has told.
   std::optional<double> position(const ModelTime& time) const;
+  // Over mid-surface [a], the latest told of up to that time.
+  double height(const ModelTime& time) const;
   double eta(const ModelTime& time) const { return leg(time).eta; }
   // Of the drag velocity, the latest up to that time.
   ModelTime last_change(const ModelTime& time) const { return leg(time).begin; }
@@ -34,14 +38,19 @@ class Holder {
     ModelTime begin;
     double x = 0.0, eta = 0.0;
   };
+  struct Lift {
+    ModelTime begin;
+    double height_m = 0.0;
+  };
   const Leg& leg(const ModelTime& time) const;
   double travelled(const ModelTime& time) const;
   bool knows_start() const;
 
   std::deque<Leg> legs_;  // since the first command heard of
-  std::uint32_t epoch_ = 0;
+  std::deque<Lift> lifts_;  // likewise
+  std::uint32_t epoch_ = 0, lifts_epoch_ = 0;
   std::uint32_t start_epoch_ = 0;
-  double speed_unit_ = 1.0, start_ = 0.0;
+  double speed_unit_ = 1.0, length_unit_ = 1.0, start_ = 0.0, start_height_m_ = 0.0;
   bool configured_ = false;
   std::optional<double> correction_;
 };

@@ -75,7 +75,7 @@ void Picture::draw_motion(Canvas& canvas, const Heard& heard) const {
   const Corner tip = path.back();
   clip(canvas, path);
   draw_path(canvas, path);
-  draw_spring(canvas, tip, heard.holder().position(moment).value_or(0.0), heard.model().y0);
+  draw_spring(canvas, tip, heard.holder().position(moment).value_or(0.0), heard.holder().height(moment));
   draw_tip(canvas, tip);
 }
 

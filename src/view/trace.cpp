@@ -86,7 +86,7 @@ std::vector<Corner> Trace::path(const ModelTime& from, const Model& model, const
     }
     const bool contact = event == events_.begin() ? contact_before_ : std::prev(event)->contact;
     const double centre = holder.position(sample->time).value_or(0.0);
-    corners.push_back({sample->time, centre + sample->X, model.y0 + sample->Y, contact});
+    corners.push_back({sample->time, centre + sample->X, holder.height(sample->time) + sample->Y, contact});
   }
   return corners;
 }

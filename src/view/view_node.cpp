@@ -29,6 +29,8 @@ class Looking {
             subscribe<afm_emulator::Configuration>(emulator, node::kConfigurationTopic, node::kConfigurationQueueSize,
                                                    heard_),
             subscribe<afm_emulator::AppliedDrag>(emulator, node::kAppliedDragTopic, node::kCommandQueueSize, heard_),
+            subscribe<afm_emulator::AppliedParameters>(emulator, node::kAppliedParametersTopic,
+                                                       node::kCommandQueueSize, heard_),
             subscribe<afm_emulator::Deflection>(emulator, node::kDeflectionTopic, node::kBatchQueueSize, heard_),
             subscribe<afm_emulator::ImpactArray>(emulator, node::kImpactsTopic, node::kBatchQueueSize, heard_),
             subscribe<afm_emulator::Friction>(emulator, node::kFrictionTopic, node::kBatchQueueSize, heard_)} {}

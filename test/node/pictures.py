@@ -75,6 +75,7 @@ class Told:
         self.epoch = topics['configuration'].messages[-1].epoch
         self.configuration = topics['configuration'].messages[-1]
         self.commands = self.of_epoch(topics['applied_drag'])
+        self.changes = self.of_epoch(topics['applied_parameters'])
         self.batches = [m for m in self.of_epoch(topics['deflection']) if m.vertical]
         self.events = [i for m in self.of_epoch(topics['impacts']) for i in m.impacts]
 
@@ -87,6 +88,10 @@ class Told:
         time = type(batch.time)(batch.time.tau, batch.time.phase)
         time.phase += (len(batch.vertical) - 1) * self.configuration.sample_period_tau
         return time, batch.lateral[-1] / LATTICE, batch.vertical[-1] / LATTICE
+
+    def height(self, time):
+        """Of the harmonic centre [a]."""
+        return [m.rest_height_m for m in self.changes if key(m.time) <= key(time)][-1] / LATTICE
 
     def centre(self, time):
         """Where it is over the surface [a], from the beginning and all commands."""

@@ -8,6 +8,8 @@ from pathlib import Path
 import rospy
 from afm_emulator.msg import AppliedDrag, EmulatorStatus, Friction, Impact
 from afm_emulator.srv import Step
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
@@ -73,7 +75,7 @@ class ViewTest(NodeTest):
         def shown():
             picture, told = Picture(self.view.markers.messages[-1]), Told(self.topics)
             time, X, Y = told.last_sample()
-            right = (told.centre(time) - told.middle(time) + X, Y)
+            right = (told.centre(time) - told.middle(time) + X, told.height(time) + Y)
             here = picture.has('tip') and math.dist(picture.tip(), right) < EXACT
             complete = picture.spots() == len(told.events_seen(time))  # impacts come on another topic than the tip
             return (picture, told, time) if here and complete else None
@@ -168,6 +170,16 @@ class ViewTest(NodeTest):
         self.advance(2)
         picture, _ = self.assert_shows_all()
         self.assertEqual(picture.text('eta'), 'eta 3.400')
+
+    def test_follows_the_centre_up_and_down(self):
+        self.begin(SLOW)
+        self.pause()
+        for height in (-3e-11, 2e-11):
+            config = Config(doubles=[DoubleParameter('rest_height_m', height)])
+            answer = self.emulator.call('set_parameters', Reconfigure, config=config)
+            self.assertEqual({v.name: v.value for v in answer.config.doubles}['rest_height_m'], height)
+            self.advance(4)
+            self.assert_shows_all()
 
     def test_marks_contact(self):
         eta = 0.2  # a third of the time in contact
