@@ -6,13 +6,15 @@ import shutil
 import signal
 import time
 
+import rospy
 from afm_emulator.srv import StartRecording
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
+from std_msgs.msg import Float64
 
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
-from topics import Topic, wait_until
+from topics import NAMESPACE, Topic, wait_until
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
@@ -74,9 +76,16 @@ class Diagnostics(NodeTest):
 
     def test_more_commands_than_can_wait(self):
         self.run_emulator(batch_rate_hz=1.0)
-        for i in range(3000):
-            self.emulator.drag((1.0 + i / 3000) * SPEED_UNIT)
+        flood = rospy.Publisher(NAMESPACE + '/drag_velocity', Float64, queue_size=10000, tcp_nodelay=True)
+        wait_until(lambda: flood.get_num_connections() > 0, 'connected')
+
+        def refused():
+            for _ in range(500):
+                flood.publish(SPEED_UNIT)
+            return 'too many commands are waiting' in self.emulator.output()
+        wait_until(refused, 'overload')
         self.expect('commands', ERROR, 'too many commands are waiting')
+        flood.unregister()
         self.end()
 
     def test_slower_than_time(self):
