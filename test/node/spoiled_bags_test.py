@@ -139,8 +139,19 @@ class SpoiledBags(NodeTest):
         self.assert_told(checks.ALTERED, 'ALTERED')
 
     def test_another_configuration(self):
-        self.of('configuration')[0].edit(restitution_gamma=0.71)
+        self.of('configuration')[0].edit(initial_height=0.21)
         self.assert_told(checks.ALTERED, 'ALTERED')
+
+    def test_another_change_of_parameters(self):
+        first, second = self.of('applied_parameters')
+        second.edit(rest_height_m=-2.1e-12)
+        self.assert_told(checks.ALTERED, 'ALTERED')
+        second.edit(rest_height_m=1.0)
+        self.assert_told(checks.ALTERED, 'rest_height_m = 1: ')
+        second.edit(rest_height_m=-2.0e-12, first_sample=second.message().first_sample + 1)
+        self.assert_told(checks.ALTERED, 'not between its samples')
+        first.edit(restitution_gamma=0.71)
+        self.assert_told(checks.ALTERED, 'live parameters of its configuration')
 
     def test_a_configuration_that_cannot_be(self):
         self.of('configuration')[0].edit(restitution_gamma=7.0)
@@ -154,7 +165,7 @@ class SpoiledBags(NodeTest):
     def test_a_true_recording_of_something_else(self):
         """As from a machine that computes otherwise: true to its digests, but not what is simulated here."""
         configuration = self.of('configuration')[0]
-        configuration.edit(restitution_gamma=0.7000000000000001)
+        configuration.edit(initial_height=0.2000000000000001)
         digest = digest_recipe.of_configuration(configuration.message())
         for entry in self.of('digest'):
             entry.edit(configuration_digest=digest)

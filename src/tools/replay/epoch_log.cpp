@@ -121,6 +121,9 @@ void EpochLog::check_changes() {
     missing(configuration.epoch, "the history of changes of parameters does not reach back to its beginning");
   }
   const node::Parameters parameters = node::to_parameters(configuration);
+  if (!changes.empty() && !(node::to_live(changes.front()) == node::live_parameters(parameters))) {
+    nonsense(configuration.epoch, "it does not begin with the live parameters of its configuration");
+  }
   for (const auto& change : changes) {
     check_change(change, parameters);
     if (!fits(change, grids_.back())) nonsense(change.epoch, "a change of parameters is not between its samples");
