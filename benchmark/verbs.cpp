@@ -1,0 +1,158 @@
+// What each verb of the core costs. Every measurement goes over the same saved states again and again.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "afm_emulator/impact_search.h"
+#include "afm_emulator/multiversion.h"
+#include "afm_emulator/reflection.h"
+#include "afm_emulator/tip.h"
+
+namespace {
+
+using namespace afm;
+
+constexpr int kStates = 1000;
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+
+// Launches and landings of consecutive impacts after a transient.
+struct Chain {
+  explicit Chain(double eta_per_cell) : eta(eta_per_cell), mechanics(model) {
+    model.v_c = 0.1 * eta;
+    Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, 0.0);
+    while (tip.now().tau < 300) tip.advance({300, 0.0});
+    while (tip.advance(kNever) != Outcome::impact) continue;
+    for (int i = 0; i < kStates; ++i) {
+      flights.emplace_back(mechanics, eta, tip.tip_state());
+      const Landing<double> landing = find_landing(model, flights.back(), 8.0);
+      times.push_back(0.9 * landing.s);
+      incidents.push_back(landing.jet);
+      while (tip.advance(kNever) != Outcome::impact) continue;
+    }
+  }
+
+  double eta;
+  Model model;
+  Mechanics<double> mechanics;
+  std::vector<Flight<double>> flights;
+  std::vector<double> times;
+  std::vector<GapJet<double>> incidents;
+};
+
+double eta_of(const benchmark::State& state) { return 1e-2 * static_cast<double>(state.range(0)); }
+
+AFM_MULTIVERSION double sine_of(double x) { return sin_cos_turns(x).sin; }
+AFM_MULTIVERSION GapJet<double> gap_of(const Flight<double>& flight, double s) { return flight.gap(s); }
+AFM_MULTIVERSION Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) {
+  return reflect(model, eta, jet.state, std::fmin(jet.g1, 0.0));
+}
+AFM_MULTIVERSION double release_of(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start) {
+  return SlidePiece<double>(mechanics, eta, start).find_release();
+}
+
+// One after the other: each angle waits for the sine before.
+void TurnSine(benchmark::State& state) {
+  double x = 0.1;
+  for (auto _ : state) x = 0.3 + 0.1 * sine_of(x);
+  benchmark::DoNotOptimize(x);
+}
+BENCHMARK(TurnSine);
+
+template <class Verb>
+void over(benchmark::State& state, const Chain& chain, const Verb& verb) {
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(verb(i));
+    i = i + 1 == chain.flights.size() ? 0 : i + 1;
+  }
+}
+
+void Gap(benchmark::State& state) {
+  const Chain chain(eta_of(state));
+  over(state, chain, [&](std::size_t i) { return gap_of(chain.flights[i], chain.times[i]).g; });
+}
+BENCHMARK(Gap)->Arg(340);
+
+void Search(benchmark::State& state) {
+  const Chain chain(eta_of(state));
+  over(state, chain, [&](std::size_t i) { return find_landing(chain.model, chain.flights[i], 8.0).s; });
+}
+BENCHMARK(Search)->Arg(50)->Arg(150)->Arg(200)->Arg(250)->Arg(340)->Arg(450)->Arg(600)->Arg(800);
+
+void Reflect(benchmark::State& state) {
+  const Chain chain(eta_of(state));
+  over(state, chain, [&](std::size_t i) { return reflection_of(chain.model, chain.eta, chain.incidents[i]).after.u; });
+}
+BENCHMARK(Reflect)->Arg(340);
+
+// From impact to impact: bounce, launch and search, each waiting for the last.
+void Bounce(benchmark::State& state) {
+  Model model;
+  model.v_c = 0.1 * eta_of(state);
+  Tip saved(model, eta_of(state), FreeState{0.25, 0.0, 0.2, eta_of(state), 0.0}, 0.0);
+  while (saved.now().tau < 300) saved.advance({300, 0.0});
+  Tip tip = saved;
+  int impacts = 0;
+  for (auto _ : state) {
+    while (tip.advance(kNever) != Outcome::impact) continue;
+    if (++impacts % kStates == 0) tip = saved;
+  }
+}
+BENCHMARK(Bounce)->Arg(50)->Arg(150)->Arg(200)->Arg(250)->Arg(340)->Arg(450)->Arg(600)->Arg(800);
+
+// Bounces of a speed that falls from 0.01 a/tau, one by one.
+void MicroBounce(benchmark::State& state) {
+  const Tip saved(Model{}, 3.0, TipState{0.5, 0.0, 3.0, 0.0, 0.01}, 0.0);
+  Tip tip = saved;
+  int impacts = 0;
+  for (auto _ : state) {
+    tip.advance(kNever);
+    if (++impacts % 300 == 0) tip = saved;
+  }
+}
+BENCHMARK(MicroBounce);
+
+// The series of one piece of contact, and where it ends.
+void Slide(benchmark::State& state) {
+  const Mechanics<double> mechanics{Model{}};
+  double phase = 0.4;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(release_of(mechanics, 3.0, {phase, 0.001, 3.0}));
+    phase = phase > 0.6 ? 0.4 : phase + 1e-3;
+  }
+}
+BENCHMARK(Slide);
+
+// A tau of the emulator's tip at its default tolerance, bursts and contact with it.
+void OneTau(benchmark::State& state) {
+  const double eta = eta_of(state);
+  Tip saved(Model{}, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  while (saved.now().tau < 300) saved.advance({300, 0.0});
+  Tip tip = saved;
+  std::int64_t tau = 300;
+  for (auto _ : state) {
+    ++tau;
+    while (tip.advance({tau, 0.0}) != Outcome::time_limit) continue;
+    if (tau < 1300) continue;
+    tip = saved;
+    tau = 300;
+  }
+}
+BENCHMARK(OneTau)->Arg(0)->Arg(20)->Arg(50)->Arg(100)->Arg(200)->Arg(300)->Arg(340)->Arg(500)->Arg(625)->Arg(700);
+
+void Sample(benchmark::State& state) {
+  Tip tip(Model{}, 3.4, FreeState{0.25, 0.0, 0.2, 3.4, 0.0});
+  while (tip.now().tau < 300) tip.advance({300, 0.0});
+  const double length = tip.arc_end() - tip.now();
+  int i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(tip.deflection(tip.now() + 1e-3 * i * length));
+    i = i == 999 ? 0 : i + 1;
+  }
+}
+BENCHMARK(Sample);
+
+}  // namespace
+
+BENCHMARK_MAIN();
