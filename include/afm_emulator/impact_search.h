@@ -38,11 +38,13 @@ T descent(const Flight<T>& f, const T& reach) {
   return min(T(kAhead) * reach, T(0.5) * m.H / (m.omega_v * f.amplitude_Y()));
 }
 
-// The root of g1 + g2 t/2 + g3 t^2/6, near that of the first two.
+// The root of g1 + g2 t/2 + g3 t^2/6 + g4 t^3/24 near that of the first two, by its series.
 template <class T>
-T end_of_bounce(const GapJet<T>& start) {
-  const T t = T(-2.0) * start.g1 / start.g2;
-  return t - start.g3 * t * t / (T(3.0) * start.g2 + T(2.0) * start.g3 * t);
+T end_of_bounce(const Flight<T>& f) {
+  const GapJet<T>& o = f.start();
+  const T per = T(1.0) / o.g2, t = T(-2.0) * o.g1 * per;
+  const T a = o.g3 * per / T(3.0) * t, b = fourth_derivative(f, o) * per / T(12.0) * t * t;
+  return t * (T(1.0) - a + (T(2.0) * a * a - b) + T(5.0) * a * (b - a * a));
 }
 
 // Leaves the surface: certified up to s; where to look next, and how far a step may reach.
@@ -53,7 +55,7 @@ void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
   s = aloft > first ? aloft : first;
   // where the parabola's own root was nearest, it is the impact
   const bool bounces = f.start().g2 * first < T(-1.6) * f.start().g1;
-  ahead = aloft > first ? descent(f, first) : bounces ? max(T(0.0), T(end_of_bounce(f.start()) - first)) : T(kAhead) * first;
+  ahead = aloft > first ? descent(f, first) : bounces ? max(T(0.0), T(end_of_bounce(f) - first)) : T(kAhead) * first;
   guess = T(2.0) * first;
 }
 
@@ -70,8 +72,6 @@ bool settles(const Flight<T>& f, const GapJet<T>& jet, const T& step, const T& t
 template <class T>
 Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, int evaluations) {
   using std::abs;
-  using std::sqrt;
-  const T near_enough = sqrt(epsilon<T>()) / T(16.0);
   constexpr int kMaxFinish = 60;
   T t = T(0.0), step = root.estimate;
   bool there = settles(f, jet, step, s);
@@ -84,15 +84,12 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
     step = root_step(jet);
     if (t + step < root.low || root.high < t + step) step = clamp(t + step, root.low, root.high) - t;
     // well below an ulp of the velocities: what is left out there always adds energy
-    const bool smooth = T(16.0) * f.third_derivative_bound() * step * step <= epsilon<T>() * abs(jet.g1);
+    const bool smooth = T(4.0) * f.fourth_derivative_bound() * abs(step * step * step) <= epsilon<T>() * abs(jet.g1);
+    const bool settled = settles(f, jet, step, T(s + t));
     const bool hidden = abs(step * jet.g1) <= f.gap_error(s + t);  // by the rounding of the gap
-    if (hidden || (smooth && abs(step) <= near_enough * (s + t))) {
-      // what is left is of second order at most: move the evaluated state instead of evaluating again
-      return {SearchOutcome::impact, s + (t + step), drift(f, jet, step), evaluations};
-    }
-    if (settles(f, jet, step, T(s + t))) {
-      return {SearchOutcome::impact, s + (t + step), f.gap_near(jet, s + t, step), evaluations + 1};
-    }
+    // what is left is of fourth order at most: move the evaluated state instead of evaluating again
+    if (hidden || (smooth && settled)) return {SearchOutcome::impact, s + (t + step), drift(f, jet, step), evaluations};
+    if (settled) return {SearchOutcome::impact, s + (t + step), f.gap_near(jet, s + t, step), evaluations + 1};
   }
   return {SearchOutcome::cap, s, f.gap(s), evaluations};
 }

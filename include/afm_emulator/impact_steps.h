@@ -28,6 +28,17 @@ ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& je
   return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + change / T(3.0)))};
 }
 
+// The fourth derivative of the gap.
+template <class T>
+T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
+  const Mechanics<T>& m = f.mechanics();
+  const FlightState<T>& q = jet.state;
+  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U, v2 = k2 * u * u;
+  return wv2 * wv2 * q.Y + jet.h * (k2 * (T(3.0) * x2 * x2 + T(4.0) * u * x3) - v2 * v2) +
+         jet.h1 * (T(6.0) * v2 + wh2) * x2;
+}
+
 // Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. A little less than
 // that, so that a bounce whose root it nearly is still has a gap to be seen, and the root is near. Where gap rate and acceleration are nothing, as
 // at the end of a slide, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
@@ -175,16 +186,18 @@ T root_step(const GapJet<T>& jet) {
   return -r * (T(1.0) + r * (a2 + r * (T(2.0) * a2 * a2 - a3)));
 }
 
-// The jet a tiny step further on.
+// The jet a tiny step further on, to the third order.
 template <class T>
 GapJet<T> drift(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   const Mechanics<T>& m = f.mechanics();
   const FlightState<T>& q = jet.state;
-  const T half = t / T(2.0);
-  const T A = -m.omega_h * m.omega_h * q.X, B = -m.omega_v * m.omega_v * q.Y;
-  FlightState<T> moved{q.phase + t * (f.eta() + q.U + half * A), q.X + t * (q.U + half * A), q.U + t * A,
-                       q.Y + t * (q.W + half * B), q.W + t * B};
-  return {jet.g + t * (jet.g1 + half * jet.g2), jet.g1 + t * jet.g2, jet.g2, jet.g3, moved, jet.h, jet.h1};
+  const T half = t / T(2.0), third = t / T(3.0), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  const T A = -wh2 * q.X, J = -wh2 * q.U, B = -wv2 * q.Y, K = -wv2 * q.W;
+  const T dU = t * (A + half * J), dX2 = half * (A + third * J);
+  const FlightState<T> moved{q.phase + t * (f.eta() + q.U + dX2), q.X + t * (q.U + dX2), q.U + dU,
+                             q.Y + t * (q.W + half * (B + third * K)), q.W + t * (B + half * K)};
+  return {jet.g + t * (jet.g1 + half * (jet.g2 + third * jet.g3)), jet.g1 + t * (jet.g2 + half * jet.g3),
+          jet.g2 + t * jet.g3, jet.g3, moved, jet.h, jet.h1};
 }
 
 }  // namespace afm
