@@ -21,19 +21,22 @@ struct Chatter {
   double sigma = 0.0;  // at a bounce: from the guide, along the surface [a]
   double p = 0.0;      // and faster along it [a/tau]
   double drift = 0.0;  // time integral of how far x is from the guide's, bounces and all [a tau]
+  double lift = 0.0;   // energy that the holder of a held tip has given the bounces: of the gap times P' [m a^2/tau^2]
 };
 
 // The same in variables that change evenly, so that an integrator can take long steps: with a cutoff v falls and n grows like
 // exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; without one v falls evenly, x = v, and n goes
 // like its logarithm.
 struct EvenChatter {
-  double x, rest, sigma, p, drift;
+  double x, rest, sigma, p, drift, lift;
 };
 
 inline EvenChatter operator+(const EvenChatter& a, const EvenChatter& b) {
-  return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift};
+  return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift, a.lift + b.lift};
 }
-inline EvenChatter operator*(double k, const EvenChatter& c) { return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift}; }
+inline EvenChatter operator*(double k, const EvenChatter& c) {
+  return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift, k * c.lift};
+}
 
 // What the bounces see, at one time of the guide.
 struct ChatterSurroundings {

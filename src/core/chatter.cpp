@@ -68,7 +68,7 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
     const double newton = part + rest * 2.0 * c.v * there.per_P;
     part = newton > low && newton < high ? newton : 0.5 * (low + high);
   }
-  return {ChatterEnd::exits, s + part, {c.v, n, c.sigma, c.p, c.drift}};
+  return {ChatterEnd::exits, s + part, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
 }
 
 // A step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits, for

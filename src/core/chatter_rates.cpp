@@ -154,12 +154,12 @@ double ChatterRates::bounces_at(double v) const { return geometric_ ? -even_ * p
 
 AFM_MULTIVERSION EvenChatter ChatterRates::even(const ChatterSurroundings& at, const Chatter& c) const {
   const double v = c.v * (1.0 - disturbance(at, c.sigma, c.p) / 3.0);
-  return {x_of(v), c.n - bounces_at(v), c.sigma, c.p, c.drift};
+  return {x_of(v), c.n - bounces_at(v), c.sigma, c.p, c.drift, c.lift};
 }
 
 AFM_MULTIVERSION Chatter ChatterRates::plain(const ChatterSurroundings& at, const EvenChatter& c) const {
   const double v = speed(c.x);
-  return {v * (1.0 + disturbance(at, c.sigma, c.p) / 3.0), c.rest + bounces_at(v), c.sigma, c.p, c.drift};
+  return {v * (1.0 + disturbance(at, c.sigma, c.p) / 3.0), c.rest + bounces_at(v), c.sigma, c.p, c.drift, c.lift};
 }
 
 double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
@@ -175,13 +175,16 @@ EvenChatter ChatterRates::rate(const ChatterSurroundings& at, const EvenChatter&
   const double adiabatic = at.squeeze * shorter + at.twist * v2;  // of ln v, as are those below
   const double sigma = c.p + 2.0 * at.turn * height, p = at.lean * height - at.stiffness * c.sigma;
   const double drift = at.along * c.sigma + at.up * height;
+  // the mean height of a bounce times P'; v is that of its beginning, of which the flow is less later on
+  const double lift = (1.0 - free_) * at.squeeze * v2;
   if (geometric_) {
     const double change = adiabatic - (1.0 - gamma_) * bounces;
-    return {on_guide * change, bounces * per_mean_ + even_ * change, sigma, p, drift};
+    return {on_guide * change, bounces * per_mean_ + even_ * change, sigma, p, drift,
+            lift * (3.0 / (1.0 + gamma_ + gamma_ * gamma_))};
   }
   const double w = loss_ * v, delay = at.squeeze * at.per_P * v * w * (1.0 / 3.0 + 0.5 * w), per_T = series_1_over_T(w);
   const double change = adiabatic * per_T * (1.0 - 0.5 * w * w) - w * (bounces * series_R(w) + v * at.lag);
-  return {change, bounces * per_T * (1.0 - delay) + even_ * per_v * change, sigma, p, drift};
+  return {change, bounces * per_T * (1.0 - delay) + even_ * per_v * change, sigma, p, drift, lift * (1.0 + w)};
 }
 
 AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {

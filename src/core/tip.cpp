@@ -127,7 +127,7 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
 SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatter& chatter) {
   const SlideState<double> moved = guide_moved(model_, guide, chatter);
   const double work = -mechanics_.omega_h * mechanics_.omega_h * eta_ * chatter.drift;
-  burst_gain_ += work - (slide_energy(mechanics_, moved) - slide_energy(mechanics_, guide));
+  burst_gain_ += work - (slide_energy(mechanics_, moved) - slide_energy(mechanics_, guide)) + chatter.lift;
   work_off_guide_ += work;
   return moved;
 }
