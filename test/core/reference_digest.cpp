@@ -10,6 +10,7 @@ namespace {
 using afm::Batch;
 using afm::Emulator;
 using afm::EmulatorSettings;
+using afm::ModelKind;
 using afm::node::Digest;
 
 void add(const Batch& batch, Digest& digest) {
@@ -49,8 +50,9 @@ void run(Emulator& emulator, double eta, Digest& digest) {
   for (int i = 0; i < 5; ++i, taken()) emulator.run_batch(batch);
 }
 
-void print_run(double eta, double cutoff, double contact_tolerance) {
+void print_run(double eta, double cutoff, double contact_tolerance, ModelKind kind = ModelKind::oscillator) {
   EmulatorSettings settings;
+  settings.model.kind = kind;
   settings.eta = eta;
   settings.model.v_c = cutoff;
   settings.initial.u = eta;
@@ -59,7 +61,8 @@ void print_run(double eta, double cutoff, double contact_tolerance) {
   Emulator emulator(settings);
   Digest digest;
   run(emulator, eta, digest);
-  std::printf("eta %g cutoff %g contact_tolerance %g: %s\n", eta, cutoff, contact_tolerance, to_text(digest).c_str());
+  std::printf("%seta %g cutoff %g contact_tolerance %g: %s\n", kind == ModelKind::hammer ? "hammer, " : "", eta, cutoff,
+              contact_tolerance, to_text(digest).c_str());
 }
 
 }  // namespace
@@ -68,5 +71,6 @@ int main() {
   for (const double eta : {0.0, 0.5, 1.0, 2.0, 3.0, 3.4, 5.0, 7.5, 30.0}) print_run(eta, 0.05, 1e-4);
   print_run(3.0, 0.3, 0.0);   // every bounce by itself
   print_run(3.4, 0.0, 1e-3);  // the same restitution at every speed
+  for (const double eta : {0.5, 3.4}) print_run(eta, 0.05, 1e-3, ModelKind::hammer);
   return 0;
 }
