@@ -230,11 +230,14 @@ class SpoiledBags(NodeTest):
         self.assertEqual(checks.replay_check(self.write()).code, checks.DIFFERS if subjects else checks.SOUND)
 
     def edit_impact(self, **factors):
-        """Of a single impact that stands alone."""
+        """Of a single impact that stands alone: with two samples between it and each of those beside it."""
+        def apart(a, b):
+            return b.time.tau - a.time.tau + b.time.phase - a.time.phase > 0.25
         for entry in self.of('impacts')[100:]:
             message = entry.message()
-            for impact in message.impacts[2:-2]:
-                if impact.kind == impact.IMPACT and impact.normal_speed > 1e-6:
+            for before, impact, after in zip(message.impacts[1:], message.impacts[2:], message.impacts[3:]):
+                alone = apart(before, impact) and apart(impact, after)
+                if alone and impact.kind == impact.IMPACT and impact.normal_speed > 1e-6:
                     for name, factor in factors.items():
                         setattr(impact, name, getattr(impact, name) * factor)
                     return entry.put(message)
