@@ -33,8 +33,6 @@ std::unique_ptr<BagFile> BagSeries::open(std::uint32_t part) const {
 }
 
 void BagSeries::begin_bag(const ros::Time& stamp) {
-  if (begun_ && is_full(stamp)) split();
-  if (begun_) return;
   begun_ = true;
   begin_stamp_ = stamp;
   if (part_ == 0) {

@@ -2,11 +2,13 @@
 // the run so far, and each ends with a mark. Used by the recorder's thread alone.
 #pragma once
 
+#include <afm_emulator/Deflection.h>
 #include <afm_emulator/Recording.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "bag_file.h"
 #include "run_history.h"
@@ -21,7 +23,7 @@ class BagSeries {
   struct Settings {
     Topics topics;
     std::uint64_t reserve_bytes;
-    std::uint64_t split_bytes;  // a new bag after so much; 0: never
+    std::uint64_t split_bytes;  // a new bag after so much, at the next batch; 0: never
     double split_seconds;       // of stamps; 0: never
     rosbag::CompressionType compression;
   };
@@ -32,7 +34,9 @@ class BagSeries {
   // In order of stamps. Throws std::exception; then nothing but close() is left to do.
   template <class Message>
   void write(const BagTopic& topic, const ros::Time& stamp, const boost::shared_ptr<const Message>& message) {
-    begin_bag(stamp);
+    // between batches: every bag holds whole ones, and the last at least one
+    if (std::is_same<Message, afm_emulator::Deflection>::value && begun_ && is_full(stamp)) split();
+    if (!begun_) begin_bag(stamp);
     history_.remember(message);
     epoch_ = message->epoch;
     bag_->write(topic, stamp, *message);

@@ -155,7 +155,8 @@ class Steering(NodeTest):
         self.assertGreater(len(paths), 1)
         checks.assert_identical(self, *paths)
         for path in paths:  # each can be read without the others
-            self.assertEqual(checks.replay_check(path).code, checks.SOUND)
+            answer = checks.replay_check(path)
+            self.assertEqual(answer.code, checks.SOUND, answer.text)
 
     def test_begun_in_mid_run_the_history_of_changes_is_recorded(self):
         self.run_emulator()
