@@ -110,14 +110,14 @@ Chatter ChatterLaw::at(const SlidePiece<double>& guide, double s, const Chatter&
   return follow(guide, 0.0, s, start, false).chatter;
 }
 
-Settled settle(const Model& model, const TipState& state) {
+AFM_MULTIVERSION Settled settle(const Model& model, const TipState& state) {
   const double slope = mobility(model) * surface_jet(model.H, state.phase).h1;
   const double N2 = 1.0 + square(slope), N = std::sqrt(N2);
   const double u = state.u + slope * state.g1 / N2;
   return {{state.phase, state.X, u}, state.g1 / N, u * N};
 }
 
-TipState unsettle(const Model& model, const SlideState<double>& guide, double normal_speed) {
+AFM_MULTIVERSION TipState unsettle(const Model& model, const SlideState<double>& guide, double normal_speed) {
   const double slope = mobility(model) * surface_jet(model.H, guide.phase).h1, N = std::sqrt(1.0 + square(slope));
   return {wrap_phase(guide.phase), guide.X, guide.u - slope * normal_speed / N, 0.0, normal_speed * N};
 }

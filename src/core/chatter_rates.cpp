@@ -13,17 +13,17 @@ namespace afm {
 namespace {
 
 // The interpolation of w -> w (1 - w): R = G/T and 1/T. Terms are paired, to shorten the chain of dependencies.
-double series_R(double w) {
+AFM_INLINED double series_R(double w) {
   const double w2 = w * w, low = std::fma(w2, std::fma(w, 7.0 / 8, 7.0 / 12), std::fma(w, 0.5, 1.0));
   return std::fma(w2 * w2, std::fma(w2, 264917.0 / 60480, std::fma(w, 727.0 / 288, 1049.0 / 720)), low);
 }
-double series_1_over_T(double w) {
+AFM_INLINED double series_1_over_T(double w) {
   const double w2 = w * w, low = std::fma(-w2, std::fma(w, 5.0 / 8, 5.0 / 12), std::fma(-w, 0.5, 1.0));
   return std::fma(-w2 * w2, std::fma(w2, 261679.0 / 60480, std::fma(w, 629.0 / 288, 811.0 / 720)), low);
 }
 
 // Natural logarithm to 1e-15 of 0 < x, the same bits on every machine.
-double portable_log(double x) {
+AFM_INLINED double portable_log(double x) {
   constexpr double kLog2 = 0.6931471805599453;
   int exponent = 0;
   double m = std::frexp(x, &exponent);
@@ -38,7 +38,7 @@ double portable_log(double x) {
 }
 
 // e^x to 1e-15, likewise. Precondition: |x| < 700.
-double portable_exp(double x) {
+AFM_INLINED double portable_exp(double x) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
   constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding and taking it away rounds to a whole number
   const double k = (x * 1.4426950408889634 + kRounder) - kRounder;
@@ -57,7 +57,9 @@ double portable_exp(double x) {
   return sum * power;
 }
 
-double square(double x) { return x * x; }
+AFM_INLINED double square(double x) { return x * x; }
+
+AFM_INLINED double even_speed(bool geometric, double v) { return geometric ? v : portable_log(v); }
 
 double mean_over_first(double gamma) {
   const double loss = 1.0 - gamma;
@@ -83,7 +85,7 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
   even_ = loss > kLeastLoss ? (geometric ? per_mean_ : 1.0) / loss : 0.0;
 }
 
-ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
   const SurfaceJet<double> h = surface_jet(H_, q.phase);
   const double a = -bounce.start().g2, a1 = -bounce.start().g3, N2 = 1.0 + free_ * square(h.h1);
@@ -98,7 +100,7 @@ ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) con
   return at;
 }
 
-ChatterSurroundings ChatterRates::look(const SlidePiece<double>& guide, double s) const {
+AFM_INLINED ChatterSurroundings ChatterRates::look(const SlidePiece<double>& guide, double s) const {
   const SlideState<double> q = guide.at(s);
   const auto a = guide.pressure_jet(s);
   SurfaceJet<double> h = surface_jet(H_, q.phase);
@@ -138,23 +140,23 @@ ChatterSurroundings ChatterRates::look(const SlidePiece<double>& guide, double s
 namespace {
 
 // The reaction off the guide over that on it, less 1. The action keeps v^3/P.
-double disturbance(const ChatterSurroundings& at, double sigma, double p) {
+AFM_INLINED double disturbance(const ChatterSurroundings& at, double sigma, double p) {
   return (2.0 * at.turn * p - at.lean * sigma) * at.per_P;
 }
 
 }  // namespace
 
-double ChatterRates::speed(double x) const {
+AFM_INLINED double ChatterRates::speed(double x) const {
   return geometric_ ? std::max(x, std::numeric_limits<double>::min()) : portable_exp(x);
 }
 
-double ChatterRates::x_of(double v) const { return geometric_ ? v : portable_log(v); }
+double ChatterRates::x_of(double v) const { return even_speed(geometric_, v); }
 
-double ChatterRates::bounces_at(double v) const { return geometric_ ? -even_ * portable_log(v) : even_ / v; }
+AFM_INLINED double ChatterRates::bounces_at(double v) const { return geometric_ ? -even_ * portable_log(v) : even_ / v; }
 
 AFM_MULTIVERSION EvenChatter ChatterRates::even(const ChatterSurroundings& at, const Chatter& c) const {
   const double v = c.v * (1.0 - disturbance(at, c.sigma, c.p) / 3.0);
-  return {x_of(v), c.n - bounces_at(v), c.sigma, c.p, c.drift, c.lift};
+  return {even_speed(geometric_, v), c.n - bounces_at(v), c.sigma, c.p, c.drift, c.lift};
 }
 
 AFM_MULTIVERSION Chatter ChatterRates::plain(const ChatterSurroundings& at, const EvenChatter& c) const {
@@ -167,7 +169,7 @@ double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
 }
 
 // Products of two terms of the second order are left out: what is kept is no better.
-EvenChatter ChatterRates::rate(const ChatterSurroundings& at, const EvenChatter& c) const {
+AFM_INLINED EvenChatter ChatterRates::rate(const ChatterSurroundings& at, const EvenChatter& c) const {
   const double on_guide = speed(c.x), per_v = 1.0 / on_guide;
   const double more = disturbance(at, c.sigma, c.p), v = on_guide * (1.0 + more / 3.0), v2 = v * v;
   const double height = v2 * at.per_P / 3.0, longer = at.stretch * v2, shorter = 1.0 - longer * (1.0 - longer);
@@ -204,7 +206,7 @@ AFM_MULTIVERSION EvenChatter ChatterRates::step(const SlidePiece<double>& guide,
   return c + dt / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
 }
 
-SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {
+AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {
   const auto N = [&](double phase) { return std::sqrt(1.0 + square(surface_jet(model.H, phase).h1)); };
   const double here = N(guide.phase), dx = chatter.sigma / here;
   return {guide.phase + dx, guide.X + dx, (guide.u * here + chatter.p) / N(guide.phase + dx)};

@@ -49,6 +49,8 @@ AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<
 
 AFM_MULTIVERSION GapJet<double> jet_of(const Flight<double>& flight, double s) { return flight.gap(s); }
 
+AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
+
 AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta,
                                                const SlideState<double>& start) {
   return SlidePiece<double>(mechanics, eta, start);
@@ -64,11 +66,12 @@ AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideStat
 
 AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
 
-AFM_MULTIVERSION SlideState<double> guide_moved(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {
-  return moved_guide(model, guide, chatter);
-}
-
 AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
+
+AFM_MULTIVERSION Deflection slide_deflection(const SlidePiece<double>& slide, double s) {
+  const SlideState<double> q = slide.at(s);
+  return {surface_jet(slide.mechanics().H, q.phase).h - slide.mechanics().y0, q.X, 0.0};
+}
 
 }  // namespace
 
@@ -125,7 +128,7 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
 // To where the chatter has moved the tip. A guide conserves energy by itself; what the move stores more, the drag has worked or
 // the bounces have given.
 SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatter& chatter) {
-  const SlideState<double> moved = guide_moved(model_, guide, chatter);
+  const SlideState<double> moved = moved_guide(model_, guide, chatter);
   const double work = -mechanics_.omega_h * mechanics_.omega_h * eta_ * chatter.drift;
   burst_gain_ += work - (slide_energy(mechanics_, moved) - slide_energy(mechanics_, guide)) + chatter.lift;
   work_off_guide_ += work;
@@ -207,16 +210,13 @@ TipState Tip::tip_state() const {
     const SlideState<double> q = slide_at(slide_, now_ - start_);
     return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
   }
-  TipState state = flight_.tip_state(now_ - start_);
+  TipState state = state_of(flight_, now_ - start_);
   state.g = std::fmax(state.g, 0.0);
   return state;
 }
 
 Deflection Tip::deflection(const ModelTime& t) const {
-  if (on_guide()) {
-    const SlideState<double> q = slide_at(slide_, t - start_);
-    return {surface_jet(model_.H, q.phase).h - model_.y0, q.X, 0.0};
-  }
+  if (on_guide()) return slide_deflection(slide_, t - start_);
   const GapJet<double> jet = jet_of(flight_, t - start_);
   return {jet.state.Y, jet.state.X, jet.g};
 }
@@ -282,7 +282,7 @@ Outcome Tip::end_slide() {
 Outcome Tip::end_flight() {
   if (landing_.outcome == SearchOutcome::impact) return land();
   const bool failed = landing_.outcome == SearchOutcome::cap;
-  fly(flight_.tip_state(landing_.s));
+  fly(state_of(flight_, landing_.s));
   return failed ? Outcome::search_failed : Outcome::flying;
 }
 
