@@ -53,7 +53,7 @@ struct Batch {
 struct Counters {
   std::uint64_t budget_exhausted = 0;
   std::uint64_t search_failures = 0;
-  double worst_penetration = 0.0;  // deepest sample below the surface [a]
+  double worst_penetration = 0.0;  // deepest sample taken below the surface [a]
 };
 
 class Emulator {
@@ -65,6 +65,8 @@ class Emulator {
   // friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
   // Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
+  // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.
+  void take_samples(bool wanted) { sampling_ = wanted; }
   void reset();  // initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now
 
   // Each clears the batch, keeps its capacity and fills it. Never allocates while the batch has room for
@@ -78,7 +80,7 @@ class Emulator {
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   FreeState state() const { return tip_.state(); }  // at now()
-  std::uint64_t samples() const { return next_sample_; }  // so far
+  std::uint64_t samples() const { return next_sample_; }  // due so far
   const SampleGrid& grid() const { return grid_; }        // on which they are taken at present
   const Counters& counters() const { return counters_; }
   const EmulatorSettings& settings() const { return settings_; }
@@ -89,6 +91,7 @@ class Emulator {
   Outcome run(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   Outcome run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   void sample_until(const ModelTime& time, Batch& batch);
+  void pass_samples(const ModelTime& time);
 
   EmulatorSettings settings_;
   double eta_;
@@ -97,6 +100,7 @@ class Emulator {
   ModelTime now_;
   SampleGrid grid_;
   std::uint64_t next_sample_ = 0;
+  bool sampling_ = true;
   std::uint64_t impact_index_ = 0;
   Counters counters_;
 };

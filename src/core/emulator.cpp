@@ -55,7 +55,11 @@ Emulator::Emulator(const EmulatorSettings& settings)
   friction_.restart(now_, eta_);
 }
 
-void Emulator::reset() { *this = Emulator(settings_); }
+void Emulator::reset() {
+  const bool sampling = sampling_;
+  *this = Emulator(settings_);
+  sampling_ = sampling;
+}
 
 void Emulator::drag(double eta) {
   // the same velocity again is no change: the flight under way stays whole and the friction estimate goes on
@@ -132,12 +136,21 @@ void Emulator::sample_until(const ModelTime& time, Batch& batch) {
   }
 }
 
+// Counts those before `time` as due.
+void Emulator::pass_samples(const ModelTime& time) {
+  const double periods = (time - grid_.time(next_sample_)) / grid_.period;
+  std::uint64_t n = next_sample_ + static_cast<std::uint64_t>(std::max(0.0, periods));
+  while (n > next_sample_ && !(grid_.time(n - 1) < time)) --n;
+  while (grid_.time(n) < time) ++n;
+  next_sample_ = n;
+}
+
 // Samples are taken arc by arc, before the arc's end replaces it.
 Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
   constexpr std::uint64_t kFailureCost = 100;  // a failed search takes about as long as so many impacts
   for (std::uint64_t spent = 0; spent < impacts;) {
     const ModelTime arc_end = tip_.arc_end();
-    sample_until(arc_end < end ? arc_end : end, batch);
+    if (sampling_) sample_until(arc_end < end ? arc_end : end, batch);
     const Outcome outcome = tip_.advance_arc(end);
     if (outcome == Outcome::time_limit) return outcome;
     if (outcome == Outcome::search_failed) {
@@ -158,6 +171,7 @@ Outcome Emulator::run(const ModelTime& end, std::uint64_t impacts, Batch& batch)
   begin(batch);
   const Outcome outcome = run_arcs(end, impacts, batch);
   now_ = tip_.now();
+  if (!sampling_) pass_samples(now_);
   batch.end = now_;
   batch.friction = friction_.estimate(now_);
   return outcome;

@@ -39,6 +39,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, So
       configuration_(node, sources_.recorder, kConfigurationTopic, kConfigurationQueueSize, true),
       digest_(node, sources_.recorder, kDigestTopic, kDigestQueueSize),
       health_tracker_(parameters.si.lattice_spacing_m, parameters.command_timeout_s, parameters.disk_reserve_mb) {
+  look_for_listeners();  // a recording from the very first message on
   diagnostics_.setHardwareID("none");
   diagnostics_.add("emulation", [this](Diagnosis& out) { diagnose_pace(health_, out); });
   diagnostics_.add("commands", [this](Diagnosis& out) { diagnose_commands(health_, out); });
@@ -64,8 +65,10 @@ void Broadcaster::run() {
   for (bool last = false; !last;) {
     last = stopping_;  // look once more after being told to stop: nothing handed over before it is lost
     if (!last) sources_.hand_over.wait_for(kStatusPeriod);
+    look_for_listeners();
     while (sources_.hand_over.take(event, batch)) {
       publish(event, batch);
+      look_for_listeners();
       tell_status();
     }
     tell_status();
@@ -105,7 +108,13 @@ void Broadcaster::begin_epoch(const Label& label) {
 }
 
 void Broadcaster::publish_batch(const Event& event, const Batch& batch, const Label& label) {
-  send(to_deflection(batch, 1.0 / parameters_.sample_rate_hz, units_, label), deflection_);
+  // those of an older stretch come too late for whoever wants them now: to them it would seem to have a gap behind it
+  if (event.batch.stretch != 0 && event.batch.stretch == sources_.demand.stretch()) {
+    send(to_deflection(batch, 1.0 / parameters_.sample_rate_hz, units_, label), deflection_);
+  } else {
+    deflection_.skip();
+    run_digest_.begin_samples(event.state.samples);
+  }
   send(to_impacts(batch, units_, label), impacts_);
   send(to_friction(batch, event.drag_velocity, units_, label), friction_);
 }
@@ -115,6 +124,19 @@ void Broadcaster::send(Message&& message, Channel<Message>& channel) {
   run_digest_.add(message);
   digest_told_ = false;
   channel.send(std::move(message));
+}
+
+void Broadcaster::look_for_listeners() {
+  const std::lock_guard<std::mutex> lock(listening_);
+  sources_.demand.want(recording_expected_ || deflection_.has_subscribers() || sources_.recorder.is_recording());
+}
+
+void Broadcaster::expect_recording(bool expected) {
+  {
+    const std::lock_guard<std::mutex> lock(listening_);
+    recording_expected_ = expected;
+  }
+  look_for_listeners();
 }
 
 void Broadcaster::tell_digest() {

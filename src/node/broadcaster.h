@@ -22,6 +22,7 @@
 #include "recorder.h"
 #include "refusals.h"
 #include "run_digest.h"
+#include "sample_demand.h"
 #include "status.h"
 
 namespace afm::node {
@@ -33,6 +34,7 @@ class Broadcaster {
     Recorder& recorder;
     const Refusals& refusals;
     const DiskSpace& disk;
+    SampleDemand& demand;
     std::function<void(const Answer&)> deliver;  // answers to requests, each after all that it answers for
     std::function<void(const LiveParameters&)> applied;  // of parameters that have taken effect
   };
@@ -44,6 +46,9 @@ class Broadcaster {
   void stop();  // after all that is handed over is published
   // Publishes a digest of all so far; returns when that is done, or after some time when it is not.
   void request_digest();
+  // Whether samples are wanted now. Any thread; this one looks at every batch.
+  void look_for_listeners();
+  void expect_recording(bool expected);  // samples are wanted for one that is about to begin
 
  private:
   void run();
@@ -77,6 +82,8 @@ class Broadcaster {
   RunDigest run_digest_;  // of all that is published
   bool digest_told_ = true;
   std::chrono::steady_clock::time_point status_due_, digest_due_, diagnostics_due_;
+  std::mutex listening_;
+  bool recording_expected_ = false;
   std::mutex requests_;
   std::condition_variable answered_;
   bool digest_requested_ = false;

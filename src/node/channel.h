@@ -31,18 +31,31 @@ template <class Message>
 class Channel {
  public:
   Channel(ros::NodeHandle& node, Recorder& recorder, const char* name, unsigned queue_size, bool latched = false)
-      : publisher_(node.advertise<Message>(name, queue_size, latched)),
+      : publisher_(advertise(node, name, queue_size, latched)),
         bag_topic_(make_bag_topic<Message>(publisher_.getTopic(), latched)),
         recorder_(recorder) {}
 
   void send(Message&& message) {
-    message.header.seq = sequence_++;  // as roscpp counts on the wire, so that a bag holds the same
+    message.header.seq = sequence_++;
     const boost::shared_ptr<const Message> shared = boost::make_shared<const Message>(std::move(message));
     publisher_.publish(shared);
     recorder_.record(bag_topic_, shared);
   }
 
+  void skip() { ++sequence_; }  // a message that nobody wants: its number is not given to another
+  bool has_subscribers() const { return publisher_.getNumSubscribers() > 0; }
+
  private:
+  // roscpp counts by itself and would write over our numbers, unless it is not told of the header: what is on the wire is
+  // what is in a bag, to the byte.
+  static ros::Publisher advertise(ros::NodeHandle& node, const char* name, unsigned queue_size, bool latched) {
+    ros::AdvertiseOptions options;
+    options.init<Message>(name, queue_size);
+    options.latch = latched;
+    options.has_header = false;
+    return node.advertise(options);
+  }
+
   ros::Publisher publisher_;
   const BagTopic bag_topic_;
   Recorder& recorder_;

@@ -59,6 +59,12 @@ ControlReply Control::change(const LiveParameters& live) {
   return ask(request, "changed");
 }
 
+ControlReply Control::catch_up() {
+  Request request;
+  request.kind = Request::Kind::nothing;
+  return ask(request, "published");
+}
+
 ControlReply Control::step(double tau, std::uint32_t impacts) {
   const std::string fault = find_fault(tau, impacts);
   if (!fault.empty()) return {false, fault, {}};

@@ -26,6 +26,7 @@ class Control {
   ControlReply pause(bool paused);
   ControlReply reset();
   ControlReply change(const LiveParameters& live);
+  ControlReply catch_up();  // all that was emulated before this is published
   ControlReply step(double tau, std::uint32_t impacts);  // exactly one of them is not 0
 
   void deliver(const Answer& answer);  // from the publishing thread, in its place among what it publishes

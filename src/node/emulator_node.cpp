@@ -55,7 +55,7 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
       disk_(parameters.bag_directory),
       recorder_(recorder_settings(node, parameters)),
       hand_over_(hand_over_capacity(parameters)),
-      stepper_(parameters, hand_over_),
+      stepper_(parameters, hand_over_, demand_),
       control_(stepper_) {
   if (parameters.record) {
     const Recorder::Reply reply = recorder_.start("");
@@ -64,7 +64,7 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
   disk_.measure();
   reconfigure_.emplace(node, parameters, refusals_, [this](const LiveParameters& live) { return control_.change(live); });
   broadcaster_.emplace(node, parameters,
-                       Broadcaster::Sources{hand_over_, recorder_, refusals_, disk_,
+                       Broadcaster::Sources{hand_over_, recorder_, refusals_, disk_, demand_,
                                             [this](const Answer& answer) { control_.deliver(answer); },
                                             [this](const LiveParameters& live) { reconfigure_->applied(live); }});
   stepper_.start();
@@ -124,6 +124,7 @@ bool EmulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Resp
 }
 
 bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response) {
+  broadcaster_->look_for_listeners();  // one who has just come waits for this step
   const ControlReply reply = control_.step(request.tau, request.impacts);
   response.success = reply.success;
   response.message = reply.message;
@@ -131,10 +132,20 @@ bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::S
   return true;
 }
 
+// If nobody listened so far, no samples were taken: the recording begins behind the last batch that has none.
+Recorder::Reply EmulatorNode::start_recording(const std::string& name) {
+  broadcaster_->expect_recording(true);
+  const ControlReply ready = control_.catch_up();
+  Recorder::Reply reply{false, ready.message, ""};
+  if (ready.success) reply = recorder_.start(name);
+  broadcaster_->expect_recording(false);
+  if (reply.success) broadcaster_->request_digest();  // from which the first stretch can be checked
+  return reply;
+}
+
 bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& request,
                                       afm_emulator::StartRecording::Response& response) {
-  const Recorder::Reply reply = recorder_.start(request.name);
-  if (reply.success) broadcaster_->request_digest();  // from which the first stretch can be checked
+  const Recorder::Reply reply = start_recording(request.name);
   response.success = reply.success;
   response.message = reply.message;
   response.path = reply.path;

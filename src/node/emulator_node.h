@@ -20,6 +20,7 @@
 #include "reconfigure_server.h"
 #include "recorder.h"
 #include "refusals.h"
+#include "sample_demand.h"
 #include "stepper.h"
 
 namespace afm::node {
@@ -36,6 +37,7 @@ class EmulatorNode {
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response);
+  Recorder::Reply start_recording(const std::string& name);
   bool on_start_recording(afm_emulator::StartRecording::Request& request,
                           afm_emulator::StartRecording::Response& response);
   bool on_stop_recording(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -45,6 +47,7 @@ class EmulatorNode {
   DiskSpace disk_;
   Recorder recorder_;
   HandOver hand_over_;
+  SampleDemand demand_;
   Stepper stepper_;
   Control control_;
   std::optional<ReconfigureServer> reconfigure_;  // these advertise, so they are made after all that can fail

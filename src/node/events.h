@@ -9,7 +9,7 @@
 namespace afm::node {
 
 struct Request {
-  enum class Kind : std::uint8_t { drag, change, pause, resume, reset, step_time, step_impacts };
+  enum class Kind : std::uint8_t { drag, change, pause, resume, reset, step_time, step_impacts, nothing };
   Kind kind = Kind::drag;
   std::uint64_t ticket = 0;   // names the answer; 0: nobody waits for one
   double value = 0.0;         // drag velocity [m/s] or time to step [tau]
@@ -48,6 +48,7 @@ struct BatchHead {
   std::uint64_t first_impact = 0, impacts = 0;
   FrictionEstimate friction;
   double eta = 0.0;
+  std::uint32_t stretch = 0;  // of samples (sample_demand.h); 0: none were taken
 };
 
 struct Event {

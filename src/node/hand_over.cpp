@@ -26,7 +26,8 @@ BatchHead head_of(const Batch& batch) {
           batch.first_impact,
           batch.impacts.size(),
           batch.friction,
-          batch.eta};
+          batch.eta,
+          0};
 }
 
 template <class T>
@@ -59,7 +60,9 @@ bool HandOver::offer(Event event, const Batch& batch) {
   lateral_.push(batch.lateral.data(), samples);
   impacts_.push(batch.impacts.data(), batch.impacts.size());
   event.kind = Event::Kind::batch;
+  const std::uint32_t stretch = event.batch.stretch;
   event.batch = head_of(batch);
+  event.batch.stretch = stretch;
   return offer(event);  // last, as it is what makes the rest visible
 }
 

@@ -41,6 +41,10 @@ class Recorder {
   Reply start(const std::string& name);  // empty: a name from the time
   Reply stop();
   Status status() const;
+  bool is_recording() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return recording();
+  }
 
   // Never waits for the disk. What finds no room in the queue is counted.
   template <class Message>

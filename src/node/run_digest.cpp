@@ -31,6 +31,7 @@ RunDigest::RunDigest(const afm_emulator::Configuration& configuration)
 RunDigest::RunDigest(const afm_emulator::Digest& told)
     : epoch_(told.epoch),
       time_(told.time),
+      first_sample_(told.first_sample),
       samples_(told.samples),
       impacts_(told.impacts),
       commands_(told.commands),
@@ -47,6 +48,11 @@ void RunDigest::add(const afm_emulator::Deflection& batch) {
     samples_digest_.add(batch.lateral[i]);
   }
   samples_ += batch.vertical.size();
+}
+
+void RunDigest::begin_samples(std::uint64_t first) {
+  first_sample_ = samples_ = first;
+  samples_digest_ = Digest();
 }
 
 void RunDigest::add(const afm_emulator::ImpactArray& batch) {
@@ -99,6 +105,7 @@ afm_emulator::Digest RunDigest::message() const {
   afm_emulator::Digest message;
   message.epoch = epoch_;
   message.time = time_;
+  message.first_sample = first_sample_;
   message.samples = samples_;
   message.impacts = impacts_;
   message.commands = commands_;

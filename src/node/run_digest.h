@@ -23,6 +23,7 @@ class RunDigest {
   explicit RunDigest(const afm_emulator::Digest& told);
 
   void add(const afm_emulator::Deflection& batch);
+  void begin_samples(std::uint64_t first);  // with this one: those before are not covered
   void add(const afm_emulator::ImpactArray& batch);
   void add(const afm_emulator::Friction& estimate);
   void add(const afm_emulator::AppliedDrag& command);
@@ -33,7 +34,7 @@ class RunDigest {
  private:
   std::uint32_t epoch_ = 0;
   afm_emulator::ModelTime time_;
-  std::uint64_t samples_ = 0, impacts_ = 0, commands_ = 0, estimates_ = 0;
+  std::uint64_t first_sample_ = 0, samples_ = 0, impacts_ = 0, commands_ = 0, estimates_ = 0;
   std::uint64_t configuration_digest_ = 0;
   Digest samples_digest_, impacts_digest_, commands_digest_, estimates_digest_;
 };

@@ -15,10 +15,11 @@ constexpr std::chrono::milliseconds kPausedLook{100};
 
 }  // namespace
 
-Stepper::Stepper(const Parameters& parameters, HandOver& hand_over)
+Stepper::Stepper(const Parameters& parameters, HandOver& hand_over, const SampleDemand& demand)
     : parameters_(parameters),
       emulator_(emulator_settings(parameters)),
       hand_over_(hand_over),
+      demand_(demand),
       pacer_(batch_period(parameters), monotonic_now()),
       drag_velocity_(parameters.drag_velocity),
       requests_(kMaxWaitingRequests) {
@@ -71,9 +72,21 @@ void Stepper::wait_for_work() {
 
 void Stepper::run_batch() {
   // A batch cut short by its budget is told of, but its period is not over: the rest follows at once, and lag grows.
+  look_for_demand();
   const Outcome outcome = emulator_.run_batch(batch_);
   if (outcome != Outcome::budget_spent) pacer_.batch_done(monotonic_now());
-  if (!hand_over_.offer(event(Event::Kind::batch), batch_)) ++dropped_batches_;
+  if (!hand_over_.offer(batch_event(), batch_)) ++dropped_batches_;
+}
+
+void Stepper::look_for_demand() {
+  stretch_ = demand_.stretch();
+  emulator_.take_samples(stretch_ != 0);
+}
+
+Event Stepper::batch_event() {
+  Event told = event(Event::Kind::batch);
+  told.batch.stretch = stretch_;
+  return told;
 }
 
 void Stepper::publish(Event::Kind kind, const Answer& told) {

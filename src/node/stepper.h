@@ -15,13 +15,14 @@
 #include "events.h"
 #include "hand_over.h"
 #include "parameters.h"
+#include "sample_demand.h"
 #include "semaphore.h"
 
 namespace afm::node {
 
 class Stepper {
  public:
-  Stepper(const Parameters& parameters, HandOver& hand_over);
+  Stepper(const Parameters& parameters, HandOver& hand_over, const SampleDemand& demand);
   ~Stepper() { stop(); }
 
   void start();  // returns when the thread runs
@@ -43,6 +44,7 @@ class Stepper {
   void pause(bool paused);
   void reset();
   void run_batch();
+  void look_for_demand();
   void publish_start();
   void publish(Event::Kind kind, const Answer& answer = {});
 
@@ -53,12 +55,15 @@ class Stepper {
   Answer answer(Answer::Result result, std::uint64_t impacts) const;
 
   Event event(Event::Kind kind);
+  Event batch_event();
   StepperState state();
 
   Parameters parameters_;  // as they are now
   Emulator emulator_;
   Batch batch_;
   HandOver& hand_over_;
+  const SampleDemand& demand_;
+  std::uint32_t stretch_ = 0;  // of samples, to which the batch belongs
   Pacer pacer_;
   double drag_velocity_;  // in force [m/s]
   std::chrono::nanoseconds last_command_{0};  // when one was last obeyed, on the monotonic clock

@@ -36,6 +36,8 @@ void Stepper::serve(const Request& request) {
     case Request::Kind::step_impacts:
       told = step_impacts(request.impacts);
       break;
+    case Request::Kind::nothing:
+      break;
   }
   told.ticket = request.ticket;
   told.time = emulator_.now();

@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kPatience{8};
 }  // namespace
 
 bool Stepper::hand_over_step() {
-  const Event told = event(Event::Kind::batch);
+  const Event told = batch_event();
   while (!hand_over_.offer(told, batch_)) {
     if (stopping_) return false;
     sleep_until(monotonic_now() + kRoomLook);
@@ -39,6 +39,7 @@ Answer Stepper::step_time(double tau) {
   const auto give_up = monotonic_now() + kPatience;
   std::uint64_t impacts = 0;
   while (emulator_.now() < target && monotonic_now() < give_up) {
+    look_for_demand();
     // the last part crosses one batch boundary at most
     target - emulator_.now() > batch_tau ? emulator_.run_batch(batch_) : emulator_.run_until(target, batch_);
     impacts += batch_.impacts.size();
@@ -54,6 +55,7 @@ Answer Stepper::step_impacts(std::uint64_t wanted) {
   const auto give_up = monotonic_now() + kPatience;
   std::uint64_t impacts = 0;
   while (impacts < wanted && emulator_.now() < limit && monotonic_now() < give_up) {
+    look_for_demand();
     emulator_.run_impacts(wanted - impacts, batch_);
     impacts += batch_.impacts.size();
     if (!hand_over_step()) return answer(Answer::Result::shutting_down, impacts);

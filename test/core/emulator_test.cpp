@@ -81,6 +81,40 @@ TEST(Emulator, SamplesAndImpactsFollowWithoutAGap) {
   EXPECT_LT(emulator.counters().worst_penetration, 1e-13);
 }
 
+// Half of the run unsampled, in batches of every kind: the same impacts, and the same indices and samples afterwards.
+TEST(Emulator, SamplesThatNobodyWantsAreCountedAndNotTaken) {
+  const EmulatorSettings settings = settings_at(3.4, 333);
+  Emulator listened(settings), ignored(settings);
+  Batch a, b;
+  for (int i = 0; i < 90; ++i) {
+    const bool wanted = i % 7 < 3;
+    ignored.take_samples(wanted);
+    if (i % 5 == 4) {
+      listened.run_impacts(3, a);
+      ignored.run_impacts(3, b);
+    } else if (i % 5 == 3) {
+      const ModelTime stop = listened.now() + 0.4321 * i;
+      while (listened.now() < stop && listened.run_impacts(1, a) != Outcome::time_limit) {
+      }
+      while (ignored.now() < stop && ignored.run_impacts(1, b) != Outcome::time_limit) {
+      }
+    } else {
+      listened.run_batch(a);
+      ignored.run_batch(b);
+    }
+    ASSERT_TRUE(listened.now() == ignored.now());
+    ASSERT_EQ(listened.samples(), ignored.samples());
+    ASSERT_EQ(a.first_sample, b.first_sample);
+    ASSERT_EQ(a.friction.energy_loss, b.friction.energy_loss);
+    ASSERT_EQ(a.impacts.size(), b.impacts.size());
+    if (wanted) {
+      ASSERT_EQ(a.vertical, b.vertical);
+    } else {
+      ASSERT_TRUE(b.vertical.empty() && b.lateral.empty());
+    }
+  }
+}
+
 TEST(Emulator, RunsToAnyTimeWithinABatch) {
   Emulator emulator(settings_at(2.0, 1000));  // 30 tau
   Batch batch;

@@ -4,6 +4,7 @@
 #include <afm_emulator/Configuration.h>
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "afm_emulator/sample_grid.h"
@@ -16,6 +17,7 @@ struct EpochLog {
   std::vector<afm_emulator::AppliedDrag> drags;          // the first at model time 0
   std::vector<afm_emulator::AppliedParameters> changes;  // likewise; none in bags of versions that could not change them
   std::vector<Applied> commands;                         // both, in the order in which they took effect
+  std::set<std::uint64_t> stretches;  // samples with which digests begin anew, as those before were not taken
 
   ModelTime sample_time(std::uint64_t sample) const { return grid_of(sample).time(sample); }
   std::uint64_t most_samples_per_batch() const;

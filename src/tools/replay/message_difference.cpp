@@ -180,6 +180,7 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, co
   c.field("digest.time", a.time, b.time);
   const std::pair<const char*, std::uint64_t Message::*> figures[] = {
       {"configuration_digest", &Message::configuration_digest},
+      {"first_sample", &Message::first_sample},
       {"samples", &Message::samples},
       {"impacts", &Message::impacts},
       {"commands", &Message::commands},

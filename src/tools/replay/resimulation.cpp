@@ -106,9 +106,30 @@ void Resimulation::take(const Batch& batch) {
   vertical_.insert(vertical_.end(), deflection.vertical.begin(), deflection.vertical.end());
   lateral_.insert(lateral_.end(), deflection.lateral.begin(), deflection.lateral.end());
   impacts_.insert(impacts_.end(), impacts.impacts.begin(), impacts.impacts.end());
-  digest_.add(deflection);
+  digest_samples(deflection);
   digest_.add(impacts);
   drop_unwanted();
+}
+
+// In one go unless a digest begins anew in its midst.
+void Resimulation::digest_samples(const afm_emulator::Deflection& batch) {
+  const std::uint64_t size = batch.vertical.size();
+  const auto add = [&](std::uint64_t begin, std::uint64_t end) {
+    afm_emulator::Deflection part;
+    part.vertical = part_of(batch.vertical, 0, begin, end - begin);
+    part.lateral = part_of(batch.lateral, 0, begin, end - begin);
+    digest_.add(part);
+  };
+  std::uint64_t done = 0;
+  for (auto s = log_.stretches.lower_bound(batch.first_sample); s != log_.stretches.end(); ++s) {
+    const std::uint64_t begin = *s - batch.first_sample;
+    if (begin > size) break;
+    add(done, begin);
+    digest_.begin_samples(*s);
+    done = begin;
+  }
+  if (done == 0) return digest_.add(batch);
+  add(done, size);
 }
 
 afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint64_t count) const {

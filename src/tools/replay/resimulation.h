@@ -52,6 +52,7 @@ class Resimulation {
   void run_flights(const ModelTime& time, std::optional<std::uint64_t> impacts);
   void take(const Batch& batch);
   void drop_unwanted();
+  void digest_samples(const afm_emulator::Deflection& batch);
 
   const EpochLog& log_;
   const Units units_;

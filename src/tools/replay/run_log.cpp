@@ -1,5 +1,7 @@
 #include "run_log.h"
 
+#include <afm_emulator/Digest.h>
+
 #include "message_difference.h"
 #include "message_stream.h"
 #include "node/message_conversion.h"
@@ -31,6 +33,7 @@ RunLog::RunLog(const Recording& recording) {
     for (; configurations.head() != nullptr; configurations.pop()) take(*configurations.head(), where);
     take_all(recording, *bag, node::kAppliedDragTopic, drags_);
     take_all(recording, *bag, node::kAppliedParametersTopic, changes_);
+    take_stretches(recording, *bag);
   }
   for (auto& [number, log] : epochs_) log.put_in_order();
 }
@@ -66,6 +69,15 @@ void RunLog::take_all(const Recording& recording, const RecordedBag& bag, const 
     if (gap > 0) lost(where, gap);
     previous = sequence;
     take(*stream.head(), where, kind);
+  }
+}
+
+void RunLog::take_stretches(const Recording& recording, const RecordedBag& bag) {
+  MessageStream<afm_emulator::Digest> digests(recording.topic(node::kDigestTopic));
+  digests.add(bag.bag, bag.path);
+  for (; digests.head() != nullptr; digests.pop()) {
+    const auto known = epochs_.find(digests.head()->epoch);
+    if (known != epochs_.end()) known->second.stretches.insert(digests.head()->first_sample);
   }
 }
 

@@ -32,6 +32,7 @@ class RunLog {
   void take_all(const Recording& recording, const RecordedBag& bag, const char* topic, Kind<Message>& kind);
   template <class Message>
   void take(const Message& message, const std::string& where, Kind<Message>& kind);
+  void take_stretches(const Recording& recording, const RecordedBag& bag);
 
   std::map<std::uint32_t, EpochLog> epochs_;
   const afm_emulator::Configuration* last_configuration_ = nullptr;
