@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "afm_emulator/model.h"
+#include "afm_emulator/select.h"
 #include "afm_emulator/state.h"
 #include "afm_emulator/surface.h"
 #include "afm_emulator/turns.h"
@@ -15,6 +16,7 @@ namespace afm {
 // The constants of one model in the number type of the computation.
 template <class T>
 struct Mechanics {
+  Mechanics() = default;
   explicit Mechanics(const Model& model)
       : mobility(afm::mobility(model)),
         ratio(mobility * T(model.frequency_ratio)),
@@ -48,13 +50,32 @@ struct GapJet {
   T h, h1;
 };
 
+// Bounds that hold for a whole flight, a little more than needed: of |X| and |Y|, and of the gap's derivatives.
+template <class T>
+struct FlightBounds {
+  T X, Y, second, third, fourth;
+  T drive;        // of |p'|, where g''' = p' - omega_v^2 g' and p depends on x alone
+  T small_until;  // not a bound: up to this time every turn is at most 1/8
+};
+
+// What a flight begins with: of a number whatever its digits in double, of a pack of lanes its own.
+template <class T>
+struct LaunchOf {
+  using State = TipState;
+};
+
 template <class T>
 class Flight {
  public:
-  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
+  using Launch = typename LaunchOf<T>::State;
+
+  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start)
       : Flight(mechanics, eta, start, surface_jet(mechanics.H, T(start.phase))) {}
   // The same where the surface at the start is known already.
-  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start, const SurfaceJet<T>& surface);
+  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface);
+  // One that has been launched before: `launch()` is not asked for.
+  Flight(const Mechanics<T>& mechanics, const T& eta, const GapJet<T>& start, const FlightBounds<T>& bounds)
+      : m_(mechanics), eta_(eta), launch_(), start_(start), bounds_(bounds) {}
 
   // Within a few ulp of the larger terms; for small turns, within a few ulp of the change since the start.
   GapJet<T> gap(const T& s) const;
@@ -65,7 +86,7 @@ class Flight {
   // Bound of the rounding error of gap(s).g.
   T gap_error(const T& s) const;
 
-  const TipState& launch() const { return launch_; }  // the state it began with, as given
+  const Launch& launch() const { return launch_; }  // the state it began with, as given
   const GapJet<T>& start() const { return start_; }
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
@@ -73,11 +94,11 @@ class Flight {
   // The gap at s + step, sooner, from its jet at s near by. Within a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
-  // Bounds that hold for the whole flight, a little more than needed: of |X| and |Y|, |g'''| and |g''''|.
-  const T& amplitude_X() const { return amplitude_X_; }
-  const T& amplitude_Y() const { return amplitude_Y_; }
-  const T& third_derivative_bound() const { return bound3_; }
-  const T& fourth_derivative_bound() const { return bound4_; }
+  const FlightBounds<T>& bounds() const { return bounds_; }
+  const T& amplitude_X() const { return bounds_.X; }
+  const T& amplitude_Y() const { return bounds_.Y; }
+  const T& third_derivative_bound() const { return bounds_.third; }
+  const T& fourth_derivative_bound() const { return bounds_.fourth; }
   // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on x
   // alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
@@ -85,7 +106,7 @@ class Flight {
  private:
   void set_bounds();
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by is
-  // within a few ulp of itself. Precondition: |t| <= small_until_.
+  // within a few ulp of itself. Precondition: |t| <= small_until.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
   template <class Turn>
   GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
@@ -94,11 +115,9 @@ class Flight {
 
   Mechanics<T> m_;
   T eta_;
-  TipState launch_;
+  Launch launch_;
   GapJet<T> start_;
-  T amplitude_X_, amplitude_Y_, bound2_, bound3_, bound4_;
-  T bound_drive_;  // of |p'|
-  T small_until_;  // up to here every turn is at most 1/8
+  FlightBounds<T> bounds_;
 };
 
 // |(x, y)| from above, by at most a twelfth.
@@ -112,7 +131,7 @@ T length_bound(const T& x, const T& y) {
 }
 
 template <class T>
-Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start, const SurfaceJet<T>& surface)
+Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface)
     : m_(mechanics), eta_(eta), launch_(start) {
   const T W = T(start.g1) + surface.h1 * T(start.u);
   const T Y = (surface.h - mechanics.y0) + T(start.g);
@@ -131,31 +150,31 @@ void Flight<T>::set_bounds() {
   const Mechanics<T>& m = m_;
   const FlightState<T>& o = start_.state;
   const T k = two_pi<T>();
-  amplitude_X_ = length_bound(o.X, T(o.U * m.per_omega_h));
-  amplitude_Y_ = length_bound(o.Y, T(o.W * m.per_omega_v));
-  const T u_max = abs(eta_) + m.omega_h * amplitude_X_;
-  const T u_low = max(T(0.0), abs(eta_) - m.omega_h * amplitude_X_);
-  const T a_max = m.omega_h * m.omega_h * amplitude_X_;
+  bounds_.X = length_bound(o.X, T(o.U * m.per_omega_h));
+  bounds_.Y = length_bound(o.Y, T(o.W * m.per_omega_v));
+  const T u_max = abs(eta_) + m.omega_h * bounds_.X;
+  const T u_low = max(T(0.0), abs(eta_) - m.omega_h * bounds_.X);
+  const T a_max = m.omega_h * m.omega_h * bounds_.X;
   const T slope = k * m.H, v = k * u_max, wv2 = m.omega_v * m.omega_v;
-  bound2_ = wv2 * amplitude_Y_ + slope * (v * u_max + a_max);
+  bounds_.second = wv2 * bounds_.Y + slope * (v * u_max + a_max);
   // g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x''', and once more. U and x'' are a sine and a cosine of one angle: of
   // u x'' no more than (|eta| + U_max/2) a is reached at once, of u^2 x'' (eta^2 + |eta| U_max + 0.385 U_max^2) a
-  const T U = m.omega_h * amplitude_X_, eta = abs(eta_), k_a = k * a_max, wh_a = m.omega_h * a_max;
+  const T U = m.omega_h * bounds_.X, eta = abs(eta_), k_a = k * a_max, wh_a = m.omega_h * a_max;
   const T ua = (eta + U / T(2.0)) * a_max, u2a = (eta * (eta + U) + T(0.385) * U * U) * a_max;
-  bound3_ = m.omega_v * wv2 * amplitude_Y_ + slope * (v * v * u_max + T(3.0) * k * ua + wh_a);
-  bound4_ = wv2 * wv2 * amplitude_Y_ + slope * (v * v * v * u_max + T(6.0) * k * k * u2a + T(3.0) * k_a * a_max +
+  bounds_.third = m.omega_v * wv2 * bounds_.Y + slope * (v * v * u_max + T(3.0) * k * ua + wh_a);
+  bounds_.fourth = wv2 * wv2 * bounds_.Y + slope * (v * v * v * u_max + T(6.0) * k * k * u2a + T(3.0) * k_a * a_max +
                                                 T(4.0) * v * wh_a + m.omega_h * wh_a);
   const T u_change = max(abs(u_max * u_max - T(1.0)), abs(u_low * u_low - T(1.0)));
-  bound_drive_ = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
-  small_until_ = T(0.125) / max(max(T(1.0), m.ratio), u_max);
+  bounds_.drive = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
+  bounds_.small_until = T(0.125) / max(max(T(1.0), m.ratio), u_max);
 }
 
 template <class T>
 T Flight<T>::third_derivative_bound(const GapJet<T>& now, const T& S) const {
   using std::abs;
   using std::min;
-  const T rate = abs(now.g1) + S * (abs(now.g2) + S * bound3_ / T(2.0));
-  return min(bound3_, bound_drive_ + m_.omega_v * m_.omega_v * rate);
+  const T rate = abs(now.g1) + S * (abs(now.g2) + S * bounds_.third / T(2.0));
+  return min(bounds_.third, bounds_.drive + m_.omega_v * m_.omega_v * rate);
 }
 
 template <class T>
@@ -192,17 +211,25 @@ GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
 
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
-  return s <= small_until_ ? moved(start_, s) : jet_at(at(s));
+  return either(
+      s <= bounds_.small_until, [&] { return moved(start_, s); }, [&] { return jet_at(at(s)); });
 }
 
 template <class T>
 GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) const {
   using std::abs;
-  const T tiny = small_until_ / T(128.0);
+  const T tiny = bounds_.small_until / T(128.0);
   const T size = abs(step);
-  if (s + step <= small_until_) return gap(s + step);
-  if (size <= tiny) return moved_by(jet, step, [](const T& x) { return tiny_turn(x); });
-  return size <= small_until_ ? moved(jet, step) : gap(s + step);
+  const auto far = [&] {
+    return either(
+        size <= bounds_.small_until, [&] { return moved(jet, step); }, [&] { return gap(s + step); });
+  };
+  const auto near = [&] {
+    return either(
+        size <= tiny, [&] { return moved_by(jet, step, [](const T& x) { return tiny_turn(x); }); }, far);
+  };
+  return either(
+      s + step <= bounds_.small_until, [&] { return gap(s + step); }, near);
 }
 
 // The terms linear in t cancel on paper, into g1 t: what is left is small of second order, each term to a few ulp.
@@ -252,9 +279,10 @@ TipState Flight<T>::tip_state(const T& s) const {
 template <class T>
 T Flight<T>::gap_error(const T& s) const {
   using std::abs;
-  const T small = epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bound2_ * s));
-  if (s <= small_until_) return small;
-  return epsilon<T>() * (T(4.0) * amplitude_Y_ + T(16.0) * m_.H);
+  const T small = epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bounds_.second * s));
+  return choose(
+      s <= bounds_.small_until, [&] { return small; },
+      [&] { return T(epsilon<T>() * (T(4.0) * bounds_.Y + T(16.0) * m_.H)); });
 }
 
 }  // namespace afm

@@ -52,16 +52,21 @@ template <class T>
 void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
   using std::max;
   const T first = leave_surface(f), aloft = time_aloft(f, first);
-  s = aloft > first ? aloft : first;
-  // where the parabola's own root was nearest, it is the impact
-  const bool bounces = f.start().g2 * first < T(-1.6) * f.start().g1;
-  ahead = aloft > first ? descent(f, first) : bounces ? max(T(0.0), T(end_of_bounce(f) - first)) : T(kAhead) * first;
+  s = select(aloft > first, aloft, first);
+  const auto low = [&] {
+    // where the parabola's own root was nearest, it is the impact
+    return either(
+        f.start().g2 * first < T(-1.6) * f.start().g1, [&] { return T(max(T(0.0), T(end_of_bounce(f) - first))); },
+        [&] { return T(T(kAhead) * first); });
+  };
+  ahead = either(
+      aloft > first, [&] { return descent(f, first); }, low);
   guess = T(2.0) * first;
 }
 
 // A step of the third order from here ends within an ulp of the time: nothing is left to look at there.
 template <class T>
-bool settles(const Flight<T>& f, const GapJet<T>& jet, const T& step, const T& time) {
+Truth<T> settles(const Flight<T>& f, const GapJet<T>& jet, const T& step, const T& time) {
   using std::abs;
   const T bend = abs(jet.g2 * step), rest = (f.fourth_derivative_bound() * step * step) * (step * step);
   const T allowed = epsilon<T>() * time * abs(jet.g1) / T(64.0);

@@ -10,7 +10,7 @@ namespace afm {
 
 template <class T>
 T clamp(const T& x, const T& low, const T& high) {
-  return x < low ? low : (high < x ? high : x);
+  return select(x < low, low, select(high < x, high, x));
 }
 
 // Bounds of the third derivative over the next S, or the last, sharp enough for g >= g + g1 t + g2 t^2/2 + low t^3/6 on all of [0, S], and
@@ -48,9 +48,12 @@ T leave_surface(const Flight<T>& f) {
   using std::sqrt;
   const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = f.third_derivative_bound() / T(6.0);
   const T root = sqrt(b * b + T(4.0) * a * g1);
-  const T first = T(0.999) * (b > T(0.0) ? (b + root) / (a * T(2.0)) : T(2.0) * g1 / (root - b));
-  if (g1 > T(0.0) || b < T(-kReleaseNoise)) return first;
-  return max(b > T(0.0) ? first : T(0.0), T(3.0) * f.start().g3 / f.fourth_derivative_bound());
+  const T first = T(0.999) * choose(
+                                 b > T(0.0), [&] { return T((b + root) / (a * T(2.0))); },
+                                 [&] { return T(T(2.0) * g1 / (root - b)); });
+  return either(
+      g1 > T(0.0) || b < T(-kReleaseNoise), [&] { return first; },
+      [&] { return T(max(select(b > T(0.0), first, T(0.0)), T(T(3.0) * f.start().g3 / f.fourth_derivative_bound()))); });
 }
 
 // First positive root of g + g1 t + q t^2/2, or `none` where there is none. Precondition: g > 0.
@@ -58,9 +61,13 @@ template <class T>
 T first_root(const T& g, const T& g1, const T& q, const T& none) {
   using std::sqrt;
   const T discriminant = g1 * g1 - T(2.0) * q * g;
-  if (discriminant < T(0.0)) return none;
-  if (g1 < T(0.0)) return T(2.0) * g / (sqrt(discriminant) - g1);
-  return q < T(0.0) ? (g1 + sqrt(discriminant)) / (-q) : none;
+  const auto falling = [&] { return T(T(2.0) * g / (sqrt(discriminant) - g1)); };
+  const auto rising = [&] {
+    return choose(
+        q < T(0.0), [&] { return T((g1 + sqrt(discriminant)) / (-q)); }, [&] { return none; });
+  };
+  return choose(
+      discriminant < T(0.0), [&] { return none; }, [&] { return choose(g1 < T(0.0), falling, rising); });
 }
 
 // A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 + low S/3) t^2/2 where low, its
@@ -69,34 +76,41 @@ template <class T>
 T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& guess) {
   using std::min;
   const T g = jet.g - error;
-  if (!(g > T(0.0))) return T(0.0);
-  T step = T(0.0), S = guess;
-  for (int i = 0; i < 2; ++i) {
+  const auto root_within = [&](const T& S) {
     const T low = min(T(0.0), third_derivative_over(f, jet, S).low);
-    const T root = first_root(g, jet.g1, jet.g2 + low * S / T(3.0), S);
-    if (!(root < S)) return S;
-    step = root;
-    S = T(1.25) * root;
-  }
-  return step;
+    return first_root(g, jet.g1, T(jet.g2 + low * S / T(3.0)), S);
+  };
+  const auto sharpened = [&] {
+    const T root = root_within(guess);
+    return choose(
+        root < guess,
+        [&] {
+          const T S = T(1.25) * root, next = root_within(S);
+          return select(next < S, next, S);
+        },
+        [&] { return guess; });
+  };
+  return choose(
+      g > T(0.0), sharpened, [] { return T(0.0); });
 }
 
 // The gap is certainly positive over all of the time `back` before the jet.
 template <class T>
-bool positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& back) {
+Truth<T> positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& back) {
   using std::max;
   const T g = jet.g - error;
-  if (!(g > T(0.0))) return false;
-  const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
-  const T q = jet.g2 - high * back / T(3.0), end = g + back * (q * back / T(2.0) - jet.g1);
-  // a parabola that opens downwards has its least value at an end; another may dip in between
-  return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
+  return both(g > T(0.0), [&] {
+    const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
+    const T q = jet.g2 - high * back / T(3.0), end = g + back * (q * back / T(2.0) - jet.g1);
+    // a parabola that opens downwards has its least value at an end; another may dip in between
+    return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
+  });
 }
 
 // An interval [low, high] about the present time on which the gap falls all the way, from above zero to below.
 template <class T>
 struct RootInterval {
-  bool certain;
+  Truth<T> certain;
   T estimate, low, high;
 };
 
@@ -107,18 +121,28 @@ T cubic_root(const GapJet<T>& jet, const T& t) {
 }
 
 template <class T>
+RootInterval<T> no_root() {
+  const T zero(0.0);
+  return {zero < zero, zero, zero, zero};
+}
+
+template <class T>
 RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& error) {
   using std::max;
-  const RootInterval<T> none{false, T(0.0), T(0.0), T(0.0)};
-  if (!(jet.g1 < T(0.0))) return none;
   const T high = jet.g + error;
-  const T t = high > T(0.0) ? first_root(high, jet.g1, jet.g2, T(-1.0)) : T(0.0);
-  if (t < T(0.0)) return none;
-  const T d = T(1.25) * t + T(4.0) * error / -jet.g1;
-  const T third = third_derivative_over(f, jet, d).high;
-  const T slope = jet.g1 + max(T(0.0), jet.g2 * d + max(T(0.0), third) * d * d / T(2.0));
-  const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + d * third / T(6.0)));
-  return {slope < T(0.0) && end < T(0.0), clamp(cubic_root(jet, t), T(0.0), d), T(0.0), d};
+  const auto about = [&](const T& t) {
+    const T d = T(1.25) * t + T(4.0) * error / -jet.g1;
+    const T third = third_derivative_over(f, jet, d).high;
+    const T slope = jet.g1 + max(T(0.0), T(jet.g2 * d + max(T(0.0), third) * d * d / T(2.0)));
+    const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + d * third / T(6.0)));
+    return RootInterval<T>{slope < T(0.0) && end < T(0.0), clamp(cubic_root(jet, t), T(0.0), d), T(0.0), d};
+  };
+  const auto falling = [&] {
+    const T t = choose(
+        high > T(0.0), [&] { return first_root(high, jet.g1, jet.g2, T(-1.0)); }, [] { return T(0.0); });
+    return choose(t < T(0.0), no_root<T>, [&] { return about(t); });
+  };
+  return choose(jet.g1 < T(0.0), falling, no_root<T>);
 }
 
 // The same behind, where the gap is certainly positive at a time `back` before, and certainly negative now.
@@ -126,47 +150,64 @@ template <class T>
 RootInterval<T> certify_root_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& back) {
   using std::max;
   using std::sqrt;
-  const RootInterval<T> none{false, T(0.0), T(0.0), T(0.0)};
   const T discriminant = jet.g1 * jet.g1 - T(2.0) * jet.g2 * jet.g;
-  if (!(jet.g1 < T(0.0)) || !(jet.g + error < T(0.0)) || discriminant < T(0.0)) return none;
-  const T third = max(T(0.0), third_derivative_over(f, jet, back).high);
-  const T slope = jet.g1 + max(T(0.0), third * back * back / T(2.0) - jet.g2 * back);
-  const T t = T(2.0) * jet.g / (sqrt(discriminant) - jet.g1);
-  return {slope < T(0.0), clamp(cubic_root(jet, t), T(-back), T(0.0)), T(-back), T(0.0)};
+  const auto falling = [&] {
+    const T third = max(T(0.0), third_derivative_over(f, jet, back).high);
+    const T slope = jet.g1 + max(T(0.0), T(third * back * back / T(2.0) - jet.g2 * back));
+    const T t = T(2.0) * jet.g / (sqrt(discriminant) - jet.g1);
+    return RootInterval<T>{slope < T(0.0), clamp(cubic_root(jet, t), T(-back), T(0.0)), T(-back), T(0.0)};
+  };
+  const auto none = !(jet.g1 < T(0.0)) || !(jet.g + error < T(0.0)) || discriminant < T(0.0);
+  return choose(none, no_root<T>, falling);
 }
 
 // angle / 2 pi of the point (x, y), y > 0, within 3e-6: it only isolates.
-inline double rough_turn(double x, double y) {
-  const double ax = std::abs(x);
-  const bool steep = y > ax;
-  const double t = steep ? ax / y : y / ax;
-  const double z = t * t;
+template <class R>
+R rough_turn(const R& x, const R& y) {
+  using std::abs;
+  const R ax = abs(x);
+  const auto steep = y > ax;
+  const R t = select(steep, ax, y) / select(steep, y, ax);
+  const R z = t * t;
   // Hastings' polynomial of the arctangent, |error| < 1e-5 rad
-  const double atan = t * (0.9998660 + z * (-0.3302995 + z * (0.1801410 + z * (-0.0851330 + z * 0.0208351))));
-  double turn = atan / kTwoPi;
-  if (steep) turn = 0.25 - turn;
-  return x < 0.0 ? 0.5 - turn : turn;
+  const R atan = t * (R(0.9998660) + z * (R(-0.3302995) + z * (R(0.1801410) + z * (R(-0.0851330) + z * R(0.0208351)))));
+  const R part = atan / R(kTwoPi), turn = select(steep, R(R(0.25) - part), part);
+  return select(x < R(0.0), R(R(0.5) - turn), turn);
+}
+
+// The number in which a step is guessed: double is enough, whatever the digits of the flight.
+template <class T>
+double rough(const T& x) {
+  return static_cast<double>(x);
 }
 
 // How long the tip needs from here over its top and down to the crest, less a margin; 0 where that is not worth a step.
 template <class T>
 T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
+  using std::max;
+  using std::sqrt;
+  using R = decltype(rough(q.Y));
   constexpr double kMargin = 1e-5;  // [tau]: three times the error of rough_turn
   constexpr double kWorthwhile = 1e-3;
-  const double crest = static_cast<double>(f.mechanics().H - f.mechanics().y0);
-  const double Y = static_cast<double>(q.Y), V = static_cast<double>(q.W * f.mechanics().per_omega_v);
+  const R crest = rough(T(f.mechanics().H - f.mechanics().y0));
+  const R Y = rough(q.Y), V = rough(T(q.W * f.mechanics().per_omega_v));
   // turn from now to the top plus from the top down to the crest: the angle of a product of two complex numbers
-  const double Q = std::sqrt(std::max(0.0, Y * Y + V * V - crest * crest));
-  const double sine = Y * Q + V * crest;
-  if (!(sine > 0.0)) return T(0.0);
-  const double down = rough_turn(Y * crest - V * Q, sine) - kMargin;
-  return T(down > kWorthwhile ? down : 0.0);
+  const R Q = sqrt(max(R(0.0), R(Y * Y + V * V - crest * crest)));
+  const R sine = Y * Q + V * crest;
+  return choose(
+      sine > R(0.0),
+      [&] {
+        const R down = rough_turn(R(Y * crest - V * Q), sine) - R(kMargin);
+        return T(select(down > R(kWorthwhile), down, R(0.0)));
+      },
+      [] { return T(0.0); });
 }
 
 // Above the crest nothing can happen: how long the tip stays there.
 template <class T>
 T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
-  return q.Y > f.mechanics().H - f.mechanics().y0 ? time_to_crest(f, q) : T(0.0);
+  return either(
+      q.Y > f.mechanics().H - f.mechanics().y0, [&] { return time_to_crest(f, q); }, [] { return T(0.0); });
 }
 
 // The same from the surface, where the tip certainly is above the crest at a time `s` up to which it certainly has left the surface.
@@ -175,7 +216,8 @@ T time_aloft(const Flight<T>& f, const T& s) {
   const Mechanics<T>& m = f.mechanics();
   const FlightState<T>& q = f.start().state;
   const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * f.amplitude_Y() / T(2.0)));
-  return least > m.H - m.y0 ? time_to_crest(f, q) : T(0.0);
+  return either(
+      least > m.H - m.y0, [&] { return time_to_crest(f, q); }, [] { return T(0.0); });
 }
 
 // The step to the root near by, correct to the third order: the series of the inverse function.

@@ -14,31 +14,45 @@ inline double restitution(const Model& model, double normal_speed) {
   return 1.0 - (1.0 - model.gamma) * normal_speed / model.v_c;
 }
 
-struct Reflection {
-  TipState after;
-  SurfaceJet<double> surface;  // there
-  double normal_speed;         // |n.v| before [a/tau]; of the hammer the gap rate, |w - h' u|
-  double tangential_velocity;  // t.v, kept [a/tau]; the hammer keeps u
-  double energy_loss;          // (1 - gamma_eff^2) (n.v)^2 / 2 [m a^2/tau^2]
+template <class T>
+struct ReflectionOf {
+  typename LaunchOf<T>::State after;
+  SurfaceJet<T> surface;  // there
+  T normal_speed;         // |n.v| before [a/tau]; of the hammer the gap rate, |w - h' u|
+  T tangential_velocity;  // t.v, kept [a/tau]; the hammer keeps u
+  T energy_loss;          // (1 - gamma_eff^2) (n.v)^2 / 2 [m a^2/tau^2]
 };
+using Reflection = ReflectionOf<double>;
+
+// What of a model a reflection asks for; `free`: its mobility.
+template <class T>
+struct ReflectionLaw {
+  T H, gamma, v_c, free;
+};
+
+template <class T>
+ReflectionOf<T> reflect(const ReflectionLaw<T>& law, const T& eta, const FlightState<T>& incident, const T& g1) {
+  using std::sqrt;
+  const T phase = wrapped(incident.phase), one(1.0), free = law.free;
+  const SurfaceJet<T> surface = surface_jet(law.H, phase);
+  const T n2 = one + free * surface.h1 * surface.h1;
+  const T n = sqrt(n2);
+  const T u = eta + incident.U, speed = -g1 / n;
+  const auto fast = speed >= law.v_c;
+  // above the cutoff 1 - gamma_eff is exact enough; below it the law gives the small difference itself
+  const T loss = choose(
+      fast, [&] { return T(one - law.gamma); }, [&] { return T((one - law.gamma) * speed / law.v_c); });
+  const T gamma_eff = select(fast, law.gamma, T(one - loss));
+  return {{phase, incident.X, u + free * (one + gamma_eff) * surface.h1 * g1 / n2, T(0.0), -gamma_eff * g1},
+          surface,
+          speed,
+          (u + free * surface.h1 * (g1 + surface.h1 * u)) / n,
+          T(0.5) * loss * (one + gamma_eff) * speed * speed};
+}
 
 // `incident`: the state at the impact, gap rate g1 <= 0.
 inline Reflection reflect(const Model& model, double eta, const FlightState<double>& incident, double g1) {
-  const double phase = wrap_phase(incident.phase);
-  const SurfaceJet<double> surface = surface_jet(model.H, phase);
-  const double free = mobility(model), n2 = 1.0 + free * surface.h1 * surface.h1;
-  const double n = std::sqrt(n2);
-  const double u = eta + incident.U, speed = -g1 / n;
-  const double gamma_eff = restitution(model, speed);
-  // above the cutoff 1 - gamma_eff is exact enough; below it the law gives the small difference itself
-  const double loss = speed >= model.v_c ? 1.0 - model.gamma : (1.0 - model.gamma) * speed / model.v_c;
-  Reflection r;
-  r.surface = surface;
-  r.after = {phase, incident.X, u + free * (1.0 + gamma_eff) * surface.h1 * g1 / n2, 0.0, -gamma_eff * g1};
-  r.normal_speed = speed;
-  r.tangential_velocity = (u + free * surface.h1 * (g1 + surface.h1 * u)) / n;
-  r.energy_loss = 0.5 * loss * (1.0 + gamma_eff) * speed * speed;
-  return r;
+  return reflect(ReflectionLaw<double>{model.H, model.gamma, model.v_c, mobility(model)}, eta, incident, g1);
 }
 
 }  // namespace afm

@@ -1,6 +1,7 @@
 // The mica surface h(x) = H cos(2 pi x), crest at x = 0 [a].
 #pragma once
 
+#include "afm_emulator/select.h"
 #include "afm_emulator/turns.h"
 
 namespace afm {
@@ -21,9 +22,12 @@ SurfaceJet<T> surface_jet(const T& H, const T& phase) {
 }
 
 // x mod 1 in [0, 1).
-inline double wrap_phase(double x) {
-  const double phase = x - std::floor(x);
-  return phase < 1.0 ? phase : 0.0;
+template <class T>
+T wrapped(const T& x) {
+  using std::floor;
+  const T phase = x - floor(x);
+  return select(phase < T(1.0), phase, T(0.0));
 }
+inline double wrap_phase(double x) { return wrapped(x); }
 
 }  // namespace afm

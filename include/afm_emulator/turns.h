@@ -48,66 +48,95 @@ constexpr double kC4 = 64.9393940226683, kC6 = -85.45681720669373;
 constexpr double kC8 = 60.24464137187666, kC10 = -26.4262567833744, kC12 = 7.903536371318469;
 constexpr double kC14 = -1.714390711088672, kC16 = 0.28200596845579123;
 
+using std::fma;  // of packs of lanes their own
+
 // (sin(2 pi x) - 2 pi x) / x^3 and (cos(2 pi x) - 1) / x^2, z = x^2, paired to shorten the chain of dependencies
-inline double sine_tail(double z) {
-  const double z2 = z * z, z4 = z2 * z2;
-  const double low = std::fma(std::fma(z, kS9, kS7), z2, kS3 + std::fma(z, kS5, kS3Low));
-  const double high = std::fma(std::fma(z, kS17, kS15), z2, std::fma(z, kS13, kS11));
-  return std::fma(high, z4, low);
+template <class T>
+T sine_tail(T z) {
+  const T z2 = z * z, z4 = z2 * z2;
+  const T low = fma(fma(z, T(kS9), T(kS7)), z2, T(kS3) + fma(z, T(kS5), T(kS3Low)));
+  const T high = fma(fma(z, T(kS17), T(kS15)), z2, fma(z, T(kS13), T(kS11)));
+  return fma(high, z4, low);
 }
-inline double cosine_rest(double z) {  // the same less kC2, over z
-  const double z2 = z * z;
-  const double low = std::fma(kC8, z2, std::fma(z, kC6, kC4));
-  const double high = std::fma(kC16, z2, std::fma(z, kC14, kC12));
-  return std::fma(std::fma(high, z, kC10), z2 * z, low);
+template <class T>
+T cosine_rest(T z) {  // the same less kC2, over z
+  const T z2 = z * z;
+  const T low = fma(T(kC8), z2, fma(z, T(kC6), T(kC4)));
+  const T high = fma(T(kC16), z2, fma(z, T(kC14), T(kC12)));
+  return fma(fma(high, z, T(kC10)), z2 * z, low);
 }
-inline double cosine_tail(double z) { return kC2 + std::fma(z, cosine_rest(z), kC2Low); }
+template <class T>
+T cosine_tail(T z) {
+  return T(kC2) + fma(z, cosine_rest(z), T(kC2Low));
+}
 // 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from nothing
-inline double cosine(double x, double z) {
-  const double z_low = std::fma(x, x, -z);
-  const double head = std::fma(z, kC2, 1.0), head_low = std::fma(z, kC2, 1.0 - head);
-  const double rest = std::fma(z, kC2Low, std::fma(z_low, kC2, head_low));
-  return head + std::fma(z * z, cosine_rest(z), rest);
+template <class T>
+T cosine(T x, T z) {
+  const T z_low = fma(x, x, -z);
+  const T head = fma(z, T(kC2), T(1.0)), head_low = fma(z, T(kC2), T(1.0) - head);
+  const T rest = fma(z, T(kC2Low), fma(z_low, T(kC2), head_low));
+  return head + fma(z * z, cosine_rest(z), rest);
 }
-inline double sine(double x, double z) { return std::fma(x, kTwoPiHigh, x * std::fma(z, sine_tail(z), kTwoPiLow)); }
+template <class T>
+T sine(T x, T z) {
+  return fma(x, T(kTwoPiHigh), x * fma(z, sine_tail(z), T(kTwoPiLow)));
+}
 
 // adding and taking away 1.5 * 2^52 rounds to the nearest whole number
 constexpr double kRounder = 6755399441055744.0;
 
-}  // namespace turns_detail
-
-// Nearest whole number, |x| < 2^51.
-inline double nearest(double x) { return (x + turns_detail::kRounder) - turns_detail::kRounder; }
-
-// a * b less a whole number: the fraction keeps its bits however large the product, |a b| < 2^51.
-inline double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
-
-// Within 0.8 ulp, |x| < 2^49 turns.
-inline SinCos<double> sin_cos_turns(double x) {
-  const double quarter = nearest(4.0 * x);
-  const double r = std::fma(-0.25, quarter, x);
-  const double z = r * r;
-  const double s = turns_detail::sine(r, z), c = turns_detail::cosine(r, z);
+// The sine and cosine of an angle, from those of what is left of it less `quarter` quarters of a turn.
+inline SinCos<double> turn_quarters(double quarter, double s, double c) {
   const long long k = static_cast<long long>(quarter);
   const bool swap = (k & 1) != 0;
   const double sin_value = swap ? c : s, cos_value = swap ? s : c;
   return {(k & 2) != 0 ? -sin_value : sin_value, ((k + 1) & 2) != 0 ? -cos_value : cos_value};
 }
 
-// Precondition: |x| <= 1/8.
-inline SmallTurn<double> small_turn(double x) {
-  const double z = x * x;
-  return {turns_detail::sine(x, z), x * z * turns_detail::sine_tail(z), -z * turns_detail::cosine_tail(z)};
+template <class T>
+T nearest_of(T x) {
+  return (x + T(kRounder)) - T(kRounder);
 }
 
-// The same in fewer terms. Precondition: |x| <= 2^-10.
-inline SmallTurn<double> tiny_turn(double x) {
-  using namespace turns_detail;
-  const double z = x * x;
-  const double sine_tail = std::fma(z, std::fma(z, kS7, kS5), kS3);
-  const double cosine_tail = std::fma(z, std::fma(z, kC6, kC4), kC2);
-  return {std::fma(x, kTwoPiHigh, x * std::fma(z, sine_tail, kTwoPiLow)), x * z * sine_tail, -z * cosine_tail};
+template <class T>
+SinCos<T> sin_cos_of(T x) {
+  const T quarter = nearest_of(T(4.0) * x);
+  const T r = fma(T(-0.25), quarter, x);
+  const T z = r * r;
+  const T s = sine(r, z), c = cosine(r, z);
+  return turn_quarters(quarter, s, c);
 }
+
+template <class T>
+SmallTurn<T> small_turn_of(T x) {
+  const T z = x * x;
+  return {sine(x, z), x * z * sine_tail(z), -z * cosine_tail(z)};
+}
+
+template <class T>
+SmallTurn<T> tiny_turn_of(T x) {
+  const T z = x * x;
+  const T tail_sine = fma(z, fma(z, T(kS7), T(kS5)), T(kS3));
+  const T tail_cosine = fma(z, fma(z, T(kC6), T(kC4)), T(kC2));
+  return {fma(x, T(kTwoPiHigh), x * fma(z, tail_sine, T(kTwoPiLow))), x * z * tail_sine, -z * tail_cosine};
+}
+
+}  // namespace turns_detail
+
+// Nearest whole number, |x| < 2^51.
+inline double nearest(double x) { return turns_detail::nearest_of(x); }
+
+// a * b less a whole number: the fraction keeps its bits however large the product, |a b| < 2^51.
+inline double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
+
+// Within 0.8 ulp, |x| < 2^49 turns.
+inline SinCos<double> sin_cos_turns(double x) { return turns_detail::sin_cos_of(x); }
+
+// Precondition: |x| <= 1/8.
+inline SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
+
+// The same in fewer terms. Precondition: |x| <= 2^-10.
+inline SmallTurn<double> tiny_turn(double x) { return turns_detail::tiny_turn_of(x); }
 template <class T>
 SmallTurn<T> tiny_turn(const T& x) {
   return small_turn(x);
