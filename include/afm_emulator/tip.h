@@ -44,6 +44,15 @@ class Tip {
   // Precondition: a model without faults that differs in gamma, v_c and y0 at most.
   void retune(const Model& model);
 
+  // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip as it is
+  // after an impact at that time, which was `last` and from which it launches so.
+  bool in_flight() const { return mode_ == Mode::flying; }
+  const Flight<double>& flight() const { return flight_; }
+  ModelTime flight_start() const { return start_; }
+  void resume(const TipState& launched, const ModelTime& start, const Impact& last);
+  const Model& model() const { return model_; }
+  double burst_gap_rate() const { return burst_gap_rate_; }  // slower bounces may be the first of a burst [a/tau]
+
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   bool in_contact() const { return mode_ == Mode::sliding; }

@@ -150,6 +150,14 @@ void Tip::leave_or_press() {
   }
 }
 
+void Tip::resume(const TipState& launched, const ModelTime& start, const Impact& last) {
+  last_impact_ = last;
+  now_ = start;
+  launch(mechanics_, eta_, launched, flight_);
+  begin_flight();
+  leave_or_press();
+}
+
 void Tip::drag(double eta) {
   if (eta == eta_) return;
   if (model_.kind == ModelKind::hammer && on_guide()) return jolt(eta);

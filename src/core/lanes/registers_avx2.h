@@ -1,0 +1,79 @@
+// One register of lanes, AVX2: four. All of it is internal to the file that includes it: what such a file compiles must not be
+// linked into a program for another machine.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+#define AFM_LANE_INLINE inline __attribute__((always_inline))
+
+namespace afm {
+namespace {
+
+constexpr int kRegisterLanes = 4;
+using Register = __m256d;
+using RegisterMask = __m256d;  // all bits of a lane or none
+
+AFM_LANE_INLINE Register filled(double x) { return _mm256_set1_pd(x); }
+AFM_LANE_INLINE Register filled_bits(std::int64_t x) { return _mm256_castsi256_pd(_mm256_set1_epi64x(x)); }
+AFM_LANE_INLINE Register fused(Register a, Register b, Register c) { return _mm256_fmadd_pd(a, b, c); }
+// the second where neither is the smaller or the larger, as std::min(b, a) and std::max(b, a) give the first
+AFM_LANE_INLINE Register smaller(Register a, Register b) { return _mm256_min_pd(a, b); }
+AFM_LANE_INLINE Register larger(Register a, Register b) { return _mm256_max_pd(a, b); }
+AFM_LANE_INLINE Register root(Register a) { return _mm256_sqrt_pd(a); }
+AFM_LANE_INLINE Register rounded_down(Register a) { return _mm256_floor_pd(a); }
+AFM_LANE_INLINE Register sign_bit() { return filled(-0.0); }
+AFM_LANE_INLINE Register negated(Register a) { return _mm256_xor_pd(a, sign_bit()); }
+AFM_LANE_INLINE Register magnitude(Register a) { return _mm256_andnot_pd(sign_bit(), a); }
+AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { return _mm256_blendv_pd(no, yes, m); }
+
+AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
+AFM_LANE_INLINE RegisterMask less_equal(Register a, Register b) { return _mm256_cmp_pd(a, b, _CMP_LE_OQ); }
+AFM_LANE_INLINE RegisterMask mask_and(RegisterMask a, RegisterMask b) { return _mm256_and_pd(a, b); }
+AFM_LANE_INLINE RegisterMask mask_or(RegisterMask a, RegisterMask b) { return _mm256_or_pd(a, b); }
+AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return _mm256_xor_pd(a, filled_bits(-1)); }
+AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
+
+// Of whole numbers kept in the bits of a lane.
+AFM_LANE_INLINE Register plus_whole(Register a, Register b) {
+  return _mm256_castsi256_pd(_mm256_add_epi64(_mm256_castpd_si256(a), _mm256_castpd_si256(b)));
+}
+AFM_LANE_INLINE Register minus_whole(Register a, Register b) {
+  return _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_castpd_si256(a), _mm256_castpd_si256(b)));
+}
+AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) {
+  return _mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_castpd_si256(b), _mm256_castpd_si256(a)));
+}
+AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) {
+  return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_castpd_si256(a), _mm256_castpd_si256(b)));
+}
+AFM_LANE_INLINE RegisterMask odd(Register bits) {
+  const __m256i low = _mm256_slli_epi64(_mm256_castpd_si256(bits), 63);
+  return _mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_setzero_si256(), low));
+}
+// a with its sign turned round where the bits have a two in them
+AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
+  const Register two = _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(bits), 62));
+  return _mm256_xor_pd(a, _mm256_and_pd(two, sign_bit()));
+}
+
+// Two neighbours in each of four rows.
+AFM_LANE_INLINE void load_pair(const double* const* rows, int at, Register& first, Register& second) {
+  const Register even =
+      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[0] + at)), _mm_loadu_pd(rows[2] + at), 1);
+  const Register odds =
+      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[1] + at)), _mm_loadu_pd(rows[3] + at), 1);
+  first = _mm256_unpacklo_pd(even, odds);
+  second = _mm256_unpackhi_pd(even, odds);
+}
+AFM_LANE_INLINE void store_pair(double* const* rows, int at, Register first, Register second) {
+  const Register even = _mm256_unpacklo_pd(first, second), odds = _mm256_unpackhi_pd(first, second);
+  _mm_storeu_pd(rows[0] + at, _mm256_castpd256_pd128(even));
+  _mm_storeu_pd(rows[1] + at, _mm256_castpd256_pd128(odds));
+  _mm_storeu_pd(rows[2] + at, _mm256_extractf128_pd(even, 1));
+  _mm_storeu_pd(rows[3] + at, _mm256_extractf128_pd(odds, 1));
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,78 @@
+// One register of lanes, AVX-512: eight. See registers_avx2.h.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+#define AFM_LANE_INLINE inline __attribute__((always_inline))
+
+namespace afm {
+namespace {
+
+constexpr int kRegisterLanes = 8;
+using Register = __m512d;
+using RegisterMask = __mmask8;
+
+AFM_LANE_INLINE Register filled(double x) { return _mm512_set1_pd(x); }
+AFM_LANE_INLINE Register filled_bits(std::int64_t x) { return _mm512_castsi512_pd(_mm512_set1_epi64(x)); }
+AFM_LANE_INLINE Register fused(Register a, Register b, Register c) { return _mm512_fmadd_pd(a, b, c); }
+AFM_LANE_INLINE Register smaller(Register a, Register b) { return _mm512_min_pd(a, b); }
+AFM_LANE_INLINE Register larger(Register a, Register b) { return _mm512_max_pd(a, b); }
+AFM_LANE_INLINE Register root(Register a) { return _mm512_sqrt_pd(a); }
+AFM_LANE_INLINE Register rounded_down(Register a) {
+  return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+AFM_LANE_INLINE Register sign_bit() { return filled(-0.0); }
+AFM_LANE_INLINE Register negated(Register a) { return _mm512_xor_pd(a, sign_bit()); }
+AFM_LANE_INLINE Register magnitude(Register a) { return _mm512_andnot_pd(sign_bit(), a); }
+AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { return _mm512_mask_blend_pd(m, no, yes); }
+
+AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
+AFM_LANE_INLINE RegisterMask less_equal(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
+AFM_LANE_INLINE RegisterMask mask_and(RegisterMask a, RegisterMask b) { return static_cast<RegisterMask>(a & b); }
+AFM_LANE_INLINE RegisterMask mask_or(RegisterMask a, RegisterMask b) { return static_cast<RegisterMask>(a | b); }
+AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return static_cast<RegisterMask>(~a); }
+AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return a; }
+
+AFM_LANE_INLINE __m512i whole(Register a) { return _mm512_castpd_si512(a); }
+AFM_LANE_INLINE Register plus_whole(Register a, Register b) {
+  return _mm512_castsi512_pd(_mm512_add_epi64(whole(a), whole(b)));
+}
+AFM_LANE_INLINE Register minus_whole(Register a, Register b) {
+  return _mm512_castsi512_pd(_mm512_sub_epi64(whole(a), whole(b)));
+}
+AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) { return _mm512_cmplt_epi64_mask(whole(a), whole(b)); }
+AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) { return _mm512_cmpeq_epi64_mask(whole(a), whole(b)); }
+AFM_LANE_INLINE RegisterMask odd(Register bits) { return _mm512_test_epi64_mask(whole(bits), _mm512_set1_epi64(1)); }
+AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
+  const Register two = _mm512_castsi512_pd(_mm512_slli_epi64(whole(bits), 62));
+  return _mm512_xor_pd(a, _mm512_and_pd(two, sign_bit()));
+}
+
+// Every second row of four, from one row on.
+AFM_LANE_INLINE Register every_second(const double* const* rows, int first, int at) {
+  const __m256d low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[first] + at)),
+                                           _mm_loadu_pd(rows[first + 2] + at), 1);
+  const __m256d high = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[first + 4] + at)),
+                                            _mm_loadu_pd(rows[first + 6] + at), 1);
+  return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+}
+AFM_LANE_INLINE void load_pair(const double* const* rows, int at, Register& first, Register& second) {
+  const Register even = every_second(rows, 0, at), odds = every_second(rows, 1, at);
+  first = _mm512_unpacklo_pd(even, odds);
+  second = _mm512_unpackhi_pd(even, odds);
+}
+AFM_LANE_INLINE void store_every_second(double* const* rows, int first, int at, Register pairs) {
+  _mm_storeu_pd(rows[first] + at, _mm512_extractf64x2_pd(pairs, 0));
+  _mm_storeu_pd(rows[first + 2] + at, _mm512_extractf64x2_pd(pairs, 1));
+  _mm_storeu_pd(rows[first + 4] + at, _mm512_extractf64x2_pd(pairs, 2));
+  _mm_storeu_pd(rows[first + 6] + at, _mm512_extractf64x2_pd(pairs, 3));
+}
+AFM_LANE_INLINE void store_pair(double* const* rows, int at, Register first, Register second) {
+  store_every_second(rows, 0, at, _mm512_unpacklo_pd(first, second));
+  store_every_second(rows, 1, at, _mm512_unpackhi_pd(first, second));
+}
+
+}  // namespace
+}  // namespace afm
