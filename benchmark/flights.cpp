@@ -30,7 +30,7 @@ std::vector<TipState> impacts_of(Tip tip) {
 }  // namespace
 
 bool add_flight(FlightScene& scene, const TipState& start) {
-  const Truth truth = next_impact_in_quad(scene.model, scene.eta, start, kFlightHorizon);
+  const TrueImpact truth = next_impact_in_quad(scene.model, scene.eta, start, kFlightHorizon);
   if (!truth.impact) return false;
   const Flight<double> next(Mechanics<double>(scene.model), scene.eta, truth.after);
   const Landing<double> landing = find_landing(scene.model, next, kFlightHorizon);

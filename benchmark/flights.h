@@ -12,7 +12,7 @@ constexpr double kFlightHorizon = 8.0;  // [tau]
 
 struct Flight113 {
   TipState start;
-  Truth truth;
+  TrueImpact truth;
   double after;  // duration of the next flight [tau]: how near the next impact is
 
   // An impact belongs to this flight where it is nearer to it than to its neighbours, and not far off.

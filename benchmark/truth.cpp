@@ -23,10 +23,10 @@ double distance(const Quad& a, const Quad& b) { return std::abs(static_cast<doub
 
 }  // namespace
 
-Truth next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon) {
+TrueImpact next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon) {
   const Mechanics<Quad> mechanics(model);
   const Landing<Quad> landing = find_impact(Flight<Quad>(mechanics, Quad(eta), start), Quad(horizon));
-  Truth t{};
+  TrueImpact t{};
   t.impact = landing.outcome == SearchOutcome::impact;
   t.dt = landing.s;
   if (!t.impact) return t;
@@ -45,7 +45,7 @@ Truth next_impact_in_quad(const Model& model, double eta, const TipState& start,
   return t;
 }
 
-double error_of(const rivals::Hit& hit, const Truth& truth, const Model& model, double eta) {
+double error_of(const rivals::Hit& hit, const TrueImpact& truth, const Model& model, double eta) {
   const double slope = surface_jet(model.H, hit.after.phase).h1;
   const Quad w = Quad(hit.after.g1) + Quad(slope) * hit.after.u;
   Quad phase = truth.phase, X = truth.X, u = truth.u, true_w = truth.w;

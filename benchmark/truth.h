@@ -8,17 +8,17 @@
 
 namespace afm {
 
-struct Truth {
+struct TrueImpact {
   bool impact;              // false: none within the horizon
   Quad dt, phase, X, u, w;  // after the impact, lab velocities
   double normal_speed, energy_loss;
   TipState after;  // the same in doubles
 };
 
-Truth next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon);
+TrueImpact next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon);
 
 // The largest of the errors in time, phase, extension and velocities after the impact [tau, a, a/tau]. A method whose
 // impact took time is compared with the truth as far on.
-double error_of(const rivals::Hit& hit, const Truth& truth, const Model& model, double eta);
+double error_of(const rivals::Hit& hit, const TrueImpact& truth, const Model& model, double eta);
 
 }  // namespace afm
