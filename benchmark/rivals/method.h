@@ -45,7 +45,8 @@ MethodSpec exact_spec();
 MethodSpec sampled_spec();
 MethodSpec dopri5_spec();
 MethodSpec bulirsch_stoer_spec();
-std::vector<MethodSpec> cvode_specs();  // none where SUNDIALS was not found
+std::vector<MethodSpec> cvode_specs();  // where SUNDIALS was found
+MethodSpec siconos_spec();              // where Siconos was found
 MethodSpec rk4_spec();
 MethodSpec moreau_jean_spec();
 MethodSpec semi_implicit_euler_spec();

@@ -6,7 +6,12 @@ namespace rivals {
 const std::vector<MethodSpec>& methods() {
   static const std::vector<MethodSpec> all = [] {
     std::vector<MethodSpec> list{exact_spec(), sampled_spec(), dopri5_spec(), bulirsch_stoer_spec()};
+#ifdef AFM_HAVE_CVODE
     for (MethodSpec& spec : cvode_specs()) list.push_back(std::move(spec));
+#endif
+#ifdef AFM_HAVE_SICONOS
+    list.push_back(siconos_spec());
+#endif
     for (MethodSpec spec : {rk4_spec(), moreau_jean_spec(), semi_implicit_euler_spec(), penalty_spec()}) {
       list.push_back(std::move(spec));
     }
