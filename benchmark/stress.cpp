@@ -15,7 +15,7 @@ struct Options {
   bool go_on = false, mica = false;
 };
 
-void add(afm::StressCount& sum, const afm::StressCount& c) {
+void add(afm::TipCount& sum, const afm::TipCount& c) {
   sum.arcs += c.arcs;
   sum.impacts += c.impacts;
   sum.bounces += c.bounces;
@@ -27,7 +27,7 @@ void add(afm::StressCount& sum, const afm::StressCount& c) {
   sum.worst_imbalance = std::max(sum.worst_imbalance, c.worst_imbalance);
 }
 
-void print(std::uint64_t scenes, std::int64_t tau, const afm::StressCount& c) {
+void print(std::uint64_t scenes, std::int64_t tau, const afm::TipCount& c) {
   std::printf(
       "%llu scenes of %lld tau: %llu commands, %llu arcs, %llu impacts standing for %llu bounces, %llu bursts, %llu "
       "contacts; "
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const auto start = std::chrono::steady_clock::now();
   const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  afm::StressCount sum;
+  afm::TipCount sum;
   std::uint64_t scenes = 0, violations = 0;
   double progress = 0.0;
   for (; (o.scenes == 0 || scenes < o.scenes) && passed() < o.seconds; ++scenes) {

@@ -23,6 +23,13 @@ print_help() {
   awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
 }
 
+# from here on, unless the user has said otherwise: roscpp binds every node's slave API to all interfaces
+listen_on_loopback_only() {
+  if [[ -z ${ROS_IP:-} && $ROS_HOSTNAME == localhost ]]; then
+    export LD_PRELOAD=$afm_build/devel/lib/libafm_loopback.so${LD_PRELOAD:+:$LD_PRELOAD}
+  fi
+}
+
 # ROS's and our own setup files use unset variables
 source_setup() {
   set +u

@@ -7,6 +7,9 @@
 namespace afm {
 namespace {
 
+// [1] Softer springs would swing tips further than a double's digits of a lattice cell reach.
+constexpr double kMinFrequencyRatio = 1e-6;
+
 std::string to_text(const std::string& name, double value, const std::string& reason) {
   std::ostringstream out;
   out.precision(17);
@@ -36,8 +39,8 @@ std::vector<ParameterError> find_faults(const Model& m) {
   const auto require = [&](bool holds, const char* name, double value, const char* reason) {
     if (!holds) faults.emplace_back(name, value, reason);
   };
-  require(m.frequency_ratio > 0.0 && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio", m.frequency_ratio,
-          "omega_h/omega_v must be above 0 and at most 1000");
+  require(m.frequency_ratio >= kMinFrequencyRatio && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio",
+          m.frequency_ratio, "omega_h/omega_v must be between 1e-6 and 1000");
   require(m.H > 0.0 && m.H <= kMaxAmplitude, "H", m.H,
           "the surface amplitude must be above 0 and at most 10 lattice spacings");
   require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,

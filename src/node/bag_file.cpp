@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
 namespace afm::node {
 namespace {
@@ -80,8 +81,9 @@ std::string BagFile::close() {
   try {
     bag_->close();
   } catch (const std::exception& error) {
-    // The destructor would try again, throw again, and end the process: the bag is left to the process's end instead.
-    static_cast<void>(bag_.release());
+    // The destructor would try again, throw again, and end the process: the bag is kept until the process ends instead.
+    static auto& abandoned = *new std::vector<rosbag::Bag*>;
+    abandoned.push_back(bag_.release());
     return std::string("closing it failed (") + error.what() + "): rosbag reindex " + active_path_ +
            " recovers what is in it";
   }

@@ -1,6 +1,7 @@
 #include "emulator_node.h"
 
 #include <ros/console.h>
+#include <ros/this_node.h>
 #include <ros/transport_hints.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace afm::node {
 namespace {
 
-constexpr double kHandOverSeconds = 2.0;              // how far publishing may fall behind before batches are dropped
+constexpr double kHandOverSeconds = 2.0;              // how far publishing may fall behind before stepping waits for it
 constexpr double kHandOverSecondsAtMost = 0.5;        // and at the highest sample rate, if it was raised to that
 constexpr std::size_t kMaxHandOverSamples = 2000000;  // 32 MB, if the batches themselves are not larger
 constexpr std::size_t kMinBatches = 4;
@@ -70,12 +71,14 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
   stepper_.start();
   broadcaster_->start(stepper_.scheduler());
   accept_commands(node);
+  watch_master();
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
            to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
            static_cast<unsigned long>(samples_per_batch(parameters)), stepper_.scheduler().c_str());
 }
 
 EmulatorNode::~EmulatorNode() {
+  master_watch_.reset();
   control_.close();  // services that wait for an answer return, and can then be shut down
   drag_velocity_.shutdown();
   disk_look_.stop();
@@ -94,6 +97,13 @@ void EmulatorNode::accept_commands(ros::NodeHandle& node) {
   services_.push_back(node.advertiseService(kStepService, &EmulatorNode::on_step, this));
   services_.push_back(node.advertiseService(kStartRecordingService, &EmulatorNode::on_start_recording, this));
   services_.push_back(node.advertiseService(kStopRecordingService, &EmulatorNode::on_stop_recording, this));
+}
+
+void EmulatorNode::watch_master() {
+  const std::string name = ros::this_node::getName();
+  std::vector<std::string> names{name + "/get_loggers", name + "/set_logger_level"};  // roscpp's own
+  for (const ros::ServiceServer& service : services_) names.push_back(service.getService());
+  master_watch_.emplace(std::move(names));
 }
 
 void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {

@@ -16,6 +16,7 @@
 #include "control.h"
 #include "disk_space.h"
 #include "hand_over.h"
+#include "master_watch.h"
 #include "parameters.h"
 #include "reconfigure_server.h"
 #include "recorder.h"
@@ -33,6 +34,7 @@ class EmulatorNode {
 
  private:
   void accept_commands(ros::NodeHandle& node);
+  void watch_master();
   void on_drag_velocity(const std_msgs::Float64& command);
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -55,6 +57,7 @@ class EmulatorNode {
   ros::Subscriber drag_velocity_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer disk_look_;
+  std::optional<MasterWatch> master_watch_;
 };
 
 }  // namespace afm::node

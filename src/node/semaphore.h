@@ -21,17 +21,17 @@ class Semaphore {
   // Until a post or for `timeout` at most; takes all posts that are there, as one look at a queue answers them all.
   void wait_for(std::chrono::milliseconds timeout) {
     const timespec end = after(timeout);
-    while (sem_timedwait(&semaphore_, &end) != 0 && errno == EINTR) {
+    while (sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &end) != 0 && errno == EINTR) {
     }
     while (sem_trywait(&semaphore_) == 0) {
     }
   }
 
  private:
-  // sem_timedwait counts by the wall clock; a step of that clock ends the wait early or late by a look, no more
+  // never by the wall clock: set back by an hour, it would hold a wait up for an hour
   static timespec after(std::chrono::milliseconds timeout) {
     timespec end{};
-    clock_gettime(CLOCK_REALTIME, &end);
+    clock_gettime(CLOCK_MONOTONIC, &end);
     const std::int64_t nanoseconds = end.tv_nsec + std::chrono::nanoseconds(timeout).count();
     end.tv_sec += nanoseconds / 1000000000;
     end.tv_nsec = nanoseconds % 1000000000;

@@ -13,6 +13,11 @@ constexpr std::size_t kMaxWaitingRequests = 1024;
 // While paused: how soon a stop is noticed without a request.
 constexpr std::chrono::milliseconds kPausedLook{100};
 
+// Publishing takes a batch in well under this.
+constexpr std::chrono::milliseconds kRoomLook{1};
+// A publishing thread that takes nothing up for so long is stuck.
+constexpr std::chrono::seconds kPublishingPatience{1};
+
 }  // namespace
 
 Stepper::Stepper(const Parameters& parameters, HandOver& hand_over, const SampleDemand& demand)
@@ -75,7 +80,18 @@ void Stepper::run_batch() {
   look_for_demand();
   const Outcome outcome = emulator_.run_batch(batch_);
   if (outcome != Outcome::budget_spent) pacer_.batch_done(monotonic_now());
-  if (!hand_over_.offer(batch_event(), batch_)) ++dropped_batches_;
+  if (!hand_over_batch()) ++dropped_batches_;
+}
+
+// Behind, as after the process was stopped, we may be faster than publishing: then lag grows rather than that a batch is lost.
+bool Stepper::hand_over_batch() {
+  const Event told = batch_event();
+  const auto give_up = monotonic_now() + kPublishingPatience;
+  while (!hand_over_.offer(told, batch_)) {
+    if (stopping_ || monotonic_now() > give_up) return false;
+    sleep_until(monotonic_now() + kRoomLook);
+  }
+  return true;
 }
 
 void Stepper::look_for_demand() {

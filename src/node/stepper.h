@@ -1,5 +1,5 @@
 // The stepping thread: advances the emulator batch by batch at absolute deadlines, obeys requests between batches, and
-// hands everything over. It never blocks but to wait for the next deadline, and neither locks nor allocates.
+// hands everything over. It blocks to wait for the next deadline, or for room to tell of a batch, and neither locks nor allocates.
 #pragma once
 
 #include <atomic>
@@ -46,6 +46,7 @@ class Stepper {
   void run_batch();
   void look_for_demand();
   void publish_start();
+  bool hand_over_batch();  // false: dropped, as nothing is taken up
   void publish(Event::Kind kind, const Answer& answer = {});
 
   // long steps, chopped into batches

@@ -60,7 +60,7 @@ struct Limit {
 TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
   const double H = Model().H;
   const Limit limits[] = {
-      {"frequency_ratio", &Model::frequency_ratio, 1e-6, 0.0},
+      {"frequency_ratio", &Model::frequency_ratio, 1e-6, 0.999e-6},
       {"frequency_ratio", &Model::frequency_ratio, kMaxFrequencyRatio, kMaxFrequencyRatio * 1.001},
       {"H", &Model::H, 1e-6, 0.0},
       {"H", &Model::H, kMaxAmplitude, kMaxAmplitude * 1.001},

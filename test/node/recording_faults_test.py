@@ -3,7 +3,6 @@
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import xmlrpc.client
 from pathlib import Path
@@ -13,28 +12,11 @@ from std_srvs.srv import Trigger
 
 import bags
 import checks
-from emulator_under_test import Emulator, NodeTest, Process, run
+from emulator_under_test import Emulator, NodeTest, run
+from master import Master
 from topics import NAMESPACE, Topic, wait_until
 
 CHUNK_BYTES = 768 * 1024  # what rosbag writes at once
-
-
-class Master(Process):
-    """One of our own, to take away."""
-
-    def __init__(self):
-        with socket.socket() as free:
-            free.bind(('localhost', 0))
-            port = free.getsockname()[1]
-        super().__init__(['rosmaster', '--core', '-p', str(port)])
-        self.uri = 'http://localhost:%d' % port
-        wait_until(self.answers, 'the master answers')
-
-    def answers(self):
-        try:
-            return xmlrpc.client.ServerProxy(self.uri).getPid('test')[0] == 1
-        except OSError:
-            return False
 
 
 class RecordingFaults(NodeTest):

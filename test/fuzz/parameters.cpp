@@ -1,0 +1,86 @@
+// Any tree of values on the parameter server: every fault is told, and what has none can be run.
+#include "afm_emulator/emulator.h"
+#include "bytes.h"
+#include "node/parameters.h"
+#include "target.h"
+
+namespace {
+
+using afm::fuzz::Bytes;
+using afm::fuzz::require;
+using Value = XmlRpc::XmlRpcValue;
+
+const char* const kNames[] = {
+    "omega_v_rad_per_s",   "omega_h_rad_per_s", "tip_mass_kg",       "lattice_spacing_m", "surface_amplitude_m", "rest_height_m",
+    "restitution_gamma",   "cutoff_speed",      "model",             "drag_velocity",     "max_drag_velocity",   "initial_phase",
+    "initial_extension",   "initial_height",    "initial_u",         "initial_w",         "time_scale",          "batch_rate_hz",
+    "sample_rate_hz",      "impact_budget",     "contact_tolerance", "record",            "bag_directory",       "disk_reserve_mb",
+    "friction_window_tau", "compression",       "split_size_mb",     "split_duration_s",  "diagnostic_period"};
+
+std::string text_of(Bytes& bytes) {
+  const char* const known[] = {"oscillator", "hammer", "none", "lz4", "", "1e-4"};
+  return bytes.below(2) == 0 ? known[bytes.below(6)] : bytes.text(40);
+}
+
+Value value_of(Bytes& bytes, int depth) {
+  switch (bytes.below(10)) {
+    case 0: return Value(bytes.raw<std::int32_t>());
+    case 1: return Value(bytes.below(2) == 1);
+    case 2: return Value(text_of(bytes));
+    case 3: return Value(bytes.raw<double>());
+    case 4: {
+      Value list;
+      list.setSize(0);
+      for (std::size_t i = 0, n = depth > 3 ? 0 : bytes.below(4); i < n; ++i) list[static_cast<int>(i)] = value_of(bytes, depth + 1);
+      return list;
+    }
+    case 5: {
+      Value tree;
+      for (std::size_t i = 0, n = depth > 3 ? 0 : bytes.below(4); i < n; ++i) tree[bytes.text(10)] = value_of(bytes, depth + 1);
+      return tree;
+    }
+    case 6: return Value(bytes.within(-1.0, 1.0));
+    case 7: return Value(bytes.within(0.0, 1e6));
+    case 8: return Value(bytes.within(-1e-4, 1e-4));
+    default: return Value(bytes.within(0.0, 1e-9));
+  }
+}
+
+Value tree_of(Bytes& bytes) {
+  constexpr std::size_t kCount = sizeof kNames / sizeof kNames[0];
+  if (bytes.below(32) == 0) return value_of(bytes, 0);
+  Value tree;
+  while (!bytes.empty()) {
+    const std::size_t name = bytes.below(kCount + 1);
+    tree[name < kCount ? std::string(kNames[name]) : bytes.text(20)] = value_of(bytes, 0);
+  }
+  return tree;
+}
+
+void check_runs(const afm::node::Parameters& parameters) {
+  const std::uint64_t samples = afm::node::samples_per_batch(parameters);
+  require(samples >= 1 && samples <= 1000000, "a batch of " + std::to_string(samples) + " samples");
+  const double period = std::chrono::duration<double>(afm::node::batch_period(parameters)).count();
+  require(period > 0.0 && period <= 1.001, "a batch every " + std::to_string(period) + " s");
+  afm::EmulatorSettings settings = afm::node::emulator_settings(parameters);
+  require(afm::find_faults(settings).empty(), "the core refuses what the node took");
+  settings.impact_budget = 20;
+  settings.samples_per_batch = std::min<std::uint64_t>(settings.samples_per_batch, 100);
+  settings.sample_period = std::min(settings.sample_period, 1.0);
+  afm::Emulator emulator(settings);
+  afm::Batch batch;
+  emulator.run_batch(batch);
+  require(afm::ModelTime{} <= batch.end && std::isfinite(batch.end.phase), "model time does not move on");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes(data, size);
+  afm::node::Faults faults;
+  const auto parameters = afm::node::read_parameters(tree_of(bytes), faults);
+  for (const auto& fault : faults) require(!fault.reason.empty(), "a fault without a reason");
+  require(faults.empty() == afm::node::describe(faults).empty(), "faults that are not told");
+  if (faults.empty()) check_runs(parameters);
+  return 0;
+}

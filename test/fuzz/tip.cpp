@@ -1,0 +1,75 @@
+// Any model that may be run, from any start in the air, under any commands: the tip stays finite, above the surface, in balance
+// with its energy, and moves on.
+#include "afm_emulator/surface.h"
+#include "afm_emulator/tip.h"
+#include "bytes.h"
+#include "target.h"
+#include "tip_watch.h"
+
+namespace {
+
+using afm::fuzz::Bytes;
+using afm::fuzz::require;
+
+constexpr std::uint64_t kMostArcs = 400;    // of one input
+constexpr std::uint64_t kMostAtOnce = 100;  // arcs without any time passing
+
+afm::Model model_of(Bytes& bytes) {
+  afm::Model m;
+  m.kind = bytes.below(4) == 0 ? afm::ModelKind::hammer : afm::ModelKind::oscillator;
+  m.gamma = bytes.within(0.0, 1.0);
+  m.v_c = bytes.within(0.0, 10.0);
+  if (bytes.below(4) == 0) m.H = bytes.within(1e-6, afm::kMaxAmplitude);
+  if (bytes.below(4) == 0) m.y0 = bytes.within(-afm::kMaxAmplitude, m.H);
+  if (bytes.below(4) == 0) m.frequency_ratio = bytes.within(1e-3, afm::kMaxFrequencyRatio);
+  return m;
+}
+
+double eta_of(Bytes& bytes) { return bytes.below(4) == 0 ? bytes.within(-afm::kMaxEta, afm::kMaxEta) : bytes.within(-10.0, 10.0); }
+
+afm::FreeState start_of(Bytes& bytes, const afm::Model& m, double eta) {
+  afm::FreeState s;
+  s.phase = bytes.within(0.0, 1.0);
+  s.y = afm::surface_jet(m.H, s.phase).h + bytes.within(1e-9, 1.0);
+  s.X = bytes.below(4) == 0 ? bytes.within(-10.0, 10.0) : bytes.within(-0.1, 0.1);
+  s.u = eta + (bytes.below(4) == 0 ? bytes.within(-afm::kMaxEta, afm::kMaxEta) : bytes.within(-4.0, 4.0));
+  s.w = bytes.below(4) == 0 ? bytes.within(-afm::kMaxEta, afm::kMaxEta) : bytes.within(-4.0, 4.0);
+  return s;
+}
+
+// Every bounce by itself comes without end where bounces accumulate: there the budget of whoever asks is the end. Below this
+// the squares of a gap rate are no longer numbers of full digits.
+constexpr double kLeastGapRate = 1e-140;
+
+bool has_died_out(const afm::TipWatch& watch) {
+  const afm::TipState s = watch.tip().tip_state();
+  return s.g == 0.0 && s.g1 > 0.0 && s.g1 < kLeastGapRate;
+}
+
+void run_to(afm::TipWatch& watch, const afm::ModelTime& end, bool accumulates) {
+  std::uint64_t at_once = 0;
+  afm::Outcome outcome = afm::Outcome::flying;
+  while (outcome != afm::Outcome::time_limit && watch.count().arcs < kMostArcs && !has_died_out(watch)) {
+    const afm::ModelTime before = watch.tip().now();
+    if (!watch.advance_arc(end, outcome)) require(false, watch.violation());
+    at_once = before < watch.tip().now() ? 0 : at_once + 1;
+    if (!accumulates && at_once >= kMostAtOnce) require(false, "time stands still" + watch.violation());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes(data, size);
+  const afm::Model model = model_of(bytes);
+  const double tolerance = bytes.below(4) == 0 ? bytes.within(0.0, afm::kMaxContactTolerance) : afm::kDefaultContactTolerance;
+  const double eta = eta_of(bytes);
+  const afm::FreeState start = start_of(bytes, model, eta);
+  if (!afm::find_faults(model).empty() || !(afm::to_tip_state(model.H, start).g > 0.0)) return -1;
+  afm::TipWatch watch(model, eta, start, tolerance);
+  do {
+    run_to(watch, watch.tip().now() + bytes.within(0.0, 4.0), tolerance < 1e-12);
+    watch.drag(eta_of(bytes));
+  } while (!bytes.empty() && watch.count().arcs < kMostArcs && !has_died_out(watch));
+  return 0;
+}
