@@ -6,11 +6,14 @@
 #include <rosbag/view.h>
 
 #include <boost/shared_ptr.hpp>
+#include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lengths.h"
 #include "verdict.h"
 
 namespace afm::replay {
@@ -55,6 +58,10 @@ class MessageStream {
 
   void instantiate() {
     try {
+      bytes_.resize(position_->size());
+      ros::serialization::OStream stream(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+      position_->write(stream);
+      if (!lengths_fit<Message>(bytes_)) throw std::length_error("a list is longer than its message");
       head_ = position_->template instantiate<Message>();
     } catch (const std::exception& error) {
       throw Problem(Verdict::truncated, path() + ": " + topic_ + " cannot be read on: " + error.what());
@@ -70,6 +77,7 @@ class MessageStream {
   std::uint64_t size_ = 0;
   rosbag::View::iterator position_;
   boost::shared_ptr<const Message> head_;
+  std::vector<std::uint8_t> bytes_;
 };
 
 // Throws Problem if `next` does not follow `last` in its topic. Returns how many messages are missing between them.
