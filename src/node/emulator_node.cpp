@@ -102,6 +102,7 @@ void EmulatorNode::accept_commands(ros::NodeHandle& node) {
 void EmulatorNode::watch_master() {
   const std::string name = ros::this_node::getName();
   std::vector<std::string> names{name + "/get_loggers", name + "/set_logger_level"};  // roscpp's own
+  names.push_back(name + "/" + kSetParametersService);
   for (const ros::ServiceServer& service : services_) names.push_back(service.getService());
   master_watch_.emplace(std::move(names));
 }

@@ -66,7 +66,7 @@ class Faults(NodeTest):
         publishers, subscribers, services = master.getSystemState('test')[2]
         ours = [sorted(name for name, nodes in part if NAMESPACE in nodes) for part in (publishers, subscribers, services)]
         complete = {NAMESPACE + '/' + name for name in TOPICS} <= set(ours[0]) and NAMESPACE + '/drag_velocity' in ours[1]
-        wanted = ('reset', 'pause', 'step', 'start_recording', 'stop_recording', 'get_loggers', 'set_logger_level')
+        wanted = ('reset', 'pause', 'step', 'start_recording', 'stop_recording', 'set_parameters', 'get_loggers', 'set_logger_level')
         if not complete or not {NAMESPACE + '/' + name for name in wanted} <= set(ours[2]):
             return None
         code, text, uri = master.lookupNode('test', NAMESPACE)
