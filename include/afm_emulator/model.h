@@ -47,6 +47,7 @@ inline int section_dimension(const Model& model) { return model.kind == ModelKin
 constexpr double kMaxEta = 1e3;             // above it a flight crosses more cells than the search is tested for
 constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizontal spring
 constexpr double kMaxAmplitude = 10.0;      // [a]: a hundred times mica
+constexpr double kMinAmplitude = 1e-9;      // [a]: flatter, and the surface is lost in the rounding of the tip's height
 
 // Every fault of the set, not only the first; empty when the model can be run.
 std::vector<ParameterError> find_faults(const Model& model);

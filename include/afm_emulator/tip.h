@@ -23,7 +23,8 @@ constexpr double kMaxContactTolerance = 1e-2;
 
 class Tip {
  public:
-  // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate at all. Throws the model's first ParameterError, or one about a start below the surface.
+  // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate, or one below 1e-140 a/tau.
+  // Throws the model's first ParameterError, or one about a start below the surface.
   Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
   Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
 

@@ -12,8 +12,8 @@ std::vector<ParameterError> find_faults(const EmulatorSettings& s) {
   };
   require(std::abs(s.eta) <= kMaxEta, "eta", s.eta,
           "the drag velocity must be finite and at most 1000 lattice spacings per tau");
-  require(s.sample_period > 0.0 && s.sample_period <= 1e6, "sample_period", s.sample_period,
-          "must be above 0 and at most 1e6 tau");
+  require(s.sample_period >= 1e-9 && s.sample_period <= 1e6, "sample_period", s.sample_period,
+          "must be between 1e-9 and 1e6 tau");
   require(s.samples_per_batch >= 1, "samples_per_batch", static_cast<double>(s.samples_per_batch),
           "must be at least 1");
   require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window,

@@ -41,8 +41,8 @@ std::vector<ParameterError> find_faults(const Model& m) {
   };
   require(m.frequency_ratio >= kMinFrequencyRatio && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio",
           m.frequency_ratio, "omega_h/omega_v must be between 1e-6 and 1000");
-  require(m.H > 0.0 && m.H <= kMaxAmplitude, "H", m.H,
-          "the surface amplitude must be above 0 and at most 10 lattice spacings");
+  require(m.H >= kMinAmplitude && m.H <= kMaxAmplitude, "H", m.H,
+          "the surface amplitude must be between 1e-9 and 10 lattice spacings");
   require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
           "the harmonic centre must be finite and below the crest, or the tip hovers and never touches");
   require(m.y0 >= -kMaxAmplitude, "y0", m.y0, "the harmonic centre must be at most 10 lattice spacings down");

@@ -28,6 +28,9 @@ constexpr double kGrowth = 100.0;
 // Bounces slower than sqrt(kEntry * tolerance) may become a burst: at the default up to 0.01 a/tau, where they rise by 1e-5 a.
 constexpr double kEntry = 0.1;
 
+// Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
+constexpr double kLeastGapRate = 1e-140;
+
 std::uint32_t whole_count(double n) {
   constexpr double kMost = 4294967295.0;
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
@@ -93,9 +96,13 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
 
 // The hammer moves along x with its holder, whatever it did before; its height and vertical velocity are its own.
 TipState Tip::held(const TipState& state) const {
-  if (model_.kind == ModelKind::oscillator) return state;
-  const double slope = surface_jet(model_.H, state.phase).h1;
-  return {state.phase, 0.0, eta_, state.g, state.g1 + slope * (state.u - eta_)};
+  TipState s = state;
+  if (model_.kind == ModelKind::hammer) {
+    const double slope = surface_jet(model_.H, state.phase).h1;
+    s = {state.phase, 0.0, eta_, state.g, state.g1 + slope * (state.u - eta_)};
+  }
+  if (s.g == 0.0 && std::fabs(s.g1) < kLeastGapRate) s.g1 = 0.0;
+  return s;
 }
 
 void Tip::fly(const TipState& start) {
@@ -235,7 +242,11 @@ void Tip::find_landing() {
 }
 
 Outcome Tip::land() {
-  const Reflection r = bounce(model_, eta_, landing_.jet);
+  Reflection r = bounce(model_, eta_, landing_.jet);
+  if (r.after.g1 < kLeastGapRate) {  // all is lost that came in
+    r.after.g1 = 0.0;
+    r.energy_loss = 0.5 * r.normal_speed * r.normal_speed;
+  }
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
   launch(mechanics_, eta_, r, flight_);
   begin_flight();

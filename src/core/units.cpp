@@ -6,13 +6,14 @@ namespace afm {
 
 std::vector<ParameterError> find_faults(const SiModel& si) {
   std::vector<ParameterError> faults;
-  const auto require_positive = [&](const char* name, double value) {
-    if (!(value > 0.0 && std::isfinite(value))) faults.emplace_back(name, value, "must be positive and finite");
+  // wide enough for any unit of anything, and no product of units overflows
+  const auto require_scale = [&](const char* name, double value) {
+    if (!(value >= 1e-40 && value <= 1e40)) faults.emplace_back(name, value, "must be positive, between 1e-40 and 1e40");
   };
-  require_positive("omega_v_rad_per_s", si.omega_v_rad_per_s);
-  require_positive("omega_h_rad_per_s", si.omega_h_rad_per_s);
-  require_positive("tip_mass_kg", si.tip_mass_kg);
-  require_positive("lattice_spacing_m", si.lattice_spacing_m);
+  require_scale("omega_v_rad_per_s", si.omega_v_rad_per_s);
+  require_scale("omega_h_rad_per_s", si.omega_h_rad_per_s);
+  require_scale("tip_mass_kg", si.tip_mass_kg);
+  require_scale("lattice_spacing_m", si.lattice_spacing_m);
   const bool scaled = faults.empty();
   const auto rename = [&](const ParameterError& fault) {
     if (fault.name == "H") return faults.emplace_back("surface_amplitude_m", si.surface_amplitude_m, fault.reason);

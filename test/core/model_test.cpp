@@ -62,7 +62,8 @@ TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
   const Limit limits[] = {
       {"frequency_ratio", &Model::frequency_ratio, 1e-6, 0.999e-6},
       {"frequency_ratio", &Model::frequency_ratio, kMaxFrequencyRatio, kMaxFrequencyRatio * 1.001},
-      {"H", &Model::H, 1e-6, 0.0},
+      {"H", &Model::H, kMinAmplitude, 0.0},
+      {"H", &Model::H, kMinAmplitude, kMinAmplitude * 0.999},
       {"H", &Model::H, kMaxAmplitude, kMaxAmplitude * 1.001},
       {"y0", &Model::y0, H * 0.999, H},
       {"y0", &Model::y0, -kMaxAmplitude, -kMaxAmplitude * 1.001},

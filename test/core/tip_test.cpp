@@ -200,6 +200,43 @@ TEST(Tip, OnTheGlideNothingHappens) {
   }
 }
 
+// Each bounce keeps a hundredth of the speed: seventy of them, and the squares of what is left are no numbers any more.
+TEST(Tip, BouncesByThemselvesDieOutIntoContact) {
+  Model model;
+  model.gamma = 0.01;
+  model.v_c = 0.0;
+  for (const auto kind : {ModelKind::oscillator, ModelKind::hammer}) {
+    model.kind = kind;
+    Tip tip(model, 0.0, FreeState{0.1, 0.0, 0.2, 0.0, 0.0}, 0.0);
+    double slowest = 1.0;
+    Outcome outcome = tip.advance({2, 0.0});
+    for (; outcome == Outcome::impact; outcome = tip.advance({2, 0.0})) slowest = tip.last_impact().normal_speed;
+    EXPECT_EQ(outcome, Outcome::contact) << name(kind);
+    EXPECT_LT(slowest, 1e-137) << name(kind);
+    while (outcome != Outcome::time_limit) {
+      outcome = tip.advance({2, 0.0});
+      ASSERT_NE(outcome, Outcome::search_failed) << name(kind);
+    }
+  }
+}
+
+// A commanded velocity may halve until it is next to nothing: it throws a riding hammer off by as little.
+TEST(Tip, AHammerIsThrownOffByNextToNothing) {
+  Model model;
+  model.kind = ModelKind::hammer;
+  for (const double eta : {1e-150, -1e-150, 1e-200, -1e-200, 1e-300, 5e-324}) {
+    Tip tip(model, 0.0, TipState{0.1, 0.0, 0.0, 0.0, 0.0});
+    ASSERT_EQ(tip.advance({1, 0.0}), Outcome::contact);
+    ASSERT_EQ(tip.advance({1, 0.0}), Outcome::time_limit);
+    tip.drag(eta);
+    for (Outcome outcome = Outcome::flying; outcome != Outcome::time_limit;) {
+      outcome = tip.advance({2, 0.0});
+      ASSERT_NE(outcome, Outcome::search_failed) << eta;
+    }
+    EXPECT_TRUE(tip.in_contact()) << eta;
+  }
+}
+
 TEST(Tip, RefusesAStartBelowTheSurface) {
   EXPECT_THROW(Tip(Model(), 1.0, FreeState{0.0, 0.0, 0.0, 1.0, 0.0}), ParameterError);
   EXPECT_NO_THROW(Tip(Model(), 1.0, FreeState{0.5, 0.0, 0.0, 1.0, 0.0}));

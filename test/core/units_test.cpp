@@ -89,6 +89,17 @@ TEST(Units, AFaultShowsTheValueAsItWasGiven) {
   EXPECT_EQ(faults[0].value, 0.06e-9);
 }
 
+TEST(Units, AScaleMustBeOneOfThisWorld) {
+  for (double SiModel::*scale : {&SiModel::omega_v_rad_per_s, &SiModel::tip_mass_kg, &SiModel::lattice_spacing_m}) {
+    for (const double value : {1e-41, 1e41, 5e-324, 1.7e308}) {
+      SiModel si;
+      si.*scale = value;
+      ASSERT_FALSE(find_faults(si).empty());
+      EXPECT_EQ(find_faults(si).front().value, value);
+    }
+  }
+}
+
 TEST(Units, ARatioOutOfRangeBlamesTheHorizontalFrequency) {
   SiModel si;
   si.omega_h_rad_per_s = 2e3 * si.omega_v_rad_per_s;

@@ -18,11 +18,10 @@ class Bytes {
 
   template <class T>
   T raw() {
-    T value{};
-    const std::size_t n = left_ < sizeof value ? left_ : sizeof value;
-    std::memcpy(&value, next_, n);
-    next_ += n;
-    left_ -= n;
+    std::uint8_t bytes[sizeof(T)] = {};
+    for (std::size_t i = 0; i < sizeof(T) && left_ > 0; ++i, --left_) bytes[i] = *next_++;
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
     return value;
   }
   std::size_t below(std::size_t n) { return raw<std::uint8_t>() % n; }

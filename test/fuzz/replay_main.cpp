@@ -1,35 +1,81 @@
-// Runs a fuzz target over inputs that are kept: the corpus and everything that was ever found. Needs no fuzzer.
+// Runs a fuzz target over inputs that are kept, the corpus and everything that was ever found, and over what is made from them
+// by chance. Needs no fuzzer. An input that breaks something is written to replay_fuzz_TARGET.found.
+//
+// usage: replay_fuzz_TARGET FILE_OR_DIRECTORY... [--mutated N] [--seed S]
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <vector>
 
+#include "mutate.h"
 #include "target.h"
 
 namespace {
 
-void run(const std::filesystem::path& path) {
+using afm::fuzz::Input;
+
+constexpr unsigned kPatience = 30;  // [s] for one input
+
+Input g_input;            // that is being tried
+std::string g_file_name;  // for it, if it breaks something
+
+// Only what a signal handler may call.
+void keep_input(int signal) {
+  const int file = open(g_file_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file >= 0 && write(file, g_input.data(), g_input.size()) >= 0) {
+    const char text[] = "FOUND: the input is in the file *.found\n";
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) _exit(3);
+  }
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+void try_input(Input input) {
+  g_input = std::move(input);
+  alarm(kPatience);
+  LLVMFuzzerTestOneInput(g_input.data(), g_input.size());
+}
+
+std::vector<std::filesystem::path> files_in(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Input read(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  std::printf("%s: %zu bytes\n", path.c_str(), bytes.size());
-  std::fflush(stdout);
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::size_t inputs = 0;
+  std::uint64_t mutated = 0, seed = 1;
+  std::vector<Input> kept;
+  g_file_name = std::filesystem::path(argv[0]).filename().string() + ".found";
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGALRM}) std::signal(signal, keep_input);
   for (int i = 1; i < argc; ++i) {
-    std::vector<std::filesystem::path> paths;
-    if (!std::filesystem::is_directory(argv[i])) paths.emplace_back(argv[i]);
-    else for (const auto& entry : std::filesystem::directory_iterator(argv[i])) paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
-    for (const auto& path : paths) run(path);
-    inputs += paths.size();
+    const std::string argument = argv[i];
+    if (argument == "--mutated" && i + 1 < argc) mutated = std::stoull(argv[++i]);
+    else if (argument == "--seed" && i + 1 < argc) seed = std::stoull(argv[++i]);
+    else for (const auto& path : files_in(argument)) {
+      std::printf("%s\n", path.c_str());
+      std::fflush(stdout);
+      kept.push_back(read(path));
+      try_input(kept.back());
+    }
   }
-  std::printf("%zu inputs\n", inputs);
-  return inputs > 0 ? 0 : 1;
+  if (kept.empty()) return 1;
+  afm::fuzz::Mutator mutator(kept, seed);
+  for (std::uint64_t n = 0; n < mutated; ++n) try_input(mutator.next());
+  std::printf("%zu inputs and %llu made from them\n", kept.size(), static_cast<unsigned long long>(mutated));
 }

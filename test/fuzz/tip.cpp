@@ -19,7 +19,7 @@ afm::Model model_of(Bytes& bytes) {
   m.kind = bytes.below(4) == 0 ? afm::ModelKind::hammer : afm::ModelKind::oscillator;
   m.gamma = bytes.within(0.0, 1.0);
   m.v_c = bytes.within(0.0, 10.0);
-  if (bytes.below(4) == 0) m.H = bytes.within(1e-6, afm::kMaxAmplitude);
+  if (bytes.below(4) == 0) m.H = bytes.within(afm::kMinAmplitude, afm::kMaxAmplitude);
   if (bytes.below(4) == 0) m.y0 = bytes.within(-afm::kMaxAmplitude, m.H);
   if (bytes.below(4) == 0) m.frequency_ratio = bytes.within(1e-3, afm::kMaxFrequencyRatio);
   return m;
@@ -37,19 +37,10 @@ afm::FreeState start_of(Bytes& bytes, const afm::Model& m, double eta) {
   return s;
 }
 
-// Every bounce by itself comes without end where bounces accumulate: there the budget of whoever asks is the end. Below this
-// the squares of a gap rate are no longer numbers of full digits.
-constexpr double kLeastGapRate = 1e-140;
-
-bool has_died_out(const afm::TipWatch& watch) {
-  const afm::TipState s = watch.tip().tip_state();
-  return s.g == 0.0 && s.g1 > 0.0 && s.g1 < kLeastGapRate;
-}
-
 void run_to(afm::TipWatch& watch, const afm::ModelTime& end, bool accumulates) {
   std::uint64_t at_once = 0;
   afm::Outcome outcome = afm::Outcome::flying;
-  while (outcome != afm::Outcome::time_limit && watch.count().arcs < kMostArcs && !has_died_out(watch)) {
+  while (outcome != afm::Outcome::time_limit && watch.count().arcs < kMostArcs) {
     const afm::ModelTime before = watch.tip().now();
     if (!watch.advance_arc(end, outcome)) require(false, watch.violation());
     at_once = before < watch.tip().now() ? 0 : at_once + 1;
@@ -70,6 +61,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   do {
     run_to(watch, watch.tip().now() + bytes.within(0.0, 4.0), tolerance < 1e-12);
     watch.drag(eta_of(bytes));
-  } while (!bytes.empty() && watch.count().arcs < kMostArcs && !has_died_out(watch));
+  } while (!bytes.empty() && watch.count().arcs < kMostArcs);
   return 0;
 }

@@ -178,6 +178,42 @@ class SpoiledBags(NodeTest):
         self.of('friction')[100].put(message)
         self.assert_told(checks.ALTERED, 'friction.time')
 
+    def begin_with_batch_50(self):
+        """As of a recording that was begun later, by someone who leaves nothing that counts or tells."""
+        self.remove_digests()
+        self.remove(*self.of('recording'), *[e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[:50]])
+
+    def test_a_beginning_far_away_is_not_run_to(self):
+        self.begin_with_batch_50()
+        self.assert_told(checks.TRUNCATED, 'IDENTICAL as far as it goes')
+        for sample in (10**12, 10**18, 2**64 - 1):
+            self.of('deflection')[0].edit(first_sample=sample)
+            self.assert_told(checks.ALTERED, 'deflection.time', 'for sample %d' % sample)
+        self.remove(self.of('friction')[0])  # so that no end is told
+        self.assert_told(checks.ALTERED, 'deflection.time')
+
+    def test_an_end_far_away_without_samples_is_not_run_to(self):
+        for batch in (0, 1):
+            with self.subTest(batch=batch):
+                self.setUp()
+                self.begin_with_batch_50()
+                message = self.of('friction')[batch].message()
+                message.time.tau += 10**12
+                self.of('friction')[batch].put(message)
+                self.remove(self.of('deflection')[batch], *self.of('impacts')[:batch + 1])
+                answer = checks.replay_check(self.write())
+                self.assertIn('friction.time', answer.text)
+                self.assertEqual(answer.code, checks.DIFFERS)
+
+    def test_a_time_that_no_run_has(self):
+        for topic in ('deflection', 'friction'):
+            for tau, phase in ((-1, 0.5), (2**62, 0.5), (5, 1.5), (5, float('nan'))):
+                self.setUp()
+                message = self.of(topic)[100].message()
+                message.time.tau, message.time.phase = tau, phase
+                self.of(topic)[100].put(message)
+                self.assert_told(checks.ALTERED, topic, 'batch 100', 'no run can be')
+
     def test_a_message_is_missing(self):
         for topic in ('deflection', 'impacts', 'friction', 'applied_drag', 'status'):
             self.setUp()

@@ -111,10 +111,8 @@ void BagAudit::check_grid(const RecordedBatch& batch) {
   const bool follows_on = !last_batch_ || batch.sequence == *last_batch_ + 1;
   if (follows_on && next_sample_ && deflection.first_sample != *next_sample_) ++grid_errors_;
   // without its end it is not known which commands took effect before it
-  const bool in_grid = deflection.first_sample >= grid_.first;
-  if (batch.friction && !(in_grid && node::from_message(deflection.time) == grid_.time(deflection.first_sample))) {
-    ++grid_errors_;
-  }
+  const ModelTime due = grid_.time_or_end(deflection.first_sample);
+  if (batch.friction && !(node::from_message(deflection.time) == due)) ++grid_errors_;
   if (deflection.vertical.size() != deflection.lateral.size()) ++grid_errors_;
   next_sample_ = end_of(deflection);
   samples_ += deflection.vertical.size();
@@ -126,7 +124,7 @@ void BagAudit::check_grid(const RecordedBatch& batch) {
 bool BagAudit::has_its_end(const RecordedBatch& batch) const {
   const std::uint64_t samples = end_of(*batch.deflection);
   const ModelTime end = node::from_message(batch.friction->time);
-  if (samples < grid_.first || !(last_time_ <= end && end <= grid_.time(samples))) return false;
+  if (samples < grid_.first || !(last_time_ <= end && end <= grid_.time_or_end(samples))) return false;
   return samples == grid_.first || grid_.time(samples - 1) < end;
 }
 

@@ -15,6 +15,8 @@ constexpr double kTooNearlyBlind = 100.0;  // amplification beyond which samples
 // Errors add up along sample, unit conversion, sine, and sum: a few dozen roundings, squared amplification.
 constexpr double kRoundings = 64.0 * std::numeric_limits<double>::epsilon();
 
+constexpr double kMostSamples = 1e15;  // of a run: at a million a second thirty years
+
 double square(double x) { return x * x; }
 
 void note(double& worst, double error) {
@@ -106,9 +108,11 @@ void EnergyAudit::judge(const ModelTime& until) {
   first_sample_ += dropped;
 }
 
-// At that time or before it.
+// At that time or before it; of a time that cannot be, such as a command's that was altered, one that is not there.
 std::uint64_t EnergyAudit::last_sample_before(const ModelTime& time) const {
-  auto sample = grid_.first + static_cast<std::uint64_t>(std::max(0.0, (time - grid_.origin) / grid_.period));
+  const double periods = (time - grid_.origin) / grid_.period;
+  if (!(periods < kMostSamples)) return static_cast<std::uint64_t>(kMostSamples);
+  auto sample = grid_.first + static_cast<std::uint64_t>(std::fmax(0.0, periods));
   while (sample > grid_.first && time < grid_.time(sample)) --sample;
   while (grid_.time(sample + 1) <= time) ++sample;
   return sample;

@@ -1,5 +1,8 @@
 #include "batches.h"
 
+#include <cstdio>
+
+#include "afm_emulator/sample_grid.h"
 #include "node/topics.h"
 
 namespace afm::replay {
@@ -10,19 +13,42 @@ std::optional<std::uint32_t> sequence(const MessageStream<Message>& stream) {
   return stream.head() == nullptr ? std::nullopt : std::optional<std::uint32_t>(stream.head()->header.seq);
 }
 
+void check(const afm_emulator::ModelTime& time, const std::string& what) {
+  if (time.tau >= 0 && time.tau <= kEndOfTime.tau && time.phase >= 0.0 && time.phase < 1.0) return;
+  char text[96];
+  std::snprintf(text, sizeof text, " is %lld + %.17g tau, when no run can be", static_cast<long long>(time.tau), time.phase);
+  throw Problem(Verdict::altered, what + text);
+}
+
+template <class Message>
+void check_times(const Message& message, const std::string& what) {
+  check(message.time, what);
+}
+
+template <>
+void check_times(const afm_emulator::ImpactArray& message, const std::string& what) {
+  for (const auto& impact : message.impacts) check(impact.time, what);
+}
+
 // Takes the message with this number, if it is there. Throws where the numbers of a topic do not rise.
 template <class Message>
 boost::shared_ptr<const Message> take(MessageStream<Message>& stream, std::uint32_t number) {
   if (sequence(stream) != number) return nullptr;
   auto message = stream.shared_head();
+  check_times(*message, stream.path() + ": " + stream.topic() + ": the time of batch " + std::to_string(number));
   stream.pop();
   if (const auto following = sequence(stream)) follows(number, *following, stream.path() + ": " + stream.topic());
   return message;
 }
 
 template <class Message>
-void note(const boost::shared_ptr<const Message>& message, std::uint32_t& epoch) {
-  if (message) epoch = message->epoch;
+void note(const boost::shared_ptr<const Message>& message, std::optional<std::uint32_t>& epoch) {
+  if (!message) return;
+  if (epoch && *epoch != message->epoch) {
+    throw Problem(Verdict::altered, "batch " + std::to_string(message->header.seq) + " is of epoch " + std::to_string(*epoch) +
+                                        " and of epoch " + std::to_string(message->epoch));
+  }
+  epoch = message->epoch;
 }
 
 }  // namespace
@@ -39,7 +65,7 @@ Batches::Batches(const Recording& recording)
   size_ = std::max({deflection_.size(), impacts_.size(), friction_.size()});
   const std::uint64_t least = std::min({deflection_.size(), impacts_.size(), friction_.size()});
   if (size_ == 0) throw Problem(Verdict::missing, recording.name() + ": holds no batch of the run");
-  if (least == 0 && size_ > 1) throw Problem(Verdict::missing, recording.name() + ": a whole topic is missing");
+  if (deflection_.size() == 0 || (least == 0 && size_ > 1)) throw Problem(Verdict::missing, recording.name() + ": a whole topic is missing");
 }
 
 bool Batches::next(RecordedBatch& batch) {
@@ -55,9 +81,11 @@ bool Batches::next(RecordedBatch& batch) {
   batch.deflection = take(deflection_, *least);
   batch.impacts = take(impacts_, *least);
   batch.friction = take(friction_, *least);
-  note(batch.deflection, batch.epoch);
-  note(batch.impacts, batch.epoch);
-  note(batch.friction, batch.epoch);
+  std::optional<std::uint32_t> epoch;
+  note(batch.deflection, epoch);
+  note(batch.impacts, epoch);
+  note(batch.friction, epoch);
+  batch.epoch = *epoch;
   last_ = batch;
   ++read_;
   return true;

@@ -51,7 +51,7 @@ void check_change(const afm_emulator::AppliedParameters& change, node::Parameter
 bool fits(const afm_emulator::AppliedParameters& change, const SampleGrid& grid) {
   const ModelTime time = node::from_message(change.time);
   const std::uint64_t sample = change.first_sample;
-  return sample >= grid.first && time <= grid.time(sample) && (sample == grid.first || grid.time(sample - 1) < time);
+  return sample >= grid.first && time <= grid.time_or_end(sample) && (sample == grid.first || grid.time(sample - 1) < time);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct EpochLog {
   std::vector<Applied> commands;                         // both, in the order in which they took effect
   std::set<std::uint64_t> stretches;  // samples with which digests begin anew, as those before were not taken
 
-  ModelTime sample_time(std::uint64_t sample) const { return grid_of(sample).time(sample); }
+  ModelTime sample_time(std::uint64_t sample) const { return grid_of(sample).time_or_end(sample); }
   std::uint64_t most_samples_per_batch() const;
 
   // Merges the commands, and throws Problem if they cannot have been what ran.

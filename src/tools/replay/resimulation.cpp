@@ -136,7 +136,7 @@ afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint
   afm_emulator::Deflection message;
   // a batch without samples may lie before a change that then samples sooner
   const SampleGrid& grid = emulator_.grid();
-  message.time = node::to_message(first < grid.first ? sample_time(first) : grid.time(first));
+  message.time = node::to_message(first < grid.first ? sample_time(first) : grid.time_or_end(first));
   message.first_sample = first;
   message.sample_period = 1.0 / parameters_.sample_rate_hz;
   message.vertical = part_of(vertical_, first_sample_, first, count);

@@ -70,15 +70,23 @@ void RunCheck::begin_epoch(const RecordedBatch& batch) {
 
 // Figures that decide how far to simulate must fit together, or an altered one would keep us busy for ever.
 bool RunCheck::is_plausible(const RecordedBatch& batch) {
-  if (!batch.deflection) return true;
-  if (!follows_on(batch)) {
+  if (batch.deflection && next_sample_ && !follows_on(batch)) {
     const FieldDifference field{"deflection.first_sample", std::to_string(batch.deflection->first_sample),
                                 std::to_string(*next_sample_), 0};
     differ(batch, field, simulation_->now());
     return false;
   }
+  // where the recording begins nothing else tells how far the run had come
+  if (batch.deflection && !next_sample_ && !is_at_its_time(batch)) {
+    const ModelTime told = node::from_message(batch.deflection->time);
+    const std::uint64_t sample = batch.deflection->first_sample;
+    const std::string due = to_text(simulation_->sample_time(sample)) + " for sample " + std::to_string(sample);
+    differ(batch, {"deflection.time", to_text(told), due, 0}, told);
+    difference_->altered = true;
+    return false;
+  }
   if (!batch.friction || ends_in_time(batch)) return true;
-  const ModelTime limit = simulation_->sample_time(end_of(*batch.deflection));
+  const ModelTime limit = latest_end(batch);
   const std::string end = to_text(node::from_message(batch.friction->time));
   differ(batch, {"friction.time", end, "not after " + to_text(limit), 0}, limit);
   return false;
@@ -86,24 +94,43 @@ bool RunCheck::is_plausible(const RecordedBatch& batch) {
 
 // Batches that the emulator let go were never given a number: whole ones are missed, and what follows is at its time.
 bool RunCheck::follows_on(const RecordedBatch& batch) {
-  const std::uint64_t missing = last_batch_ ? batch.sequence - *last_batch_ - 1 : 0;
+  const std::uint64_t missing = missing_before(batch);
   const std::uint64_t size = simulation_->most_samples_per_batch(), first = batch.deflection->first_sample;
-  if (!next_sample_) return true;
   if (first < *next_sample_) return false;
   if (first - *next_sample_ <= missing * size) return true;
-  const bool at_its_time = node::from_message(batch.deflection->time) == simulation_->sample_time(first);
-  if (!batch.friction || !at_its_time || !ends_in_time(batch)) return false;
+  if (!batch.friction || !is_at_its_time(batch) || !ends_in_time(batch)) return false;
   if (unpublished_.messages == 0) unpublished_.first = "before batch " + std::to_string(batch.sequence);
   unpublished_.messages += 3 * ((first - *next_sample_ + size - 1) / size - missing);
   return true;
 }
 
+std::uint64_t RunCheck::missing_before(const RecordedBatch& batch) const {
+  return last_batch_ ? batch.sequence - *last_batch_ - 1 : 0;
+}
+
+// A batch without samples may be of a grid that has never sampled; then it has its end to be judged by.
+bool RunCheck::is_at_its_time(const RecordedBatch& batch) const {
+  if (batch.deflection->vertical.empty() && batch.friction) return true;
+  return node::from_message(batch.deflection->time) == simulation_->sample_time(batch.deflection->first_sample);
+}
+
+// When the next sample is due, whoever tells of it.
+ModelTime RunCheck::latest_end(const RecordedBatch& batch) const {
+  if (batch.deflection) return simulation_->sample_time(end_of(*batch.deflection));
+  const auto* next = batches_.next_deflection();
+  const ModelTime due = next ? simulation_->sample_time(next->first_sample) : ModelTime{};
+  if (next && next->epoch == batch.epoch && node::from_message(next->time) == due) return due;
+  if (!next_sample_) return {};
+  const std::uint64_t most = (missing_before(batch) + 1) * simulation_->most_samples_per_batch();
+  return simulation_->sample_time(*next_sample_ + most);
+}
+
 // After its last sample, and no later than the next is due.
 bool RunCheck::ends_in_time(const RecordedBatch& batch) const {
-  const std::uint64_t samples = end_of(*batch.deflection);
+  const std::uint64_t samples = batch.deflection ? end_of(*batch.deflection) : 0;
   const ModelTime end = node::from_message(batch.friction->time);
   const bool after_last = samples == 0 || simulation_->sample_time(samples - 1) < end;
-  return after_last && end <= simulation_->sample_time(samples);
+  return after_last && end <= latest_end(batch);
 }
 
 void RunCheck::run_to_end_of(const RecordedBatch& batch) {

@@ -52,7 +52,10 @@ class RunCheck {
   void begin_epoch(const RecordedBatch& batch);
   void compare(const RecordedBatch& batch);
   bool is_plausible(const RecordedBatch& batch);
+  std::uint64_t missing_before(const RecordedBatch& batch) const;
   bool follows_on(const RecordedBatch& batch);
+  bool is_at_its_time(const RecordedBatch& batch) const;
+  ModelTime latest_end(const RecordedBatch& batch) const;
   bool ends_in_time(const RecordedBatch& batch) const;
   void run_to_end_of(const RecordedBatch& batch);
   template <class Message>
