@@ -20,6 +20,7 @@ struct Deflection {
 // half of all bursts are good to 4e-6 and 99 in 100 to 2e-4 (docs/stability.md).
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;
+constexpr double kMinContactTolerance = 1e-9;  // or 0; below it bursts are followed for longer than bounces would take
 
 class Tip {
  public:

@@ -50,7 +50,9 @@ void check_model(const Parameters& p, Check& check) {
   if (!parse(p.model, kind)) {
     check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator or hammer"});
   }
-  check.within("contact_tolerance", p.contact_tolerance, 0.0, kMaxContactTolerance);
+  if (p.contact_tolerance != 0.0) {  // every bounce by itself
+    check.within("contact_tolerance", p.contact_tolerance, kMinContactTolerance, kMaxContactTolerance);
+  }
 }
 
 void check_rates(const Parameters& p, Check& check) {
