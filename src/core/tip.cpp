@@ -50,7 +50,16 @@ AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<
   return reflect(model, eta, incident.state, std::fmin(incident.g1, 0.0));
 }
 
-AFM_MULTIVERSION GapJet<double> jet_of(const Flight<double>& flight, double s) { return flight.gap(s); }
+// The state and gap of Flight::gap, without the derivatives.
+AFM_MULTIVERSION Deflection flight_deflection(const Flight<double>& flight, double s) {
+  if (s <= flight.bounds().small_until) {
+    const GapJet<double> jet = flight.gap(s);
+    return {jet.state.Y, jet.state.X, jet.g};
+  }
+  const FlightState<double> q = flight.at(s);
+  const Mechanics<double>& m = flight.mechanics();
+  return {q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
+}
 
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
 
@@ -232,8 +241,7 @@ TipState Tip::tip_state() const {
 
 Deflection Tip::deflection(const ModelTime& t) const {
   if (on_guide()) return slide_deflection(slide_, t - start_);
-  const GapJet<double> jet = jet_of(flight_, t - start_);
-  return {jet.state.Y, jet.state.X, jet.g};
+  return flight_deflection(flight_, t - start_);
 }
 
 void Tip::find_landing() {
