@@ -94,6 +94,14 @@ class Flight {
   // The gap at s + step, sooner, from its jet at s near by. Within a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
+  // The ways that these two choose from, for those who have chosen.
+  GapJet<T> gap_by_turns(const T& s) const { return jet_at(at(s)); }
+  GapJet<T> gap_by_small_turns(const T& s) const { return moved(start_, s); }
+  GapJet<T> moved_by_small_turns(const GapJet<T>& jet, const T& step) const { return moved(jet, step); }
+  GapJet<T> moved_by_tiny_turns(const GapJet<T>& jet, const T& step) const {
+    return moved_by(jet, step, [](const T& x) { return tiny_turn(x); });
+  }
+
   const FlightBounds<T>& bounds() const { return bounds_; }
   const T& amplitude_X() const { return bounds_.X; }
   const T& amplitude_Y() const { return bounds_.Y; }
@@ -212,7 +220,7 @@ GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
   return either(
-      s <= bounds_.small_until, [&] { return moved(start_, s); }, [&] { return jet_at(at(s)); });
+      s <= bounds_.small_until, [&] { return gap_by_small_turns(s); }, [&] { return gap_by_turns(s); });
 }
 
 template <class T>
@@ -226,7 +234,7 @@ GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) c
   };
   const auto near = [&] {
     return either(
-        size <= tiny, [&] { return moved_by(jet, step, [](const T& x) { return tiny_turn(x); }); }, far);
+        size <= tiny, [&] { return moved_by_tiny_turns(jet, step); }, far);
   };
   return either(
       s + step <= bounds_.small_until, [&] { return gap(s + step); }, near);

@@ -43,7 +43,7 @@ template <class T>
 T end_of_bounce(const Flight<T>& f) {
   const GapJet<T>& o = f.start();
   const T per = T(1.0) / o.g2, t = T(-2.0) * o.g1 * per;
-  const T a = o.g3 * per / T(3.0) * t, b = fourth_derivative(f, o) * per / T(12.0) * t * t;
+  const T a = over(T(o.g3 * per), 3.0) * t, b = over(T(fourth_derivative(f, o) * per), 12.0) * t * t;
   return t * (T(1.0) - a + (T(2.0) * a * a - b) + T(5.0) * a * (b - a * a));
 }
 

@@ -25,7 +25,7 @@ ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& je
   using std::max;
   using std::min;
   const T bound3 = f.third_derivative_bound(jet, S), change = f.fourth_derivative_bound() * S;
-  return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + change / T(3.0)))};
+  return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + over(change, 3.0)))};
 }
 
 // The fourth derivative of the gap.
@@ -46,7 +46,7 @@ template <class T>
 T leave_surface(const Flight<T>& f) {
   using std::max;
   using std::sqrt;
-  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = f.third_derivative_bound() / T(6.0);
+  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = over(f.third_derivative_bound(), 6.0);
   const T root = sqrt(b * b + T(4.0) * a * g1);
   const T first = T(0.999) * choose(
                                  b > T(0.0), [&] { return T((b + root) / (a * T(2.0))); },
@@ -78,7 +78,7 @@ T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& g
   const T g = jet.g - error;
   const auto root_within = [&](const T& S) {
     const T low = min(T(0.0), third_derivative_over(f, jet, S).low);
-    return first_root(g, jet.g1, T(jet.g2 + low * S / T(3.0)), S);
+    return first_root(g, jet.g1, T(jet.g2 + over(T(low * S), 3.0)), S);
   };
   const auto sharpened = [&] {
     const T root = root_within(guess);
@@ -101,7 +101,7 @@ Truth<T> positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& erro
   const T g = jet.g - error;
   return both(g > T(0.0), [&] {
     const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
-    const T q = jet.g2 - high * back / T(3.0), end = g + back * (q * back / T(2.0) - jet.g1);
+    const T q = jet.g2 - over(T(high * back), 3.0), end = g + back * (q * back / T(2.0) - jet.g1);
     // a parabola that opens downwards has its least value at an end; another may dip in between
     return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
   });
@@ -134,7 +134,7 @@ RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& 
     const T d = T(1.25) * t + T(4.0) * error / -jet.g1;
     const T third = third_derivative_over(f, jet, d).high;
     const T slope = jet.g1 + max(T(0.0), T(jet.g2 * d + max(T(0.0), third) * d * d / T(2.0)));
-    const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + d * third / T(6.0)));
+    const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + over(T(d * third), 6.0)));
     return RootInterval<T>{slope < T(0.0) && end < T(0.0), clamp(cubic_root(jet, t), T(0.0), d), T(0.0), d};
   };
   const auto falling = [&] {
@@ -224,7 +224,7 @@ T time_aloft(const Flight<T>& f, const T& s) {
 template <class T>
 T root_step(const GapJet<T>& jet) {
   const T per = T(1.0) / jet.g1;
-  const T r = jet.g * per, a2 = jet.g2 * per / T(2.0), a3 = jet.g3 * per / T(6.0);
+  const T r = jet.g * per, a2 = jet.g2 * per / T(2.0), a3 = over(T(jet.g3 * per), 6.0);
   return -r * (T(1.0) + r * (a2 + r * (T(2.0) * a2 * a2 - a3)));
 }
 
@@ -233,7 +233,7 @@ template <class T>
 GapJet<T> drift(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   const Mechanics<T>& m = f.mechanics();
   const FlightState<T>& q = jet.state;
-  const T half = t / T(2.0), third = t / T(3.0), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  const T half = t / T(2.0), third = over(t, 3.0), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
   const T A = -wh2 * q.X, J = -wh2 * q.U, B = -wv2 * q.Y, K = -wv2 * q.W;
   const T dU = t * (A + half * J), dX2 = half * (A + third * J);
   const FlightState<T> moved{q.phase + t * (f.eta() + q.U + dX2), q.X + t * (q.U + dX2), q.U + dU,

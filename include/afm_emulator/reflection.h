@@ -40,7 +40,7 @@ ReflectionOf<T> reflect(const ReflectionLaw<T>& law, const T& eta, const FlightS
   const T u = eta + incident.U, speed = -g1 / n;
   const auto fast = speed >= law.v_c;
   // above the cutoff 1 - gamma_eff is exact enough; below it the law gives the small difference itself
-  const T loss = choose(
+  const T loss = either(
       fast, [&] { return T(one - law.gamma); }, [&] { return T((one - law.gamma) * speed / law.v_c); });
   const T gamma_eff = select(fast, law.gamma, T(one - loss));
   return {{phase, incident.X, u + free * (one + gamma_eff) * surface.h1 * g1 / n2, T(0.0), -gamma_eff * g1},

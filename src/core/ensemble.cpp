@@ -77,7 +77,7 @@ void take_up(const Tip& tip, LaneTip& row) {
   write_flight(tip, row.row);
   begin_search(tip.flight(), row.row);
   row.last = tip.last_impact();
-  row.looks = 0;
+  row.row[lanes::kCount] = 0.0;
   row.stage = Stage::look;
 }
 
@@ -178,6 +178,7 @@ void Ensemble::fly(const Call& call, std::size_t from, std::size_t to) {
   }
   if (call.in_lanes != nullptr) {
     LaneTip spare = rows_[from];
+    spare.log = nullptr;
     void* context = const_cast<Call*>(&call);
     call.in_lanes(
         {&rows_[from], static_cast<std::uint32_t>(to - from), call.events, call.limit, &spare, fly_alone, context});

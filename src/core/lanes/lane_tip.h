@@ -11,8 +11,9 @@ namespace lanes {
 
 // Where each number is in a row; loaded and stored two by two.
 enum Field : int {
+  // the flight: launch (gap 0), the jet there, bounds
   kPhase,
-  kU,  // the launch: surface phase and lab velocity; gap 0
+  kU,
   kX,
   kRateX,
   kY,
@@ -29,10 +30,12 @@ enum Field : int {
   kBound4,
   kBoundDrive,
   kSmallUntil,
+  // the search: certified up to, next look, reach of a step; or the time of the jet and the step from there to the root
   kS,
   kAhead,
   kGuess,
-  kBurstGapRate,
+  kCount,  // of evaluations
+  // the model
   kRatio,
   kOmegaH,
   kPerOmegaH,
@@ -42,8 +45,8 @@ enum Field : int {
   kMobility,
   kGamma,
   kCutoff,
-  kUnused,
-  // the jet where a root is certified, and after it the incident state
+  kBurstGapRate,
+  // the jet near a certified root; after the last step the incident state
   kJetPhase,
   kJetX,
   kJetRateX,
@@ -55,22 +58,23 @@ enum Field : int {
   kJetG3,
   kJetH,
   kJetH1,
-  kEstimate,
+  kStep,
   kLow,
   kHigh,
-  kJetS,
-  kUnused2,
-  kStartTau,
+  kJetS,   // where it was certified
+  kJetT,   // since then
+  kIsEnd,  // 1: the next evaluation is the last
+  kUnused,
+  kStartTau,  // whole tau as bits
   kStartPhase,
   kEndTau,
-  kEndPhase,  // whole tau as bits
+  kEndPhase,
   kFields
 };
 
-// What is to be done next.
+// What is to be done next, where a tip is not at work.
 enum class Stage : std::uint8_t {
   look,    // evaluate the gap where the search says
-  finish,  // a root is certified: find it
   bounce,  // found: reflect, and begin the next flight
   single   // one tip by itself must go on from the launch: whatever is not an ordinary flight
 };
@@ -80,7 +84,6 @@ struct alignas(64) LaneTip {
   Impact last;
   Impact* log;           // the next record goes here too; null: nowhere
   std::uint32_t events;  // since the call
-  std::uint16_t looks;   // of this flight
   Stage stage;
   bool stuck;    // single, for this very flight lanes could not do
   bool bounced;  // in lanes, since the tip itself was last brought up to date

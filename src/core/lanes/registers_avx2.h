@@ -26,6 +26,9 @@ AFM_LANE_INLINE Register rounded_down(Register a) { return _mm256_floor_pd(a); }
 AFM_LANE_INLINE Register sign_bit() { return filled(-0.0); }
 AFM_LANE_INLINE Register negated(Register a) { return _mm256_xor_pd(a, sign_bit()); }
 AFM_LANE_INLINE Register magnitude(Register a) { return _mm256_andnot_pd(sign_bit(), a); }
+AFM_LANE_INLINE Register with_sign(Register a, Register sign) {
+  return _mm256_or_pd(a, _mm256_and_pd(sign, sign_bit()));
+}
 AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { return _mm256_blendv_pd(no, yes, m); }
 
 AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }

@@ -26,6 +26,9 @@ AFM_LANE_INLINE Register rounded_down(Register a) {
 AFM_LANE_INLINE Register sign_bit() { return filled(-0.0); }
 AFM_LANE_INLINE Register negated(Register a) { return _mm512_xor_pd(a, sign_bit()); }
 AFM_LANE_INLINE Register magnitude(Register a) { return _mm512_andnot_pd(sign_bit(), a); }
+AFM_LANE_INLINE Register with_sign(Register a, Register sign) {
+  return _mm512_or_pd(a, _mm512_and_pd(sign, sign_bit()));
+}
 AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { return _mm512_mask_blend_pd(m, no, yes); }
 
 AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }

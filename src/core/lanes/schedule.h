@@ -1,5 +1,5 @@
-// Which tips are packed together: of a window of tips each waits in the list of its stage until a pack of its kind is full, so
-// that no lane idles however their flights differ.
+// Which tips are packed together: each of a window of tips waits in a list for what it needs next, and a pack is made from the
+// longest, so that hardly a lane idles however the flights differ.
 #pragma once
 
 #include "kernels.h"
@@ -7,7 +7,7 @@
 namespace afm {
 namespace {
 
-constexpr std::uint32_t kWindow = 64;
+constexpr std::uint32_t kWindow = 128;  // in which lists fill packs, and which the nearest caches still hold
 
 struct List {
   LaneTip* tips[kWindow];
@@ -16,144 +16,162 @@ struct List {
   AFM_LANE_INLINE void push(LaneTip* tip) { tips[size++] = tip; }
 };
 
-class Schedule {
- public:
-  explicit Schedule(const Work& work) : work_(work) {
-    const Pack zero = Pack(0.0);
-    limit_ = {add_whole(each([&](int) { return filled_bits(work.limit.tau); }), zero), Pack(work.limit.phase)};
-  }
-
-  void run() {
-    for (;;) {
-      refill();
-      if (flying_ == 0) return;
-      // a full pack of any kind first; else the longest list
-      if (full(look_) || (look_.size > 0 && !full(finish_) && !full(bounce_) && longest(look_))) {
-        looks();
-      } else if (full(finish_) || (finish_.size > 0 && !full(bounce_) && longest(finish_))) {
-        finishes();
-      } else {
-        bounces();
-      }
-    }
-  }
-
- private:
-  static bool full(const List& list) { return list.size >= kLanes; }
-  bool longest(const List& list) const {
-    return list.size >= look_.size && list.size >= finish_.size && list.size >= bounce_.size;
-  }
-
-  void refill() {
-    while (flying_ < kWindow && next_ < work_.size) {
-      ++flying_;
-      admit(work_.tips[next_++]);
-    }
-  }
-
-  // A tip by its stage; what one must do alone it does at once.
-  void admit(LaneTip& tip) {
-    if (tip.waits || (tip.stage == Stage::single && !work_.single(work_.context, tip))) {
-      --flying_;
-    } else if (tip.stage == Stage::bounce) {
-      bounce_.push(&tip);
-    } else {
-      look_.push(&tip);
-    }
-  }
-
-  // The last of the list, filled up with the spare; how many are tips.
-  int take(List& list, LaneTip** tips) const {
-    const int n = list.size < kLanes ? static_cast<int>(list.size) : kLanes;
-    list.size -= static_cast<std::uint32_t>(n);
-    for (int i = 0; i < kLanes; ++i)
-      tips[i] = i < n ? list.tips[list.size + static_cast<std::uint32_t>(i)] : work_.spare;
-    return n;
-  }
-
-  void alone(LaneTip& tip) {
-    tip.stage = Stage::single;
-    tip.stuck = true;
-    admit(tip);
-  }
-
-  void looks();
-  void finishes();
-  void bounces();
-
-  const Work& work_;
-  PackTime limit_;
-  List look_, finish_, bounce_;
-  std::uint32_t flying_ = 0, next_ = 0;
-};
-
 #ifdef __clang__
 #define AFM_LANE_KERNEL __attribute__((noinline))
 #else
 #define AFM_LANE_KERNEL __attribute__((noinline, flatten))
 #endif
 
-AFM_LANE_KERNEL Next look_at(LaneTip* const* tips) { return look(tips); }
-AFM_LANE_KERNEL Next finish_of(LaneTip* const* tips, const PackTime& limit, unsigned& limited) {
-  return finish(tips, limit, limited);
-}
-AFM_LANE_KERNEL Next bounce_of(LaneTip* const* tips) { return bounce(tips); }
+class Schedule {
+ public:
+  explicit Schedule(const Work& work)
+      : work_(work), limit_{Pack(filled_bits(work.limit.tau)), Pack(work.limit.phase)} {}
 
-inline void Schedule::looks() {
-  LaneTip* tips[kLanes];
-  const int n = take(look_, tips);
-  const Next next = look_at(tips);
-  for (int i = 0; i < n; ++i) {
-    LaneTip& tip = *tips[i];
-    if ((next.on >> i & 1u) != 0) {
-      tip.stage = Stage::finish;
-      finish_.push(&tip);
-    } else if ((next.single >> i & 1u) != 0 || ++tip.looks > kMaxLooks) {
-      alone(tip);
-    } else {
-      look_.push(&tip);
+  void run() {
+    for (;;) {
+      while (flying_ < kWindow && next_ < work_.size) {
+        ++flying_;
+        admit(work_.tips[next_++]);
+      }
+      if (flying_ == 0) return;
+      fly(longest());
     }
   }
-}
 
-inline void Schedule::finishes() {
-  LaneTip* tips[kLanes];
-  const int n = take(finish_, tips);
-  unsigned limited = 0;
-  const Next next = finish_of(tips, limit_, limited);
-  for (int i = 0; i < n; ++i) {
-    LaneTip& tip = *tips[i];
-    if ((next.single >> i & 1u) != 0) {
-      alone(tip);
-      continue;
+ private:
+  Kind longest() const {
+    int kind = 0;
+    for (int k = 1; k < kKinds; ++k) {
+      if (lists_[k].size > lists_[kind].size) kind = k;
     }
+    return static_cast<Kind>(kind);
+  }
+
+  // A tip that has come in or was alone. What one must do alone it does at once.
+  void admit(LaneTip& tip) {
+    if (tip.waits || (tip.stage == Stage::single && !work_.single(work_.context, tip))) {
+      --flying_;
+    } else if (tip.stage == Stage::bounce) {
+      lists_[kBounce].push(&tip);
+    } else {
+      const bool near = tip.row[kS] + tip.row[kAhead] <= tip.row[kSmallUntil];
+      lists_[near ? kLookNear : kLookFar].push(&tip);
+    }
+  }
+
+  void fly(Kind kind) {
+    switch (kind) {
+      case kLookNear:
+        return fly_all<kLookNear>();
+      case kLookFar:
+        return fly_all<kLookFar>();
+      case kFinishHere:
+        return fly_all<kFinishHere>();
+      case kFinishTiny:
+        return fly_all<kFinishTiny>();
+      case kFinishNear:
+        return fly_all<kFinishNear>();
+      case kFinishFar:
+        return fly_all<kFinishFar>();
+      default:
+        return fly_all<kBounce>();
+    }
+  }
+
+  // Every full pack that waits for this now, one after another without a word in between; or the one that is not full.
+  template <Kind kKind>
+  AFM_LANE_KERNEL void fly_all() {
+    List& list = lists_[kKind];
+    LaneTip* tips[kLanes];
+    if (list.size < kLanes) {
+      for (std::uint32_t i = 0; i < kLanes; ++i) tips[i] = i < list.size ? list.tips[i] : work_.spare;
+      const unsigned there = (1u << list.size) - 1u;
+      list.size = 0;
+      return fly_pack<kKind>(tips, there);
+    }
+    for (std::uint32_t packs = list.size / kLanes; packs > 0; --packs) {
+      list.size -= kLanes;
+      for (std::uint32_t i = 0; i < kLanes; ++i) tips[i] = list.tips[list.size + i];
+      fly_pack<kKind>(tips, kAllLanes);
+    }
+  }
+
+  template <Kind kKind>
+  AFM_LANE_INLINE void fly_pack(LaneTip* const* tips, unsigned there) {
+    const Rows rows(tips);
+    Ways ways = kKind == kBounce                          ? bounce(tips, rows)
+                : kKind == kLookNear || kKind == kLookFar ? look<kKind>(rows)
+                                                          : finish<kKind>(rows, limit_);
+    if (kKind == kBounce) count_bounces(tips, there, ways);
+    for (int k = 0; k < kKinds; ++k) sort(lists_[k], tips, ways.lanes[k] & there);
+    for (unsigned left = ways.lanes[kLimited] & there; left != 0; left &= left - 1) wait(*tips[__builtin_ctz(left)]);
+    if ((ways.lanes[kAlone] & there) != 0) all_alone(tips, ways.lanes[kAlone] & there);
+  }
+
+  static AFM_LANE_INLINE void sort(List& list, LaneTip* const* tips, unsigned lanes) {
+    if (lanes == kAllLanes) {
+      for (int i = 0; i < kLanes; ++i) list.tips[list.size + static_cast<std::uint32_t>(i)] = tips[i];
+      list.size += kLanes;
+    } else {
+      for (; lanes != 0; lanes &= lanes - 1) list.push(tips[__builtin_ctz(lanes)]);
+    }
+  }
+
+  // Those with all their events go no further, nor do those that must bounce alone as yet.
+  AFM_LANE_INLINE void count_bounces(LaneTip* const* tips, unsigned there, Ways& ways) {
+    unsigned stop = ways.lanes[kAlone] & there;
+    ways.lanes[kAlone] = 0;
+    for (int i = 0; i < kLanes; ++i) {
+      LaneTip& tip = *tips[i];
+      tip.bounced = true;
+      if (++tip.events == work_.most_events) stop |= 1u << i & there;
+      if (tip.log != nullptr) *tip.log++ = tip.last;
+    }
+    if (stop != 0) stop_after_bounce(tips, stop, ways);
+  }
+  void wait(LaneTip& tip) {
     tip.stage = Stage::bounce;
-    tip.waits = (limited >> i & 1u) != 0;
-    if (tip.waits) {
-      --flying_;
-    } else {
-      bounce_.push(&tip);
-    }
+    tip.waits = true;
+    --flying_;
   }
-}
 
-inline void Schedule::bounces() {
-  LaneTip* tips[kLanes];
-  const int n = take(bounce_, tips);
-  const Next next = bounce_of(tips);
-  for (int i = 0; i < n; ++i) {
-    LaneTip& tip = *tips[i];
-    if (tip.log != nullptr) *tip.log++ = tip.last;
-    tip.looks = 0;
-    tip.bounced = true;
-    tip.stage = (next.on >> i & 1u) != 0 ? Stage::look : Stage::single;
-    if (++tip.events == work_.most_events) {
-      --flying_;
-    } else {
-      admit(tip);
+  __attribute__((noinline)) void stop_after_bounce(LaneTip* const* tips, unsigned stop, Ways& ways) {
+    LaneTip* stopped[kLanes];
+    int n = 0;
+    for (; stop != 0; stop &= stop - 1) {
+      const int i = __builtin_ctz(stop);
+      const unsigned lane = 1u << i;
+      const bool ordinary = ((ways.lanes[kLookNear] | ways.lanes[kLookFar]) & lane) != 0;
+      tips[i]->stage = ordinary ? Stage::look : Stage::single;
+      tips[i]->stuck = false;
+      for (unsigned& lanes : ways.lanes) lanes &= ~lane;
+      stopped[n++] = tips[i];
+    }
+    for (int i = 0; i < n; ++i) {
+      if (stopped[i]->events == work_.most_events) {
+        --flying_;
+      } else {
+        admit(*stopped[i]);
+      }
     }
   }
-}
+
+  __attribute__((noinline)) void all_alone(LaneTip* const* tips, unsigned lanes) {
+    LaneTip* left[kLanes];
+    int n = 0;
+    for (; lanes != 0; lanes &= lanes - 1) left[n++] = tips[__builtin_ctz(lanes)];
+    for (int i = 0; i < n; ++i) {
+      left[i]->stage = Stage::single;
+      left[i]->stuck = true;
+      admit(*left[i]);
+    }
+  }
+
+  const Work& work_;
+  const PackTime limit_;
+  List lists_[kKinds];
+  std::uint32_t flying_ = 0, next_ = 0;
+};
 
 }  // namespace
 }  // namespace afm
