@@ -33,7 +33,7 @@ ModelTime time_in(const LaneTip& row, lanes::Field tau, lanes::Field phase) {
 // Off the surface: lanes know no other.
 bool ordinary(const Tip& tip) {
   const TipState& launch = tip.flight().launch();
-  return tip.in_flight() && launch.g == 0.0 && launch.g1 > 0.0;
+  return tip.in_flight() && launch.g == 0.0 && launch.g1 > lanes::kSlowestLaunch;
 }
 
 AFM_MULTIVERSION void begin_search(const Flight<double>& flight, double* row) {

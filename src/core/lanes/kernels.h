@@ -263,7 +263,7 @@ AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   rows.store(kGuess, guess, Pack(0.0));
   rows.store(kStartTau, time.tau, time.phase);
   const Pack zero(0.0);
-  const Mask ordinary = o.g1 > zero && !(o.g2 < zero && o.g1 <= burst);
+  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst);
   Ways ways;
   split(bits(ordinary), s + ahead <= b.small_until, kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);

@@ -72,6 +72,9 @@ enum Field : int {
   kFields
 };
 
+// Slower launches are not for lanes: in the squares of what is smaller rounding is another, and `over` no longer a division [a/tau].
+constexpr double kSlowestLaunch = 1e-60;
+
 // What is to be done next, where a tip is not at work.
 enum class Stage : std::uint8_t {
   look,    // evaluate the gap where the search says

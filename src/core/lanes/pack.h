@@ -83,7 +83,7 @@ AFM_LANE_INLINE Mask both(M m, const F& rest) {
 }
 
 // The product with 1 / d rounded, and what that leaves over: correctly rounded, as 1 / d is within a quarter ulp of itself
-// (Markstein). The sign is that of x where the quotient is 0.
+// (Markstein), where nothing is subnormal. The sign is that of x where the quotient is 0.
 AFM_LANE_INLINE Pack over(P x, double d) {
   const Pack per(1.0 / d), q = x * per;
   const Pack quotient = fma(fma(Pack(-d), q, x), per, q);
