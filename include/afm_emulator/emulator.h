@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "afm_emulator/friction.h"
+#include "afm_emulator/level.h"
 #include "afm_emulator/model.h"
 #include "afm_emulator/sample_grid.h"
 #include "afm_emulator/state.h"
@@ -65,6 +66,9 @@ class Emulator {
   // friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
   // Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
+  // Another level of the model from now() on; Tip::relevel() says how the tip gets there. The friction estimate begins anew.
+  // Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: a tolerance within 0 and kMaxContactTolerance.
+  double set_level(const Level& level);
   // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.
   void take_samples(bool wanted) { sampling_ = wanted; }
   void reset();  // initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now

@@ -5,23 +5,21 @@
 #include <vector>
 
 #include "afm_emulator/attractor.h"
+#include "afm_emulator/level.h"
 #include "afm_emulator/model.h"
 #include "afm_emulator/time_average.h"
 #include "afm_emulator/tip.h"
 
 namespace afm {
 
-// Hammer, oscillator with bursts and contact at a tolerance, oscillator with every bounce (tolerance 0).
-struct Level {
-  ModelKind kind = ModelKind::oscillator;
-  double contact_tolerance = kDefaultContactTolerance;
-};
-
 struct ErrorSettings {
   double transient = 500.0;            // [tau]
   double duration = 2000.0;            // of the measurement of K_f [tau]
+  double periodic_duration = 1e9;      // where the orbit repeats itself, if that is less
   std::uint64_t most_events = 500000;  // a level that needs more is measured for a shorter time
+  double most_events_per_tau = 1e9;    // one that needs more is not measured
   int samples = 20000;                 // of the deflection, a golden section of tau apart: phases of tau evenly
+  int periodic_samples = 1000000000;   // where the orbit repeats itself, if that is less
   int pairs = 200;                     // of runs from one state, compared over one tau
 };
 
@@ -35,9 +33,6 @@ struct LevelRun {
   double stretch_rms = 0.0, stretch_largest = 0.0;  // of the horizontal spring, x - xc [a]
   double share_measured = 1.0;                     // of the duration; 0: the budget was gone before anything was seen
 };
-
-// `model` as the level has it. Precondition: no faults.
-Model at_level(Model model, const Level& level);
 
 // Leaves `tip`, which is of the level, on its attractor.
 LevelRun run_level(const Model& model, Tip& tip, const ErrorSettings& settings);

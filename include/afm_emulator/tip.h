@@ -46,6 +46,13 @@ class Tip {
   // Precondition: a model without faults that differs in gamma, v_c and y0 at most.
   void retune(const Model& model);
 
+  // Another level of the model from now() on. The tip keeps its place over the surface, height and vertical velocity. To the hammer
+  // the holder is put above the tip: the extension and what the horizontal velocity has beyond the holder's are dropped, and the
+  // energy in them is returned [m a^2/tau^2] (0 otherwise). To the oscillator nothing changes: the spring is relaxed, and the
+  // tip as fast as its holder. A burst ends with the bounce it is at; contact ends where the hammer's gap rate differs from the
+  // oscillator's; both are told as events at now().
+  double relevel(ModelKind kind, double contact_tolerance);
+
   // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip as it is
   // after an impact at that time, which was `last` and from which it launches so.
   bool in_flight() const { return mode_ == Mode::flying; }
@@ -71,6 +78,8 @@ class Tip {
 
   TipState held(const TipState& state) const;
   void jolt(double eta);
+  void leave_now();
+  void tolerate(double contact_tolerance);
   void adopt(const Model& model);
   void fly(const TipState& start);
   void slide(const SlideState<double>& start);
@@ -106,6 +115,8 @@ class Tip {
   double burst_gain_ = 0.0;          // of energy since then, for leaving guides
   double work_off_guide_ = 0.0;
   Impact last_impact_;
+  bool untold_ = false;  // an event at now() that the next advance tells
+  Impact untold_impact_;
 };
 
 }  // namespace afm

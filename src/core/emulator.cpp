@@ -70,6 +70,15 @@ void Emulator::drag(double eta) {
   friction_.restart(now_, eta);
 }
 
+double Emulator::set_level(const Level& level) {
+  if (level == Level{settings_.model.kind, settings_.contact_tolerance}) return 0.0;
+  const double dropped = tip_.relevel(level.kind, level.contact_tolerance);
+  settings_.model.kind = level.kind;
+  settings_.contact_tolerance = level.contact_tolerance;
+  friction_.restart(now_, eta_);
+  return dropped;
+}
+
 LiveSettings live_settings(const EmulatorSettings& s) {
   return {s.model.gamma, s.model.v_c, s.model.y0, s.sample_period, s.samples_per_batch, s.friction_window};
 }

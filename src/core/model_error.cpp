@@ -14,11 +14,14 @@ Deflection deflection_at(Tip& tip, const ModelTime& t) {
   return tip.deflection(t);
 }
 
+double events_per_tau(const Attractor& a, double eta) {
+  return a.cells_per_impact > 0.0 ? std::abs(eta) / a.cells_per_impact : 0.0;
+}
+
 // What the budget of events allows of the duration, by the events seen before.
 double affordable(const Attractor& a, double eta, const ErrorSettings& settings) {
-  if (!(a.cells_per_impact > 0.0)) return settings.duration;
-  const double events_per_tau = std::abs(eta) / a.cells_per_impact;
-  return std::min(settings.duration, static_cast<double>(settings.most_events) / events_per_tau);
+  const double wanted = a.cells > 0 ? std::min(settings.duration, settings.periodic_duration) : settings.duration;
+  return std::min(wanted, static_cast<double>(settings.most_events) / events_per_tau(a, eta));
 }
 
 void sample(Tip& tip, int samples, LevelRun& run) {
@@ -47,23 +50,26 @@ double noise_of(const std::vector<double>& samples) {
 
 }  // namespace
 
-Model at_level(Model model, const Level& level) {
-  model.kind = level.kind;
-  return model;
-}
-
 LevelRun run_level(const Model& model, Tip& tip, const ErrorSettings& settings) {
   LevelRun run;
   AttractorSettings search;
   search.transient = settings.transient;
   search.duration = std::min(settings.duration, 500.0);
   search.most_events = settings.most_events;
+  const ModelTime begin = tip.now();
   run.attractor = find_attractor(model, tip, search);
+  const bool got_there = tip.now() - begin >= settings.transient;
+  if (!got_there || events_per_tau(run.attractor, tip.eta()) > settings.most_events_per_tau) {
+    run.share_measured = 0.0;
+    return run;
+  }
   const double duration = affordable(run.attractor, tip.eta(), settings);
   run.friction = run.attractor.cells > 0 ? average_over_periods(tip, run.attractor.cells, duration)
                                          : average_over_time(tip, duration);
   run.share_measured = duration / settings.duration;
-  sample(tip, std::max(2, static_cast<int>(settings.samples * run.share_measured)), run);
+  const int samples = run.attractor.cells > 0 ? std::min(settings.samples, settings.periodic_samples)
+                                              : static_cast<int>(settings.samples * run.share_measured);
+  sample(tip, std::max(2, samples), run);
   run.vertical_noise = noise_of(run.vertical);
   std::sort(run.vertical.begin(), run.vertical.end());
   return run;

@@ -229,6 +229,51 @@ void Tip::retune(const Model& model) {
   if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
 }
 
+// Ends burst or contact at once; the event is told by the next advance.
+void Tip::leave_now() {
+  const double s = now_ - start_;
+  if (mode_ == Mode::sliding) {
+    slide_end_ = s;
+    slide_releases_ = true;
+    end_slide();
+  } else {
+    chatter_run_ = {ChatterEnd::exits, s, law_.at(slide_, s, chatter_)};
+    end_burst();
+  }
+  untold_ = true;
+  untold_impact_ = last_impact_;
+}
+
+void Tip::tolerate(double contact_tolerance) {
+  slowest_chatter_ = contact_tolerance / kGrowth;
+  burst_gap_rate_ = std::sqrt(kEntry * contact_tolerance);
+}
+
+double Tip::relevel(ModelKind kind, double contact_tolerance) {
+  const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
+  const bool jolted = mode_ == Mode::sliding && slide_releases_ && start_ + slide_end_ <= now_;
+  if (mode_ == Mode::bursting || jolted || (mode_ == Mode::sliding && drops)) leave_now();
+  const TipState state = tip_state();
+  const double spring = mechanics_.omega_h * state.X;
+  Model model = model_;
+  model.kind = kind;
+  tolerate(contact_tolerance);
+  adopt(model);
+  if (mode_ == Mode::sliding) {
+    slide({state.phase, state.X, state.u});
+    return 0.0;
+  }
+  const bool due = mode_ == Mode::touching;
+  fly(state);
+  const TipState& launched = flight_.launch();
+  if (launched.g == 0.0 && launched.g1 == 0.0) {
+    leave_or_press();
+    if (due) mode_ = Mode::touching;
+  }
+  if (!drops) return 0.0;
+  return 0.5 * (spring * spring + (state.u - eta_) * (state.u + eta_));
+}
+
 TipState Tip::tip_state() const {
   if (on_guide()) {
     const SlideState<double> q = slide_at(slide_, now_ - start_);
@@ -314,6 +359,7 @@ Outcome Tip::end_flight() {
 }
 
 ModelTime Tip::arc_end() {
+  if (untold_) return now_;
   if (on_guide()) {
     const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
     return end < now_ ? now_ : end;  // a jolt ends it now, and not a rounding before the command
@@ -328,6 +374,11 @@ Outcome Tip::advance_arc(const ModelTime& limit) {
   if (limit < end) {
     now_ = now_ < limit ? limit : now_;
     return Outcome::time_limit;
+  }
+  if (untold_) {
+    untold_ = false;
+    last_impact_ = untold_impact_;
+    return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
   }
   now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
   switch (mode_) {

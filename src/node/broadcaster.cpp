@@ -48,7 +48,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, So
 }
 
 void Broadcaster::start(const std::string& scheduler) {
-  tracker_ = std::make_unique<StatusTracker>(units_, parameters_.model, scheduler);
+  tracker_ = std::make_unique<StatusTracker>(units_, scheduler);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -85,10 +85,10 @@ void Broadcaster::publish(const Event& event, const Batch& batch) {
       begin_epoch(label);
       break;
     case Event::Kind::drag_applied:
-      send(to_applied_drag(event.state, event.drag_velocity, label), applied_drag_);
+      send(to_applied_drag(event.state, event.drag_velocity, event.level, units_, label), applied_drag_);
       break;
     case Event::Kind::parameters_applied:
-      send(to_applied_parameters(event.state, parameters_, label), applied_parameters_);
+      send(to_applied_parameters(event.state, parameters_, event.level, label), applied_parameters_);
       sources_.applied(event.live);
       break;
     case Event::Kind::batch:

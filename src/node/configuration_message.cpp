@@ -36,6 +36,9 @@ afm_emulator::Configuration to_configuration(const Parameters& p, const std::str
   message.version = version;
   message.arithmetic_digest = digest;
   message.model = p.model;
+  message.tolerance = p.tolerance;
+  message.tolerance_of = p.tolerance_of;
+  message.level_table = p.level_table_digest;
   write_model(p.si, message);
   write_initial_state(p.initial, message);
   message.drag_velocity = p.drag_velocity;
@@ -69,6 +72,9 @@ Parameters to_parameters(const afm_emulator::Configuration& c) {
   Parameters p;
   p.si = si_model(c);
   p.model = c.model;
+  p.tolerance = c.tolerance;
+  p.tolerance_of = c.tolerance_of;
+  p.level_table_digest = c.level_table;
   p.drag_velocity = c.drag_velocity;
   p.max_drag_velocity = c.max_drag_velocity;
   p.initial = {c.initial_phase, c.initial_extension, c.initial_height, c.initial_u, c.initial_w};
@@ -85,7 +91,10 @@ EmulatorSettings emulator_settings(const afm_emulator::Configuration& message) {
   const SiModel si = si_model(message);
   EmulatorSettings settings;
   settings.model = Units(si).to_natural(si);
-  if (!parse(message.model, settings.model.kind)) throw std::invalid_argument("unknown model: " + message.model);
+  // auto begins as the full model; the first drag velocity brings its level
+  if (message.model != kAuto && !parse(message.model, settings.model.kind)) {
+    throw std::invalid_argument("unknown model: " + message.model);
+  }
   settings.eta = to_eta(message.drag_velocity, si);
   settings.initial = {message.initial_phase, message.initial_extension, message.initial_height, message.initial_u,
                       message.initial_w};

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "afm_emulator/emulator.h"
+#include "applied_level.h"
 #include "live_parameters.h"
 
 namespace afm::node {
@@ -57,6 +58,7 @@ struct Event {
   std::int64_t wall_ns = 0;    // wall clock [ns since 1970]
   double drag_velocity = 0.0;  // in force [m/s], to the bit as it was commanded
   LiveParameters live;         // in force
+  AppliedLevel level;          // likewise
   StepperState state;
   BatchHead batch;  // of kind batch
   Answer answer;    // of kind answer

@@ -11,6 +11,14 @@ Message labelled(const Label& label) {
   return message;
 }
 
+template <class Message>
+void write_level(const AppliedLevel& applied, const Units& units, Message& message) {
+  message.model = name(applied.level.kind);
+  message.contact_tolerance = applied.level.contact_tolerance;
+  message.expected_error = applied.expected_error;
+  message.energy_dropped = applied.energy_dropped * units.energy();
+}
+
 void scale(const std::vector<double>& values, double unit, std::vector<double>& out) {
   out.resize(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) out[i] = values[i] * unit;
@@ -82,16 +90,18 @@ afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, con
   return message;
 }
 
-afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const Label& label) {
+afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const AppliedLevel& level,
+                                          const Units& units, const Label& label) {
   auto message = labelled<afm_emulator::AppliedDrag>(label);
   message.time = to_message(state.time);
   message.drag_velocity = drag_velocity;
   message.first_impact = state.impacts;
+  write_level(level, units, message);
   return message;
 }
 
 afm_emulator::AppliedParameters to_applied_parameters(const StepperState& state, const Parameters& p,
-                                                      const Label& label) {
+                                                      const AppliedLevel& level, const Label& label) {
   const EmulatorSettings settings = emulator_settings(p);
   auto message = labelled<afm_emulator::AppliedParameters>(label);
   message.time = to_message(state.time);
@@ -105,6 +115,7 @@ afm_emulator::AppliedParameters to_applied_parameters(const StepperState& state,
   message.friction_window_tau = p.friction_window_tau;
   message.samples_per_batch = settings.samples_per_batch;
   message.sample_period_tau = settings.sample_period;
+  write_level(level, Units(p.si), message);
   return message;
 }
 

@@ -12,6 +12,7 @@
 #include <ros/time.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "afm_emulator/emulator.h"
@@ -39,10 +40,19 @@ afm_emulator::Impact to_message(const Impact& impact, const Units& units);
 afm_emulator::ImpactArray to_impacts(const Batch& batch, const Units& units, const Label& label);
 afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, const Units& units, const Label& label);
 // The state is that at which the command takes effect.
-afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const Label& label);
+afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag_velocity, const AppliedLevel& level,
+                                          const Units& units, const Label& label);
 
 afm_emulator::AppliedParameters to_applied_parameters(const StepperState& state, const Parameters& parameters,
-                                                      const Label& label);
+                                                      const AppliedLevel& level, const Label& label);
+
+// The level that an AppliedDrag or AppliedParameters tells. Throws std::invalid_argument if there is no such model.
+template <class Applied>
+Level level_of(const Applied& applied) {
+  Level level{ModelKind::oscillator, applied.contact_tolerance};
+  if (!parse(applied.model, level.kind)) throw std::invalid_argument("unknown model: " + applied.model);
+  return level;
+}
 
 // Those fields of the status that the stepping thread knows.
 afm_emulator::EmulatorStatus to_status(const StepperState& state, const Units& units, const Label& label);

@@ -47,9 +47,17 @@ class Check {
 void check_model(const Parameters& p, Check& check) {
   for (const ParameterError& fault : find_faults(p.si)) check.add(fault);
   ModelKind kind;
-  if (!parse(p.model, kind)) {
-    check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator or hammer"});
+  if (p.model != kAuto && !parse(p.model, kind)) {
+    check.add({"model", '"' + p.model + '"', "there is no such model: use oscillator, hammer or auto"});
   }
+  ToleranceOf of;
+  if (!parse(p.tolerance_of, of)) {
+    check.add({"tolerance_of", '"' + p.tolerance_of + '"', "there is no such quantity: use friction or deflection"});
+  }
+  const bool given = p.tolerance > 0.0 && std::isfinite(p.tolerance);
+  check.require(given || (p.model != kAuto && p.tolerance == 0.0), "tolerance", p.tolerance,
+                p.model == kAuto ? "must be above 0 and finite: model auto takes the cheapest level whose error is below it"
+                                 : "must be above 0 and finite, or 0: none");
   if (p.contact_tolerance != 0.0) {  // every bounce by itself
     check.within("contact_tolerance", p.contact_tolerance, kMinContactTolerance, kMaxContactTolerance);
   }
@@ -163,7 +171,7 @@ EmulatorSettings emulator_settings(const Parameters& p) {
   const Units units(p.si);
   EmulatorSettings settings;
   settings.model = units.to_natural(p.si);
-  parse(p.model, settings.model.kind);  // another name is a fault, told of elsewhere
+  settings.model.kind = full_level(p).kind;
   settings.eta = to_eta(p.drag_velocity, p.si);
   settings.initial = p.initial;
   settings.sample_period = 1.0 / (p.sample_rate_hz * units.time());

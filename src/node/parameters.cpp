@@ -24,6 +24,9 @@ std::map<std::string, Field> fields_of(Parameters& p) {
           {"restitution_gamma", &p.si.restitution_gamma},
           {"cutoff_speed", &p.si.cutoff_speed},
           {"model", &p.model},
+          {"tolerance", &p.tolerance},
+          {"tolerance_of", &p.tolerance_of},
+          {"level_table", &p.level_table},
           {"drag_velocity", &p.drag_velocity},
           {"max_drag_velocity", &p.max_drag_velocity},
           {"initial_phase", &p.initial.phase},
@@ -133,6 +136,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
   }
   // what could not be read stands at its default here and adds no fault of its own
   for (Fault& fault : find_faults(parameters)) faults.push_back(std::move(fault));
+  if (parameters.model == kAuto) load_levels(parameters, faults);
   return parameters;
 }
 

@@ -3,12 +3,14 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <ros/node_handle.h>
 
 #include "afm_emulator/emulator.h"
+#include "afm_emulator/level_table.h"
 #include "afm_emulator/units.h"
 #include "live_parameters.h"
 
@@ -18,6 +20,9 @@ namespace afm::node {
 struct Parameters {
   SiModel si;
   std::string model = "oscillator";
+  double tolerance = 0.0;                         // of model auto: error allowed, relative; 0: none given
+  std::string tolerance_of = "friction";          // or deflection
+  std::string level_table;                        // of model auto: file
   double drag_velocity = 1.1255437575458838e-05;  // at start and after a reset [m/s]: eta = 3.4
   double max_drag_velocity = 1e-4;                // faster commands are refused [m/s]: eta = 30.2
   FreeState initial{0.25, 0.0, 0.2, 3.4, 0.0};
@@ -34,7 +39,11 @@ struct Parameters {
   std::string compression = "none";               // of bags: none or lz4
   double split_size_mb = 0.0;                     // a recording goes on in a new bag after so much; 0: never
   double split_duration_s = 0.0;                  // or after so long, of wall time; 0: never
+  std::shared_ptr<const LevelTable> levels;       // what the file holds, if the model is auto
+  std::string level_table_digest;                 // its fingerprint
 };
+
+constexpr char kAuto[] = "auto";  // model: a level of it for every drag velocity
 
 constexpr double kLeastFrictionWindow = 1.0, kMostFrictionWindow = 1e9;  // [tau]
 
@@ -52,6 +61,9 @@ Parameters load_parameters(const ros::NodeHandle& node, Faults& faults);
 // The same from a tree of values, as a YAML file gives it.
 Parameters read_parameters(XmlRpc::XmlRpcValue tree, Faults& faults);
 
+// Of model auto: its table. Adds a fault if it cannot be read.
+void load_levels(Parameters& parameters, Faults& faults);
+
 // Faults of values that have the right types.
 Faults find_faults(const Parameters& parameters);
 
@@ -63,6 +75,11 @@ double most_sample_rate(const Parameters& parameters);
 std::uint64_t samples_per_batch(const Parameters& parameters);
 std::chrono::nanoseconds batch_period(const Parameters& parameters);  // of wall time
 EmulatorSettings emulator_settings(const Parameters& parameters);
+
+// The level that runs at a drag velocity [a/tau]: of auto the cheapest that its tolerance allows, and where the table knows nothing
+// the oscillator at contact_tolerance. Allocates nothing.
+LevelChoice choose_level(const Parameters& parameters, const Model& model, double eta);
+Level full_level(const Parameters& parameters);  // with which a run begins, before its first drag velocity is applied
 
 // The one place that turns a drag velocity into natural units, as its bits decide those of a run.
 double to_eta(double drag_velocity, const SiModel& si);

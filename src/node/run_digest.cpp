@@ -4,12 +4,22 @@
 
 #include <vector>
 
+#include "afm_emulator/model.h"
+
 namespace afm::node {
 namespace {
 
 void add(const afm_emulator::ModelTime& time, Digest& digest) {
   digest.add(static_cast<std::uint64_t>(time.tau));
   digest.add(time.phase);
+}
+
+template <class Applied>
+void add_level(const Applied& applied, Digest& digest) {
+  digest.add(std::uint64_t{applied.model == name(ModelKind::hammer)});
+  digest.add(applied.contact_tolerance);
+  digest.add(applied.expected_error);
+  digest.add(applied.energy_dropped);
 }
 
 // Of the bytes on the wire, a word a byte, without stamp and sequence number.
@@ -84,6 +94,7 @@ void RunDigest::add(const afm_emulator::AppliedDrag& command) {
   node::add(command.time, commands_digest_);
   commands_digest_.add(command.drag_velocity);
   commands_digest_.add(std::uint64_t{command.first_impact});
+  add_level(command, commands_digest_);
   ++commands_;
 }
 
@@ -98,6 +109,7 @@ void RunDigest::add(const afm_emulator::AppliedParameters& change) {
   }
   commands_digest_.add(change.samples_per_batch);
   commands_digest_.add(change.sample_period_tau);
+  add_level(change, commands_digest_);
   ++commands_;
 }
 

@@ -12,6 +12,7 @@ constexpr std::uint64_t kMessagesPerBatch = 3;  // deflection, impacts, friction
 
 void StatusTracker::observe(const Event& event) {
   state_ = event.state;
+  level_ = event.level;
   if (event.kind == Event::Kind::reset) {
     impacts_ = mark_impacts_ = 0;
     mark_time_ = {};
@@ -42,7 +43,9 @@ afm_emulator::EmulatorStatus StatusTracker::make(const Recorder::Status& recorde
   message.impacts_per_tau = impacts_per_tau_;
   message.refused_commands = refused_commands;
   message.dropped_messages = state_.dropped_batches * kMessagesPerBatch + recorder.dropped_messages;
-  message.model = model_;
+  message.model = name(level_.level.kind);
+  message.contact_tolerance = level_.level.contact_tolerance;
+  message.expected_error = level_.expected_error;
   message.scheduler = scheduler_;
   message.recording = recorder.recording;
   message.recorder_error = recorder.error;

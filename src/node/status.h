@@ -16,8 +16,7 @@ namespace afm::node {
 // Gathers the status from those who know a part of it. Used by the publishing thread alone.
 class StatusTracker {
  public:
-  StatusTracker(const Units& units, std::string model, std::string scheduler)
-      : units_(units), model_(std::move(model)), scheduler_(std::move(scheduler)) {}
+  StatusTracker(const Units& units, std::string scheduler) : units_(units), scheduler_(std::move(scheduler)) {}
 
   void observe(const Event& event);
   const StepperState& state() const { return state_; }
@@ -28,8 +27,9 @@ class StatusTracker {
   void move_mark();
 
   const Units units_;
-  const std::string model_, scheduler_;
+  const std::string scheduler_;
   StepperState state_;
+  AppliedLevel level_;
   std::uint64_t impacts_ = 0;  // of this epoch
   // impacts per tau are counted from a mark that follows behind
   ModelTime mark_time_;

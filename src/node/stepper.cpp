@@ -27,6 +27,7 @@ Stepper::Stepper(const Parameters& parameters, HandOver& hand_over, const Sample
       demand_(demand),
       pacer_(batch_period(parameters), monotonic_now()),
       drag_velocity_(parameters.drag_velocity),
+      level_{full_level(parameters)},
       requests_(kMaxWaitingRequests) {
   emulator_.reserve(batch_);
   Parameters fastest = parameters;  // the sample rate may rise
@@ -117,6 +118,7 @@ Event Stepper::event(Event::Kind kind) {
   event.wall_ns = wall_now_ns();
   event.drag_velocity = drag_velocity_;
   event.live = live_parameters(parameters_);
+  event.level = level_;
   event.state = state();
   return event;
 }

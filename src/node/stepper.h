@@ -39,6 +39,7 @@ class Stepper {
   void serve_requests();
   void serve(const Request& request);
   void apply_drag(double drag_velocity);
+  void take_level(double eta);
   void apply_change(const LiveParameters& live);
   void watch_for_commands();
   void pause(bool paused);
@@ -67,6 +68,7 @@ class Stepper {
   std::uint32_t stretch_ = 0;  // of samples, to which the batch belongs
   Pacer pacer_;
   double drag_velocity_;  // in force [m/s]
+  AppliedLevel level_;
   std::chrono::nanoseconds last_command_{0};  // when one was last obeyed, on the monotonic clock
   bool timed_out_ = false;                    // and none since the drag was stopped for that
   std::uint64_t commands_ = 0;                // applied in this epoch

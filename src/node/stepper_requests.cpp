@@ -46,7 +46,9 @@ void Stepper::serve(const Request& request) {
 
 void Stepper::apply_drag(double drag_velocity) {
   drag_velocity_ = drag_velocity;
-  emulator_.drag(to_eta(drag_velocity, parameters_.si));
+  const double eta = to_eta(drag_velocity, parameters_.si);
+  take_level(eta);
+  emulator_.drag(eta);
   publish(Event::Kind::drag_applied);
   ++commands_;
 }
@@ -54,8 +56,15 @@ void Stepper::apply_drag(double drag_velocity) {
 void Stepper::apply_change(const LiveParameters& live) {
   set_live(live, parameters_);
   emulator_.change(live_settings(emulator_settings(parameters_)));
+  take_level(emulator_.eta());
   pacer_.set_period(batch_period(parameters_));
   publish(Event::Kind::parameters_applied);
+}
+
+// Before the drag velocity or after the parameters that it is for: who simulates the run again does it in the same order.
+void Stepper::take_level(double eta) {
+  const LevelChoice choice = choose_level(parameters_, emulator_.settings().model, eta);
+  level_ = {choice.level, choice.expected_error, emulator_.set_level(choice.level)};
 }
 
 // A stop is a command like any other, applied and told of at a batch boundary: who simulates the run again needs no clock.
@@ -76,6 +85,7 @@ void Stepper::pause(bool paused) {
 }
 
 void Stepper::reset() {
+  emulator_.set_level(full_level(parameters_));  // from which every epoch begins
   emulator_.reset();
   batch_.first_impact = 0;
   batch_.impacts.clear();
@@ -89,7 +99,9 @@ void Stepper::reset() {
 void Stepper::publish_start() {
   commands_ = 0;
   publish(Event::Kind::reset);
+  take_level(emulator_.eta());
   publish(Event::Kind::drag_applied);
+  level_.energy_dropped = 0.0;
   ++commands_;
   publish(Event::Kind::parameters_applied);
 }

@@ -56,14 +56,18 @@ def in_order(drags, changes):
     return applied + rest
 
 
+def of_level(m):
+    return (int(m.model == 'hammer'),) + bits(m.contact_tolerance, m.expected_error, m.energy_dropped)
+
+
 def of_commands(messages, state=START):
     for m in messages:
         if hasattr(m, 'drag_velocity'):
-            words = bits(m.drag_velocity) + (m.first_impact,)
+            words = bits(m.drag_velocity) + (m.first_impact,) + of_level(m)
         else:
             words = ((m.first_impact, m.first_sample, m.first_command) +
                      bits(m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau) +
-                     (m.samples_per_batch,) + bits(m.sample_period_tau))
+                     (m.samples_per_batch,) + bits(m.sample_period_tau) + of_level(m))
         state = add(state, time_words(m.time) + words)
     return state
 

@@ -25,14 +25,17 @@ const time = (t) => [t.tau, bits(t.phase)];
 const impact = (i) => [...time(i.time), bits(i.surface_phase), bits(i.normal_speed), bits(i.tangential_velocity),
   bits(i.energy_loss), BigInt(i.kind), BigInt(i.count)];
 
+const level = (m) => [BigInt(m.model === 'hammer'), bits(m.contact_tolerance), bits(m.expected_error), bits(m.energy_dropped)];
+
 // topic: the digest its messages go into, and the words of one
 const TOPICS = {
   deflection: ['samples', (m) => Array.from(m.vertical).flatMap((y, i) => [bits(y), bits(m.lateral[i])])],
   impacts: ['impacts', (m) => m.impacts.flatMap(impact)],
-  applied_drag: ['commands', (m) => [...time(m.time), bits(m.drag_velocity), m.first_impact]],
+  applied_drag: ['commands', (m) => [...time(m.time), bits(m.drag_velocity), m.first_impact,
+    ...level(m)]],
   applied_parameters: ['commands', (m) => [...time(m.time), m.first_impact, m.first_sample, m.first_command,
     ...[m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau].map(bits),
-    m.samples_per_batch, bits(m.sample_period_tau)]],
+    m.samples_per_batch, bits(m.sample_period_tau), ...level(m)]],
   friction: ['estimates', (m) => [...time(m.time), ...[m.drag_velocity, m.eta, m.force, m.force_std_error, m.k_f,
     m.k_f_std_error, m.k_f_tau_per_m, m.energy_loss, m.window_force, m.window_k_f, m.window_k_f_std_error].map(bits),
   m.impact_count]],

@@ -55,6 +55,7 @@ void BagAudit::begin_epoch(const RecordedBatch& batch) {
   epoch_ = batch.epoch;
   next_command_ = 0;
   parameters_ = node::to_parameters(configuration);
+  level_ = node::full_level(parameters_);
   grid_ = {configuration.sample_period_tau, 0, {}};
   last_time_ = {};
   first_time_ = batch.deflection ? node::from_message(batch.deflection->time) : ModelTime{};
@@ -85,23 +86,32 @@ void BagAudit::follow_commands(const RecordedBatch& batch) {
   }
 }
 
+void BagAudit::follow_level(const Level& level, const ModelTime& time) {
+  if (level == level_) return;
+  level_ = level;
+  energy_->change(at_level(node::emulator_settings(parameters_).model, level), grid_);
+  friction_->change(time);
+}
+
 void BagAudit::follow(const afm_emulator::AppliedDrag& drag) {
+  follow_level(node::level_of(drag), node::from_message(drag.time));
   energy_->add_command(node::from_message(drag.time), drag.drag_velocity);
   friction_->command(node::from_message(drag.time), drag.drag_velocity);
 }
 
 void BagAudit::follow(const afm_emulator::AppliedParameters& change) {
   const node::LiveParameters before = node::live_parameters(parameters_), after = node::to_live(change);
-  if (after == before) return;
   const ModelTime time = node::from_message(change.time);
+  if (after == before) return follow_level(node::level_of(change), time);
   node::set_live(after, parameters_);
   if (after.sample_rate_hz != before.sample_rate_hz) grid_ = {change.sample_period_tau, change.first_sample, time};
-  energy_->change(node::emulator_settings(parameters_).model, grid_);
+  energy_->change(at_level(node::emulator_settings(parameters_).model, level_), grid_);
   node::LiveParameters same_model = before;  // but for what the tip knows nothing of
   same_model.sample_rate_hz = after.sample_rate_hz;
   same_model.friction_window_tau = after.friction_window_tau;
   if (!(after == same_model)) friction_->change(time);
   ++changes_;
+  follow_level(node::level_of(change), time);
 }
 
 // Samples follow without a gap, on their grid of time.

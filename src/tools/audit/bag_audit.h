@@ -38,6 +38,7 @@ class BagAudit {
   void follow_commands(const replay::RecordedBatch& batch);
   void follow(const afm_emulator::AppliedDrag& drag);
   void follow(const afm_emulator::AppliedParameters& change);
+  void follow_level(const Level& level, const ModelTime& time);
   void check_grid(const replay::RecordedBatch& batch);
   bool has_its_end(const replay::RecordedBatch& batch) const;
   bool has_ordered_impacts(const replay::RecordedBatch& batch) const;
@@ -62,6 +63,7 @@ class BagAudit {
   std::size_t next_command_ = 0;
   node::Parameters parameters_;  // as they are now, like the next
   SampleGrid grid_;
+  Level level_;
   std::uint64_t changes_ = 0;    // of parameters, beside those that every epoch begins with
   std::optional<std::uint64_t> next_sample_, next_impact_;
   ModelTime first_time_, last_time_;

@@ -36,11 +36,15 @@ void check_change(const afm_emulator::AppliedParameters& change, node::Parameter
   node::set_live(node::to_live(change), parameters);
   const node::Faults faults = node::find_faults(parameters);
   if (!faults.empty()) nonsense(change.epoch, "a change of parameters cannot be: " + node::describe(faults));
-  auto derived = node::to_applied_parameters({}, parameters, {change.header.stamp, change.epoch});
+  auto derived = node::to_applied_parameters({}, parameters, {}, {change.header.stamp, change.epoch});
   derived.time = change.time;
   derived.first_impact = change.first_impact;
   derived.first_sample = change.first_sample;
   derived.first_command = change.first_command;
+  derived.model = change.model;
+  derived.contact_tolerance = change.contact_tolerance;
+  derived.expected_error = change.expected_error;
+  derived.energy_dropped = change.energy_dropped;
   if (const auto difference = find_difference(change, derived)) {
     nonsense(change.epoch, difference->field + " is " + difference->first + ", and from the rest of the parameters " +
                                difference->second + " follows");
@@ -95,6 +99,7 @@ void EpochLog::put_in_order() {
   for (; next < drags.size(); ++next) commands.emplace_back(drags[next]);
   check_drags();
   check_changes();
+  check_levels();
   ModelTime last;
   for (const Applied& command : commands) {
     const ModelTime time = time_of(command);
@@ -113,6 +118,22 @@ void EpochLog::check_drags() const {
     if (!(std::abs(drag.drag_velocity) <= configuration.max_drag_velocity)) {
       nonsense(configuration.epoch, "a command is beyond max_drag_velocity");
     }
+  }
+}
+
+// Only auto takes levels of its own.
+void EpochLog::check_levels() const {
+  const Level configured = node::full_level(node::to_parameters(configuration));
+  for (const Applied& command : commands) {
+    std::visit([&](const auto& applied) {
+      Level level;
+      const bool known = parse(applied.model, level.kind);
+      level.contact_tolerance = applied.contact_tolerance;
+      const bool possible = known && level.contact_tolerance >= 0.0 && level.contact_tolerance <= kMaxContactTolerance;
+      if (!possible || (configuration.model != node::kAuto && !(level == configured))) {
+        nonsense(configuration.epoch, "a command brings a level of the model that the configuration has not");
+      }
+    }, command);
   }
 }
 

@@ -29,6 +29,7 @@ struct EpochLog {
   SampleGrid grid_of(std::uint64_t sample) const;
   void check_drags() const;
   void check_changes();
+  void check_levels() const;
 
   std::vector<SampleGrid> grids_;
 };

@@ -69,6 +69,14 @@ void compare(const afm_emulator::Impact& a, const afm_emulator::Impact& b, Compa
   c.field("impacts.energy_loss", a.energy_loss, b.energy_loss);
 }
 
+template <class Applied>
+void compare_levels(const std::string& message, const Applied& a, const Applied& b, Comparison& c) {
+  c.field(message + ".model", a.model, b.model);
+  c.field(message + ".contact_tolerance", a.contact_tolerance, b.contact_tolerance);
+  c.field(message + ".expected_error", a.expected_error, b.expected_error);
+  c.field(message + ".energy_dropped", a.energy_dropped, b.energy_dropped);
+}
+
 }  // namespace
 
 std::optional<FieldDifference> find_difference(const afm_emulator::Deflection& a, const afm_emulator::Deflection& b) {
@@ -117,6 +125,7 @@ std::optional<FieldDifference> find_difference(const afm_emulator::AppliedDrag& 
   c.field("applied_drag.time", a.time, b.time);
   c.field("applied_drag.first_impact", a.first_impact, b.first_impact);
   c.field("applied_drag.drag_velocity", a.drag_velocity, b.drag_velocity);
+  compare_levels("applied_drag", a, b, c);
   return c.found();
 }
 
@@ -135,6 +144,7 @@ std::optional<FieldDifference> find_difference(const afm_emulator::AppliedParame
   c.field("applied_parameters.friction_window_tau", a.friction_window_tau, b.friction_window_tau);
   c.field("applied_parameters.samples_per_batch", a.samples_per_batch, b.samples_per_batch);
   c.field("applied_parameters.sample_period_tau", a.sample_period_tau, b.sample_period_tau);
+  compare_levels("applied_parameters", a, b, c);
   return c.found();
 }
 
@@ -145,6 +155,9 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Configuration
   c.field("configuration.version", a.version, b.version);
   c.field("configuration.arithmetic_digest", a.arithmetic_digest, b.arithmetic_digest);
   c.field("configuration.model", a.model, b.model);
+  c.field("configuration.tolerance", a.tolerance, b.tolerance);
+  c.field("configuration.tolerance_of", a.tolerance_of, b.tolerance_of);
+  c.field("configuration.level_table", a.level_table, b.level_table);
   const std::pair<const char*, double Message::*> numbers[] = {{"omega_v_rad_per_s", &Message::omega_v_rad_per_s},
                                                                {"omega_h_rad_per_s", &Message::omega_h_rad_per_s},
                                                                {"tip_mass_kg", &Message::tip_mass_kg},

@@ -64,8 +64,16 @@ void Resimulation::apply_next_command() {
 
 // Into the digest goes what we have come to, not what was told.
 
+// The error that is expected is the choice's, which is not made again; the energy dropped follows.
+template <class Message>
+node::AppliedLevel Resimulation::take_level(const Message& applied) {
+  const Level level = node::level_of(applied);
+  return {level, applied.expected_error, emulator_.set_level(level)};
+}
+
 void Resimulation::apply(afm_emulator::AppliedDrag drag) {
   drag_velocity_ = drag.drag_velocity;
+  drag.energy_dropped = take_level(drag).energy_dropped * units_.energy();
   emulator_.drag(node::to_eta(drag_velocity_, parameters_.si));
   drag.time = node::to_message(now());
   drag.first_impact = impacts();
@@ -76,12 +84,13 @@ void Resimulation::apply(afm_emulator::AppliedDrag drag) {
 void Resimulation::apply(const afm_emulator::AppliedParameters& change) {
   node::set_live(node::to_live(change), parameters_);
   emulator_.change(live_settings(node::emulator_settings(parameters_)));
+  const node::AppliedLevel level = take_level(change);
   node::StepperState state;
   state.time = now();
   state.impacts = impacts();
   state.samples = emulator_.samples();
   state.commands = drags_;
-  digest_.add(node::to_applied_parameters(state, parameters_, {}));
+  digest_.add(node::to_applied_parameters(state, parameters_, level, {}));
 }
 
 // An impact and the end of a batch may have the same time; then the number tells which is first.

@@ -49,6 +49,8 @@ class Resimulation {
   void apply_next_command();
   void apply(afm_emulator::AppliedDrag drag);
   void apply(const afm_emulator::AppliedParameters& change);
+  template <class Message>
+  node::AppliedLevel take_level(const Message& applied);
   void run_flights(const ModelTime& time, std::optional<std::uint64_t> impacts);
   void take(const Batch& batch);
   void drop_unwanted();

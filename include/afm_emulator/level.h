@@ -1,0 +1,25 @@
+// How much of the model is computed: from every bounce of the oscillator down to the hammer.
+#pragma once
+
+#include "afm_emulator/model.h"
+#include "afm_emulator/tip.h"
+
+namespace afm {
+
+// Hammer, oscillator with bursts and contact at a tolerance, oscillator with every bounce (tolerance 0).
+struct Level {
+  ModelKind kind = ModelKind::oscillator;
+  double contact_tolerance = kDefaultContactTolerance;
+};
+
+inline bool operator==(const Level& a, const Level& b) {
+  return a.kind == b.kind && a.contact_tolerance == b.contact_tolerance;
+}
+
+// `model` as the level has it.
+inline Model at_level(Model model, const Level& level) {
+  model.kind = level.kind;
+  return model;
+}
+
+}  // namespace afm

@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""model: auto takes for every drag velocity the cheapest level that its tolerance allows, says which, and the recording is
+repeated bit for bit."""
+import math
+from pathlib import Path
+
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
+from std_srvs.srv import SetBool, Trigger
+
+import bags
+from checks import assert_identical
+from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, Emulator, NodeTest, run
+from topics import Topic, key
+
+HEAD = 'eta,gamma,cutoff,frequency_ratio,amplitude,rest_height,model,contact_tolerance,k_f_error,deflection_error,cost\n'
+# At eta = 2 the hammer will do, at 3 bursts, at 4 every bounce; between them the finer; with gamma = 0.8 at 2 as well
+ROWS = [(2, 0.7, 'hammer', 0.001, 0.01), (2, 0.7, 'oscillator', 0.001, 0.0), (2, 0.7, 'oscillator', 0, 0.0),
+        (3, 0.7, 'hammer', 0.001, 0.3), (3, 0.7, 'oscillator', 0.001, 0.015), (3, 0.7, 'oscillator', 0, 0.0),
+        (4, 0.7, 'hammer', 0.001, 0.4), (4, 0.7, 'oscillator', 0.001, 0.1), (4, 0.7, 'oscillator', 0, 0.0),
+        (2, 0.8, 'hammer', 0.001, 0.2), (2, 0.8, 'oscillator', 0.001, 0.1), (2, 0.8, 'oscillator', 0, 0.005),
+        (3, 0.8, 'oscillator', 0.001, 0.1), (4, 0.8, 'oscillator', 0.001, 0.1)]
+HAMMER, BURSTS, EVERY = ('hammer', 0.001, 0.01), ('oscillator', 0.001, 0.015), ('oscillator', 0.0, 0.0)
+UNKNOWN = ('oscillator', 0.002, math.nan)
+
+
+def cost(model, tolerance):
+    return 1 if model == 'hammer' else 2 if tolerance else 4
+
+
+def told(message):
+    return (message.model, message.contact_tolerance, message.expected_error)
+
+
+class Levels(NodeTest):
+    def setUp(self):
+        super().setUp()
+        self.directory = Path(self.temporary_directory())
+        self.table = self.directory / 'levels.csv'
+        cutoff = 1.66e-7 / SPEED_UNIT
+        self.table.write_text(HEAD + ''.join(
+            '%g,%g,%.12g,6.25,0.09615384615384616,0,%s,%g,%g,0,%g\n' % (eta, gamma, cutoff, model, tolerance, error, cost(model, tolerance))
+            for eta, gamma, model, tolerance, error in ROWS))
+        self.parameters = {'model': 'auto', 'tolerance': 0.02, 'level_table': str(self.table), 'contact_tolerance': 0.002,
+                           'drag_velocity': 2 * SPEED_UNIT, 'record': True, 'bag_directory': str(self.directory / 'bags')}
+
+    def assert_same(self, got, expected):
+        self.assertEqual(repr(got), repr(expected))  # nan is nan
+
+    def play(self):
+        self.drags, self.changes, self.status = Topic('applied_drag'), Topic('applied_parameters'), Topic('status')
+        self.emulator = self.start(Emulator(self.parameters))
+
+    def drag(self, eta):
+        count = len(self.drags.messages)
+        self.emulator.drag(eta * SPEED_UNIT)
+        return self.drags.wait_for(lambda m: abs(m.drag_velocity - eta * SPEED_UNIT) < 1e-15, begin=count)
+
+    def set_gamma(self, gamma):
+        count = len(self.changes.messages)
+        config = Config(doubles=[DoubleParameter('restitution_gamma', gamma)])
+        self.emulator.call('set_parameters', Reconfigure, config=config)
+        return self.changes.wait_for(lambda m: m.restitution_gamma == gamma, begin=count)
+
+    def finish(self):
+        self.emulator.assert_alive()
+        last = self.status.messages[-1]
+        self.assertEqual((last.budget_exhausted, last.search_failures, last.dropped_messages), (0, 0, 0))
+        self.assertEqual(self.emulator.stop(), 0)
+        bag, = (self.directory / 'bags').iterdir()
+        assert_identical(self, str(bag))
+        return bags.read(str(bag))
+
+    def test_takes_a_level_for_every_drag_velocity(self):
+        self.play()
+        first = self.drags.wait_for()
+        self.assert_same(told(first), HAMMER)
+        self.assert_same(told(self.status.wait_for_next(lambda m: m.time.tau > 0)), HAMMER)
+        # it begins with the speed for eta = 3.4, and gets its holder's
+        self.assertAlmostEqual(first.energy_dropped / ENERGY_UNIT, 0.5 * (3.4 ** 2 - 2 ** 2), places=9)
+        for eta, level in ((3, BURSTS), (4, EVERY), (2, HAMMER), (-2, HAMMER), (2.5, BURSTS), (3.5, EVERY), (1.5, UNKNOWN),
+                           (0, UNKNOWN), (2, HAMMER)):
+            before = self.drags.messages[-1]
+            message = self.drag(eta)
+            self.assert_same(told(message), level)
+            self.assertEqual(message.energy_dropped != 0.0, level == HAMMER and before.model != 'hammer')
+            self.assert_same(told(self.status.wait_for_next(lambda m: key(m.time) > key(message.time))), level)
+        recorded = self.finish()
+        self.assertEqual(len(recorded['applied_drag']), 10)
+        configuration = recorded['configuration'][0]
+        self.assertEqual((configuration.model, configuration.tolerance, configuration.tolerance_of), ('auto', 0.02, 'friction'))
+        self.assertEqual(len(configuration.level_table), 16)
+
+    def test_live_parameters_and_resets_bring_levels_too(self):
+        self.play()
+        self.assert_same(told(self.changes.wait_for()), HAMMER)
+        self.assert_same(told(self.set_gamma(0.8)), ('oscillator', 0.0, 0.005))
+        self.assert_same(told(self.set_gamma(0.75)), ('oscillator', 0.0, 0.005))  # between the two
+        self.assert_same(told(self.set_gamma(0.9)), UNKNOWN)
+        self.assertTrue(self.emulator.call('reset', Trigger).success)
+        self.assert_same(told(self.drags.wait_for(lambda m: m.epoch == 1)), UNKNOWN)
+        self.assert_same(told(self.set_gamma(0.7)), HAMMER)
+        self.assertTrue(self.emulator.call('reset', Trigger).success)
+        self.assert_same(told(self.drags.wait_for(lambda m: m.epoch == 2)), HAMMER)
+        self.finish()
+
+    def test_many_changes_in_a_pause_happen_at_one_time(self):
+        self.play()
+        self.status.wait_for(lambda m: m.time.tau > 1000)
+        for eta in (3, 2, 4, 2, 3):
+            self.drag(eta)
+            self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
+            for again in (2, 4, eta, 2):
+                self.drag(again)
+            self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
+        begin = self.status.messages[-1].time.tau
+        self.status.wait_for(lambda m: m.time.tau > begin + 1000)
+        self.finish()
+
+    def test_other_models_tell_their_level(self):
+        self.parameters.update(model='hammer', tolerance=0.0, level_table='')
+        self.play()
+        self.assert_same(told(self.drags.wait_for()), ('hammer', 0.002, math.nan))
+        self.assert_same(told(self.drag(4)), ('hammer', 0.002, math.nan))
+        self.assert_same(told(self.status.wait_for_next()), ('hammer', 0.002, math.nan))
+        self.finish()
+
+    def refusal(self, **parameters):
+        emulator = self.start(Emulator(dict(self.parameters, **parameters)))
+        self.assertEqual(emulator.wait(), 1)
+        return emulator.output()
+
+    def test_bad_input_is_refused_with_its_name_value_and_reason(self):
+        for tolerance in (0.0, -0.1, math.inf, math.nan):
+            self.assertRegex(self.refusal(tolerance=tolerance), r'tolerance = -?(0|0.1\d*|inf|nan): must be above 0 and finite')
+        self.assertIn('tolerance_of = "speed": there is no such quantity', self.refusal(tolerance_of='speed'))
+        self.assertIn('level_table = "": model auto takes its levels from this file', self.refusal(level_table=''))
+        self.assertIn('level_table = "/no/such/file": cannot be read: No such file', self.refusal(level_table='/no/such/file'))
+        self.table.write_text(HEAD + '1,2\n')
+        self.assertRegex(self.refusal(), r'level_table = ".*levels.csv": line 2: has not as many fields')
+        self.assertIn('use oscillator, hammer or auto', self.refusal(model='pendulum'))
+
+
+if __name__ == '__main__':
+    run(Levels)
