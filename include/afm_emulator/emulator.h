@@ -67,7 +67,7 @@ class Emulator {
   // Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
   // Another level of the model from now() on; Tip::relevel() says how the tip gets there. The friction estimate begins anew.
-  // Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: a tolerance within 0 and kMaxContactTolerance.
+  // Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: has_sound_tolerance().
   double set_level(const Level& level);
   // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.
   void take_samples(bool wanted) { sampling_ = wanted; }
