@@ -26,7 +26,7 @@ const char kDescription[] =
 
 // The shipped cutoff is 0.166 um/s, in these units.
 struct Options {
-  std::string eta = "0.1:9:0.1", gamma = "0.6,0.7,0.8", cutoff = "0.025,0.0501446519707602,0.1", frequency_ratio = "6.25";
+  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.0501446519707602", frequency_ratio = "6.25";
   std::string output;
   unsigned threads = 0;
   afm::LevelErrorSettings settings;
