@@ -75,7 +75,10 @@ class Scenes(NodeTest):
     def test_glide_has_no_phantom_impacts(self):
         self.play('glide')
         estimate = self.after(1.5)
-        self.assertEqual([i.kind for i in self.events()], [Impact.CONTACT_BEGUN])
+        # the beginning of contact, before anyone may have listened, and nothing since
+        self.assertLessEqual({i.kind for i in self.events()}, {Impact.CONTACT_BEGUN})
+        last = self.impacts.messages[-1]
+        self.assertEqual(last.first_index + len(last.impacts), 1)
         self.assertEqual((estimate.force, estimate.k_f), (0.0, 0.0))
         deflection = self.topics['deflection'].messages[-1]
         self.assertGreater(max(deflection.vertical), 0.999 * 5e-11)  # over the crests
