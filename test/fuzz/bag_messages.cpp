@@ -72,7 +72,7 @@ Entries make_recording() {
     node::StepperState state;
     state.time = emulator.now();
     state.impacts = batch.first_impact + batch.impacts.size();
-    send("applied_drag", node::to_applied_drag(state, drag_velocity, {}));
+    send("applied_drag", node::to_applied_drag(state, drag_velocity, {node::full_level(parameters)}, units, {}));
   };
   out.mark(afm_emulator::Recording::BEGUN);
   const auto configuration = node::to_configuration(parameters, "fuzz", node::arithmetic_digest(), {});
