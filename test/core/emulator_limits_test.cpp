@@ -130,6 +130,18 @@ TEST(EmulatorLimits, EveryFaultIsListedAtOnce) {
   EXPECT_THROW(Emulator{settings}, ParameterError);
 }
 
+TEST(EmulatorLimits, ATimeOrAnErrorOfNextToNothingIsAFault) {
+  EmulatorSettings settings;
+  settings.contact_tolerance = kMinContactTolerance;
+  settings.sample_period = 1e-9;
+  EXPECT_TRUE(find_faults(settings).empty());
+  settings.contact_tolerance *= 0.999;
+  settings.sample_period *= 0.999;
+  std::set<std::string> names;
+  for (const ParameterError& fault : find_faults(settings)) names.insert(fault.name);
+  EXPECT_EQ(names, (std::set<std::string>{"contact_tolerance", "sample_period"}));
+}
+
 TEST(EmulatorLimits, AStartBelowTheSurfaceIsAFault) {
   EmulatorSettings settings;
   settings.initial = {0.0, 0.0, 0.0, 3.4, 0.0};  // under the crest

@@ -68,6 +68,7 @@ class TipWatch {
 
  private:
   static constexpr double kMostImbalance = 1e-9;
+  static constexpr double kLeastTurnover = 1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
   static constexpr double kMostDepth = 1e-15;                // [a], times the largest height if that is more than 1 a
   static constexpr std::uint64_t kMostArcsInATau = 1000000;  // far more than any tau needs: a stall
 
@@ -95,10 +96,12 @@ class TipWatch {
     return true;
   }
 
-  // A burst enters the books when it ends. The hammer's holder keeps books of its own.
+  // Against the most that was ever turned over, in the holder's frame too: what the drag takes back, and what a slow tip has over
+  // a fast holder, leaves its rounding behind. A burst enters the books when it ends. The hammer's holder keeps books of its own.
   bool check_energy() {
     if (ledger_.bursting() || model_.kind == ModelKind::hammer) return true;
-    const double part = std::abs(ledger_.imbalance(tip_)) / ledger_.turnover(tip_);
+    turnover_ = std::max({turnover_, ledger_.turnover(tip_), 0.5 * tip_.eta() * tip_.eta()});
+    const double part = std::abs(ledger_.imbalance(tip_)) / turnover_;
     count_.worst_imbalance = std::max(count_.worst_imbalance, part);
     return part <= kMostImbalance || violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
   }
@@ -125,7 +128,7 @@ class TipWatch {
   TipCount count_;
   std::uint64_t arcs_this_tau_ = 0;
   std::int64_t tau_ = 0;
-  double sample_ = 0.0;
+  double sample_ = 0.0, turnover_ = kLeastTurnover;
   std::string violation_;
 };
 

@@ -19,7 +19,8 @@ afm::Model model_of(Bytes& bytes) {
   m.kind = bytes.below(4) == 0 ? afm::ModelKind::hammer : afm::ModelKind::oscillator;
   m.gamma = bytes.within(0.0, 1.0);
   m.v_c = bytes.within(0.0, 10.0);
-  if (bytes.below(4) == 0) m.H = bytes.within(afm::kMinAmplitude, afm::kMaxAmplitude);
+  // flatter ones may be run, but there the rounding of places as parts of a cell tells in the (tiny) energy
+  if (bytes.below(4) == 0) m.H = bytes.within(1e-3, afm::kMaxAmplitude);
   if (bytes.below(4) == 0) m.y0 = bytes.within(-afm::kMaxAmplitude, m.H);
   if (bytes.below(4) == 0) m.frequency_ratio = bytes.within(1e-3, afm::kMaxFrequencyRatio);
   return m;
