@@ -35,8 +35,8 @@ void print_row(double eta, double share, const Options& o) {
     tempered.push_back(t.tempered());
     bounces += t.bounces;
     if (o.show > 0.0 && t.worst() > o.show) {
-      std::printf("# burst %zu: dt %.2g phase %.2g X %.2g u %.2g g1 %.2g, normal speed %.2g, bounces %.0f\n", worst.size(), t.dt,
-                  t.phase, t.X, t.u, t.g1, t.normal_speed, t.bounces);
+      std::printf("# burst %zu: dt %.2g phase %.2g X %.2g u %.2g g1 %.2g, normal speed %.2g, bounces %.0f\n",
+                  worst.size(), t.dt, t.phase, t.X, t.u, t.g1, t.normal_speed, t.bounces);
     }
   }
   std::sort(worst.begin(), worst.end());

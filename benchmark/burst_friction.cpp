@@ -1,5 +1,5 @@
-// K_f with bursts and contact against K_f with every bounce by itself, where that can be done; CSV. What is left of their difference
-// should be 1e-3 of K_f, or chance: a few standard errors of the two.
+// K_f with bursts and contact against K_f with every bounce by itself, where that can be done; CSV. What is left of
+// their difference should be 1e-3 of K_f, or chance: a few standard errors of the two.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Built grazes against 113 bits: is each touch a touch and each miss a miss? And how often twice the digits are needed, in
-// grazes and in ordinary flights.
+// Built grazes against 113 bits: is each touch a touch and each miss a miss? And how often twice the digits are needed,
+// in grazes and in ordinary flights.
 #include "grazes.h"
 
 #include <CLI/CLI.hpp>

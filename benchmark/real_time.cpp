@@ -1,6 +1,6 @@
-// How much faster than real time one tip is, over drag speeds and cutoffs, and what K_f comes out: CSV on stdout, a summary
-// on stderr. A tau is 157 us with the paper's springs. In processor time; a tau that seems the slowest is made again, as it
-// may have been interrupted.
+// How much faster than real time one tip is, over drag speeds and cutoffs, and what K_f comes out: CSV on stdout, a
+// summary on stderr. A tau is 157 us with the paper's springs. In processor time; a tau that seems the slowest is made
+// again, as it may have been interrupted.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>

@@ -15,7 +15,8 @@ Model mica(double v_c) {
 
 constexpr double kForever = 1e9;  // [s]
 
-// After a transient, in the middle of a flight: so neither end of a run of whole tau on a periodic orbit is near an impact.
+// After a transient, in the middle of a flight: so neither end of a run of whole tau on a periodic orbit is near an
+// impact.
 TipState settled(const Model& model, double eta, std::int64_t tau) {
   constexpr double kLong = 0.1;  // [tau]
   Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});

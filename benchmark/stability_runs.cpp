@@ -78,8 +78,8 @@ Cell measure_even(const MethodSpec& spec, double setting, const Effort& effort) 
   return worst;
 }
 
-// What K_f is held against: our own long run with a cutoff and a contact tolerance at which it is sure. Tolerance 0 is every
-// bounce by itself, where that can be done.
+// What K_f is held against: our own long run with a cutoff and a contact tolerance at which it is sure. Tolerance 0 is
+// every bounce by itself, where that can be done.
 struct Reference {
   double share;  // the cutoff over eta
   double tolerance;
@@ -121,7 +121,8 @@ double energy(const Model& m, double eta, const TipState& s) {
 
 TipState launched(const Model& m, double phase) { return to_tip_state(m.H, {phase, 0.0, 0.5, 0.6, 0.0}); }
 
-// The drag stands still, near a crest, which presses for ever: what the tip loses is what the impacts took, down to rest.
+// The drag stands still, near a crest, which presses for ever: what the tip loses is what the impacts took, down to
+// rest.
 Cell measure_rest(const MethodSpec& spec, double setting, const Effort& effort) {
   const Model model;
   const TipState start = launched(model, 0.05);

@@ -1,5 +1,5 @@
-// Random models under random commands, every invariant checked after every arc: finite, never below the surface, energy in
-// balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
+// Random models under random commands, every invariant checked after every arc: finite, never below the surface, energy
+// in balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>

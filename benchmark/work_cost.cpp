@@ -1,4 +1,5 @@
-// Cost against work: time against impacts, tips (alone and in lanes) and threads, and memory against tips. CSV; straight lines are expected.
+// Cost against work: time against impacts, tips (alone and in lanes) and threads, and memory against tips. CSV;
+// straight lines are expected.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
-// SUNDIALS' CVODE with its own root finding, begun again after each impact: Adams' methods with fixed-point iteration, or
-// backward differences with Newton's and the exact Jacobian.
+// SUNDIALS' CVODE with its own root finding, begun again after each impact: Adams' methods with fixed-point iteration,
+// or backward differences with Newton's and the exact Jacobian.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>

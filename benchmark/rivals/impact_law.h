@@ -65,8 +65,8 @@ class CrossingWatch {
   bool first_;
 };
 
-// How close together a careful user looks at the gap [tau]: an eighth of a turn of the horizontal spring, and a tenth of
-// the time in which the drag passes a cell.
+// How close together a careful user looks at the gap [tau]: an eighth of a turn of the horizontal spring, and a tenth
+// of the time in which the drag passes a cell.
 inline double grid(const Oscillator& o) { return std::fmin(0.02, 0.1 / std::fabs(o.eta)); }
 
 }  // namespace rivals

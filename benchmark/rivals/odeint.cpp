@@ -1,4 +1,5 @@
-// Boost.Odeint with adaptive steps and dense output: each step's interpolant is sampled, and solved where it crosses zero.
+// Boost.Odeint with adaptive steps and dense output: each step's interpolant is sampled, and solved where it crosses
+// zero.
 #include <boost/numeric/odeint.hpp>
 #include <type_traits>
 

@@ -1,5 +1,5 @@
-// The model as a user of a rival method writes it: four first-order equations in the comoving frame, a surface, a law of
-// reflection. Plain doubles and the C library; nothing of the core but its parameters and its record of a state.
+// The model as a user of a rival method writes it: four first-order equations in the comoving frame, a surface, a law
+// of reflection. Plain doubles and the C library; nothing of the core but its parameters and its record of a state.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // A stiff spring and a dashpot instead of the impact, integrated by Runge and Kutta's fourth order. The dashpot is that
-// which gives the restitution of the speed of approach; the spring is as stiff as the step resolves: sixteen steps a contact.
-// Steps end where contact begins and ends (the force jumps there), found by TOMS 748 over the length of the step.
+// which gives the restitution of the speed of approach; the spring is as stiff as the step resolves: sixteen steps a
+// contact. Steps end where contact begins and ends (the force jumps there), found by TOMS 748 over the length of the
+// step.
 #include "impact_law.h"
 
 namespace afm {

@@ -1,5 +1,5 @@
-// What games and many simulators do: velocity first, then position; a step that ends below the surface puts the tip back
-// on it and reflects the velocity.
+// What games and many simulators do: velocity first, then position; a step that ends below the surface puts the tip
+// back on it and reflects the velocity.
 #include "impact_law.h"
 
 namespace afm {

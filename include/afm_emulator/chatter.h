@@ -1,5 +1,6 @@
-// Chatter under a surface that presses, without its bounces one by one: the tip rides on the slide it would make if it did not
-// bounce (the guide), and beside it run the averages of chatter_rates.h, whose values at whole n are those of the bounces.
+// Chatter under a surface that presses, without its bounces one by one: the tip rides on the slide it would make if it
+// did not bounce (the guide), and beside it run the averages of chatter_rates.h, whose values at whole n are those of
+// the bounces.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +30,8 @@ class ChatterLaw {
   // threshold: normal speeds up to it are contact [a/tau].
   ChatterLaw(const Model& model, double threshold);
 
-  // Can a burst begin with the bounce that begins this flight? The bounces must be short against every change, and below the
-  // cutoff lose so little each that the series of the interpolation hold.
+  // Can a burst begin with the bounce that begins this flight? The bounces must be short against every change, and
+  // below the cutoff lose so little each that the series of the interpolation hold.
   bool holds(const Flight<double>& bounce) const;
 
   // From one time of the guide to another, `until`, or to the end of the chatter.

@@ -1,7 +1,7 @@
 // How displacements are carried where the surface holds the tip. Of the four directions of a section two are left in
 // contact: the normal velocity is gone, and with it the time at which the last bounce would have been. A displacement
-// is then one of the slide, (dx, dX, du), of which the part along the slide itself does not count. The hammer's slide has
-// no other part: nothing is left of a displacement.
+// is then one of the slide, (dx, dX, du), of which the part along the slide itself does not count. The hammer's slide
+// has no other part: nothing is left of a displacement.
 #pragma once
 
 #include <Eigen/Core>

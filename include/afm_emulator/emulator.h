@@ -62,16 +62,17 @@ class Emulator {
   explicit Emulator(const EmulatorSettings& settings);  // throws the first ParameterError
 
   void drag(double eta);  // from now() on. Precondition: finite and |eta| <= kMaxEta
-  // From now() on, the tip's state kept; what stays the same goes on as if nothing had been said. A new model begins the
-  // friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
+  // From now() on, the tip's state kept; what stays the same goes on as if nothing had been said. A new model begins
+  // the friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
   // Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
-  // Another level of the model from now() on; Tip::relevel() says how the tip gets there. The friction estimate begins anew.
-  // Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: has_sound_tolerance().
+  // Another level of the model from now() on; Tip::relevel() says how the tip gets there. The friction estimate begins
+  // anew. Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: has_sound_tolerance().
   double set_level(const Level& level);
   // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.
   void take_samples(bool wanted) { sampling_ = wanted; }
-  void reset();  // initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now
+  void
+  reset();  // initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now
 
   // Each clears the batch, keeps its capacity and fills it. Never allocates while the batch has room for
   // samples_per_batch samples and impact_budget impacts (see reserve).

@@ -1,6 +1,6 @@
-// Many tips, each with its own model, drag velocity and start, advanced together: in lanes where the machine has them (AVX2 or
-// AVX-512, asked for when the program runs), on threads. Every tip gives bit for bit what it gives alone, whatever the others,
-// the lanes and the number of threads.
+// Many tips, each with its own model, drag velocity and start, advanced together: in lanes where the machine has them
+// (AVX2 or AVX-512, asked for when the program runs), on threads. Every tip gives bit for bit what it gives alone,
+// whatever the others, the lanes and the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -29,13 +29,13 @@ class Ensemble {
   void reserve(std::size_t tips);
   std::size_t size() const { return members_.size(); }
 
-  // Every tip does what `events` calls of Tip::advance(limit) would, or fewer where one would return time_limit. With a log,
-  // room for size() * events records, the i-th tip's are written from log + i * events on.
+  // Every tip does what `events` calls of Tip::advance(limit) would, or fewer where one would return time_limit. With a
+  // log, room for size() * events records, the i-th tip's are written from log + i * events on.
   void advance(std::uint32_t events, const ModelTime& limit, Impact* log = nullptr);
   void advance(const ModelTime& limit);  // whatever happens until then
 
-  // Of the last advance: events, how many of them were searches that gave up (they write no record), and how many a tip went
-  // through by itself, whatever lanes there are: bursts, contact, starts in the air, grazes.
+  // Of the last advance: events, how many of them were searches that gave up (they write no record), and how many a tip
+  // went through by itself, whatever lanes there are: bursts, contact, starts in the air, grazes.
   std::uint32_t events(std::size_t i) const;
   std::uint32_t search_failures(std::size_t i) const { return members_[i].search_failures; }
   std::uint32_t events_alone(std::size_t i) const { return members_[i].events_alone; }

@@ -32,8 +32,9 @@ struct Mechanics {
   T per_omega_v, per_omega_h;  // a product is sooner there than a quotient
 };
 
-// A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the reaction is
-// nothing for ever, would be let go and caught again at every rounding. It moves a release by 1e-11 tau [a/tau^2].
+// A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the
+// reaction is nothing for ever, would be let go and caught again at every rounding. It moves a release by 1e-11 tau
+// [a/tau^2].
 constexpr double kReleaseNoise = 1e-9;
 
 // The comoving state at one time, with the surface phase.
@@ -107,14 +108,14 @@ class Flight {
   const T& amplitude_Y() const { return bounds_.Y; }
   const T& third_derivative_bound() const { return bounds_.third; }
   const T& fourth_derivative_bound() const { return bounds_.fourth; }
-  // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on x
-  // alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
+  // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on
+  // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
 
  private:
   void set_bounds();
-  // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by is
-  // within a few ulp of itself. Precondition: |t| <= small_until.
+  // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
+  // is within a few ulp of itself. Precondition: |t| <= small_until.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
   template <class Turn>
   GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
@@ -260,7 +261,8 @@ GapJet<T> Flight<T>::moved_by(const GapJet<T>& jet, const T& t, Turn turn) const
   const T g = jet.g + jet.g1 * (v.sin * m.per_omega_v) + jet.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) -
               o.Y * v.versine + rise;
   const T u = u0 + du;
-  const T g1 = jet.g1 - (o.W * v.versine + m.omega_v * o.Y * v.sin + jet.h1 * (du - u * d.versine) - k * jet.h * u * d.sin);
+  const T g1 =
+      jet.g1 - (o.W * v.versine + m.omega_v * o.Y * v.sin + jet.h1 * (du - u * d.versine) - k * jet.h * u * d.sin);
 
   const T cos_d = T(1.0) - d.versine;
   const T h_now = jet.h * cos_d + jet.h1 * d.sin * m.per_omega_v;

@@ -1,6 +1,6 @@
 // The first time after the start of a flight at which the gap is 0 and falling. No root is ever passed: every step is
-// bounded by the third derivative of the gap, and a root is finished only inside an interval where it is certified to be
-// the only one.
+// bounded by the third derivative of the gap, and a root is finished only inside an interval where it is certified to
+// be the only one.
 #pragma once
 
 #include "afm_emulator/flight.h"
@@ -73,7 +73,8 @@ Truth<T> settles(const Flight<T>& f, const GapJet<T>& jet, const T& step, const 
   return rest < T(24.0) * allowed && bend * bend * bend * abs(step) < allowed * (jet.g1 * jet.g1);
 }
 
-// Finishes the certified root about `jet`, of time s. Steps of the third order, clamped: outside there is nothing to find.
+// Finishes the certified root about `jet`, of time s. Steps of the third order, clamped: outside there is nothing to
+// find.
 template <class T>
 Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, int evaluations) {
   using std::abs;
@@ -101,9 +102,10 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
 
 }  // namespace search_detail
 
-// Searches from the start to the horizon. A flight that starts on the surface falling is an impact at once; one that neither
-// rises nor is let go has no flight: contact is the tip's affair.
-// The gap is evaluated `ahead` of the time `s` that is certified, as far as it is likely to certify what lies behind it too.
+// Searches from the start to the horizon. A flight that starts on the surface falling is an impact at once; one that
+// neither rises nor is let go has no flight: contact is the tip's affair.
+// The gap is evaluated `ahead` of the time `s` that is certified, as far as it is likely to certify what lies behind it
+// too.
 template <class T>
 Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
   using std::min;
@@ -144,8 +146,8 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
   return {SearchOutcome::cap, s, f.gap(s), kMaxSearchSteps};
 }
 
-// In double, and where rounding hides a graze, on the same start in twice the digits; one that even they cannot tell from
-// a touch is a touch. So an impact or a miss is what exact arithmetic on the given doubles says, down to 1e-30.
+// In double, and where rounding hides a graze, on the same start in twice the digits; one that even they cannot tell
+// from a touch is a touch. So an impact or a miss is what exact arithmetic on the given doubles says, down to 1e-30.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 
 }  // namespace afm

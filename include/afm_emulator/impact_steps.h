@@ -13,8 +13,9 @@ T clamp(const T& x, const T& low, const T& high) {
   return select(x < low, low, select(high < x, high, x));
 }
 
-// Bounds of the third derivative over the next S, or the last, sharp enough for g >= g + g1 t + g2 t^2/2 + low t^3/6 on all of [0, S], and
-// likewise from above for gap and gap rate: from what it is now and the fourth derivative, or from its own bound.
+// Bounds of the third derivative over the next S, or the last, sharp enough for g >= g + g1 t + g2 t^2/2 + low t^3/6 on
+// all of [0, S], and likewise from above for gap and gap rate: from what it is now and the fourth derivative, or from
+// its own bound.
 template <class T>
 struct ThirdDerivative {
   T low, high;
@@ -40,8 +41,8 @@ T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
 }
 
 // Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. A little less than
-// that, so that a bounce whose root it nearly is still has a gap to be seen, and the root is near. Where gap rate and acceleration are nothing, as
-// at the end of a slide, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
+// that, so that a bounce whose root it nearly is still has a gap to be seen, and the root is near. Where gap rate and
+// acceleration are nothing, as at the end of a slide, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
 template <class T>
 T leave_surface(const Flight<T>& f) {
   using std::max;
@@ -53,7 +54,9 @@ T leave_surface(const Flight<T>& f) {
                                  [&] { return T(T(2.0) * g1 / (root - b)); });
   return either(
       g1 > T(0.0) || b < T(-kReleaseNoise), [&] { return first; },
-      [&] { return T(max(select(b > T(0.0), first, T(0.0)), T(T(3.0) * f.start().g3 / f.fourth_derivative_bound()))); });
+      [&] {
+        return T(max(select(b > T(0.0), first, T(0.0)), T(T(3.0) * f.start().g3 / f.fourth_derivative_bound())));
+      });
 }
 
 // First positive root of g + g1 t + q t^2/2, or `none` where there is none. Precondition: g > 0.
@@ -70,8 +73,8 @@ T first_root(const T& g, const T& g1, const T& q, const T& none) {
       discriminant < T(0.0), [&] { return none; }, [&] { return choose(g1 < T(0.0), falling, rising); });
 }
 
-// A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 + low S/3) t^2/2 where low, its
-// third derivative's bound, is negative. Any S is safe; a good one lies just beyond the root it gives.
+// A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 + low S/3) t^2/2
+// where low, its third derivative's bound, is negative. Any S is safe; a good one lies just beyond the root it gives.
 template <class T>
 T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& guess) {
   using std::min;
@@ -103,7 +106,8 @@ Truth<T> positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& erro
     const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
     const T q = jet.g2 - over(T(high * back), 3.0), end = g + back * (q * back / T(2.0) - jet.g1);
     // a parabola that opens downwards has its least value at an end; another may dip in between
-    return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
+    return end > T(0.0) &&
+           (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
   });
 }
 
@@ -210,7 +214,8 @@ T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
       q.Y > f.mechanics().H - f.mechanics().y0, [&] { return time_to_crest(f, q); }, [] { return T(0.0); });
 }
 
-// The same from the surface, where the tip certainly is above the crest at a time `s` up to which it certainly has left the surface.
+// The same from the surface, where the tip certainly is above the crest at a time `s` up to which it certainly has left
+// the surface.
 template <class T>
 T time_aloft(const Flight<T>& f, const T& s) {
   const Mechanics<T>& m = f.mechanics();

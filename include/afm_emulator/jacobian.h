@@ -140,7 +140,8 @@ FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in
 }
 
 // Eq. 13-16 with the signs put right and the slope of the law: in the frame of tangent and normal at the impact,
-// positions before velocities. A_n is the normal acceleration. The determinant is (restitution * slope). Of the oscillator.
+// positions before velocities. A_n is the normal acceleration. The determinant is (restitution * slope). Of the
+// oscillator.
 template <class T>
 Eigen::Matrix<T, 4, 4> local_reflection_jacobian(const Model& model, const Incidence<T>& in, const T& A_n) {
   using std::sqrt;
@@ -177,7 +178,8 @@ Eigen::Matrix<T, 4, 5> to_section(const SurfaceJet<T>& surface, const T& u) {
 }
 
 // From one impact to just after the next: a flight that starts on the surface, and ends after s with the gap rate and
-// state of `landing`. The determinant (of the hammer that of dx and dg1) is slope * restitution * g1(start) / g1(after).
+// state of `landing`. The determinant (of the hammer that of dx and dg1) is slope * restitution * g1(start) /
+// g1(after).
 template <class T>
 SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight, const T& s, const GapJet<T>& landing) {
   const Mechanics<T>& m = flight.mechanics();

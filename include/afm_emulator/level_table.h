@@ -1,5 +1,5 @@
-// Which level of the model is the cheapest that a tolerance allows, from a table of measured errors over a grid of parameters.
-// The table is made by the program level_table.
+// Which level of the model is the cheapest that a tolerance allows, from a table of measured errors over a grid of
+// parameters. The table is made by the program level_table.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace afm {
 
-// What a tolerance is about: K_f, or the distribution of the vertical deflection (mean distance of equal quantiles over its
-// rms). Both relative.
+// What a tolerance is about: K_f, or the distribution of the vertical deflection (mean distance of equal quantiles over
+// its rms). Both relative.
 enum class ToleranceOf : std::uint8_t { friction, deflection };
 bool parse(const std::string& name, ToleranceOf& of);  // "friction" or "deflection"; false where the name is neither
 
-// Against the finest level that was measured there. The cost is the time for a tau over that of the full model: the oscillator at
-// the default contact tolerance.
+// Against the finest level that was measured there. The cost is the time for a tau over that of the full model: the
+// oscillator at the default contact tolerance.
 struct LevelError {
   double friction, deflection, cost;
 };
@@ -43,12 +43,12 @@ class LevelTable {
   const std::vector<Level>& levels() const { return levels_; }  // finest first
   std::size_t points() const { return points_; }
 
-  // The worst at the grid points around these parameters, or at the one that they are. False where one of them, or this level
-  // there, is not in the table: nothing is known. Allocates nothing.
+  // The worst at the grid points around these parameters, or at the one that they are. False where one of them, or this
+  // level there, is not in the table: nothing is known. Allocates nothing.
   bool find(const Model& model, double eta, std::size_t level, LevelError& worst) const;
 
-  // The cheapest level whose error is below the tolerance; a coarser one must save a tenth. Where none is, the one with the least
-  // error; where nothing is known, `full`. Allocates nothing.
+  // The cheapest level whose error is below the tolerance; a coarser one must save a tenth. Where none is, the one with
+  // the least error; where nothing is known, `full`. Allocates nothing.
   LevelChoice choose(const Model& model, double eta, double tolerance, ToleranceOf of, const Level& full) const;
 
  private:

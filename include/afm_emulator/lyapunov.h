@@ -26,8 +26,9 @@ enum class LyapunovOutcome : std::uint8_t {
 };
 
 // Largest first [1/tau]. In contact two directions normal to the surface collapse: once the orbit has slid, the last
-// two exponents are minus infinity. The hammer has two exponents, and after contact none: the others are minus infinity. std_error is that of batch means: the numbers' scatter on a chaotic orbit; on a
-// regular one the exponents come to their limit like 1/duration and it bounds nothing.
+// two exponents are minus infinity. The hammer has two exponents, and after contact none: the others are minus
+// infinity. std_error is that of batch means: the numbers' scatter on a chaotic orbit; on a regular one the exponents
+// come to their limit like 1/duration and it bounds nothing.
 struct LyapunovSpectrum {
   LyapunovOutcome outcome = LyapunovOutcome::no_event;
   int rank = 0;  // exponents that are finite

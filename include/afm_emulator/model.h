@@ -20,8 +20,9 @@ class ParameterError : public std::invalid_argument {
   std::string reason;
 };
 
-// oscillator: both springs. hammer (the paper's section IX): the horizontal spring infinitely stiff, x = xc; the holder takes what
-// the surface gives along x, so an impact turns the gap rate alone, and its extension and horizontal velocity are not its own.
+// oscillator: both springs. hammer (the paper's section IX): the horizontal spring infinitely stiff, x = xc; the holder
+// takes what the surface gives along x, so an impact turns the gap rate alone, and its extension and horizontal
+// velocity are not its own.
 enum class ModelKind : std::uint8_t { oscillator, hammer };
 
 // Defaults are the paper's mica values (section V). The drag velocity eta is not here: it is commanded while running.

@@ -40,8 +40,8 @@ LevelRun run_level(const Model& model, Tip& tip, const ErrorSettings& settings);
 // Mean distance of equal quantiles (Wasserstein's of order 1) of two sets in order of size, of one length [a].
 double quantile_distance(const std::vector<double>& a, const std::vector<double>& b);
 
-// Root mean square difference of the vertical deflection over one tau, where the level takes over the reference's phase,
-// height and vertical velocity in the midst of its motion [a]. Moves the reference on.
+// Root mean square difference of the vertical deflection over one tau, where the level takes over the reference's
+// phase, height and vertical velocity in the midst of its motion [a]. Moves the reference on.
 double tracking_error(const Model& model, const Level& level, Tip& reference, const ErrorSettings& settings);
 
 }  // namespace afm

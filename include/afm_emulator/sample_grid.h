@@ -24,7 +24,8 @@ struct SampleGrid {
 
   // The same for any number at all, such as one that was read somewhere; what is not on the grid is at the end of time.
   ModelTime time_or_end(std::uint64_t n) const {
-    const bool reached = n >= first && static_cast<double>(n - first) * period < 0.5 * static_cast<double>(kEndOfTime.tau);
+    const bool reached =
+        n >= first && static_cast<double>(n - first) * period < 0.5 * static_cast<double>(kEndOfTime.tau);
     return reached ? time(n) : kEndOfTime;
   }
 };

@@ -1,5 +1,6 @@
-// Branches written once for a number and for a pack of numbers (lanes.h). Of a number they are plain branches. Of a pack each
-// lane gets the value that the number would get: `choose` takes both ways and picks, `either` leaves out a way no lane goes.
+// Branches written once for a number and for a pack of numbers (lanes.h). Of a number they are plain branches. Of a
+// pack each lane gets the value that the number would get: `choose` takes both ways and picks, `either` leaves out a
+// way no lane goes.
 #pragma once
 
 #include <utility>

@@ -1,5 +1,5 @@
-// Frictionless contact: the tip slides on y = h(x) while the surface presses, and leaves exactly when the reaction would
-// have to pull. One piece is a Taylor series about its start; pieces follow each other.
+// Frictionless contact: the tip slides on y = h(x) while the surface presses, and leaves exactly when the reaction
+// would have to pull. One piece is a Taylor series about its start; pieces follow each other.
 #pragma once
 
 #include <algorithm>
@@ -48,8 +48,8 @@ SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const Sli
   length_ = choose_length();
 }
 
-// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-kBits. In quarter powers of 2 and from exponents alone, which
-// are the same on every machine.
+// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-kBits. In
+// quarter powers of 2 and from exponents alone, which are the same on every machine.
 template <class T>
 T SlidePiece<T>::choose_length() const {
   constexpr double kLongest = 8.0;  // [tau]

@@ -1,5 +1,5 @@
-// The Taylor series of a slide: each order follows from those before by products of series. The orders are unrolled when
-// compiled, and each product takes the newest terms last, so that the rest of it need not wait for them.
+// The Taylor series of a slide: each order follows from those before by products of series. The orders are unrolled
+// when compiled, and each product takes the newest terms last, so that the rest of it need not wait for them.
 #pragma once
 
 #include <array>
@@ -63,8 +63,9 @@ T product(const Series<T>& a, const Series<T>& b) {
   if constexpr (n > 0) return fma(a[0], b[n], fma(a[n], b[0], inner_product<n>(a, b)));
 }
 
-// With r = -h', c = -h'' and the reaction lambda (of the surface on a tip of mass 1, along y): x'' = -omega_h^2 X + r lambda and
-// lambda = q - r x'', where q = omega_v^2 (h - y0) - c x'^2; as omega_v is the surface's wave number too, omega_v^2 h = c.
+// With r = -h', c = -h'' and the reaction lambda (of the surface on a tip of mass 1, along y): x'' = -omega_h^2 X + r
+// lambda and lambda = q - r x'', where q = omega_v^2 (h - y0) - c x'^2; as omega_v is the surface's wave number too,
+// omega_v^2 h = c.
 template <class T>
 struct SlideSeries {
   SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start);
@@ -93,7 +94,8 @@ SlideSeries<T>::SlideSeries(const Mechanics<T>& m, const T& eta, const SlideStat
   add_order<0>();
 }
 
-// r, c and u are known to order n, X to order n + 1; x'' and lambda of order n follow from each other: lambda = rest - r x''.
+// r, c and u are known to order n, X to order n + 1; x'' and lambda of order n follow from each other: lambda = rest -
+// r x''.
 template <class T>
 template <std::size_t n>
 void SlideSeries<T>::add_order() {

@@ -1,5 +1,5 @@
-// Symbolic dynamics of the hammer: its map of two dimensions, phase and gap rate after an impact, cut into pieces that are
-// named by letters; which words of letters occur, and how much of the motion they tell.
+// Symbolic dynamics of the hammer: its map of two dimensions, phase and gap rate after an impact, cut into pieces that
+// are named by letters; which words of letters occur, and how much of the motion they tell.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct SymbolicRun {
 };
 SymbolicRun run_on_section(const PoincareMap& map, std::size_t impacts, std::uint64_t seed);
 
-// The bands of the attractor, parted by phases that it leaves out, each cut in two at one gap rate, where the map folds it.
+// The bands of the attractor, parted by phases that it leaves out, each cut in two at one gap rate, where the map folds
+// it.
 struct Partition {
   std::vector<double> begins;  // phase at which each band begins, rising
   std::vector<double> cuts;    // gap rate in each: below it the first letter of the two, above it the second [a/tau]
@@ -29,7 +30,8 @@ struct Partition {
   std::size_t letters() const { return 2 * cuts.size(); }
 };
 
-// Bands from gaps in phase wider than `gap`; cuts by trial, so that words of ten letters leave the least unsaid (word_spread).
+// Bands from gaps in phase wider than `gap`; cuts by trial, so that words of ten letters leave the least unsaid
+// (word_spread).
 Partition find_partition(const std::vector<TipState>& points, double gap = 0.05);
 
 std::string word_of(const Partition& partition, const std::vector<TipState>& points);
@@ -44,8 +46,9 @@ struct WordCount {
   double entropy = 0.0;                // of a letter, given the length - 1 before it: natural logarithm
 };
 
-// What a word leaves unsaid of the point at its middle: rms of the gap rate within the points of one word, and in the word that
-// says least; over the rms of all [1]. Both go to 0 with the length where the partition tells points apart (it generates).
+// What a word leaves unsaid of the point at its middle: rms of the gap rate within the points of one word, and in the
+// word that says least; over the rms of all [1]. Both go to 0 with the length where the partition tells points apart
+// (it generates).
 struct WordSpread {
   double mean, largest;
 };

@@ -1,4 +1,5 @@
-// The hybrid automaton: flight, impact, burst, contact, release. Knows where the tip is at any time up to its next event.
+// The hybrid automaton: flight, impact, burst, contact, release. Knows where the tip is at any time up to its next
+// event.
 #pragma once
 
 #include "afm_emulator/chatter.h"
@@ -16,45 +17,45 @@ struct Deflection {
   double gap;       // y - h(x) [a]
 };
 
-// Error allowed in the state at the next impact when chatter is replaced by a burst and a slide [a, a/tau]. At the default
-// half of all bursts are good to 4e-6 and 99 in 100 to 2e-4 (docs/stability.md).
+// Error allowed in the state at the next impact when chatter is replaced by a burst and a slide [a, a/tau]. At the
+// default half of all bursts are good to 4e-6 and 99 in 100 to 2e-4 (docs/stability.md).
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it bursts are followed for longer than bounces would take
 
 class Tip {
  public:
-  // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate, or one below 1e-140 a/tau.
-  // Throws the model's first ParameterError, or one about a start below the surface.
+  // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate, or one below
+  // 1e-140 a/tau. Throws the model's first ParameterError, or one about a start below the surface.
   Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
   Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
 
-  // To the next event or to `limit`, whichever is first; an event at the limit itself still happens. Nothing is split at
-  // a limit: any sequence of limits gives the same bits as one.
+  // To the next event or to `limit`, whichever is first; an event at the limit itself still happens. Nothing is split
+  // at a limit: any sequence of limits gives the same bits as one.
   Outcome advance(const ModelTime& limit);
 
   // The same, in arcs: it also stops (Outcome::flying) where the search of a long flight has come to.
   Outcome advance_arc(const ModelTime& limit);
   ModelTime arc_end();  // up to here, exclusive, deflection() holds
 
-  // A new drag velocity from now() on: the flight, burst or slide under way is split here, and only here. The present one again
-  // changes no bit.
+  // A new drag velocity from now() on: the flight, burst or slide under way is split here, and only here. The present
+  // one again changes no bit.
   void drag(double eta);
 
-  // Another restitution, cutoff or height of the harmonic centre from now() on: where the tip is and how fast stays. Lifting the
-  // centre works on the spring; a burst ends with the bounce it is at; contact goes on if the surface still presses.
-  // Precondition: a model without faults that differs in gamma, v_c and y0 at most.
+  // Another restitution, cutoff or height of the harmonic centre from now() on: where the tip is and how fast stays.
+  // Lifting the centre works on the spring; a burst ends with the bounce it is at; contact goes on if the surface still
+  // presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
   void retune(const Model& model);
 
-  // Another level of the model from now() on. The tip keeps its place over the surface, height and vertical velocity. To the hammer
-  // the holder is put above the tip: the extension and what the horizontal velocity has beyond the holder's are dropped, and the
-  // energy in them is returned [m a^2/tau^2] (0 otherwise). To the oscillator nothing changes: the spring is relaxed, and the
-  // tip as fast as its holder. A burst ends with the bounce it is at; contact ends where the hammer's gap rate differs from the
-  // oscillator's; both are told as events at now().
+  // Another level of the model from now() on. The tip keeps its place over the surface, height and vertical velocity.
+  // To the hammer the holder is put above the tip: the extension and what the horizontal velocity has beyond the
+  // holder's are dropped, and the energy in them is returned [m a^2/tau^2] (0 otherwise). To the oscillator nothing
+  // changes: the spring is relaxed, and the tip as fast as its holder. A burst ends with the bounce it is at; contact
+  // ends where the hammer's gap rate differs from the oscillator's; both are told as events at now().
   double relevel(ModelKind kind, double contact_tolerance);
 
-  // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip as it is
-  // after an impact at that time, which was `last` and from which it launches so.
+  // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip
+  // as it is after an impact at that time, which was `last` and from which it launches so.
   bool in_flight() const { return mode_ == Mode::flying; }
   const Flight<double>& flight() const { return flight_; }
   ModelTime flight_start() const { return start_; }
@@ -68,8 +69,8 @@ class Tip {
   const Impact& last_impact() const { return last_impact_; }
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
-  // The work of the drag is -omega_h^2 eta times the time integral of the lateral deflection; in bursts that of the deflection
-  // below, which is the guide's, and this much more, up to their last event [m a^2/tau^2].
+  // The work of the drag is -omega_h^2 eta times the time integral of the lateral deflection; in bursts that of the
+  // deflection below, which is the guide's, and this much more, up to their last event [m a^2/tau^2].
   double work_off_guide() const { return work_off_guide_; }
   Deflection deflection(const ModelTime& t) const;  // from the last event to arc_end()
 

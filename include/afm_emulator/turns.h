@@ -69,7 +69,8 @@ template <class T>
 T cosine_tail(T z) {
   return T(kC2) + fma(z, cosine_rest(z), T(kC2Low));
 }
-// 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from nothing
+// 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from
+// nothing
 template <class T>
 T cosine(T x, T z) {
   const T z_low = fma(x, x, -z);

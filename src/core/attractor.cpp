@@ -118,8 +118,8 @@ bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const Mo
   return false;
 }
 
-// Turns by an impact about the middle of the section, in the plane of extension and gap rate; of the hammer, whose extension
-// is 0, of phase and gap rate.
+// Turns by an impact about the middle of the section, in the plane of extension and gap rate; of the hammer, whose
+// extension is 0, of phase and gap rate.
 double rotation_number(const Model& model, Observer& observer, const ModelTime& limit) {
   constexpr std::size_t kMost = 4000;
   std::vector<TipState> run;

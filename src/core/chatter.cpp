@@ -11,7 +11,8 @@ namespace {
 
 // |w| up to which the series below are good to 3e-4
 constexpr double kMostLoss = 0.2;
-// The duration of a bounce against the time in which the pressure changes by itself, at most: an exit leaves two bounces.
+// The duration of a bounce against the time in which the pressure changes by itself, at most: an exit leaves two
+// bounces.
 constexpr double kMostShortness = 0.05;
 
 // A step, in parts of the times in which v falls and the reaction changes.
@@ -24,7 +25,10 @@ double square(double x) { return x * x; }
 }  // namespace
 
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
-    : v_c_(model.v_c), threshold_(threshold), rates_(model, !(model.v_c > threshold)), threshold_x_(rates_.x_of(std::max(threshold, 1e-300))) {
+    : v_c_(model.v_c),
+      threshold_(threshold),
+      rates_(model, !(model.v_c > threshold)),
+      threshold_x_(rates_.x_of(std::max(threshold, 1e-300))) {
   constexpr double kUsualThreshold = 1e-5;
   fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
 }
@@ -47,7 +51,8 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
 double ChatterLaw::step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const {
   // with a cutoff, the less a bounce loses the more evenly ln v falls
   const double loss = v_c_ > threshold_ ? std::min(kMostLoss, rates_.loss(v)) : kMostLoss, evenness = 0.5 + 2.5 * loss;
-  const double dt = fineness_ * std::min(kFallPerStep / evenness * rates_.fall_time(at, v), kChangePerStep / at.quickness);
+  const double dt =
+      fineness_ * std::min(kFallPerStep / evenness * rates_.fall_time(at, v), kChangePerStep / at.quickness);
   // and not far beyond the threshold, so that n counts the bounces down to it
   return fall > 0.0 ? std::min(dt, 1.02 * (c.x - threshold_x_) / fall) : dt;
 }
@@ -71,8 +76,8 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
   return {ChatterEnd::exits, s + part, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
 }
 
-// A step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits, for
-// the state in the middle of a burst, it is not asked.
+// A step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits,
+// for the state in the middle of a burst, it is not asked.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
                                                const Chatter& start, bool exits) const {
   double s = from;

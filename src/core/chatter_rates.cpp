@@ -108,7 +108,8 @@ AFM_INLINED ChatterSurroundings ChatterRates::look(const SlidePiece<double>& gui
   h.h1 *= free_, h.h2 *= free_, h.h3 *= free_;
   const double u = q.u, N2 = 1.0 + square(h.h1), per_N2 = 1.0 / N2, per_N = std::sqrt(per_N2), per_a = 1.0 / a[0];
   const double x2 = -wh2_ * q.X - h.h1 * a[0];  // of the guide, with the reaction on it
-  // the rate at which the surface turns under the tip, and its rate; from them those of ln N, and from these P'/P, ... with P = N a
+  // the rate at which the surface turns under the tip, and its rate; from them those of ln N, and from these P'/P, ...
+  // with P = N a
   const double turn = h.h2 * u * per_N2, turn1 = (h.h3 * u * u + h.h2 * x2) * per_N2 - 2.0 * h.h1 * square(turn);
   const double L1 = h.h1 * turn, L2 = h.h2 * u * turn + h.h1 * turn1;
   const double q1 = a[1] * per_a, q2 = a[2] * per_a, q3 = a[3] * per_a;
@@ -126,7 +127,8 @@ AFM_INLINED ChatterSurroundings ChatterRates::look(const SlidePiece<double>& gui
   at.lag = (p2 - 2.0 * square(p1)) * per_P / 18.0;
   at.turn = turn;
   // curvature k = h''/N^3, its rate along the surface, speed N u, acceleration along the surface from the springs alone
-  const double curvature = h.h2 * per_N2 * per_N, curvature1 = (h.h3 - 3.0 * h.h1 * square(h.h2) * per_N2) * square(per_N2);
+  const double curvature = h.h2 * per_N2 * per_N,
+               curvature1 = (h.h3 - 3.0 * h.h1 * square(h.h2) * per_N2) * square(per_N2);
   const double pull = (x2 + L1 * u) * N2 * per_N, speed2 = square(u) * N2;
   at.lean = h.h1 * (wh2_ - wv2_) * per_N2 - curvature * pull - curvature1 * speed2;
   at.stiffness = (wh2_ + wv2_ * square(h.h1)) * per_N2 - curvature * (curvature * speed2 - P);
@@ -152,7 +154,9 @@ AFM_INLINED double ChatterRates::speed(double x) const {
 
 double ChatterRates::x_of(double v) const { return even_speed(geometric_, v); }
 
-AFM_INLINED double ChatterRates::bounces_at(double v) const { return geometric_ ? -even_ * portable_log(v) : even_ / v; }
+AFM_INLINED double ChatterRates::bounces_at(double v) const {
+  return geometric_ ? -even_ * portable_log(v) : even_ / v;
+}
 
 AFM_MULTIVERSION EvenChatter ChatterRates::even(const ChatterSurroundings& at, const Chatter& c) const {
   const double v = c.v * (1.0 - disturbance(at, c.sigma, c.p) / 3.0);
@@ -197,8 +201,9 @@ AFM_MULTIVERSION EvenChatter ChatterRates::operator()(const ChatterSurroundings&
   return rate(at, c);
 }
 
-AFM_MULTIVERSION EvenChatter ChatterRates::step(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& k1,
-                                                const ChatterSurroundings& end, const EvenChatter& c) const {
+AFM_MULTIVERSION EvenChatter ChatterRates::step(const SlidePiece<double>& guide, double s, double dt,
+                                                const EvenChatter& k1, const ChatterSurroundings& end,
+                                                const EvenChatter& c) const {
   const ChatterSurroundings middle = look(guide, s + dt / 2.0);
   const EvenChatter k2 = rate(middle, c + dt / 2.0 * k1);
   const EvenChatter k3 = rate(middle, c + dt / 2.0 * k2);
@@ -206,7 +211,8 @@ AFM_MULTIVERSION EvenChatter ChatterRates::step(const SlidePiece<double>& guide,
   return c + dt / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
 }
 
-AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide, const Chatter& chatter) {
+AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide,
+                                                const Chatter& chatter) {
   const auto N = [&](double phase) { return std::sqrt(1.0 + square(surface_jet(model.H, phase).h1)); };
   const double here = N(guide.phase), dx = chatter.sigma / here;
   return {guide.phase + dx, guide.X + dx, (guide.u * here + chatter.p) / N(guide.phase + dx)};

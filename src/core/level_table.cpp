@@ -77,7 +77,8 @@ bool parse(const std::string& name, ToleranceOf& of) {
 const std::vector<std::string>& LevelTable::columns() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all(std::begin(kAxisNames), std::end(kAxisNames));
-    for (const char* name : {"model", "contact_tolerance", "k_f_error", "deflection_error", "cost"}) all.emplace_back(name);
+    for (const char* name : {"model", "contact_tolerance", "k_f_error", "deflection_error", "cost"})
+      all.emplace_back(name);
     return all;
   }();
   return names;
@@ -170,7 +171,8 @@ bool LevelTable::find(const Model& model, double eta, std::size_t level, LevelEr
   return true;
 }
 
-LevelChoice LevelTable::choose(const Model& model, double eta, double tolerance, ToleranceOf of, const Level& full) const {
+LevelChoice LevelTable::choose(const Model& model, double eta, double tolerance, ToleranceOf of,
+                               const Level& full) const {
   LevelChoice cheapest{full, std::numeric_limits<double>::quiet_NaN()}, best = cheapest;
   double cost = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < levels_.size(); ++i) {

@@ -79,7 +79,9 @@ double quantile_distance(const std::vector<double>& a, const std::vector<double>
   const std::size_t n = std::min(a.size(), b.size());
   double sum = 0.0;
   // of sets of different size, the shorter one's quantiles
-  const auto quantile = [n](const std::vector<double>& v, std::size_t i) { return v[(2 * i + 1) * v.size() / (2 * n)]; };
+  const auto quantile = [n](const std::vector<double>& v, std::size_t i) {
+    return v[(2 * i + 1) * v.size() / (2 * n)];
+  };
   for (std::size_t i = 0; i < n; ++i) sum += std::abs(quantile(a, i) - quantile(b, i));
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }

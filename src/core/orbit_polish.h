@@ -27,7 +27,8 @@ struct FineOrbit {
   std::vector<FineStep> steps;
 };
 
-// From an orbit good to rounding, the times of its flights, and what solves for Newton's step given the errors of all flights.
+// From an orbit good to rounding, the times of its flights, and what solves for Newton's step given the errors of all
+// flights.
 FineOrbit polish(const PoincareMap& map, const std::vector<TipState>& points, const std::vector<double>& times,
                  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& solve);
 

@@ -25,7 +25,8 @@ const TipState& checked(const TipState& start) {
 
 // The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
 constexpr double kGrowth = 100.0;
-// Bounces slower than sqrt(kEntry * tolerance) may become a burst: at the default up to 0.01 a/tau, where they rise by 1e-5 a.
+// Bounces slower than sqrt(kEntry * tolerance) may become a burst: at the default up to 0.01 a/tau, where they rise by
+// 1e-5 a.
 constexpr double kEntry = 0.1;
 
 // Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
@@ -36,7 +37,8 @@ std::uint32_t whole_count(double n) {
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
 }
 
-// Made anew in place: a copy of what has just been written would wait until it is in memory, a tenth of an impact's time.
+// Made anew in place: a copy of what has just been written would wait until it is in memory, a tenth of an impact's
+// time.
 AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
                              Flight<double>& flight) {
   new (&flight) Flight<double>(mechanics, eta, state);
@@ -141,8 +143,8 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
-// To where the chatter has moved the tip. A guide conserves energy by itself; what the move stores more, the drag has worked or
-// the bounces have given.
+// To where the chatter has moved the tip. A guide conserves energy by itself; what the move stores more, the drag has
+// worked or the bounces have given.
 SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatter& chatter) {
   const SlideState<double> moved = moved_guide(model_, guide, chatter);
   const double work = -mechanics_.omega_h * mechanics_.omega_h * eta_ * chatter.drift;
@@ -192,7 +194,8 @@ void Tip::drag(double eta) {
   if (due && flight_.launch().g1 == 0.0) mode_ = Mode::touching;
 }
 
-// A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at once.
+// A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at
+// once.
 void Tip::jolt(double eta) {
   const double s = now_ - start_;
   if (mode_ == Mode::sliding) {

@@ -8,7 +8,8 @@ std::vector<ParameterError> find_faults(const SiModel& si) {
   std::vector<ParameterError> faults;
   // wide enough for any unit of anything, and no product of units overflows
   const auto require_scale = [&](const char* name, double value) {
-    if (!(value >= 1e-40 && value <= 1e40)) faults.emplace_back(name, value, "must be positive, between 1e-40 and 1e40");
+    if (!(value >= 1e-40 && value <= 1e40))
+      faults.emplace_back(name, value, "must be positive, between 1e-40 and 1e40");
   };
   require_scale("omega_v_rad_per_s", si.omega_v_rad_per_s);
   require_scale("omega_h_rad_per_s", si.omega_h_rad_per_s);

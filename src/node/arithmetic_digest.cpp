@@ -36,8 +36,8 @@ void run(double eta, Digest& digest) {
 
 std::string arithmetic_digest() {
   Digest digest;
-  // chaos makes the last bit of any operation show: it grows tenfold or so in every tau of the first; the second slides,
-  // the third chatters
+  // chaos makes the last bit of any operation show: it grows tenfold or so in every tau of the first; the second
+  // slides, the third chatters
   for (const double eta : {3.4, 1.0, 5.0}) run(eta, digest);
   return to_text(digest);
 }

@@ -6,7 +6,8 @@
 
 namespace afm::node {
 
-// What is wrong with a name, or nothing. A good one stays in its directory and cannot be taken for another kind of file.
+// What is wrong with a name, or nothing. A good one stays in its directory and cannot be taken for another kind of
+// file.
 std::string find_name_fault(const std::string& name);
 
 std::string with_bag_ending(const std::string& name);     // NAME and NAME.bag: NAME.bag

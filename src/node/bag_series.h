@@ -28,7 +28,8 @@ class BagSeries {
     rosbag::CompressionType compression;
   };
 
-  // directory/NAME.bag, and directory/NAME_001.bag and so on where it is split. Throws std::runtime_error with the reason.
+  // directory/NAME.bag, and directory/NAME_001.bag and so on where it is split. Throws std::runtime_error with the
+  // reason.
   BagSeries(const Settings& settings, const std::string& directory, const std::string& name);
 
   // In order of stamps. Throws std::exception; then nothing but close() is left to do.

@@ -1,4 +1,5 @@
-// How much is free where recordings go, asked now and then by a thread that may wait for a disk, read by one that may not.
+// How much is free where recordings go, asked now and then by a thread that may wait for a disk, read by one that may
+// not.
 #pragma once
 
 #include <atomic>

@@ -63,7 +63,8 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
   }
   disk_.measure();
-  reconfigure_.emplace(node, parameters, refusals_, [this](const LiveParameters& live) { return control_.change(live); });
+  reconfigure_.emplace(node, parameters, refusals_,
+                       [this](const LiveParameters& live) { return control_.change(live); });
   broadcaster_.emplace(node, parameters,
                        Broadcaster::Sources{hand_over_, recorder_, refusals_, disk_, demand_,
                                             [this](const Answer& answer) { control_.deliver(answer); },

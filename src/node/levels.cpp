@@ -34,8 +34,9 @@ void load_levels(Parameters& p, Faults& faults) {
     faults.push_back({"level_table", '"' + p.level_table + '"', reason});
   };
   if (p.level_table.empty()) {
-    return fault("model auto takes its levels from this file: give config/levels.csv, as emulator.launch does, or one that the "
-                 "program level_table made");
+    return fault(
+        "model auto takes its levels from this file: give config/levels.csv, as emulator.launch does, or one that the "
+        "program level_table made");
   }
   try {
     const std::string text = read_file(p.level_table);

@@ -50,7 +50,8 @@ void register_again(const std::vector<std::string>& services) {
 
 }  // namespace
 
-MasterWatch::MasterWatch(std::vector<std::string> services) : services_(std::move(services)), thread_([this] { run(); }) {}
+MasterWatch::MasterWatch(std::vector<std::string> services)
+    : services_(std::move(services)), thread_([this] { run(); }) {}
 
 MasterWatch::~MasterWatch() {
   {

@@ -56,8 +56,9 @@ void check_model(const Parameters& p, Check& check) {
   }
   const bool given = p.tolerance > 0.0 && std::isfinite(p.tolerance);
   check.require(given || (p.model != kAuto && p.tolerance == 0.0), "tolerance", p.tolerance,
-                p.model == kAuto ? "must be above 0 and finite: model auto takes the cheapest level whose error is below it"
-                                 : "must be above 0 and finite, or 0: none");
+                p.model == kAuto
+                    ? "must be above 0 and finite: model auto takes the cheapest level whose error is below it"
+                    : "must be above 0 and finite, or 0: none");
   if (p.contact_tolerance != 0.0) {  // every bounce by itself
     check.within("contact_tolerance", p.contact_tolerance, kMinContactTolerance, kMaxContactTolerance);
   }
@@ -100,8 +101,8 @@ void check_drag(const Parameters& p, Check& check) {
   const double batch = std::chrono::duration<double>(batch_period(p)).count();
   check.require(p.command_timeout_s == 0.0 || (p.command_timeout_s >= batch && p.command_timeout_s <= kMaxTimeout),
                 "command_timeout_s", p.command_timeout_s,
-                "must be 0 (off), or between " + text_of(batch) + " (a batch, as commands take effect between batches) and " +
-                    text_of(kMaxTimeout));
+                "must be 0 (off), or between " + text_of(batch) +
+                    " (a batch, as commands take effect between batches) and " + text_of(kMaxTimeout));
 }
 
 // The core judges its settings in natural units: tell its faults by the names and values that were given.

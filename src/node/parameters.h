@@ -30,7 +30,7 @@ struct Parameters {
   double batch_rate_hz = 100.0;                   // of wall time
   double sample_rate_hz = 200000.0;               // of model time
   double friction_window_tau = 1000.0;
-  double command_timeout_s = 0.0;                 // of wall time without a drag command, after which the drag stops; 0: never
+  double command_timeout_s = 0.0;  // of wall time without a drag command, after which the drag stops; 0: never
   std::uint64_t impact_budget = 20000;            // a batch
   double contact_tolerance = kDefaultContactTolerance;  // [a, a/tau]
   bool record = false;
@@ -76,8 +76,8 @@ std::uint64_t samples_per_batch(const Parameters& parameters);
 std::chrono::nanoseconds batch_period(const Parameters& parameters);  // of wall time
 EmulatorSettings emulator_settings(const Parameters& parameters);
 
-// The level that runs at a drag velocity [a/tau]: of auto the cheapest that its tolerance allows, and where the table knows nothing
-// the oscillator at contact_tolerance. Allocates nothing.
+// The level that runs at a drag velocity [a/tau]: of auto the cheapest that its tolerance allows, and where the table
+// knows nothing the oscillator at contact_tolerance. Allocates nothing.
 LevelChoice choose_level(const Parameters& parameters, const Model& model, double eta);
 Level full_level(const Parameters& parameters);  // with which a run begins, before its first drag velocity is applied
 

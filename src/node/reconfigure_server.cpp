@@ -57,7 +57,8 @@ std::string known_names() {
 // Values of another type than a number have no place here, whatever their name.
 template <class Values>
 void refuse(const Values& values, Faults& faults) {
-  for (const auto& value : values) faults.push_back({value.name, "...", "cannot be changed live: only " + known_names()});
+  for (const auto& value : values)
+    faults.push_back({value.name, "...", "cannot be changed live: only " + known_names()});
 }
 
 void read(const Config& config, LiveParameters& live, Faults& faults) {
@@ -77,7 +78,8 @@ void read(const Config& config, LiveParameters& live, Faults& faults) {
 
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply)
+ReconfigureServer::ReconfigureServer(ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals,
+                                     Apply apply)
     : parameters_(parameters),
       refusals_(refusals),
       apply_(std::move(apply)),

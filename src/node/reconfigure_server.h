@@ -1,6 +1,7 @@
-// Live parameters by the protocol of dynamic_reconfigure, for rqt_reconfigure, dynparam and its clients. Its own server class
-// would bend a value out of range into it without a word, and write to the parameter server what the next run would then
-// start with; here a faulty change is refused as a whole, with its reasons, and who asked gets the old values back.
+// Live parameters by the protocol of dynamic_reconfigure, for rqt_reconfigure, dynparam and its clients. Its own server
+// class would bend a value out of range into it without a word, and write to the parameter server what the next run
+// would then start with; here a faulty change is refused as a whole, with its reasons, and who asked gets the old
+// values back.
 #pragma once
 
 #include <dynamic_reconfigure/Reconfigure.h>

@@ -96,7 +96,8 @@ void Recorder::enqueue_history() {
     enqueue(settings_.bags.topics.applied_drag, boost::make_shared<const afm_emulator::AppliedDrag>(command));
   }
   for (const auto& change : history_.changes()) {
-    enqueue(settings_.bags.topics.applied_parameters, boost::make_shared<const afm_emulator::AppliedParameters>(change));
+    enqueue(settings_.bags.topics.applied_parameters,
+            boost::make_shared<const afm_emulator::AppliedParameters>(change));
   }
 }
 

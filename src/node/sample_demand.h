@@ -1,5 +1,5 @@
-// Whether anyone wants samples of the deflection. Those who publish tell it, the stepping thread asks before each batch, and
-// neither waits for the other.
+// Whether anyone wants samples of the deflection. Those who publish tell it, the stepping thread asks before each
+// batch, and neither waits for the other.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,8 @@ class SampleDemand {
     stretch_ = wanted ? ++latest_ : 0;
   }
 
-  // The number of the present stretch of samples; 0: nobody wants any. Batches of one stretch follow each other without a
-  // gap, so that whoever is given one stretch alone misses nothing in it.
+  // The number of the present stretch of samples; 0: nobody wants any. Batches of one stretch follow each other without
+  // a gap, so that whoever is given one stretch alone misses nothing in it.
   std::uint32_t stretch() const { return stretch_; }
 
  private:

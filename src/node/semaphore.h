@@ -1,4 +1,5 @@
-// A counting semaphore: post() neither blocks, locks nor allocates, so the stepping thread and signal handlers may use it.
+// A counting semaphore: post() neither blocks, locks nor allocates, so the stepping thread and signal handlers may use
+// it.
 #pragma once
 
 #include <semaphore.h>

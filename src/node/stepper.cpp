@@ -84,7 +84,8 @@ void Stepper::run_batch() {
   if (!hand_over_batch()) ++dropped_batches_;
 }
 
-// Behind, as after the process was stopped, we may be faster than publishing: then lag grows rather than that a batch is lost.
+// Behind, as after the process was stopped, we may be faster than publishing: then lag grows rather than that a batch
+// is lost.
 bool Stepper::hand_over_batch() {
   const Event told = batch_event();
   const auto give_up = monotonic_now() + kPublishingPatience;

@@ -1,5 +1,6 @@
 // The stepping thread: advances the emulator batch by batch at absolute deadlines, obeys requests between batches, and
-// hands everything over. It blocks to wait for the next deadline, or for room to tell of a batch, and neither locks nor allocates.
+// hands everything over. It blocks to wait for the next deadline, or for room to tell of a batch, and neither locks nor
+// allocates.
 #pragma once
 
 #include <atomic>

@@ -61,13 +61,15 @@ void Stepper::apply_change(const LiveParameters& live) {
   publish(Event::Kind::parameters_applied);
 }
 
-// Before the drag velocity or after the parameters that it is for: who simulates the run again does it in the same order.
+// Before the drag velocity or after the parameters that it is for: who simulates the run again does it in the same
+// order.
 void Stepper::take_level(double eta) {
   const LevelChoice choice = choose_level(parameters_, emulator_.settings().model, eta);
   level_ = {choice.level, choice.expected_error, emulator_.set_level(choice.level)};
 }
 
-// A stop is a command like any other, applied and told of at a batch boundary: who simulates the run again needs no clock.
+// A stop is a command like any other, applied and told of at a batch boundary: who simulates the run again needs no
+// clock.
 void Stepper::watch_for_commands() {
   if (parameters_.command_timeout_s == 0.0 || drag_velocity_ == 0.0 || paused_) return;
   const double silence = std::chrono::duration<double>(monotonic_now() - last_command_).count();

@@ -27,8 +27,8 @@ constexpr char kStopRecordingService[] = "stop_recording";
 
 // A message every batch: 0.1 s at the fastest batch rate; a queue of 10 lost nothing, one of 1 lost 2 %.
 constexpr unsigned kBatchQueueSize = 100;
-// Commands, of which none may be lost on the way in or out, as nobody would count it. Ten times what the stepping thread
-// takes before it refuses more, which is counted.
+// Commands, of which none may be lost on the way in or out, as nobody would count it. Ten times what the stepping
+// thread takes before it refuses more, which is counted.
 constexpr unsigned kCommandQueueSize = 10000;
 // One a second.
 constexpr unsigned kDigestQueueSize = 100;

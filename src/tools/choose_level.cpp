@@ -13,8 +13,10 @@
 namespace {
 
 const char kDescription[] =
-    "Tells which level of the model `model: auto` takes at a drag velocity and a tolerance, with the error that is expected of it\n"
-    "(nan: the table knows nothing there), from a table such as config/levels.csv (units a, tau, tip mass). Needs no ROS.";
+    "Tells which level of the model `model: auto` takes at a drag velocity and a tolerance, with the error that is "
+    "expected of it\n"
+    "(nan: the table knows nothing there), from a table such as config/levels.csv (units a, tau, tip mass). Needs no "
+    "ROS.";
 
 struct Options {
   std::string table, eta = "3.4", of = "friction";
@@ -49,8 +51,8 @@ int run(const Options& o) {
   for (const double eta : afm::parse_range(o.eta)) {
     const auto choice = table.choose(model, eta, o.tolerance, of, {afm::ModelKind::oscillator, o.contact_tolerance});
     std::cout << afm::join_numbers({eta, o.gamma, o.cutoff, o.frequency_ratio, o.tolerance}) << "," << o.of << ","
-              << name(choice.level.kind) << "," << afm::join_numbers({choice.level.contact_tolerance, choice.expected_error})
-              << "\n";
+              << name(choice.level.kind) << ","
+              << afm::join_numbers({choice.level.contact_tolerance, choice.expected_error}) << "\n";
   }
   return 0;
 }
@@ -65,7 +67,9 @@ int main(int argc, char** argv) {
   app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
   app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
   app.add_option("--frequency-ratio", o.frequency_ratio, "omega_h / omega_v")->capture_default_str();
-  app.add_option("--tolerance", o.tolerance, "error allowed, relative")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--tolerance", o.tolerance, "error allowed, relative")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app.add_option("--of", o.of, "of what: friction or deflection")
       ->capture_default_str()
       ->check(CLI::IsMember({"friction", "deflection"}));

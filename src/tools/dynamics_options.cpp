@@ -7,7 +7,8 @@
 namespace afm {
 
 void add_model_option(CLI::App& app, std::string& model) {
-  app.add_option("--model", model, "oscillator, or hammer: the horizontal spring infinitely stiff")->capture_default_str();
+  app.add_option("--model", model, "oscillator, or hammer: the horizontal spring infinitely stiff")
+      ->capture_default_str();
 }
 
 ModelKind checked_kind(const std::string& name) {

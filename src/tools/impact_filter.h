@@ -11,8 +11,8 @@ namespace afm {
 
 extern const std::string kImpactInputHeader, kImpactOutputHeader;
 
-// A row for each of the table's, without the header; nan where one cannot be computed, told as name:LINE in `complaints`.
-// Whether every row could be computed.
+// A row for each of the table's, without the header; nan where one cannot be computed, told as name:LINE in
+// `complaints`. Whether every row could be computed.
 bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, std::ostream& out,
                     std::ostream& complaints);
 

@@ -59,8 +59,8 @@ std::vector<double> measure_costs(const Model& model, double eta, const TipState
   return costs;
 }
 
-// Never more events in a stretch than half of what the shipped impact budget allows a batch: the mean tells too little, as one
-// contact in ten thousand may hold millions of bounces.
+// Never more events in a stretch than half of what the shipped impact budget allows a batch: the mean tells too little,
+// as one contact in ten thousand may hold millions of bounces.
 bool keeps_time(const Model& model, double eta, const Level& level, const TipState& start) {
   constexpr double kStretch = 50.0;  // [tau]
   constexpr int kStretches = 400, kMostEvents = 10000;
@@ -125,8 +125,9 @@ std::vector<MeasuredLevel> measure_levels(const Model& model, double eta, const 
       references = runs;
       exact = i == 0;
     }
-    measured.push_back({kLadder[i],
-                        {distance(runs, references, friction_error), distance(runs, references, deflection_error), costs[i]}});
+    measured.push_back(
+        {kLadder[i],
+         {distance(runs, references, friction_error), distance(runs, references, deflection_error), costs[i]}});
   }
   if (!exact && measured.size() > 1) {
     measured[0].error.friction = measured[1].error.friction;

@@ -19,10 +19,14 @@
 namespace {
 
 const char kDescription[] =
-    "Measures how far each level of the model (hammer; oscillator with bursts at several contact tolerances; oscillator with\n"
-    "every bounce) is from the finest, over a grid of parameters (units a, tau, tip mass), and writes the table from which\n"
-    "`model: auto` takes its levels. Without options it is the one that is shipped as config/levels.csv, but for the last digits of\n"
-    "its costs, which are measured. --eta, --gamma, --cutoff and --frequency-ratio may be ranges FROM:TO:STEP and lists A,B.";
+    "Measures how far each level of the model (hammer; oscillator with bursts at several contact tolerances; "
+    "oscillator with\n"
+    "every bounce) is from the finest, over a grid of parameters (units a, tau, tip mass), and writes the table from "
+    "which\n"
+    "`model: auto` takes its levels. Without options it is the one that is shipped as config/levels.csv, but for the "
+    "last digits of\n"
+    "its costs, which are measured. --eta, --gamma, --cutoff and --frequency-ratio may be ranges FROM:TO:STEP and "
+    "lists A,B.";
 
 // The shipped cutoff is 0.166 um/s, in these units.
 struct Options {
@@ -39,7 +43,8 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--frequency-ratio", o.frequency_ratio, "omega_h / omega_v")->capture_default_str();
   app.add_option("--starts", o.settings.starts, "at each point")->capture_default_str()->check(CLI::Range(1, 1000));
   app.add_option("--seed", o.settings.seed, "of the starts")->capture_default_str();
-  app.add_option("--duration", o.settings.run.duration, "of a measurement, where the orbit does not repeat itself [tau]")
+  app.add_option("--duration", o.settings.run.duration,
+                 "of a measurement, where the orbit does not repeat itself [tau]")
       ->capture_default_str()
       ->check(CLI::Range(100.0, 1e7));
   app.add_option("--threads", o.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
@@ -85,8 +90,8 @@ std::vector<Point> grid(const Options& o) {
 std::string to_row(const Point& point, const afm::MeasuredLevel& m) {
   const afm::Model& model = point.model;
   char text[160];
-  std::snprintf(text, sizeof text, ",%s,%g,%.3g,%.3g,%.3g\n", name(m.level.kind), m.level.contact_tolerance, m.error.friction,
-                m.error.deflection, m.error.cost);
+  std::snprintf(text, sizeof text, ",%s,%g,%.3g,%.3g,%.3g\n", name(m.level.kind), m.level.contact_tolerance,
+                m.error.friction, m.error.deflection, m.error.cost);
   return afm::join_numbers({point.eta, model.gamma, model.v_c, model.frequency_ratio, model.H, model.y0}) + text;
 }
 
@@ -104,7 +109,8 @@ std::vector<std::string> measure(const std::vector<Point>& points, const Options
   afm::ProgressBar bar(points.size(), 0);
   const auto work = [&] {
     for (std::size_t i = next++; i < points.size(); i = next++) {
-      for (const auto& level : measure_levels(points[i].model, points[i].eta, o.settings)) rows[i] += to_row(points[i], level);
+      for (const auto& level : measure_levels(points[i].model, points[i].eta, o.settings))
+        rows[i] += to_row(points[i], level);
       const std::lock_guard<std::mutex> lock(showing);
       bar.show(++done);
     }

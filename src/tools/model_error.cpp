@@ -18,12 +18,18 @@
 namespace {
 
 const char kDescription[] =
-    "Compares a level of the model (--model, --contact-tolerance) with the oscillator at --reference-tolerance (0: every\n"
-    "bounce), on the same starts (units a, tau, tip mass). --eta, --gamma, --cutoff and --frequency-ratio may be ranges\n"
-    "FROM:TO:STEP and lists A,B. A row for each start: K_f of both with standard errors and kinds of attractor; k_f_error, relative;\n"
-    "deflection_error, the mean distance of equal quantiles of the vertical deflection, beside that of two halves of one\n"
-    "run (deflection_noise) and its rms; tracking_error, the rms difference over one tau from the same height and vertical\n"
-    "velocity; rms and largest stretch of the reference's horizontal spring; and the time of this thread for a tau of each\n"
+    "Compares a level of the model (--model, --contact-tolerance) with the oscillator at --reference-tolerance (0: "
+    "every\n"
+    "bounce), on the same starts (units a, tau, tip mass). --eta, --gamma, --cutoff and --frequency-ratio may be "
+    "ranges\n"
+    "FROM:TO:STEP and lists A,B. A row for each start: K_f of both with standard errors and kinds of attractor; "
+    "k_f_error, relative;\n"
+    "deflection_error, the mean distance of equal quantiles of the vertical deflection, beside that of two halves of "
+    "one\n"
+    "run (deflection_noise) and its rms; tracking_error, the rms difference over one tau from the same height and "
+    "vertical\n"
+    "velocity; rms and largest stretch of the reference's horizontal spring; and the time of this thread for a tau of "
+    "each\n"
     "(median of alternated runs), with the ratio of reference to level: above 1 the level is cheaper.";
 
 const char kHeader[] =
@@ -147,7 +153,8 @@ void compare(const Options& o, const Point& point, int start) {
   const double tracking = tracking_error(point.model, o.level, full, o.settings);
   const double K = level.friction.K_f, R = reference.friction.K_f, ratio = K / R;
   const double share = std::hypot(level.friction.K_f_std_error / R, ratio * reference.friction.K_f_std_error / R);
-  std::cout << afm::join_numbers({point.eta, model.gamma, model.v_c, point.model.frequency_ratio}) << "," << o.model << ","
+  std::cout << afm::join_numbers({point.eta, model.gamma, model.v_c, point.model.frequency_ratio}) << "," << o.model
+            << ","
             << afm::join_numbers({o.level.contact_tolerance, o.reference_tolerance, static_cast<double>(start), K,
                                   level.friction.K_f_std_error})
             << "," << level.attractor.name() << "," << afm::join_numbers({R, reference.friction.K_f_std_error}) << ","

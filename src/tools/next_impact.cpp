@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> paths;
   app.add_option("files", paths, "tables to read; none, or -, is standard input");
   std::string model = "oscillator";
-  app.add_option("--model", model, "oscillator; or hammer, which has no extension, and eta for u")->capture_default_str();
+  app.add_option("--model", model, "oscillator; or hammer, which has no extension, and eta for u")
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   afm::ModelKind kind = afm::ModelKind::oscillator;
   if (!afm::parse(model, kind)) {

@@ -16,10 +16,14 @@
 namespace {
 
 const char kDescription[] =
-    "Cuts the section of the hammer's attractor (surface phase, gap rate after an impact; units a, tau, tip mass) into\n"
-    "bands and each band in two, and counts words of the letters. Rows: length; words that occur; the shortest words that\n"
-    "do not, though all their parts do (pruning); the entropy of a letter given those before it, to be compared with the\n"
-    "exponent of an impact: a partition that tells everything reaches it, none can go beyond; and the spread of the gap rate at the middle of a\n"
+    "Cuts the section of the hammer's attractor (surface phase, gap rate after an impact; units a, tau, tip mass) "
+    "into\n"
+    "bands and each band in two, and counts words of the letters. Rows: length; words that occur; the shortest words "
+    "that\n"
+    "do not, though all their parts do (pruning); the entropy of a letter given those before it, to be compared with "
+    "the\n"
+    "exponent of an impact: a partition that tells everything reaches it, none can go beyond; and the spread of the "
+    "gap rate at the middle of a\n"
     "word, over that of all, in the mean and of the word that says least. With --orbits the periodic\n"
     "orbits up to --max-length follow by their words; with --section the points and where the map takes them.";
 
@@ -47,7 +51,9 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--seed", o.search.seed, "of the run and of the search")->capture_default_str();
   app.add_option("--orbits", o.orbits, "file for the orbits: length, word, how many orbits have it, K_f, multipliers");
   app.add_option("--section", o.section, "file for points: phase, gap_rate, phase_next, gap_rate_next, letter");
-  app.add_option("--section-points", o.section_points, "how many")->capture_default_str()->check(CLI::Range(1, 10000000));
+  app.add_option("--section-points", o.section_points, "how many")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10000000));
   app.add_option("--forbidden", o.forbidden, "file for the shortest words that do not occur: length, word");
 }
 
@@ -103,8 +109,8 @@ void write_forbidden(const Options& o, const std::vector<afm::WordCount>& counts
 void report(const afm::Partition& partition, const afm::SymbolicRun& run) {
   for (std::size_t k = 0; k < partition.cuts.size(); ++k) {
     std::cerr << "band " << k + 1 << ": from phase " << partition.begins[k] << "; letters "
-              << static_cast<char>('a' + 2 * k) << " and " << static_cast<char>('b' + 2 * k) << " below and above a gap rate of "
-              << partition.cuts[k] << "\n";
+              << static_cast<char>('a' + 2 * k) << " and " << static_cast<char>('b' + 2 * k)
+              << " below and above a gap rate of " << partition.cuts[k] << "\n";
   }
   std::cerr << "exponent of an impact: " << run.exponent << " +- " << run.exponent_std_error << "\n";
 }
@@ -112,7 +118,8 @@ void report(const afm::Partition& partition, const afm::SymbolicRun& run) {
 int run(const Options& o) {
   const afm::Model model = checked_model(o.dynamics);
   if (model.kind != afm::ModelKind::hammer) {
-    throw std::invalid_argument("model = oscillator: its section has four dimensions; the partition is for the hammer's two");
+    throw std::invalid_argument(
+        "model = oscillator: its section has four dimensions; the partition is for the hammer's two");
   }
   if (o.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is nothing but rest");
   const afm::PoincareMap map(model, o.dynamics.eta);

@@ -56,7 +56,8 @@ void Afterglow::take_positions(const Heard& heard, bool wanted) {
   if (!wanted) return positions_.clear();
   take_evenly(begin, samples.end(), kNewPositions, [&](const Sample& sample) {
     const double x = heard.holder().position(sample.time).value_or(0.0) + sample.X;
-    const Corner corner{sample.time, x, heard.holder().height(sample.time) + sample.Y, heard.trace().in_contact(sample.time)};
+    const Corner corner{sample.time, x, heard.holder().height(sample.time) + sample.Y,
+                        heard.trace().in_contact(sample.time)};
     positions_.push_back({corner, 0.0, ImpactKind::impact, picture_});
   });
 }

@@ -1,5 +1,6 @@
 // What stays in the picture after it happened: the impacts of the path; where motion is too fast to follow, impacts and
-// places of the tip for a second. Of what is new at most so much is taken, evenly: a picture costs the same at any speed.
+// places of the tip for a second. Of what is new at most so much is taken, evenly: a picture costs the same at any
+// speed.
 #pragma once
 
 #include <cstdint>

@@ -36,7 +36,8 @@ void Heard::take(const afm_emulator::Deflection& message) {
   if (!units_) return;
   // the digits that the core uses, as long as the sample rate is that of the start
   const bool as_at_start = message.sample_period == configuration_->sample_period;
-  trace_.add(message, *units_, as_at_start ? configuration_->sample_period_tau : message.sample_period / units_->time());
+  trace_.add(message, *units_,
+             as_at_start ? configuration_->sample_period_tau : message.sample_period / units_->time());
 }
 
 void Heard::take(const afm_emulator::ImpactArray& message) {

@@ -1,7 +1,7 @@
 // How a picture a thirtieth of a second shows a motion that may be thousands of times faster. Where the eye can follow,
 // the picture goes with the harmonic centre. Where a picture would be more than half a cell behind the next, and the
-// surface seem to run backwards like the spokes of a wheel in a film, each shows the moment at which the centre was last
-// over a crest: the surface stands still, a periodic orbit does too, and a chaotic one is a cloud.
+// surface seem to run backwards like the spokes of a wheel in a film, each shows the moment at which the centre was
+// last over a crest: the surface stands still, a periodic orbit does too, and a chaotic one is a cloud.
 #pragma once
 
 #include "view/heard.h"

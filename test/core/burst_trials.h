@@ -27,7 +27,8 @@ struct BurstTrial {
 
 class BurstTrials {
  public:
-  // fast: compare at the next impact that is no chatter, after all its remaining bounces and bursts, instead of at the next impact
+  // fast: compare at the next impact that is no chatter, after all its remaining bounces and bursts, instead of at the
+  // next impact
   BurstTrials(const Model& model, double eta, double tolerance, unsigned seed, std::int64_t most_bounces, bool fast)
       : model_(model),
         eta_(eta),
@@ -83,7 +84,8 @@ class BurstTrials {
     if (!fast_ && burst_ended && burst.tip_state().g1 > 0.0) {
       const std::int64_t all = std::int64_t{burst.last_impact().count} + 1;
       const double ended = burst.now() - begin;
-      burst = Tip(model_, eta_, burst.tip_state(), 0.0);  // its next bounce by itself, even if that begins another burst
+      burst =
+          Tip(model_, eta_, burst.tip_state(), 0.0);  // its next bounce by itself, even if that begins another burst
       before = ended;
       std::int64_t one = 0;
       return all < most_bounces_ && bounce(burst, 1, one) && bounce(bounces, all, count);

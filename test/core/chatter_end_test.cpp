@@ -1,4 +1,5 @@
-// How chatter ends: let go at a bounce, died into contact, or, where the restitution knows no cutoff, at its accumulation point.
+// How chatter ends: let go at a bounce, died into contact, or, where the restitution knows no cutoff, at its
+// accumulation point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,7 +64,8 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
     const double end = tip.now() - ModelTime{};
     int count = 0;
     const ModelTime late = tip.now() + 1.0;
-    while (settle(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(late) == Outcome::impact) ++count;
+    while (settle(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(late) == Outcome::impact)
+      ++count;
     ASSERT_NEAR(burst.count, count, 1.5 + 0.05 * count) << i;
     while (bounces.tip_state().g1 > 1e-9 && bounces.advance(late) == Outcome::impact) continue;
     if (bounces.now() == late) continue;  // let go after all, of less than the threshold

@@ -1,5 +1,5 @@
-// Every corner of the model: drag at rest, very slow and very fast, restitutions and cutoffs at their ends, centres just below
-// the crest and far below the surface.
+// Every corner of the model: drag at rest, very slow and very fast, restitutions and cutoffs at their ends, centres
+// just below the crest and far below the surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -100,8 +100,8 @@ TEST(Corners, ATipAtRestStaysAtRestCostsNothingAndWakesUp) {
   EXPECT_GT(lost, 1.0);
 }
 
-// Drawn down evenly, each bounce is a part of a turn of the spring: 2 atan(omega v / a) / omega. Bounces slower than a hundredth
-// of the tolerance are contact, and their time is not waited for.
+// Drawn down evenly, each bounce is a part of a turn of the spring: 2 atan(omega v / a) / omega. Bounces slower than a
+// hundredth of the tolerance are contact, and their time is not waited for.
 TEST(Corners, WithoutACutoffTheBurstEndsAtTheAccumulationPoint) {
   for (const double gamma : {0.1, 0.5, 0.7, 0.9}) {
     Model model;

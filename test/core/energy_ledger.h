@@ -1,4 +1,5 @@
-// The books of a tip's energy: the drag works only through the springs, so what is lost is what it put in, less what is stored.
+// The books of a tip's energy: the drag works only through the springs, so what is lost is what it put in, less what is
+// stored.
 #pragma once
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -49,7 +50,8 @@ class EnergyLedger {
 
   // Energy from nothing, and what it is to be compared with: all that has been turned over.
   double imbalance(const Tip& tip) const {
-    return static_cast<double>(lost_ - work_ - tip.work_off_guide()) + (stored_energy(model_, tip.state()) + in_bounces_ - at_start_);
+    return static_cast<double>(lost_ - work_ - tip.work_off_guide()) +
+           (stored_energy(model_, tip.state()) + in_bounces_ - at_start_);
   }
   double turnover(const Tip& tip) const {
     return static_cast<double>(gross_) + stored_energy(model_, tip.state()) + at_start_;

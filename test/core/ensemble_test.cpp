@@ -1,5 +1,5 @@
-// Many tips together give bit for bit what each gives alone: in lanes of any number, on any number of threads, however the
-// advance is split.
+// Many tips together give bit for bit what each gives alone: in lanes of any number, on any number of threads, however
+// the advance is split.
 #include "afm_emulator/ensemble.h"
 
 #include <gtest/gtest.h>

@@ -99,7 +99,8 @@ class Grazes {
     return at;
   }
 
-  // Changes `start` of the graze until the least gap near graze.s is `clearance`; `effect` of a change of it on that gap.
+  // Changes `start` of the graze until the least gap near graze.s is `clearance`; `effect` of a change of it on that
+  // gap.
   static bool lower(Graze& graze, double& start, double clearance, double effect) {
     for (int i = 0; i < 8; ++i) {
       const Flight<Quad> flight(Mechanics<Quad>(graze.model), graze.eta, graze.start);

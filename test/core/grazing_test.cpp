@@ -1,4 +1,5 @@
-// Flights built to pass the surface at a given distance: deeper than rounding, within it, and on starts as near as doubles are.
+// Flights built to pass the surface at a given distance: deeper than rounding, within it, and on starts as near as
+// doubles are.
 #include <gtest/gtest.h>
 
 #include <algorithm>

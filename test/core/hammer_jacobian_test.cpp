@@ -57,7 +57,8 @@ TEST(HammerJacobian, IsTheDerivativeOfTheMap) {
   }
 }
 
-// Of phase and gap rate: the area shrinks by restitution and slope of the law, over the rates at which the flow crosses.
+// Of phase and gap rate: the area shrinks by restitution and slope of the law, over the rates at which the flow
+// crosses.
 TEST(HammerJacobian, ShrinksAreaByTheRestitutionAlone) {
   for (const Model& model : kModels) {
     RandomLaunches random(2);

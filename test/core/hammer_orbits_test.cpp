@@ -18,8 +18,8 @@ Model hammer(double gamma = 0.7) {
   return model;
 }
 
-// One impact in c cells at any eta: the flight is the same backwards, so that w = 2 pi y tan(pi T) at both its ends, and
-// the impact turns it round where tan(2 pi x) = -q, q = tan(pi T) (1-gamma) / (eta (1+gamma)), T = c / eta.
+// One impact in c cells at any eta: the flight is the same backwards, so that w = 2 pi y tan(pi T) at both its ends,
+// and the impact turns it round where tan(2 pi x) = -q, q = tan(pi T) (1-gamma) / (eta (1+gamma)), T = c / eta.
 double orbit_K_f(const Model& m, double eta, int cells) {
   const double s = kTwoPi * m.H, e = (1.0 + m.gamma) / (1.0 - m.gamma);
   const double q = std::tan(0.5 * kTwoPi * cells / eta) / (eta * e);
@@ -60,7 +60,8 @@ TEST(HammerOrbits, OfOneImpactAreAClosedFormAtEveryDragVelocity) {
     double eta;
     int cells;
   };
-  for (const Known& known : {Known{1.7, 1}, Known{2.25, 1}, Known{3.4, 2}, Known{3.7, 2}, Known{4.4, 2}, Known{6.2, 3}}) {
+  for (const Known& known :
+       {Known{1.7, 1}, Known{2.25, 1}, Known{3.4, 2}, Known{3.7, 2}, Known{4.4, 2}, Known{6.2, 3}}) {
     const Model model = hammer();
     const PeriodicOrbit orbit = orbit_of_one(model, known.eta, known.cells);
     ASSERT_EQ(orbit.length(), 1u) << known.eta;

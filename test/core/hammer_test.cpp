@@ -19,7 +19,8 @@ Model hammer(double gamma = 0.7, double v_c = 0.05) {
   return model;
 }
 
-// At even eta and y0 = 0: two impacts a tau, each on the rising flank at mid-height, with w = s eta (1 + gamma)/(1 - gamma) after.
+// At even eta and y0 = 0: two impacts a tau, each on the rising flank at mid-height, with w = s eta (1 + gamma)/(1 -
+// gamma) after.
 FreeState even_orbit(const Model& model, double eta) {
   const double s = kTwoPi * model.H;
   return {0.75, 0.0, 0.0, eta, s * eta * (1.0 + model.gamma) / (1.0 - model.gamma)};
@@ -127,7 +128,8 @@ TEST(Hammer, NoCommandThrowsItOffBeforeItCame) {
   EXPECT_GT(thrown, 300);
 }
 
-// What a stretch of chatter in one valley loses, from its first bounce to the end of the pressure, and in how many bursts.
+// What a stretch of chatter in one valley loses, from its first bounce to the end of the pressure, and in how many
+// bursts.
 struct Loss {
   double energy;
   int bursts;

@@ -1,4 +1,5 @@
-// What packs of lanes make of numbers, for lanes_test.cpp: compiled once for each kind of lane, called where the machine has it.
+// What packs of lanes make of numbers, for lanes_test.cpp: compiled once for each kind of lane, called where the
+// machine has it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Each lane of a pack makes of a number what the number makes of itself: sines, products, quotients, comparisons, signs of zero.
+// Each lane of a pack makes of a number what the number makes of itself: sines, products, quotients, comparisons, signs
+// of zero.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -34,7 +34,8 @@ Model model_at(double gamma = 0.7) {
 const Level kEvery{ModelKind::oscillator, 0.0}, kBursts{ModelKind::oscillator, 1e-3}, kHammer{ModelKind::hammer, 1e-3};
 const Level kFull{ModelKind::oscillator, 5e-3};  // a user's own
 
-LevelChoice choose(double eta, double tolerance, ToleranceOf of = ToleranceOf::friction, const Model& model = model_at()) {
+LevelChoice choose(double eta, double tolerance, ToleranceOf of = ToleranceOf::friction,
+                   const Model& model = model_at()) {
   static const LevelTable table = table_of(std::string(kHead) + kRows);
   return table.choose(model, eta, tolerance, of, kFull);
 }

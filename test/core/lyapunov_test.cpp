@@ -64,8 +64,8 @@ double growth_of(const Tip& tip, const Model& model, double duration) {
   return std::hypot(std::hypot(a.lateral - b.lateral, a.vertical - b.vertical), du / 40.0) / kApart;
 }
 
-// Two neighbours on the attractor part at the largest exponent: no Jacobian in it. Fresh displacements need a few impacts to
-// turn, so what counts is the growth from 4 tau to 8.
+// Two neighbours on the attractor part at the largest exponent: no Jacobian in it. Fresh displacements need a few
+// impacts to turn, so what counts is the growth from 4 tau to 8.
 TEST(Lyapunov, IsHowFastNeighboursPart) {
   const Model model = model_with(0.34);
   const LyapunovSpectrum s = lyapunov(model, 3.4, above_crest(3.4));

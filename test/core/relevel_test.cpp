@@ -91,7 +91,8 @@ TEST_P(Relevel, AnotherModelDropsWhatItSays) {
   }
 }
 
-// A change of level that ends a burst or a contact tells of it, once, at its time; commands at the same time lose nothing.
+// A change of level that ends a burst or a contact tells of it, once, at its time; commands at the same time lose
+// nothing.
 TEST_P(Relevel, EventsAreToldOnce) {
   RandomLaunches random(8);
   const double eta = GetParam().eta;

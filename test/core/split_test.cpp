@@ -1,5 +1,5 @@
-// A command splits the flight, burst or slide under way. One that changes the drag velocity by its last digit must change no more
-// than last digits; the present velocity again, nothing.
+// A command splits the flight, burst or slide under way. One that changes the drag velocity by its last digit must
+// change no more than last digits; the present velocity again, nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +95,8 @@ TEST_P(Split, InABurstChangesItByTheErrorOfItsSteps) {
     advance_to_fast_impact(whole, 0.1);
     advance_to_fast_impact(split, 0.099);
     const TipState a = whole.tip_state(), b = split.tip_state();
-    off.push_back(std::max({std::abs(whole.now() - split.now()), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)}));
+    off.push_back(std::max(
+        {std::abs(whole.now() - split.now()), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)}));
   }
   std::sort(off.begin(), off.end());
   EXPECT_LE(off[50], 1e-6);

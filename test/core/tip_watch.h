@@ -1,4 +1,5 @@
-// A tip under watch: after every arc it must be finite, nowhere below the surface, its energy in balance, and further in time.
+// A tip under watch: after every arc it must be finite, nowhere below the surface, its energy in balance, and further
+// in time.
 #pragma once
 
 #include <algorithm>
@@ -59,16 +60,20 @@ class TipWatch {
     const TipState s = tip_.tip_state();
     std::ostringstream text;
     text.precision(17);
-    text << violation_ << "\n  at " << tip_.now().tau << " + " << tip_.now().phase << "\n  gamma " << model_.gamma << " v_c "
-         << model_.v_c << " H " << model_.H << " y0 " << model_.y0 << " ratio " << model_.frequency_ratio << " eta "
-         << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 " << s.g1
-         << (tip_.in_contact() ? " in contact" : ledger_.bursting() ? " in a burst" : "");
+    text << violation_ << "\n  at " << tip_.now().tau << " + " << tip_.now().phase << "\n  gamma " << model_.gamma
+         << " v_c " << model_.v_c << " H " << model_.H << " y0 " << model_.y0 << " ratio " << model_.frequency_ratio
+         << " eta " << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 "
+         << s.g1
+         << (tip_.in_contact()    ? " in contact"
+             : ledger_.bursting() ? " in a burst"
+                                  : "");
     return text.str();
   }
 
  private:
   static constexpr double kMostImbalance = 1e-9;
-  static constexpr double kLeastTurnover = 1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
+  static constexpr double kLeastTurnover =
+      1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
   static constexpr double kMostDepth = 1e-15;                // [a], times the largest height if that is more than 1 a
   static constexpr std::uint64_t kMostArcsInATau = 1000000;  // far more than any tau needs: a stall
 
@@ -96,14 +101,16 @@ class TipWatch {
     return true;
   }
 
-  // Against the most that was ever turned over, in the holder's frame too: what the drag takes back, and what a slow tip has over
-  // a fast holder, leaves its rounding behind. A burst enters the books when it ends. The hammer's holder keeps books of its own.
+  // Against the most that was ever turned over, in the holder's frame too: what the drag takes back, and what a slow
+  // tip has over a fast holder, leaves its rounding behind. A burst enters the books when it ends. The hammer's holder
+  // keeps books of its own.
   bool check_energy() {
     if (ledger_.bursting() || model_.kind == ModelKind::hammer) return true;
     turnover_ = std::max({turnover_, ledger_.turnover(tip_), 0.5 * tip_.eta() * tip_.eta()});
     const double part = std::abs(ledger_.imbalance(tip_)) / turnover_;
     count_.worst_imbalance = std::max(count_.worst_imbalance, part);
-    return part <= kMostImbalance || violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
+    return part <= kMostImbalance ||
+           violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
   }
 
   bool check_rate() {

@@ -1,5 +1,5 @@
-// A small recording, with messages altered, lost, doubled, moved and cut: replay_check and bag_check end in words, and what is
-// not as it was published is never called identical.
+// A small recording, with messages altered, lost, doubled, moved and cut: replay_check and bag_check end in words, and
+// what is not as it was published is never called identical.
 #include <topic_tools/shape_shifter.h>
 #include <unistd.h>
 
@@ -95,7 +95,9 @@ Entries make_recording() {
   return out.entries;
 }
 
-bool is_of_the_run(const Entry& e) { return e.topic == "/afm/deflection" || e.topic == "/afm/impacts" || e.topic == "/afm/friction"; }
+bool is_of_the_run(const Entry& e) {
+  return e.topic == "/afm/deflection" || e.topic == "/afm/impacts" || e.topic == "/afm/friction";
+}
 
 constexpr std::size_t kHeader = 16;  // sequence number, stamp and an empty name before what a message tells
 
@@ -110,8 +112,8 @@ bool edit(Entries& entries, fuzz::Bytes& bytes, std::string& story) {
   if (op == 2 && index > 0) std::swap(entries[index - 1], entry);
   if (op < 3 || entry.bytes.empty()) return false;
   const std::size_t at = bytes.raw<std::uint16_t>() % entry.bytes.size();
-  story += "; edit " + std::to_string(op) + " at byte " + std::to_string(at) + " of " + std::to_string(entry.bytes.size()) +
-           " of message " + std::to_string(index) + ", " + entry.topic;
+  story += "; edit " + std::to_string(op) + " at byte " + std::to_string(at) + " of " +
+           std::to_string(entry.bytes.size()) + " of message " + std::to_string(index) + ", " + entry.topic;
   const std::vector<std::uint8_t> before = entry.bytes;
   if (op == 3) entry.bytes[at] ^= static_cast<std::uint8_t>(1u << bytes.below(8));
   if (op == 4) entry.bytes[at] = bytes.raw<std::uint8_t>();

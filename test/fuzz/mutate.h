@@ -1,4 +1,5 @@
-// Inputs made from inputs that are kept: without a fuzzer's eye for what is new, but in every build and at its full speed.
+// Inputs made from inputs that are kept: without a fuzzer's eye for what is new, but in every build and at its full
+// speed.
 #pragma once
 
 #include <algorithm>
@@ -61,8 +62,21 @@ class Mutator {
 
   double awkward() {
     using Limits = std::numeric_limits<double>;
-    const double values[] = {0.0, -0.0, 1.0, -1.0, Limits::min(), Limits::denorm_min(), Limits::max(), -Limits::max(),
-                             Limits::infinity(), Limits::quiet_NaN(), Limits::epsilon(), 1e-140, 1e-300, 1e300, 9007199254740992.0};
+    const double values[] = {0.0,
+                             -0.0,
+                             1.0,
+                             -1.0,
+                             Limits::min(),
+                             Limits::denorm_min(),
+                             Limits::max(),
+                             -Limits::max(),
+                             Limits::infinity(),
+                             Limits::quiet_NaN(),
+                             Limits::epsilon(),
+                             1e-140,
+                             1e-300,
+                             1e300,
+                             9007199254740992.0};
     return values[below(sizeof values / sizeof values[0])];
   }
 

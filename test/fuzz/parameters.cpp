@@ -10,12 +10,35 @@ using afm::fuzz::Bytes;
 using afm::fuzz::require;
 using Value = XmlRpc::XmlRpcValue;
 
-const char* const kNames[] = {
-    "omega_v_rad_per_s",   "omega_h_rad_per_s", "tip_mass_kg",       "lattice_spacing_m", "surface_amplitude_m", "rest_height_m",
-    "restitution_gamma",   "cutoff_speed",      "model",             "drag_velocity",     "max_drag_velocity",   "initial_phase",
-    "initial_extension",   "initial_height",    "initial_u",         "initial_w",         "time_scale",          "batch_rate_hz",
-    "sample_rate_hz",      "impact_budget",     "contact_tolerance", "record",            "bag_directory",       "disk_reserve_mb",
-    "friction_window_tau", "compression",       "split_size_mb",     "split_duration_s",  "diagnostic_period"};
+const char* const kNames[] = {"omega_v_rad_per_s",
+                              "omega_h_rad_per_s",
+                              "tip_mass_kg",
+                              "lattice_spacing_m",
+                              "surface_amplitude_m",
+                              "rest_height_m",
+                              "restitution_gamma",
+                              "cutoff_speed",
+                              "model",
+                              "drag_velocity",
+                              "max_drag_velocity",
+                              "initial_phase",
+                              "initial_extension",
+                              "initial_height",
+                              "initial_u",
+                              "initial_w",
+                              "time_scale",
+                              "batch_rate_hz",
+                              "sample_rate_hz",
+                              "impact_budget",
+                              "contact_tolerance",
+                              "record",
+                              "bag_directory",
+                              "disk_reserve_mb",
+                              "friction_window_tau",
+                              "compression",
+                              "split_size_mb",
+                              "split_duration_s",
+                              "diagnostic_period"};
 
 std::string text_of(Bytes& bytes) {
   const char* const known[] = {"oscillator", "hammer", "none", "lz4", "", "1e-4"};
@@ -31,12 +54,14 @@ Value value_of(Bytes& bytes, int depth) {
     case 4: {
       Value list;
       list.setSize(0);
-      for (std::size_t i = 0, n = depth > 3 ? 0 : bytes.below(4); i < n; ++i) list[static_cast<int>(i)] = value_of(bytes, depth + 1);
+      for (std::size_t i = 0, n = depth > 3 ? 0 : bytes.below(4); i < n; ++i)
+        list[static_cast<int>(i)] = value_of(bytes, depth + 1);
       return list;
     }
     case 5: {
       Value tree;
-      for (std::size_t i = 0, n = depth > 3 ? 0 : bytes.below(4); i < n; ++i) tree[bytes.text(10)] = value_of(bytes, depth + 1);
+      for (std::size_t i = 0, n = depth > 3 ? 0 : bytes.below(4); i < n; ++i)
+        tree[bytes.text(10)] = value_of(bytes, depth + 1);
       return tree;
     }
     case 6: return Value(bytes.within(-1.0, 1.0));

@@ -1,5 +1,5 @@
-// Runs a fuzz target over inputs that are kept, the corpus and everything that was ever found, and over what is made from them
-// by chance. Needs no fuzzer. An input that breaks something is written to replay_fuzz_TARGET.found.
+// Runs a fuzz target over inputs that are kept, the corpus and everything that was ever found, and over what is made
+// from them by chance. Needs no fuzzer. An input that breaks something is written to replay_fuzz_TARGET.found.
 //
 // usage: replay_fuzz_TARGET FILE_OR_DIRECTORY... [--mutated N] [--seed S]
 #include <fcntl.h>

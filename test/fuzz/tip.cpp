@@ -1,5 +1,5 @@
-// Any model that may be run, from any start in the air, under any commands: the tip stays finite, above the surface, in balance
-// with its energy, and moves on.
+// Any model that may be run, from any start in the air, under any commands: the tip stays finite, above the surface, in
+// balance with its energy, and moves on.
 #include "afm_emulator/surface.h"
 #include "afm_emulator/tip.h"
 #include "bytes.h"
@@ -32,7 +32,9 @@ double tolerance_of(Bytes& bytes) {
   return tolerance < afm::kMinContactTolerance ? 0.0 : tolerance;
 }
 
-double eta_of(Bytes& bytes) { return bytes.below(4) == 0 ? bytes.within(-afm::kMaxEta, afm::kMaxEta) : bytes.within(-10.0, 10.0); }
+double eta_of(Bytes& bytes) {
+  return bytes.below(4) == 0 ? bytes.within(-afm::kMaxEta, afm::kMaxEta) : bytes.within(-10.0, 10.0);
+}
 
 afm::FreeState start_of(Bytes& bytes, const afm::Model& m, double eta) {
   afm::FreeState s;
@@ -44,8 +46,8 @@ afm::FreeState start_of(Bytes& bytes, const afm::Model& m, double eta) {
   return s;
 }
 
-// Beyond a million a/tau^2, where mica at 50 a/tau has ten thousand, rounding hides whether the surface presses or pulls: contact
-// and release may follow each other without time passing, until the budget of whoever asks is spent.
+// Beyond a million a/tau^2, where mica at 50 a/tau has ten thousand, rounding hides whether the surface presses or
+// pulls: contact and release may follow each other without time passing, until the budget of whoever asks is spent.
 bool is_beyond_rounding(const afm::Model& m, const afm::TipState& s) {
   const double omega_h = afm::kTwoPi * m.frequency_ratio, curvature = afm::kTwoPi * afm::kTwoPi * m.H;
   return curvature * s.u * s.u + omega_h * omega_h * std::fabs(s.X) > 1e6;

@@ -1,5 +1,5 @@
-// What steps a tip in real time neither allocates, nor locks, nor calls the system: every allocation and every lock of the
-// thread is counted, and where nothing may be called the kernel is told to kill whoever calls it.
+// What steps a tip in real time neither allocates, nor locks, nor calls the system: every allocation and every lock of
+// the thread is counted, and where nothing may be called the kernel is told to kill whoever calls it.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -62,7 +62,8 @@ const double kCommands[] = {3.4, 0.0, 1.0, -3.4, 2.0, 3.0, 1e-4, 0.34, -30.0, 5.
 // What the stepping thread does between two deadlines: obey, step, hand over. A reader on its own side takes all away.
 class SteppingPath {
  public:
-  explicit SteppingPath(ModelKind kind, double cutoff) : emulator_(settings(kind, cutoff)), hand_over_({64, 64 * 400, 400000}) {
+  explicit SteppingPath(ModelKind kind, double cutoff)
+      : emulator_(settings(kind, cutoff)), hand_over_({64, 64 * 400, 400000}) {
     emulator_.reserve(batch_);
     emulator_.reserve(taken_);
   }

@@ -1,5 +1,5 @@
-// A tip in lanes: its flight and how far the search of the next impact has come, as rows of numbers that a pack is loaded from.
-// No code of its own: it is shared by files that are compiled for different machines.
+// A tip in lanes: its flight and how far the search of the next impact has come, as rows of numbers that a pack is
+// loaded from. No code of its own: it is shared by files that are compiled for different machines.
 #pragma once
 
 #include <cstdint>
@@ -72,7 +72,8 @@ enum Field : int {
   kFields
 };
 
-// Slower launches are not for lanes: in the squares of what is smaller rounding is another, and `over` no longer a division [a/tau].
+// Slower launches are not for lanes: in the squares of what is smaller rounding is another, and `over` no longer a
+// division [a/tau].
 constexpr double kSlowestLaunch = 1e-60;
 
 // What is to be done next, where a tip is not at work.

@@ -1,5 +1,6 @@
-// A pack of numbers, one in each lane, that the templates of the flight and its search can be given for their number: every
-// lane goes through the arithmetic that the number would, bit for bit. Include a register first; internal, as that is.
+// A pack of numbers, one in each lane, that the templates of the flight and its search can be given for their number:
+// every lane goes through the arithmetic that the number would, bit for bit. Include a register first; internal, as
+// that is.
 #pragma once
 
 #include <utility>
@@ -82,8 +83,8 @@ AFM_LANE_INLINE Mask both(M m, const F& rest) {
   return m && rest();
 }
 
-// The product with 1 / d rounded, and what that leaves over: correctly rounded, as 1 / d is within a quarter ulp of itself
-// (Markstein), where nothing is subnormal. The sign is that of x where the quotient is 0.
+// The product with 1 / d rounded, and what that leaves over: correctly rounded, as 1 / d is within a quarter ulp of
+// itself (Markstein), where nothing is subnormal. The sign is that of x where the quotient is 0.
 AFM_LANE_INLINE Pack over(P x, double d) {
   const Pack per(1.0 / d), q = x * per;
   const Pack quotient = fma(fma(Pack(-d), q, x), per, q);

@@ -1,5 +1,5 @@
-// One register of lanes, AVX2: four. All of it is internal to the file that includes it: what such a file compiles must not be
-// linked into a program for another machine.
+// One register of lanes, AVX2: four. All of it is internal to the file that includes it: what such a file compiles must
+// not be linked into a program for another machine.
 #pragma once
 
 #include <immintrin.h>

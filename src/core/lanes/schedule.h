@@ -1,5 +1,5 @@
-// Which tips are packed together: each of a window of tips waits in a list for what it needs next, and a pack is made from the
-// longest, so that hardly a lane idles however the flights differ.
+// Which tips are packed together: each of a window of tips waits in a list for what it needs next, and a pack is made
+// from the longest, so that hardly a lane idles however the flights differ.
 #pragma once
 
 #include "kernels.h"

@@ -151,7 +151,8 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);
   const double u = in.U + event.eta, per_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
   note(report_.speed_error, (std::abs(in.W - slope * u) * per_norm - told.normal_speed / units_.velocity()) / speed);
-  note(report_.speed_error, ((u + free * slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
+  note(report_.speed_error,
+       ((u + free * slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
   note(report_.allowed, kRoundings * square(conditioning_));
   report_.judged_energy += told.energy_loss;
   ++report_.judged;

@@ -1,4 +1,5 @@
-// Where a bag ends by its own account. rosbag's reader never looks behind it: of two bags in one file it reads the first.
+// Where a bag ends by its own account. rosbag's reader never looks behind it: of two bags in one file it reads the
+// first.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,8 @@ std::optional<std::uint32_t> sequence(const MessageStream<Message>& stream) {
 void check(const afm_emulator::ModelTime& time, const std::string& what) {
   if (time.tau >= 0 && time.tau <= kEndOfTime.tau && time.phase >= 0.0 && time.phase < 1.0) return;
   char text[96];
-  std::snprintf(text, sizeof text, " is %lld + %.17g tau, when no run can be", static_cast<long long>(time.tau), time.phase);
+  std::snprintf(text, sizeof text, " is %lld + %.17g tau, when no run can be", static_cast<long long>(time.tau),
+                time.phase);
   throw Problem(Verdict::altered, what + text);
 }
 
@@ -45,8 +46,8 @@ template <class Message>
 void note(const boost::shared_ptr<const Message>& message, std::optional<std::uint32_t>& epoch) {
   if (!message) return;
   if (epoch && *epoch != message->epoch) {
-    throw Problem(Verdict::altered, "batch " + std::to_string(message->header.seq) + " is of epoch " + std::to_string(*epoch) +
-                                        " and of epoch " + std::to_string(message->epoch));
+    throw Problem(Verdict::altered, "batch " + std::to_string(message->header.seq) + " is of epoch " +
+                                        std::to_string(*epoch) + " and of epoch " + std::to_string(message->epoch));
   }
   epoch = message->epoch;
 }
@@ -65,7 +66,8 @@ Batches::Batches(const Recording& recording)
   size_ = std::max({deflection_.size(), impacts_.size(), friction_.size()});
   const std::uint64_t least = std::min({deflection_.size(), impacts_.size(), friction_.size()});
   if (size_ == 0) throw Problem(Verdict::missing, recording.name() + ": holds no batch of the run");
-  if (deflection_.size() == 0 || (least == 0 && size_ > 1)) throw Problem(Verdict::missing, recording.name() + ": a whole topic is missing");
+  if (deflection_.size() == 0 || (least == 0 && size_ > 1))
+    throw Problem(Verdict::missing, recording.name() + ": a whole topic is missing");
 }
 
 bool Batches::next(RecordedBatch& batch) {

@@ -44,7 +44,9 @@ class Batches {
 
   // False at the end. Throws Problem when messages are out of order, or nothing is there at all.
   bool next(RecordedBatch& batch);
-  const afm_emulator::Deflection* next_deflection() const { return deflection_.head(); }  // of a later batch; null at the end
+  const afm_emulator::Deflection* next_deflection() const {
+    return deflection_.head();
+  }  // of a later batch; null at the end
   const Gaps& gaps() const { return gaps_; }
   std::uint64_t read() const { return read_; }
   std::uint64_t size() const { return size_; }  // about how many there are to read

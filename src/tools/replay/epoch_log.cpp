@@ -55,7 +55,8 @@ void check_change(const afm_emulator::AppliedParameters& change, node::Parameter
 bool fits(const afm_emulator::AppliedParameters& change, const SampleGrid& grid) {
   const ModelTime time = node::from_message(change.time);
   const std::uint64_t sample = change.first_sample;
-  return sample >= grid.first && time <= grid.time_or_end(sample) && (sample == grid.first || grid.time(sample - 1) < time);
+  return sample >= grid.first && time <= grid.time_or_end(sample) &&
+         (sample == grid.first || grid.time(sample - 1) < time);
 }
 
 }  // namespace
@@ -92,7 +93,8 @@ void EpochLog::put_in_order() {
   commands.clear();
   std::size_t next = 0;
   for (const auto& change : changes) {
-    if (change.first_command > drags.size()) missing(change.epoch, "commands before a change of parameters are missing");
+    if (change.first_command > drags.size())
+      missing(change.epoch, "commands before a change of parameters are missing");
     for (; next < change.first_command; ++next) commands.emplace_back(drags[next]);
     commands.emplace_back(change);
   }

@@ -15,7 +15,8 @@ namespace afm::replay {
 struct EpochLog {
   afm_emulator::Configuration configuration;
   std::vector<afm_emulator::AppliedDrag> drags;          // the first at model time 0
-  std::vector<afm_emulator::AppliedParameters> changes;  // likewise; none in bags of versions that could not change them
+  std::vector<afm_emulator::AppliedParameters>
+      changes;  // likewise; none in bags of versions that could not change them
   std::vector<Applied> commands;                         // both, in the order in which they took effect
   std::set<std::uint64_t> stretches;  // samples with which digests begin anew, as those before were not taken
 

@@ -101,8 +101,9 @@ std::unique_ptr<RecordedBag> open_bag(const std::string& path) {
   }
   const std::uint64_t behind = bytes_behind(path);
   if (behind == 0) return opened;
-  throw Problem(Verdict::altered, path + ": has " + std::to_string(behind) +
-                                      " bytes behind its end, as when bags are joined into one file; nobody would read them");
+  throw Problem(Verdict::altered,
+                path + ": has " + std::to_string(behind) +
+                    " bytes behind its end, as when bags are joined into one file; nobody would read them");
 }
 
 Recording::Recording(std::unique_ptr<RecordedBag> first, const std::string& node)

@@ -26,8 +26,8 @@ class Recording {
   // node: the namespace of the emulator such as /afm; empty: the only one there is. Throws Problem.
   Recording(std::unique_ptr<RecordedBag> first, const std::string& node);
 
-  // Whether the bag was written where the last one of ours ended; if so it is taken over. Throws Problem if it is another
-  // part of the same recording.
+  // Whether the bag was written where the last one of ours ended; if so it is taken over. Throws Problem if it is
+  // another part of the same recording.
   bool append(std::unique_ptr<RecordedBag>& bag);
 
   const std::vector<std::unique_ptr<RecordedBag>>& bags() const { return bags_; }

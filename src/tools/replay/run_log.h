@@ -1,4 +1,5 @@
-// What the run in a recording is a function of: the configuration of each epoch and its commands, complete and in order.
+// What the run in a recording is a function of: the configuration of each epoch and its commands, complete and in
+// order.
 #pragma once
 
 #include <map>
