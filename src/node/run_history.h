@@ -13,7 +13,7 @@ namespace afm::node {
 
 class RunHistory {
  public:
-  // Some 20 MB; days of commands by hand, 40 minutes of one every batch. Past it the oldest are forgotten: the history
+  // Some 40 MB; days of commands by hand, 40 minutes of one every batch. Past it the oldest are forgotten: the history
   // then begins at a model time above 0, and a checker sees that it is not whole.
   static constexpr std::size_t kMaxCommands = 250000;
   // likewise
