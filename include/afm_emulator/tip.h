@@ -79,6 +79,7 @@ class Tip {
 
   TipState held(const TipState& state) const;
   void jolt(double eta);
+  void end_guide_now();
   void leave_now();
   void tolerate(double contact_tolerance);
   void adopt(const Model& model);

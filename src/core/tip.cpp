@@ -197,6 +197,12 @@ void Tip::drag(double eta) {
 // A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at
 // once.
 void Tip::jolt(double eta) {
+  end_guide_now();
+  eta_ = eta;
+}
+
+// What ends burst or contact at the next advance ends it here.
+void Tip::end_guide_now() {
   const double s = now_ - start_;
   if (mode_ == Mode::sliding) {
     slide_end_ = s;
@@ -204,7 +210,6 @@ void Tip::jolt(double eta) {
   } else {
     chatter_run_ = {ChatterEnd::exits, s, law_.at(slide_, s, chatter_)};
   }
-  eta_ = eta;
 }
 
 void Tip::adopt(const Model& model) {
@@ -234,15 +239,8 @@ void Tip::retune(const Model& model) {
 
 // Ends burst or contact at once; the event is told by the next advance.
 void Tip::leave_now() {
-  const double s = now_ - start_;
-  if (mode_ == Mode::sliding) {
-    slide_end_ = s;
-    slide_releases_ = true;
-    end_slide();
-  } else {
-    chatter_run_ = {ChatterEnd::exits, s, law_.at(slide_, s, chatter_)};
-    end_burst();
-  }
+  end_guide_now();
+  mode_ == Mode::sliding ? end_slide() : end_burst();
   untold_ = true;
   untold_impact_ = last_impact_;
 }

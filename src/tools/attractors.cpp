@@ -13,7 +13,6 @@
 #include "afm_emulator/basins.h"
 #include "csv.h"
 #include "dynamics_options.h"
-#include "sweep/decimal_range.h"
 #include "sweep/progress_bar.h"
 
 namespace {
@@ -63,18 +62,10 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::Range(0, 1024));
 }
 
-std::vector<double> range(const std::string& name, const std::string& text) {
-  try {
-    return afm::parse_range(text);
-  } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument(name + " = " + text + ": " + fault.what());
-  }
-}
-
 std::vector<afm::SweepPoint> grid(Options options) {
   std::vector<afm::SweepPoint> points;
-  for (const double gamma : range("gamma", options.gamma)) {
-    for (const double eta : range("eta", options.eta)) {
+  for (const double gamma : afm::range_option("gamma", options.gamma)) {
+    for (const double eta : afm::range_option("eta", options.eta)) {
       afm::DynamicsOptions at = options.dynamics;
       at.eta = eta;
       at.gamma = gamma;

@@ -11,7 +11,6 @@
 #include "afm_emulator/sweep.h"
 #include "csv.h"
 #include "dynamics_options.h"
-#include "sweep/decimal_range.h"
 #include "sweep/progress_bar.h"
 
 namespace {
@@ -41,12 +40,7 @@ std::vector<double> checked_values(const Options& o) {
     throw std::invalid_argument("vary = " + o.vary + ": must be eta, gamma or cutoff");
   }
   if (o.sweep != "up" && o.sweep != "down") throw std::invalid_argument("sweep = " + o.sweep + ": must be up or down");
-  std::vector<double> values;
-  try {
-    values = afm::parse_range(o.range);
-  } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument("range = " + o.range + ": " + fault.what());
-  }
+  std::vector<double> values = afm::range_option("range", o.range);
   for (const double value : values) checked_model(parameters_at(o, value));
   if (o.sweep == "down") std::reverse(values.begin(), values.end());
   return values;

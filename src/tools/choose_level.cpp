@@ -8,7 +8,6 @@
 #include "afm_emulator/level_table.h"
 #include "csv.h"
 #include "dynamics_options.h"
-#include "sweep/decimal_range.h"
 
 namespace {
 
@@ -24,14 +23,6 @@ struct Options {
   double contact_tolerance = afm::kDefaultContactTolerance;
 };
 
-afm::Model checked_model(const Options& o) {
-  afm::Model model = afm::checked_model({0.0, o.gamma, o.cutoff, "oscillator"});
-  model.frequency_ratio = o.frequency_ratio;
-  const auto faults = find_faults(model);
-  if (!faults.empty()) throw std::invalid_argument(describe(faults));
-  return model;
-}
-
 afm::LevelTable read_table(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::invalid_argument("table = " + path + ": cannot be read");
@@ -44,11 +35,11 @@ afm::LevelTable read_table(const std::string& path) {
 
 int run(const Options& o) {
   const afm::LevelTable table = read_table(o.table);
-  const afm::Model model = checked_model(o);
+  const afm::Model model = afm::checked_model({0.0, o.gamma, o.cutoff, "oscillator", o.frequency_ratio});
   afm::ToleranceOf of = afm::ToleranceOf::friction;
   parse(o.of, of);
   std::cout << "eta,gamma,cutoff,frequency_ratio,tolerance,tolerance_of,model,contact_tolerance,expected_error\n";
-  for (const double eta : afm::parse_range(o.eta)) {
+  for (const double eta : afm::range_option("eta", o.eta)) {
     const auto choice = table.choose(model, eta, o.tolerance, of, {afm::ModelKind::oscillator, o.contact_tolerance});
     std::cout << afm::join_numbers({eta, o.gamma, o.cutoff, o.frequency_ratio, o.tolerance}) << "," << o.of << ","
               << name(choice.level.kind) << ","

@@ -4,7 +4,33 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "csv.h"
+#include "sweep/decimal_range.h"
+
 namespace afm {
+namespace {
+
+std::vector<double> values_of(const std::string& name, const std::string& text, const std::vector<std::string>& parts) {
+  std::vector<double> values;
+  try {
+    for (const std::string& part : parts) {
+      for (const double value : parse_range(part)) values.push_back(value);
+    }
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(name + " = " + text + ": " + fault.what());
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> range_option(const std::string& name, const std::string& text) {
+  return values_of(name, text, {text});
+}
+
+std::vector<double> ranges_option(const std::string& name, const std::string& text) {
+  return values_of(name, text, split_fields(text));
+}
 
 void add_model_option(CLI::App& app, std::string& model) {
   app.add_option("--model", model, "oscillator, or hammer: the horizontal spring infinitely stiff")
@@ -29,6 +55,7 @@ Model checked_model(const DynamicsOptions& o) {
   model.kind = checked_kind(o.model);
   model.gamma = o.gamma;
   model.v_c = o.cutoff;
+  model.frequency_ratio = o.frequency_ratio;
   std::vector<ParameterError> faults;
   for (const ParameterError& fault : find_faults(model)) {
     faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "afm_emulator/model.h"
 
@@ -12,6 +13,7 @@ namespace afm {
 struct DynamicsOptions {
   double eta = 3.4, gamma = 0.7, cutoff = 0.05;
   std::string model = "oscillator";
+  double frequency_ratio = Model{}.frequency_ratio;
 };
 
 void add_options(CLI::App& app, DynamicsOptions& options);
@@ -22,6 +24,11 @@ ModelKind checked_kind(const std::string& name);
 
 // Throws std::invalid_argument with every fault, by the names of the options.
 Model checked_model(const DynamicsOptions& options);
+
+// What an option holds: numbers as parse_range() knows them; or several such, with commas between. Throw
+// std::invalid_argument with name and text of the option, and the reason.
+std::vector<double> range_option(const std::string& name, const std::string& text);
+std::vector<double> ranges_option(const std::string& name, const std::string& text);
 
 // Parses, checks and runs; turns what goes wrong into a message and an exit code: 2 for bad input, 1 for the rest.
 int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& run);

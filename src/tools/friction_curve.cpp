@@ -10,7 +10,6 @@
 
 #include "dynamics_options.h"
 #include "sweep/curve_run.h"
-#include "sweep/decimal_range.h"
 
 namespace {
 
@@ -54,19 +53,11 @@ void parse(CLI::App& app, Options& o) {
   app.add_option("--output", o.output, "the table; - is standard output")->capture_default_str();
 }
 
-std::vector<double> range(const std::string& name, const std::string& text) {
-  try {
-    return afm::parse_range(text);
-  } catch (const std::invalid_argument& fault) {
-    refuse(name + " = " + text + ": " + fault.what());
-  }
-}
-
 void check(Options& o) {
   afm::CurveSettings& s = o.settings;
-  s.eta = range("eta", o.eta);
-  s.gamma = range("gamma", o.gamma);
-  s.cutoff = range("cutoff", o.cutoff);
+  s.eta = afm::range_option("eta", o.eta);
+  s.gamma = afm::range_option("gamma", o.gamma);
+  s.cutoff = afm::range_option("cutoff", o.cutoff);
   const auto direction = kDirections.find(o.sweep);
   if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
   s.direction = direction->second;

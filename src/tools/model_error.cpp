@@ -12,7 +12,6 @@
 #include "cpu_clock.h"
 #include "csv.h"
 #include "dynamics_options.h"
-#include "sweep/decimal_range.h"
 #include "sweep/progress_bar.h"
 
 namespace {
@@ -74,40 +73,26 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::Range(1000, 1000000000));
 }
 
-// Numbers and ranges with commas between.
-std::vector<double> range(const std::string& name, const std::string& text) {
-  std::vector<double> values;
-  for (const std::string& part : afm::split_fields(text)) {
-    try {
-      for (const double value : afm::parse_range(part)) values.push_back(value);
-    } catch (const std::invalid_argument& fault) {
-      throw std::invalid_argument(name + " = " + text + ": " + fault.what());
-    }
-  }
-  return values;
-}
-
 struct Point {
   afm::Model model;  // of the reference
   double eta;
 };
 
 Point checked_point(const Options& o, double eta, double gamma, double cutoff, double frequency_ratio) {
-  afm::DynamicsOptions at{eta, gamma, o.relative_cutoff ? cutoff * std::abs(eta) : cutoff, "oscillator"};
-  Point point{checked_model(at), eta};
-  point.model.frequency_ratio = frequency_ratio;
-  const auto faults = find_faults(point.model);
-  if (!faults.empty()) throw std::invalid_argument(describe(faults));
+  const double v_c = o.relative_cutoff ? cutoff * std::abs(eta) : cutoff;
+  const Point point{afm::checked_model({eta, gamma, v_c, "oscillator", frequency_ratio}), eta};
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no friction to compare");
   return point;
 }
 
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
-  for (const double cutoff : range("cutoff", o.cutoff)) {
-    for (const double gamma : range("gamma", o.gamma)) {
-      for (const double ratio : range("frequency-ratio", o.frequency_ratio)) {
-        for (const double eta : range("eta", o.eta)) points.push_back(checked_point(o, eta, gamma, cutoff, ratio));
+  for (const double cutoff : afm::ranges_option("cutoff", o.cutoff)) {
+    for (const double gamma : afm::ranges_option("gamma", o.gamma)) {
+      for (const double ratio : afm::ranges_option("frequency-ratio", o.frequency_ratio)) {
+        for (const double eta : afm::ranges_option("eta", o.eta)) {
+          points.push_back(checked_point(o, eta, gamma, cutoff, ratio));
+        }
       }
     }
   }
