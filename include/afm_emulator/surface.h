@@ -13,7 +13,7 @@ struct SurfaceJet {
 };
 
 template <class T>
-SurfaceJet<T> surface_jet(const T& H, const T& phase) {
+AFM_INLINED SurfaceJet<T> surface_jet(const T& H, const T& phase) {
   const SinCos<T> turn = sin_cos_turns(phase);
   const T k = two_pi<T>();
   const T h = H * turn.cos;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "afm_emulator/multiversion.h"
+
 namespace afm {
 
 template <class T>
@@ -52,34 +54,34 @@ using std::fma;  // of packs of lanes their own
 
 // (sin(2 pi x) - 2 pi x) / x^3 and (cos(2 pi x) - 1) / x^2, z = x^2, paired to shorten the chain of dependencies
 template <class T>
-T sine_tail(T z) {
+AFM_INLINED T sine_tail(T z) {
   const T z2 = z * z, z4 = z2 * z2;
   const T low = fma(fma(z, T(kS9), T(kS7)), z2, T(kS3) + fma(z, T(kS5), T(kS3Low)));
   const T high = fma(fma(z, T(kS17), T(kS15)), z2, fma(z, T(kS13), T(kS11)));
   return fma(high, z4, low);
 }
 template <class T>
-T cosine_rest(T z) {  // the same less kC2, over z
+AFM_INLINED T cosine_rest(T z) {  // the same less kC2, over z
   const T z2 = z * z;
   const T low = fma(T(kC8), z2, fma(z, T(kC6), T(kC4)));
   const T high = fma(T(kC16), z2, fma(z, T(kC14), T(kC12)));
   return fma(fma(high, z, T(kC10)), z2 * z, low);
 }
 template <class T>
-T cosine_tail(T z) {
+AFM_INLINED T cosine_tail(T z) {
   return T(kC2) + fma(z, cosine_rest(z), T(kC2Low));
 }
 // 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from
 // nothing
 template <class T>
-T cosine(T x, T z) {
+AFM_INLINED T cosine(T x, T z) {
   const T z_low = fma(x, x, -z);
   const T head = fma(z, T(kC2), T(1.0)), head_low = fma(z, T(kC2), T(1.0) - head);
   const T rest = fma(z, T(kC2Low), fma(z_low, T(kC2), head_low));
   return head + fma(z * z, cosine_rest(z), rest);
 }
 template <class T>
-T sine(T x, T z) {
+AFM_INLINED T sine(T x, T z) {
   return fma(x, T(kTwoPiHigh), x * fma(z, sine_tail(z), T(kTwoPiLow)));
 }
 
@@ -87,7 +89,7 @@ T sine(T x, T z) {
 constexpr double kRounder = 6755399441055744.0;
 
 // The sine and cosine of an angle, from those of what is left of it less `quarter` quarters of a turn.
-inline SinCos<double> turn_quarters(double quarter, double s, double c) {
+AFM_INLINED SinCos<double> turn_quarters(double quarter, double s, double c) {
   const long long k = static_cast<long long>(quarter);
   const bool swap = (k & 1) != 0;
   const double sin_value = swap ? c : s, cos_value = swap ? s : c;
@@ -95,12 +97,12 @@ inline SinCos<double> turn_quarters(double quarter, double s, double c) {
 }
 
 template <class T>
-T nearest_of(T x) {
+AFM_INLINED T nearest_of(T x) {
   return (x + T(kRounder)) - T(kRounder);
 }
 
 template <class T>
-SinCos<T> sin_cos_of(T x) {
+AFM_INLINED SinCos<T> sin_cos_of(T x) {
   const T quarter = nearest_of(T(4.0) * x);
   const T r = fma(T(-0.25), quarter, x);
   const T z = r * r;
@@ -109,13 +111,13 @@ SinCos<T> sin_cos_of(T x) {
 }
 
 template <class T>
-SmallTurn<T> small_turn_of(T x) {
+AFM_INLINED SmallTurn<T> small_turn_of(T x) {
   const T z = x * x;
   return {sine(x, z), x * z * sine_tail(z), -z * cosine_tail(z)};
 }
 
 template <class T>
-SmallTurn<T> tiny_turn_of(T x) {
+AFM_INLINED SmallTurn<T> tiny_turn_of(T x) {
   const T z = x * x;
   const T tail_sine = fma(z, fma(z, T(kS7), T(kS5)), T(kS3));
   const T tail_cosine = fma(z, fma(z, T(kC6), T(kC4)), T(kC2));
@@ -125,19 +127,19 @@ SmallTurn<T> tiny_turn_of(T x) {
 }  // namespace turns_detail
 
 // Nearest whole number, |x| < 2^51.
-inline double nearest(double x) { return turns_detail::nearest_of(x); }
+AFM_INLINED double nearest(double x) { return turns_detail::nearest_of(x); }
 
 // a * b less a whole number: the fraction keeps its bits however large the product, |a b| < 2^51.
-inline double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
+AFM_INLINED double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
 
 // Within 0.8 ulp, |x| < 2^49 turns.
-inline SinCos<double> sin_cos_turns(double x) { return turns_detail::sin_cos_of(x); }
+AFM_INLINED SinCos<double> sin_cos_turns(double x) { return turns_detail::sin_cos_of(x); }
 
 // Precondition: |x| <= 1/8.
-inline SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
+AFM_INLINED SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
 
 // The same in fewer terms. Precondition: |x| <= 2^-10.
-inline SmallTurn<double> tiny_turn(double x) { return turns_detail::tiny_turn_of(x); }
+AFM_INLINED SmallTurn<double> tiny_turn(double x) { return turns_detail::tiny_turn_of(x); }
 template <class T>
 SmallTurn<T> tiny_turn(const T& x) {
   return small_turn(x);

@@ -1,5 +1,6 @@
 #include "afm_emulator/tip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -49,7 +50,7 @@ AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, con
 }
 
 AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<double>& incident) {
-  return reflect(model, eta, incident.state, std::fmin(incident.g1, 0.0));
+  return reflect(model, eta, incident.state, std::min(0.0, incident.g1));
 }
 
 // The state and gap of Flight::gap, without the derivatives.
