@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "afm_emulator/emulator.h"
 #include "afm_emulator/ensemble.h"
 #include "afm_emulator/impact_search.h"
 #include "afm_emulator/multiversion.h"
@@ -170,6 +171,34 @@ void Sample(benchmark::State& state) {
   }
 }
 BENCHMARK(Sample);
+
+// The same by rows of so many, a sample of one.
+void SampleRow(benchmark::State& state) {
+  Tip tip(Model{}, 3.4, FreeState{0.25, 0.0, 0.2, 3.4, 0.0});
+  while (tip.now().tau < 300) tip.advance({300, 0.0});
+  const std::size_t n = static_cast<std::size_t>(state.range(0));
+  std::vector<double> vertical(n), lateral(n);
+  const SampleGrid grid{(tip.arc_end() - tip.now()) / static_cast<double>(n), 0, tip.now()};
+  for (auto _ : state) benchmark::DoNotOptimize(tip.deflections(grid, 0, n, vertical.data(), lateral.data()));
+  state.counters["per_sample"] = benchmark::Counter(
+      static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(SampleRow)->Arg(1)->Arg(4)->Arg(8)->Arg(20)->Arg(46)->Arg(92);
+
+// The emulator's batch of 2000 samples at 500 kHz, a sample of it: eta, and whether they are taken or only counted.
+void SampledBatch(benchmark::State& state) {
+  EmulatorSettings settings;
+  settings.eta = settings.initial.u = eta_of(state);
+  settings.sample_period = 0.2 / 5.0 / kTwoPi / 2.5;
+  Emulator emulator(settings);
+  emulator.take_samples(state.range(1) == 1);
+  Batch batch;
+  emulator.reserve(batch);
+  for (auto _ : state) benchmark::DoNotOptimize(emulator.run_batch(batch));
+  state.counters["per_sample"] = benchmark::Counter(
+      2000.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(SampledBatch)->ArgsProduct({{100, 340, 450}, {0, 1}});
 
 }  // namespace
 

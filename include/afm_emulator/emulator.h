@@ -96,7 +96,7 @@ class Emulator {
   Outcome run(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   Outcome run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   void sample_until(const ModelTime& time, Batch& batch);
-  void pass_samples(const ModelTime& time);
+  std::uint64_t first_sample_from(const ModelTime& time) const;
 
   EmulatorSettings settings_;
   double eta_;

@@ -21,6 +21,7 @@ class SlidePiece {
 
   T length() const { return length_; }  // to here the series is good to 3e-14 [tau]
   const SlideState<T>& start() const { return start_; }
+  const Series<T>& displacement() const { return d_; }  // x - x(start)
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 

@@ -6,16 +6,19 @@
 #include "afm_emulator/flight.h"
 #include "afm_emulator/impact_search.h"
 #include "afm_emulator/model.h"
+#include "afm_emulator/sample_grid.h"
 #include "afm_emulator/slide.h"
 #include "afm_emulator/state.h"
 
 namespace afm {
 
-struct Deflection {
-  double vertical;  // y - y0 [a]
-  double lateral;   // x - xc [a]
-  double gap;       // y - h(x) [a]
+template <class T>
+struct DeflectionOf {
+  T vertical;  // y - y0 [a]
+  T lateral;   // x - xc [a]
+  T gap;       // y - h(x) [a]
 };
+using Deflection = DeflectionOf<double>;
 
 // Error allowed in the state at the next impact when chatter is replaced by a burst and a slide [a, a/tau]. At the
 // default half of all bursts are good to 4e-6 and 99 in 100 to 2e-4 (docs/stability.md).
@@ -73,6 +76,10 @@ class Tip {
   // deflection below, which is the guide's, and this much more, up to their last event [m a^2/tau^2].
   double work_off_guide() const { return work_off_guide_; }
   Deflection deflection(const ModelTime& t) const;  // from the last event to arc_end()
+  // The same at n times of a grid, the first-th and those after it, bit for bit and several in one instruction where
+  // the machine can. Returns the lowest gap [a].
+  double deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
+                     double* lateral) const;
 
  private:
   enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now

@@ -135,24 +135,26 @@ void Emulator::begin(Batch& batch) const {
   batch.impacts.clear();
 }
 
-void Emulator::sample_until(const ModelTime& time, Batch& batch) {
-  for (;; ++next_sample_) {
-    const ModelTime t = grid_.time(next_sample_);
-    if (!(t < time)) return;
-    const Deflection d = tip_.deflection(t);
-    batch.vertical.push_back(d.vertical);
-    batch.lateral.push_back(d.lateral);
-    counters_.worst_penetration = std::max(counters_.worst_penetration, -d.gap);
-  }
-}
-
-// Counts those before `time` as due.
-void Emulator::pass_samples(const ModelTime& time) {
-  const double periods = (time - grid_.time(next_sample_)) / grid_.period;
-  std::uint64_t n = next_sample_ + static_cast<std::uint64_t>(std::max(0.0, periods));
+// The first sample that is not before `time`.
+std::uint64_t Emulator::first_sample_from(const ModelTime& time) const {
+  std::uint64_t n = next_sample_;
+  const double pause = time - grid_.time(n);
+  if (!(pause > 0.0)) return n;
+  n += static_cast<std::uint64_t>(pause / grid_.period);
   while (n > next_sample_ && !(grid_.time(n - 1) < time)) --n;
   while (grid_.time(n) < time) ++n;
-  next_sample_ = n;
+  return n;
+}
+
+void Emulator::sample_until(const ModelTime& time, Batch& batch) {
+  const std::uint64_t end = first_sample_from(time);
+  if (end == next_sample_) return;
+  const std::size_t had = batch.vertical.size(), n = static_cast<std::size_t>(end - next_sample_);
+  batch.vertical.resize(had + n);
+  batch.lateral.resize(had + n);
+  const double lowest = tip_.deflections(grid_, next_sample_, n, &batch.vertical[had], &batch.lateral[had]);
+  counters_.worst_penetration = std::max(counters_.worst_penetration, -lowest);
+  next_sample_ = end;
 }
 
 // Samples are taken arc by arc, before the arc's end replaces it.
@@ -181,7 +183,7 @@ Outcome Emulator::run(const ModelTime& end, std::uint64_t impacts, Batch& batch)
   begin(batch);
   const Outcome outcome = run_arcs(end, impacts, batch);
   now_ = tip_.now();
-  if (!sampling_) pass_samples(now_);
+  if (!sampling_) next_sample_ = first_sample_from(now_);  // they are due all the same
   batch.end = now_;
   batch.friction = friction_.estimate(now_);
   return outcome;

@@ -53,17 +53,6 @@ AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<
   return reflect(model, eta, incident.state, std::min(0.0, incident.g1));
 }
 
-// The state and gap of Flight::gap, without the derivatives.
-AFM_MULTIVERSION Deflection flight_deflection(const Flight<double>& flight, double s) {
-  if (s <= flight.bounds().small_until) {
-    const GapJet<double> jet = flight.gap(s);
-    return {jet.state.Y, jet.state.X, jet.g};
-  }
-  const FlightState<double> q = flight.at(s);
-  const Mechanics<double>& m = flight.mechanics();
-  return {q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
-}
-
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
 
 AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta,
@@ -82,11 +71,6 @@ AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideStat
 AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
 
 AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
-
-AFM_MULTIVERSION Deflection slide_deflection(const SlidePiece<double>& slide, double s) {
-  const SlideState<double> q = slide.at(s);
-  return {surface_jet(slide.mechanics().H, q.phase).h - slide.mechanics().y0, q.X, 0.0};
-}
 
 }  // namespace
 
@@ -284,11 +268,6 @@ TipState Tip::tip_state() const {
   TipState state = state_of(flight_, now_ - start_);
   state.g = std::fmax(state.g, 0.0);
   return state;
-}
-
-Deflection Tip::deflection(const ModelTime& t) const {
-  if (on_guide()) return slide_deflection(slide_, t - start_);
-  return flight_deflection(flight_, t - start_);
 }
 
 void Tip::find_landing() {

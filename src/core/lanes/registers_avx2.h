@@ -61,6 +61,9 @@ AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
   return _mm256_xor_pd(a, _mm256_and_pd(two, sign_bit()));
 }
 
+AFM_LANE_INLINE Register lane_numbers() { return _mm256_setr_pd(0.0, 1.0, 2.0, 3.0); }
+AFM_LANE_INLINE void store_row(double* row, Register a) { _mm256_storeu_pd(row, a); }
+
 // Two neighbours in each of four rows.
 AFM_LANE_INLINE void load_pair(const double* const* rows, int at, Register& first, Register& second) {
   const Register even =

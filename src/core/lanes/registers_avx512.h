@@ -53,6 +53,9 @@ AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
   return _mm512_xor_pd(a, _mm512_and_pd(two, sign_bit()));
 }
 
+AFM_LANE_INLINE Register lane_numbers() { return _mm512_setr_pd(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0); }
+AFM_LANE_INLINE void store_row(double* row, Register a) { _mm512_storeu_pd(row, a); }
+
 // Every second row of four, from one row on.
 AFM_LANE_INLINE Register every_second(const double* const* rows, int first, int at) {
   const __m256d low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[first] + at)),
