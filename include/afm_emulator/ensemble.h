@@ -32,6 +32,7 @@ class Ensemble {
   // Every tip does what `events` calls of Tip::advance(limit) would, or fewer where one would return time_limit. With a
   // log, room for size() * events records, the i-th tip's are written from log + i * events on.
   void advance(std::uint32_t events, const ModelTime& limit, Impact* log = nullptr);
+  void advance(std::uint32_t events, const ModelTime* limits, Impact* log = nullptr);  // to a limit for each
   void advance(const ModelTime& limit);  // whatever happens until then
 
   // Of the last advance: events, how many of them were searches that gave up (they write no record), and how many a tip
@@ -55,6 +56,7 @@ class Ensemble {
   struct Call;
 
   Tip& up_to_date(std::size_t i);
+  void advance_all(const Call& call);
   void fly(const Call& call, std::size_t from, std::size_t to);
   static bool fly_alone(void* call, lanes::LaneTip& row);
 

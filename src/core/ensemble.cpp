@@ -99,9 +99,12 @@ int Ensemble::lanes() const {
 struct Ensemble::Call {
   Ensemble* ensemble;
   std::uint32_t events;
-  ModelTime limit;
+  const ModelTime* limits;
+  std::size_t stride;  // 0: one limit for all
   Impact* log;
   lanes::Advance in_lanes;
+
+  const ModelTime& limit(std::size_t i) const { return limits[i * stride]; }
 };
 
 Ensemble::Ensemble(int threads, LaneUse use) : threads_(std::max(1, threads)), use_(use) {}
@@ -154,7 +157,7 @@ bool Ensemble::fly_alone(void* context, LaneTip& row) {
       take_up(tip, row);
       return true;
     }
-    const Outcome outcome = tip.advance(call.limit);
+    const Outcome outcome = tip.advance(call.limit(i));
     if (outcome == Outcome::time_limit) return false;
     row.stuck = false;
     ++row.events;
@@ -174,25 +177,35 @@ void Ensemble::fly(const Call& call, std::size_t from, std::size_t to) {
     LaneTip& row = rows_[i];
     row.events = members_[i].search_failures = members_[i].events_alone = 0;
     row.log = call.log == nullptr ? nullptr : call.log + i * call.events;
-    row.waits = row.stage == Stage::bounce && call.limit < time_in(row, lanes::kEndTau, lanes::kEndPhase);
+    row.row[lanes::kLimitTau] = bits_of(call.limit(i).tau);
+    row.row[lanes::kLimitPhase] = call.limit(i).phase;
+    row.waits = row.stage == Stage::bounce && call.limit(i) < time_in(row, lanes::kEndTau, lanes::kEndPhase);
   }
   if (call.in_lanes != nullptr) {
     LaneTip spare = rows_[from];
     spare.log = nullptr;
     void* context = const_cast<Call*>(&call);
-    call.in_lanes(
-        {&rows_[from], static_cast<std::uint32_t>(to - from), call.events, call.limit, &spare, fly_alone, context});
+    call.in_lanes({&rows_[from], static_cast<std::uint32_t>(to - from), call.events, &spare, fly_alone, context});
   } else {
     for (std::size_t i = from; i < to; ++i) fly_alone(const_cast<Call*>(&call), rows_[i]);
   }
   for (std::size_t i = from; i < to; ++i) {
-    if (rows_[i].waits && members_[i].time < call.limit) members_[i].time = call.limit;
+    if (rows_[i].waits && members_[i].time < call.limit(i)) members_[i].time = call.limit(i);
   }
 }
 
 void Ensemble::advance(std::uint32_t events, const ModelTime& limit, Impact* log) {
-  if (events == 0 || members_.empty()) return;
-  const Call call{this, events, limit, log, lanes::advance_in(lanes_in(use_))};
+  advance_all({this, events, &limit, 0, log, lanes::advance_in(lanes_in(use_))});
+}
+
+void Ensemble::advance(std::uint32_t events, const ModelTime* limits, Impact* log) {
+  advance_all({this, events, limits, 1, log, lanes::advance_in(lanes_in(use_))});
+}
+
+void Ensemble::advance(const ModelTime& limit) { advance(std::numeric_limits<std::uint32_t>::max(), limit); }
+
+void Ensemble::advance_all(const Call& call) {
+  if (call.events == 0 || members_.empty()) return;
   // pieces small enough that none is left to do much when the others have finished
   constexpr std::size_t kLeast = 64, kPiecesPerThread = 8;
   const std::size_t threads = static_cast<std::size_t>(threads_);
@@ -206,7 +219,5 @@ void Ensemble::advance(std::uint32_t events, const ModelTime& limit, Impact* log
   work();
   for (std::thread& helper : helpers) helper.join();
 }
-
-void Ensemble::advance(const ModelTime& limit) { advance(std::numeric_limits<std::uint32_t>::max(), limit); }
 
 }  // namespace afm

@@ -5,12 +5,31 @@
 
 #include "afm_emulator/contact_jacobian.h"
 #include "afm_emulator/flight.h"
+#include "afm_emulator/multiversion.h"
 #include "afm_emulator/reflection.h"
 
 namespace afm {
 namespace {
 
 SlideState<double> guide_of(const TipState& s) { return {s.phase, s.X, s.u}; }
+
+// A flight from impact to impact again, to the last digits, and what it does to displacements.
+struct Bounced {
+  TipState after;
+  double normal_speed;
+  SectionJacobian<double> jacobian;
+};
+
+AFM_MULTIVERSION void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start,
+                             double dt, Bounced& bounced) {
+  const Flight<double> flight(mechanics, eta, start);
+  GapJet<double> landing = flight.gap(dt);
+  landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
+  const Reflection bounce = reflect(model, eta, landing.state, landing.g1);
+  bounced.after = bounce.after;
+  bounced.normal_speed = bounce.normal_speed;
+  bounced.jacobian = section_jacobian(model, flight, dt, landing);
+}
 
 }  // namespace
 
@@ -55,14 +74,12 @@ Outcome Tangents::advance(const ModelTime& limit) {
 }
 
 void Tangents::carry_bounce(double dt) {
-  const Flight<double> flight(mechanics_, tip_.eta(), start_);
-  GapJet<double> landing = flight.gap(dt);
-  landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
-  const Reflection bounce = reflect(model_, tip_.eta(), landing.state, landing.g1);
-  carry(section_jacobian(model_, flight, dt, landing));
-  const RestitutionJet<double> law = restitution_jet(model_, bounce.normal_speed);
-  stretch_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounce.after.g1);
-  restart(bounce.after);
+  Bounced bounced;
+  follow(model_, mechanics_, tip_.eta(), start_, dt, bounced);
+  carry(bounced.jacobian);
+  const RestitutionJet<double> law = restitution_jet(model_, bounced.normal_speed);
+  stretch_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounced.after.g1);
+  restart(bounced.after);
 }
 
 // From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A

@@ -63,10 +63,19 @@ std::deque<SweepTask> tasks_left(const SweepGrid& grid, const std::map<std::size
   return tasks;
 }
 
-std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings,
-                                       int n) {
+// Enough to fill lanes, and so few that no worker is left with much when the others have finished.
+std::size_t side_by_side(const SweepGrid& grid, int workers) {
+  constexpr std::size_t kMost = 64, kRounds = 3;
+  const std::size_t tasks = grid.size() / grid.chain_length(), n = static_cast<std::size_t>(workers);
+  return std::min(kMost, std::max<std::size_t>(1, workers == 1 ? tasks : tasks / (kRounds * n)));
+}
+
+// In each of the ranks so many.
+std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings, int n,
+                                       const Ranks& ranks) {
+  const std::size_t at_once = side_by_side(grid, n * ranks.size());
   std::vector<std::thread> workers;
-  for (int i = 0; i < n; ++i) workers.emplace_back([&] { do_work(source, grid, settings); });
+  for (int i = 0; i < n; ++i) workers.emplace_back([&, at_once] { do_work(source, grid, settings, at_once); });
   return workers;
 }
 
@@ -88,7 +97,7 @@ class Run {
 
   void finish(Ranks& ranks, const SweepSettings& settings, int threads) {
     TaskBoard board(tasks_left(grid_, journal_ ? journal_->found() : std::map<std::size_t, PackedResult>{}));
-    std::vector<std::thread> workers = start_workers(board, grid_, settings, threads);
+    std::vector<std::thread> workers = start_workers(board, grid_, settings, threads, ranks);
     ranks.expect(threads);
     try {
       collect(board, ranks);
@@ -132,7 +141,7 @@ class Run {
 int help_rank_0(Ranks& ranks, const SweepGrid& grid, const SweepSettings& settings, int threads) {
   if (!ranks.agree(true)) return 2;
   const std::unique_ptr<WorkSource> board = ranks.remote_board();
-  std::vector<std::thread> workers = start_workers(*board, grid, settings, threads);
+  std::vector<std::thread> workers = start_workers(*board, grid, settings, threads, ranks);
   join(workers);
   return 0;
 }

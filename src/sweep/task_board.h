@@ -28,18 +28,18 @@ struct SweepDone {
 class WorkSource {
  public:
   virtual ~WorkSource() = default;
-  virtual bool take(SweepTask& task) = 0;  // false: no more work
+  virtual std::vector<SweepTask> take(std::size_t most) = 0;  // none: no more work
   virtual void deliver(const SweepDone& done) = 0;
 };
 
-// Takes tasks and does them until there are none.
-void do_work(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings);
+// Takes tasks and does them, so many side by side, until there are none.
+void do_work(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings, std::size_t side_by_side);
 
 class TaskBoard : public WorkSource {
  public:
   explicit TaskBoard(std::deque<SweepTask> tasks) : tasks_(std::move(tasks)) {}
 
-  bool take(SweepTask& task) override;
+  std::vector<SweepTask> take(std::size_t most) override;
   void deliver(const SweepDone& done) override;
   std::vector<SweepDone> collect(std::chrono::milliseconds patience);  // what was delivered since, or nothing
 

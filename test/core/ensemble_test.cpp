@@ -136,6 +136,22 @@ TEST(Ensemble, SplitsAndCommandsAreThoseOfOneTip) {
   }
 }
 
+TEST(Ensemble, EachToItsOwnLimit) {
+  for (const LaneUse use : {LaneUse::none, LaneUse::four, LaneUse::widest}) {
+    std::vector<Tip> tips = mixed_tips(ModelKind::oscillator, kDefaultContactTolerance);
+    Ensemble ensemble = together(tips, 2, use);
+    std::vector<ModelTime> limits(tips.size());
+    for (int round = 1; round <= 3; ++round) {
+      for (std::size_t i = 0; i < tips.size(); ++i) limits[i] = limits[i] + 0.37 * static_cast<double>(i % 17);
+      ensemble.advance(1000000, limits.data());
+      for (std::size_t i = 0; i < tips.size(); ++i) {
+        while (tips[i].advance(limits[i]) != Outcome::time_limit) continue;
+        ASSERT_TRUE(identical(ensemble.tip(i), tips[i])) << "round " << round << ", eta " << tips[i].eta();
+      }
+    }
+  }
+}
+
 #if defined(__x86_64__)
 TEST(Ensemble, UsesTheLanesTheMachineHas) {
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");

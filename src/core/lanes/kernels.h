@@ -151,7 +151,7 @@ AFM_LANE_INLINE GapJet<Pack> stepped(const Flight<Pack>& f, const GapJet<Pack>& 
 
 // One evaluation of what is left of a certified root (search_detail::finish); when it is found, the time.
 template <Kind kKind>
-AFM_LANE_INLINE Ways finish(const Rows& rows, const PackTime& limit) {
+AFM_LANE_INLINE Ways finish(const Rows& rows) {
   const Flight<Pack> f = load_flight(rows);
   GapJet<Pack> jet;
   Pack step, low, high, s, t, is_end, unused, guess, count;
@@ -190,8 +190,9 @@ AFM_LANE_INLINE Ways finish(const Rows& rows, const PackTime& limit) {
   if (done != 0) {
     const GapJet<Pack> moved = drift(f, jet, step);
     const Pack end_s = s + select(end, t, t + step), g1 = select(end, jet.g1, moved.g1);
-    PackTime start;
+    PackTime start, limit;
     rows.load(kStartTau, start.tau, start.phase);
+    rows.load(kLimitTau, limit.tau, limit.phase);
     const PackTime time = start + end_s;
     if (on == 0) {
       rows.store(kJetPhase, select(end, jet.state.phase, moved.state.phase), select(end, jet.state.X, moved.state.X));

@@ -69,6 +69,8 @@ enum Field : int {
   kStartPhase,
   kEndTau,
   kEndPhase,
+  kLimitTau,
+  kLimitPhase,
   kFields
 };
 
@@ -94,12 +96,11 @@ struct alignas(64) LaneTip {
   bool waits;    // at the limit
 };
 
-// Advances all until each has had so many events or flies on at the limit.
+// Advances all until each has had so many events or flies on at its limit.
 struct Work {
   LaneTip* tips;
   std::uint32_t size;
   std::uint32_t most_events;
-  ModelTime limit;
   LaneTip* spare;  // fills packs up
   // Brings one tip on by itself until it is in an ordinary flight again; false where it is done before.
   bool (*single)(void* context, LaneTip& tip);

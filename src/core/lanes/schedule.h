@@ -24,8 +24,7 @@ struct List {
 
 class Schedule {
  public:
-  explicit Schedule(const Work& work)
-      : work_(work), limit_{Pack(filled_bits(work.limit.tau)), Pack(work.limit.phase)} {}
+  explicit Schedule(const Work& work) : work_(work) {}
 
   void run() {
     for (;;) {
@@ -101,7 +100,7 @@ class Schedule {
     const Rows rows(tips);
     Ways ways = kKind == kBounce                          ? bounce(tips, rows)
                 : kKind == kLookNear || kKind == kLookFar ? look<kKind>(rows)
-                                                          : finish<kKind>(rows, limit_);
+                                                          : finish<kKind>(rows);
     if (kKind == kBounce) count_bounces(tips, there, ways);
     for (int k = 0; k < kKinds; ++k) sort(lists_[k], tips, ways.lanes[k] & there);
     for (unsigned left = ways.lanes[kLimited] & there; left != 0; left &= left - 1) wait(*tips[__builtin_ctz(left)]);
@@ -168,7 +167,6 @@ class Schedule {
   }
 
   const Work& work_;
-  const PackTime limit_;
   List lists_[kKinds];
   std::uint32_t flying_ = 0, next_ = 0;
 };
