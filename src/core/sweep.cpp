@@ -87,7 +87,7 @@ constexpr std::size_t kFewest = 3;  // in a pack that is all but empty a tip is 
 
 // Brings the meters' tips on together, until few are left.
 void measure_together(std::vector<FrictionMeter>& meters, Ensemble& tips) {
-  constexpr std::uint32_t kEvents = 64;
+  constexpr std::uint32_t kEvents = 128;
   std::vector<Impact> log(meters.size() * kEvents);
   std::vector<ModelTime> limits;
   for (const FrictionMeter& meter : meters) limits.push_back(meter.limit());
