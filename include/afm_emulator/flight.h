@@ -95,7 +95,13 @@ class Flight {
   // The gap at s + step, sooner, from its jet at s near by. Within a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
-  // The ways that these two choose from, for those who have chosen.
+  // The gap at a time that is small: s <= small_until.
+  GapJet<T> gap_soon(const T& s) const {
+    return either(
+        s <= tiny_until(), [&] { return moved_by_tiny_turns(start_, s); }, [&] { return gap_by_small_turns(s); });
+  }
+
+  // The ways that these choose from, for those who have chosen.
   GapJet<T> gap_by_turns(const T& s) const { return jet_at(at(s)); }
   GapJet<T> gap_by_small_turns(const T& s) const { return moved(start_, s); }
   GapJet<T> moved_by_small_turns(const GapJet<T>& jet, const T& step) const { return moved(jet, step); }
@@ -114,6 +120,7 @@ class Flight {
 
  private:
   void set_bounds();
+  T tiny_until() const { return bounds_.small_until / T(128.0); }
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
   // is within a few ulp of itself. Precondition: |t| <= small_until.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
@@ -227,7 +234,6 @@ GapJet<T> Flight<T>::gap(const T& s) const {
 template <class T>
 GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) const {
   using std::abs;
-  const T tiny = bounds_.small_until / T(128.0);
   const T size = abs(step);
   const auto far = [&] {
     return either(
@@ -235,7 +241,7 @@ GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) c
   };
   const auto near = [&] {
     return either(
-        size <= tiny, [&] { return moved_by_tiny_turns(jet, step); }, far);
+        size <= tiny_until(), [&] { return moved_by_tiny_turns(jet, step); }, far);
   };
   return either(
       s + step <= bounds_.small_until, [&] { return gap(s + step); }, near);

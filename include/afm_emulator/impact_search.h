@@ -47,6 +47,24 @@ T end_of_bounce(const Flight<T>& f) {
   return t * (T(1.0) - a + (T(2.0) * a * a - b) + T(5.0) * a * (b - a * a));
 }
 
+// A bounce so brief that its third derivative, times its length, is at most this part of its acceleration: the gap is
+// concave until well past its root, which lies within the same part of the parabola's. So there is one, and nothing is
+// left to be certified.
+constexpr double kBrief = 0.05;
+
+template <class T>
+T parabola_length(const Flight<T>& f) {
+  return T(-2.0) * f.start().g1 / f.start().g2;
+}
+
+// Precondition: it starts on the surface.
+template <class T>
+Truth<T> is_brief(const Flight<T>& f, const T& length) {
+  const T pull = T(-kBrief) * f.start().g2, most = T(1.0 + kBrief) * length;
+  return length > T(0.0) && f.start().g1 > T(0.0) && f.third_derivative_bound() * most < pull &&
+         most <= f.bounds().small_until;
+}
+
 // Leaves the surface: certified up to s; where to look next, and how far a step may reach.
 template <class T>
 void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
@@ -100,6 +118,15 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
   return {SearchOutcome::cap, s, f.gap(s), evaluations};
 }
 
+// Its end, from a look at where its series ends.
+template <class T>
+Landing<T> land_briefly(const Flight<T>& f, const T& length) {
+  const T p = end_of_bounce(f);
+  const GapJet<T> jet = f.gap_soon(p);
+  return finish(f, p, jet,
+                {length > T(0.0), root_step(jet), T(1.0 - kBrief) * length - p, T(1.0 + kBrief) * length - p}, 1);
+}
+
 }  // namespace search_detail
 
 // Searches from the start to the horizon. A flight that starts on the surface falling is an impact at once; one that
@@ -112,6 +139,9 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
   using search_detail::finish;
   const bool on_surface = !(f.start().g > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
+  const T length = search_detail::parabola_length(f);
+  if (on_surface && length < horizon / T(2.0) && search_detail::is_brief(f, length))
+    return search_detail::land_briefly(f, length);
   T s = T(0.0), ahead = T(0.0), guess = T(0.05);
   if (on_surface) search_detail::take_off(f, s, ahead, guess);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {

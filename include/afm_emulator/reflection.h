@@ -36,17 +36,18 @@ ReflectionOf<T> reflect(const ReflectionLaw<T>& law, const T& eta, const FlightS
   const T phase = wrapped(incident.phase), one(1.0), free = law.free;
   const SurfaceJet<T> surface = surface_jet(law.H, phase);
   const T n2 = one + free * surface.h1 * surface.h1;
-  const T n = sqrt(n2);
-  const T u = eta + incident.U, speed = -g1 / n;
-  const auto fast = speed >= law.v_c;
+  // products are sooner there than quotients
+  const T per_n2 = one / n2, per_n = sqrt(n2) * per_n2, loss_slope = (one - law.gamma) / law.v_c;
+  const T u = eta + incident.U, speed = -g1 * per_n;
   // above the cutoff 1 - gamma_eff is exact enough; below it the law gives the small difference itself
+  const auto fast = speed >= law.v_c;
   const T loss = either(
-      fast, [&] { return T(one - law.gamma); }, [&] { return T((one - law.gamma) * speed / law.v_c); });
+      fast, [&] { return T(one - law.gamma); }, [&] { return T(loss_slope * speed); });
   const T gamma_eff = select(fast, law.gamma, T(one - loss));
-  return {{phase, incident.X, u + free * (one + gamma_eff) * surface.h1 * g1 / n2, T(0.0), -gamma_eff * g1},
+  return {{phase, incident.X, u + (free * surface.h1 * per_n2) * ((one + gamma_eff) * g1), T(0.0), -gamma_eff * g1},
           surface,
           speed,
-          (u + free * surface.h1 * (g1 + surface.h1 * u)) / n,
+          (u + free * surface.h1 * (g1 + surface.h1 * u)) * per_n,
           T(0.5) * loss * (one + gamma_eff) * speed * speed};
 }
 

@@ -55,7 +55,7 @@ template <class T>
 T SlidePiece<T>::choose_length() const {
   constexpr double kLongest = 8.0;  // [tau]
   constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  constexpr int kBits = 48;
+  constexpr int kBits = 50;
   const bool held = static_cast<double>(m_.mobility) == 0.0;
   double length = kLongest;
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {

@@ -16,7 +16,7 @@ struct SlideState {
   T phase, X, u;
 };
 
-constexpr std::size_t kSlideOrder = 16;
+constexpr std::size_t kSlideOrder = 18;
 
 template <class T>
 using Series = std::array<T, kSlideOrder + 1>;

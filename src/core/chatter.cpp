@@ -24,6 +24,12 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
+// When n is reached in a step between two ends: the cubic through both with the bounces' durations as its slopes.
+double ChatterLaw::time_at(double n, const Pace& first, const Pace& last, double dt) {
+  const double bounces = last.n - first.n, x = (n - first.n) / bounces, rest = 1.0 - x;
+  return dt * x * x * (3.0 - 2.0 * x) + bounces * x * rest * (first.duration * rest - last.duration * x);
+}
+
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : v_c_(model.v_c),
       threshold_(threshold),
@@ -31,6 +37,7 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
       threshold_x_(rates_.x_of(std::max(threshold, 1e-300))) {
   constexpr double kUsualThreshold = 1e-5;
   fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
+  whole_ = std::max(1e-12, 1e-6 * std::min(1.0, threshold / kUsualThreshold));
 }
 
 // What the averages leave out is of the third and fourth order of a bounce's duration against all changes.
@@ -57,21 +64,25 @@ double ChatterLaw::step_length(const ChatterSurroundings& at, double v, const Ev
   return fall > 0.0 ? std::min(dt, 1.02 * (c.x - threshold_x_) / fall) : dt;
 }
 
-// The first whole n in a step of which the end is known: bracketed, as n only grows.
+// The first whole n in a step of which both ends are known: bracketed, as n only grows.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,
-                                    const EvenChatter& start, double first, double last) const {
-  const double n = std::floor(first) + 1.0;
-  double low = 0.0, high = dt, part = dt * (n - first) / (last - first);
+                                    const EvenChatter& start, const Pace& first, const Pace& last) const {
+  const double n = std::floor(first.n) + 1.0;
+  double low = 0.0, high = dt, part = time_at(n, first, last, dt);
+  if (!(part > low && part < high)) part = dt * (n - first.n) / (last.n - first.n);
   Chatter c{};
+  double before = 0.0, n_before = first.n;
   constexpr int kMostSteps = 40;
   for (int i = 0; i < kMostSteps; ++i) {
     const ChatterSurroundings there = rates_.surroundings(guide, s + part);
     c = rates_.plain(there, rates_.step(guide, s, part, rate, there, start));
     const double rest = n - c.n;
-    if (std::abs(rest) < 1e-9) break;
+    if (std::abs(rest) < whole_) break;
     (rest > 0.0 ? low : high) = part;
-    const double newton = part + rest * 2.0 * c.v * there.per_P;
-    part = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const double duration = i == 0 ? 2.0 * c.v * there.per_P : (part - before) / (c.n - n_before);
+    before = part, n_before = c.n;
+    const double next = part + rest * duration;
+    part = next > low && next < high ? next : 0.5 * (low + high);
   }
   return {ChatterEnd::exits, s + part, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
 }
@@ -98,7 +109,7 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
     const EvenChatter next = rates_.step(guide, s, dt, rate, then, c);
     const Chatter plain = rates_.plain(then, next);
     if (exits && !smooth(then, plain.v) && plain.n >= std::floor(now.n) + 1.0)
-      return whole_bounce(guide, s, dt, rate, c, now.n, plain.n);
+      return whole_bounce(guide, s, dt, rate, c, {now.n, 2.0 * now.v * at.per_P}, {plain.n, 2.0 * plain.v * then.per_P});
     s += dt;
     c = next;
     now = plain;

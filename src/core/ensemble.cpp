@@ -30,10 +30,11 @@ ModelTime time_in(const LaneTip& row, lanes::Field tau, lanes::Field phase) {
   return {whole_of(row.row[tau]), row.row[phase]};
 }
 
-// Off the surface: lanes know no other.
+// Off the surface, and for longer than a bounce among many: lanes know no other.
 bool ordinary(const Tip& tip) {
-  const TipState& launch = tip.flight().launch();
-  return tip.in_flight() && launch.g == 0.0 && launch.g1 > lanes::kSlowestLaunch;
+  const Flight<double>& flight = tip.flight();
+  return tip.in_flight() && flight.launch().g == 0.0 && flight.launch().g1 > lanes::kSlowestLaunch &&
+         !search_detail::is_brief(flight, search_detail::parabola_length(flight));
 }
 
 AFM_MULTIVERSION void begin_search(const Flight<double>& flight, double* row) {

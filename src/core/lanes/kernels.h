@@ -264,7 +264,8 @@ AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   rows.store(kGuess, guess, Pack(0.0));
   rows.store(kStartTau, time.tau, time.phase);
   const Pack zero(0.0);
-  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst);
+  const Mask brief = search_detail::is_brief(f, search_detail::parabola_length(f));
+  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst) && !brief;
   Ways ways;
   split(bits(ordinary), s + ahead <= b.small_until, kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);
