@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "afm_emulator/friction.h"
 #include "afm_emulator/level.h"
 #include "afm_emulator/model.h"
 #include "afm_emulator/sample_grid.h"
+#include "afm_emulator/saved_state.h"
 #include "afm_emulator/state.h"
 #include "afm_emulator/tip.h"
 
@@ -82,15 +84,24 @@ class Emulator {
 
   void reserve(Batch& batch) const;
 
+  // The complete state, from which another goes on to the same bits, whatever its machine. Counters begin anew there.
+  // Allocates nothing.
+  void save(SavedState& out) const;
+  static std::optional<Emulator> restored(const SavedState& state);  // nothing: no emulator can be in that state
+
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   FreeState state() const { return tip_.state(); }  // at now()
   std::uint64_t samples() const { return next_sample_; }  // due so far
   const SampleGrid& grid() const { return grid_; }        // on which they are taken at present
+  std::uint64_t impacts() const { return impact_index_; }  // so far
+  ModelTime estimated_since() const { return friction_.start(); }
   const Counters& counters() const { return counters_; }
   const EmulatorSettings& settings() const { return settings_; }
 
  private:
+  friend class StateFields;
+
   ModelTime next_boundary() const;
   void begin(Batch& batch) const;
   Outcome run(const ModelTime& end, std::uint64_t impacts, Batch& batch);

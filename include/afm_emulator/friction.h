@@ -31,6 +31,7 @@ class PowerBins {
   explicit PowerBins(double bin_width) : width_(bin_width) {}
   void add(double age, double energy);  // age: time since the start [tau], never decreasing by more than a bin
   double std_error(double age) const;   // of energy per tau, from the bins completed at `age`; NaN below 8 bins
+  double width() const { return width_; }
 
  private:
   void merge();
@@ -47,6 +48,8 @@ class PowerWindow {
   void add(double age, double energy);
   double mean(double age);       // energy per tau over the completed bins of the window; NaN before the first
   double std_error(double age);  // NaN below 8 bins
+  double width() const { return width_; }
+  std::int64_t current() const { return current_; }
 
  private:
   void roll_to(double age);
@@ -65,6 +68,10 @@ class Friction {
   void set_window(const ModelTime& now, double window_tau);  // the window alone starts again at `now`
   void add(const Impact& impact);
   FrictionEstimate estimate(const ModelTime& now);
+  ModelTime start() const { return start_; }
+
+  // Of one that was read somewhere: whether it can have come to be at `now`.
+  bool is_possible(const ModelTime& now, double window_tau) const;
 
  private:
   double window_tau_;

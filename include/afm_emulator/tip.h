@@ -82,6 +82,8 @@ class Tip {
                      double* lateral) const;
 
  private:
+  friend class StateFields;  // saved_state.cpp
+
   enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
 
   TipState held(const TipState& state) const;

@@ -126,4 +126,14 @@ FrictionEstimate Friction::estimate(const ModelTime& now) {
   return e;
 }
 
+bool Friction::is_possible(const ModelTime& now, double window_tau) const {
+  const auto is_phase = [](double phase) { return phase >= 0.0 && phase < 1.0; };
+  const bool in_time = is_phase(start_.phase) && is_phase(window_start_.phase) && ModelTime{} <= start_ &&
+                       start_ <= window_start_ && window_start_ <= now;
+  const double bins = (now - window_start_) / window_.width();
+  return in_time && window_tau_ == window_tau && bins_.width() >= kFirstBinWidth && std::isfinite(bins_.width()) &&
+         window_.width() == PowerWindow(window_tau).width() && window_.current() >= 0 &&
+         static_cast<double>(window_.current()) <= bins;
+}
+
 }  // namespace afm

@@ -64,8 +64,9 @@ void BagSeries::split() {
 void BagSeries::write_history() {
   if (!history_.configuration()) return;
   bag_->write(settings_.topics.configuration, last_stamp_, *history_.configuration());
-  for (const auto& command : history_.commands()) bag_->write(settings_.topics.applied_drag, last_stamp_, command);
-  for (const auto& change : history_.changes()) bag_->write(settings_.topics.applied_parameters, last_stamp_, change);
+  if (history_.checkpoint()) bag_->write(settings_.topics.checkpoint, last_stamp_, *history_.checkpoint());
+  for (const auto& command : history_.commands()) bag_->write(settings_.topics.applied_drag, last_stamp_, *command);
+  for (const auto& change : history_.changes()) bag_->write(settings_.topics.applied_parameters, last_stamp_, *change);
 }
 
 void BagSeries::mark(std::uint8_t kind, const ros::Time& stamp) {

@@ -18,7 +18,7 @@ namespace afm::node {
 class BagSeries {
  public:
   struct Topics {
-    BagTopic configuration, applied_drag, applied_parameters, recording;
+    BagTopic configuration, checkpoint, applied_drag, applied_parameters, recording;
   };
   struct Settings {
     Topics topics;

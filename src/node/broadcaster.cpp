@@ -38,6 +38,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& node, const Parameters& parameters, So
       status_(node, sources_.recorder, kStatusTopic, kStatusQueueSize),
       configuration_(node, sources_.recorder, kConfigurationTopic, kConfigurationQueueSize, true),
       digest_(node, sources_.recorder, kDigestTopic, kDigestQueueSize),
+      checkpoint_(node, sources_.recorder, kCheckpointTopic, kCheckpointQueueSize, true),
       health_tracker_(parameters.si.lattice_spacing_m, parameters.command_timeout_s, parameters.disk_reserve_mb) {
   look_for_listeners();  // a recording from the very first message on
   diagnostics_.setHardwareID("none");
@@ -62,12 +63,13 @@ void Broadcaster::run() {
   follow_real_time();  // or on a busy machine chatter comes faster than we would be let to take it, and is lost
   Event event;
   Batch batch;
+  SavedState state;
   for (bool last = false; !last;) {
     last = stopping_;  // look once more after being told to stop: nothing handed over before it is lost
     if (!last) sources_.hand_over.wait_for(kStatusPeriod);
     look_for_listeners();
-    while (sources_.hand_over.take(event, batch)) {
-      publish(event, batch);
+    while (sources_.hand_over.take(event, batch, state)) {
+      publish(event, batch, state);
       look_for_listeners();
       tell_status();
     }
@@ -76,7 +78,7 @@ void Broadcaster::run() {
   tell_digest();
 }
 
-void Broadcaster::publish(const Event& event, const Batch& batch) {
+void Broadcaster::publish(const Event& event, const Batch& batch, const SavedState& state) {
   const Label label{to_stamp(event.wall_ns), event.state.epoch};
   tracker_->observe(event);
   set_live(event.live, parameters_);
@@ -93,6 +95,9 @@ void Broadcaster::publish(const Event& event, const Batch& batch) {
       break;
     case Event::Kind::batch:
       publish_batch(event, batch, label);
+      break;
+    case Event::Kind::checkpoint:
+      publish_checkpoint(event, state, label);
       break;
     case Event::Kind::answer:
       sources_.deliver(event.answer);
@@ -117,6 +122,14 @@ void Broadcaster::publish_batch(const Event& event, const Batch& batch, const La
   }
   send(to_impacts(batch, units_, label), impacts_);
   send(to_friction(batch, event.drag_velocity, units_, label), friction_);
+}
+
+void Broadcaster::publish_checkpoint(const Event& event, const SavedState& state, const Label& label) {
+  const CheckpointContext context{label.epoch,           event.state.commands, applied_drag_.next_sequence(),
+                                  applied_parameters_.next_sequence(), event.drag_velocity,  event.live};
+  auto message = to_checkpoint(context, event.state.time, event.state.impacts, event.state.samples, run_digest_, state);
+  message.header.stamp = label.stamp;
+  checkpoint_.send(std::move(message));
 }
 
 template <class Message>

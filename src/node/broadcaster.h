@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "channel.h"
+#include "checkpoint_message.h"
 #include "disk_space.h"
 #include "hand_over.h"
 #include "health.h"
@@ -52,9 +53,10 @@ class Broadcaster {
 
  private:
   void run();
-  void publish(const Event& event, const Batch& batch);
+  void publish(const Event& event, const Batch& batch, const SavedState& state);
   void begin_epoch(const Label& label);
   void publish_batch(const Event& event, const Batch& batch, const Label& label);
+  void publish_checkpoint(const Event& event, const SavedState& state, const Label& label);
   template <class Message>
   void send(Message&& message, Channel<Message>& channel);
   void tell_status();
@@ -74,6 +76,7 @@ class Broadcaster {
   Channel<afm_emulator::EmulatorStatus> status_;
   Channel<afm_emulator::Configuration> configuration_;
   Channel<afm_emulator::Digest> digest_;
+  Channel<afm_emulator::Checkpoint> checkpoint_;
   diagnostic_updater::Updater diagnostics_;
   std::unique_ptr<StatusTracker> tracker_;
   afm_emulator::EmulatorStatus latest_status_;

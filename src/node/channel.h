@@ -43,6 +43,7 @@ class Channel {
   }
 
   void skip() { ++sequence_; }  // a message that nobody wants: its number is not given to another
+  std::uint32_t next_sequence() const { return sequence_; }
   bool has_subscribers() const { return publisher_.getNumSubscribers() > 0; }
 
  private:

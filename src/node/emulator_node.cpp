@@ -40,6 +40,7 @@ HandOver::Capacity hand_over_capacity(const Parameters& p) {
 Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Parameters& p) {
   const BagSeries::Topics topics{
       make_bag_topic<afm_emulator::Configuration>(node.resolveName(kConfigurationTopic), true),
+      make_bag_topic<afm_emulator::Checkpoint>(node.resolveName(kCheckpointTopic), true),
       make_bag_topic<afm_emulator::AppliedDrag>(node.resolveName(kAppliedDragTopic), true),
       make_bag_topic<afm_emulator::AppliedParameters>(node.resolveName(kAppliedParametersTopic), true),
       make_bag_topic<afm_emulator::Recording>(node.resolveName(kRecordingTopic), false)};

@@ -53,7 +53,7 @@ struct BatchHead {
 };
 
 struct Event {
-  enum class Kind : std::uint8_t { reset, drag_applied, parameters_applied, batch, answer };
+  enum class Kind : std::uint8_t { reset, drag_applied, parameters_applied, batch, checkpoint, answer };
   Kind kind = Kind::batch;
   std::int64_t wall_ns = 0;    // wall clock [ns since 1970]
   double drag_velocity = 0.0;  // in force [m/s], to the bit as it was commanded

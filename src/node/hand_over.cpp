@@ -8,6 +8,7 @@ namespace {
 constexpr std::size_t kEventsPerRequest = 4;
 // Commands that may wait for publication, beside all the batches that may.
 constexpr std::size_t kWaitingCommands = 1024;
+constexpr std::size_t kWaitingStates = 4;  // of checkpoints; another is taken later
 
 // A page touched for the first time costs the toucher a fault: touch them all before the stepping thread does.
 template <class T>
@@ -43,11 +44,13 @@ HandOver::HandOver(const Capacity& capacity)
       events_(room_for_request_ + kWaitingCommands),
       vertical_(capacity.samples),
       lateral_(capacity.samples),
-      impacts_(capacity.impacts) {
+      impacts_(capacity.impacts),
+      states_(kWaitingStates) {
   touch(events_);
   touch(vertical_);
   touch(lateral_);
   touch(impacts_);
+  touch(states_);
 }
 
 bool HandOver::offer(Event event, const Batch& batch) {
@@ -72,8 +75,15 @@ bool HandOver::offer(const Event& event) {
   return true;
 }
 
-bool HandOver::take(Event& event, Batch& batch) {
+bool HandOver::offer(Event event, const SavedState& state) {
+  if (!has_room_for_request() || !states_.push(state)) return false;
+  event.kind = Event::Kind::checkpoint;
+  return offer(event);
+}
+
+bool HandOver::take(Event& event, Batch& batch, SavedState& state) {
   if (!events_.pop(event)) return false;
+  if (event.kind == Event::Kind::checkpoint) states_.pop(state);
   if (event.kind != Event::Kind::batch) return true;
   const BatchHead& head = event.batch;
   batch.begin = head.begin;

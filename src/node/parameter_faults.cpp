@@ -17,6 +17,7 @@ constexpr double kMaxImpactBudget = 1e6;     // 56 MB a batch
 constexpr double kMinReserveMb = 16.0;       // room for the last chunk and the index of a long recording
 constexpr double kMaxReserveMb = 1e9;
 constexpr double kMaxTimeout = 1e6;          // [s]: eleven days
+constexpr double kMinCheckpointInterval = 0.1, kMaxCheckpointInterval = 86400.0;  // [s]: 40 kB/s; a day
 
 std::string text_of(double value) {
   std::ostringstream out;
@@ -82,9 +83,10 @@ void check_rates(const Parameters& p, Check& check) {
 
 void check_recording(const Parameters& p, Check& check) {
   check.within("disk_reserve_mb", p.disk_reserve_mb, kMinReserveMb, kMaxReserveMb);
-  // a bag holds chunks of 0.8 MB, and begins with all commands so far
+  // a bag holds chunks of 0.8 MB, and begins with the commands since the last checkpoint
   if (p.split_size_mb != 0.0) check.within("split_size_mb", p.split_size_mb, 1.0, 1e9);
   if (p.split_duration_s != 0.0) check.within("split_duration_s", p.split_duration_s, 0.1, 1e9);
+  check.within("checkpoint_interval_s", p.checkpoint_interval_s, kMinCheckpointInterval, kMaxCheckpointInterval);
   if (p.compression != "none" && p.compression != "lz4") {
     check.add({"compression", '"' + p.compression + '"', "there is no such compression: use none or lz4"});
   }
@@ -164,6 +166,10 @@ std::uint64_t samples_per_batch(const Parameters& p) {
 std::chrono::nanoseconds batch_period(const Parameters& p) {
   const double seconds = static_cast<double>(samples_per_batch(p)) / (p.sample_rate_hz * p.time_scale);
   return std::chrono::nanoseconds(std::llround(seconds * 1e9));
+}
+
+std::chrono::nanoseconds checkpoint_interval(const Parameters& p) {
+  return std::chrono::nanoseconds(std::llround(p.checkpoint_interval_s * 1e9));
 }
 
 double to_eta(double drag_velocity, const SiModel& si) { return drag_velocity / Units(si).velocity(); }

@@ -41,6 +41,7 @@ std::map<std::string, Field> fields_of(Parameters& p) {
           {"command_timeout_s", &p.command_timeout_s},
           {"impact_budget", &p.impact_budget},
           {"contact_tolerance", &p.contact_tolerance},
+          {"checkpoint_interval_s", &p.checkpoint_interval_s},
           {"record", &p.record},
           {"bag_directory", &p.bag_directory},
           {"disk_reserve_mb", &p.disk_reserve_mb},

@@ -33,6 +33,7 @@ struct Parameters {
   double command_timeout_s = 0.0;  // of wall time without a drag command, after which the drag stops; 0: never
   std::uint64_t impact_budget = 20000;            // a batch
   double contact_tolerance = kDefaultContactTolerance;  // [a, a/tau]
+  double checkpoint_interval_s = 60.0;  // of wall time; a recording begun later is simulated again from the last one
   bool record = false;
   std::string bag_directory = "~/afm_bags";
   double disk_reserve_mb = 200.0;                 // left free on the disk that is recorded to
@@ -74,6 +75,7 @@ double most_sample_rate(const Parameters& parameters);
 // What follows from them. A batch holds whole samples, so its length gives way to the sample rate, not the other way.
 std::uint64_t samples_per_batch(const Parameters& parameters);
 std::chrono::nanoseconds batch_period(const Parameters& parameters);  // of wall time
+std::chrono::nanoseconds checkpoint_interval(const Parameters& parameters);  // likewise
 EmulatorSettings emulator_settings(const Parameters& parameters);
 
 // The level that runs at a drag velocity [a/tau]: of auto the cheapest that its tolerance allows, and where the table

@@ -92,13 +92,9 @@ Recorder::Status Recorder::status() const {
 void Recorder::enqueue_history() {
   if (!history_.configuration()) return;  // nothing has happened yet
   enqueue(settings_.bags.topics.configuration, history_.configuration());
-  for (const auto& command : history_.commands()) {
-    enqueue(settings_.bags.topics.applied_drag, boost::make_shared<const afm_emulator::AppliedDrag>(command));
-  }
-  for (const auto& change : history_.changes()) {
-    enqueue(settings_.bags.topics.applied_parameters,
-            boost::make_shared<const afm_emulator::AppliedParameters>(change));
-  }
+  if (history_.checkpoint()) enqueue(settings_.bags.topics.checkpoint, history_.checkpoint());
+  for (const auto& command : history_.commands()) enqueue(settings_.bags.topics.applied_drag, command);
+  for (const auto& change : history_.changes()) enqueue(settings_.bags.topics.applied_parameters, change);
 }
 
 // In the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by this.

@@ -1,49 +1,54 @@
-// What a bag must be told first, so that a run under way can be simulated again from the start of its epoch: the
-// configuration, and every drag command and change of parameters since then.
+// What a bag must be told first, so that a run under way can be simulated again: the configuration, the last checkpoint,
+// and every drag command and change of parameters since then, with those in force there.
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>
 #include <afm_emulator/AppliedParameters.h>
+#include <afm_emulator/Checkpoint.h>
 #include <afm_emulator/Configuration.h>
 
-#include <cstddef>
 #include <deque>
 
 namespace afm::node {
 
 class RunHistory {
  public:
-  // Some 40 MB; days of commands by hand, 40 minutes of one every batch. Past it the oldest are forgotten: the history
-  // then begins at a model time above 0, and a checker sees that it is not whole.
-  static constexpr std::size_t kMaxCommands = 250000;
-  // likewise
-  static constexpr std::size_t kMaxChanges = 50000;
-
   void remember(const boost::shared_ptr<const afm_emulator::Configuration>& configuration) {
     configuration_ = configuration;
-    commands_.clear();  // a new epoch
+    checkpoint_.reset();  // a new epoch
+    commands_.clear();
     changes_.clear();
   }
-  void remember(const boost::shared_ptr<const afm_emulator::AppliedDrag>& command) {
-    commands_.push_back(*command);
-    if (commands_.size() > kMaxCommands) commands_.pop_front();
+  // It stands for all before it. Readers who do not simulate still find the last of each.
+  void remember(const boost::shared_ptr<const afm_emulator::Checkpoint>& checkpoint) {
+    checkpoint_ = checkpoint;
+    keep_last(commands_);
+    keep_last(changes_);
   }
-  void remember(const boost::shared_ptr<const afm_emulator::AppliedParameters>& change) {
-    changes_.push_back(*change);
-    if (changes_.size() > kMaxChanges) changes_.pop_front();
-  }
+  void remember(const boost::shared_ptr<const afm_emulator::AppliedDrag>& command) { commands_.push_back(command); }
+  void remember(const boost::shared_ptr<const afm_emulator::AppliedParameters>& change) { changes_.push_back(change); }
   // all other messages are of their moment
   template <class Message>
   void remember(const boost::shared_ptr<const Message>&) {}
 
+  template <class Message>
+  using Messages = std::deque<boost::shared_ptr<const Message>>;
+
   const boost::shared_ptr<const afm_emulator::Configuration>& configuration() const { return configuration_; }
-  const std::deque<afm_emulator::AppliedDrag>& commands() const { return commands_; }
-  const std::deque<afm_emulator::AppliedParameters>& changes() const { return changes_; }
+  const boost::shared_ptr<const afm_emulator::Checkpoint>& checkpoint() const { return checkpoint_; }  // null: none yet
+  const Messages<afm_emulator::AppliedDrag>& commands() const { return commands_; }
+  const Messages<afm_emulator::AppliedParameters>& changes() const { return changes_; }
 
  private:
+  template <class Message>
+  static void keep_last(Messages<Message>& messages) {
+    if (messages.size() > 1) messages.erase(messages.begin(), messages.end() - 1);
+  }
+
   boost::shared_ptr<const afm_emulator::Configuration> configuration_;
-  std::deque<afm_emulator::AppliedDrag> commands_;
-  std::deque<afm_emulator::AppliedParameters> changes_;
+  boost::shared_ptr<const afm_emulator::Checkpoint> checkpoint_;
+  Messages<afm_emulator::AppliedDrag> commands_;
+  Messages<afm_emulator::AppliedParameters> changes_;
 };
 
 }  // namespace afm::node

@@ -65,6 +65,7 @@ void Stepper::run() {
     serve_requests();
     watch_for_commands();
     if (!paused_ && !stopping_) run_batch();
+    look_for_checkpoint();
   }
 }
 

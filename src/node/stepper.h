@@ -43,6 +43,8 @@ class Stepper {
   void take_level(double eta);
   void apply_change(const LiveParameters& live);
   void watch_for_commands();
+  void look_for_checkpoint();
+  void take_checkpoint();
   void pause(bool paused);
   void reset();
   void run_batch();
@@ -73,6 +75,10 @@ class Stepper {
   std::chrono::nanoseconds last_command_{0};  // when one was last obeyed, on the monotonic clock
   bool timed_out_ = false;                    // and none since the drag was stopped for that
   std::uint64_t commands_ = 0;                // applied in this epoch
+  SavedState saved_;
+  std::uint64_t commands_since_saved_ = 0;  // changes of parameters too
+  ModelTime saved_time_;
+  std::chrono::nanoseconds checkpoint_due_{0};  // on the monotonic clock
   std::uint32_t epoch_ = 0;
   std::uint64_t dropped_batches_ = 0;
   double worst_lag_ = 0.0;

@@ -3,11 +3,20 @@
 #include "stepper.h"
 
 namespace afm::node {
+namespace {
+
+// So many commands at most are to be remembered, and simulated again, beside the checkpoint before them: half a MB.
+constexpr std::uint64_t kMostCommandsBetweenCheckpoints = 2000;
+
+}  // namespace
 
 // A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
 void Stepper::serve_requests() {
   Request request;
-  while (!stopping_ && hand_over_.has_room_for_request() && requests_.pop(request)) serve(request);
+  while (!stopping_ && hand_over_.has_room_for_request() && requests_.pop(request)) {
+    serve(request);
+    if (commands_since_saved_ >= kMostCommandsBetweenCheckpoints) take_checkpoint();
+  }
 }
 
 void Stepper::serve(const Request& request) {
@@ -51,6 +60,7 @@ void Stepper::apply_drag(double drag_velocity) {
   emulator_.drag(eta);
   publish(Event::Kind::drag_applied);
   ++commands_;
+  ++commands_since_saved_;
 }
 
 void Stepper::apply_change(const LiveParameters& live) {
@@ -59,6 +69,7 @@ void Stepper::apply_change(const LiveParameters& live) {
   take_level(emulator_.eta());
   pacer_.set_period(batch_period(parameters_));
   publish(Event::Kind::parameters_applied);
+  ++commands_since_saved_;
 }
 
 // Before the drag velocity or after the parameters that it is for: who simulates the run again does it in the same
@@ -106,6 +117,23 @@ void Stepper::publish_start() {
   level_.energy_dropped = 0.0;
   ++commands_;
   publish(Event::Kind::parameters_applied);
+  checkpoint_due_ = {};  // at once: the last one is of another epoch
+  commands_since_saved_ = 1;
+}
+
+// While nothing happens the last one will do.
+void Stepper::look_for_checkpoint() {
+  const bool anew = commands_since_saved_ > 0 || !(emulator_.now() == saved_time_);
+  if (anew && monotonic_now() >= checkpoint_due_) take_checkpoint();
+}
+
+// Where there is no room to tell of it, the next look takes it.
+void Stepper::take_checkpoint() {
+  emulator_.save(saved_);
+  if (!hand_over_.offer(event(Event::Kind::checkpoint), saved_)) return;
+  commands_since_saved_ = 0;
+  saved_time_ = emulator_.now();
+  checkpoint_due_ = monotonic_now() + checkpoint_interval(parameters_);
 }
 
 }  // namespace afm::node

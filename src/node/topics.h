@@ -12,6 +12,7 @@ constexpr char kAppliedParametersTopic[] = "applied_parameters";
 constexpr char kStatusTopic[] = "status";
 constexpr char kConfigurationTopic[] = "configuration";
 constexpr char kDigestTopic[] = "digest";
+constexpr char kCheckpointTopic[] = "checkpoint";
 constexpr char kRecordingTopic[] = "recording";  // in bags alone
 
 // of the protocol of dynamic_reconfigure
@@ -36,5 +37,7 @@ constexpr unsigned kDigestQueueSize = 100;
 constexpr unsigned kStatusQueueSize = 10;
 // Only the latest matters.
 constexpr unsigned kConfigurationQueueSize = 10;
+// Every 2000 commands.
+constexpr unsigned kCheckpointQueueSize = 100;
 
 }  // namespace afm::node

@@ -25,8 +25,9 @@ using afm::replay::Verdict;
 
 const char kDescription[] =
     "Simulates a recorded run again, from its configuration and applied commands, and compares every sample, impact,\n"
-    "friction value and command with the recording, bit for bit. Needs no ROS master. Recordings begun in mid-run,\n"
-    "split ones (give their bags in order) and reindexed ones are checked too.";
+    "friction value and command with the recording, bit for bit. Needs no ROS master. Recordings begun in mid-run\n"
+    "(simulated from the checkpoint that they begin with), split ones (give their bags in order) and reindexed ones are\n"
+    "checked too.";
 const char kExitCodes[] =
     "Exit codes:\n"
     "  0  identical, nothing is missing, and the recording was closed\n"
@@ -77,13 +78,21 @@ void print_arithmetic(const afm::replay::RunLog& log) {
             << (ours == configuration.arithmetic_digest ? ": the same\n" : ": NOT THE SAME, so bits may differ\n");
 }
 
+void print_start(const afm::replay::RunLog& log) {
+  const auto* start = log.epochs().begin()->second.start();
+  if (start == nullptr) return;
+  std::cout << "simulated from the checkpoint at model time " << to_text(afm::node::from_message(start->time))
+            << " of epoch " << start->epoch << ", with which the recording begins\n";
+}
+
 void print_extent(const Extent& e, double wall_seconds) {
   std::printf(
-      "compared: %llu samples, %llu impacts, %llu friction estimates, %llu commands, %llu digests, %llu epochs, "
-      "%.6g s of model time\n",
+      "compared: %llu samples, %llu impacts, %llu friction estimates, %llu commands, %llu digests, %llu checkpoints, "
+      "%llu epochs, %.6g s of model time\n",
       static_cast<unsigned long long>(e.samples), static_cast<unsigned long long>(e.impacts),
       static_cast<unsigned long long>(e.estimates), static_cast<unsigned long long>(e.commands),
-      static_cast<unsigned long long>(e.digests), static_cast<unsigned long long>(e.epochs), e.compared_seconds);
+      static_cast<unsigned long long>(e.digests), static_cast<unsigned long long>(e.checkpoints),
+      static_cast<unsigned long long>(e.epochs), e.compared_seconds);
   std::printf("simulated %.6g s of model time in %.3g s: %.3g times real time\n", e.model_seconds, wall_seconds,
               e.model_seconds / wall_seconds);
 }
@@ -126,6 +135,7 @@ Verdict check_run(const Recording& recording, const Options& options) {
   ProgressLine progress;
   afm::replay::RunCheck check(recording, std::ref(progress));
   print_arithmetic(check.log());
+  print_start(check.log());
   check.run();
   print_extent(check.extent(), seconds_since(begin));
   if (check.gaps().messages > 0) {

@@ -78,3 +78,13 @@ def of_estimates(messages, state=START):
                    m.energy_loss, m.window_force, m.window_k_f, m.window_k_f_std_error)
         state = add(state, time_words(m.time) + bits(*figures) + (m.impact_count,))
     return state
+
+
+def of_checkpoint(m):
+    d = m.digest
+    figures = (m.drag_velocity, m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau)
+    told = (d.epoch,) + time_words(d.time) + (d.samples, d.impacts, d.commands, d.estimates, d.configuration_digest,
+                                              d.first_sample, d.samples_digest, d.impacts_digest, d.commands_digest,
+                                              d.estimates_digest)
+    return add(START, (m.epoch,) + time_words(m.time) + (m.impacts, m.samples, m.drags, m.next_drag, m.next_parameters) +
+               bits(*figures) + told + (m.layout,) + tuple(m.state))

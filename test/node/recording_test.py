@@ -9,7 +9,8 @@ import bags
 from emulator_under_test import EmulatorTest, run
 from topics import wait_until
 
-SINCE_THE_EPOCH_BEGAN = ('configuration', 'applied_drag', 'applied_parameters')  # of these a bag holds all, whenever it was begun
+# of these a bag holds all since the last checkpoint, whenever it was begun: here since the epoch began
+SINCE_THE_EPOCH_BEGAN = ('configuration', 'checkpoint', 'applied_drag', 'applied_parameters')
 
 
 def position(sequence, part):

@@ -59,7 +59,7 @@ namespace {
 constexpr int kBatches = 400;
 const double kCommands[] = {3.4, 0.0, 1.0, -3.4, 2.0, 3.0, 1e-4, 0.34, -30.0, 5.0};
 
-// What the stepping thread does between two deadlines: obey, step, hand over. A reader on its own side takes all away.
+// What the stepping thread does between two deadlines: obey, step, hand over, now and then its whole state. A reader on its own side takes all away.
 class SteppingPath {
  public:
   explicit SteppingPath(ModelKind kind, double cutoff)
@@ -76,10 +76,13 @@ class SteppingPath {
     Event event;
     event.state.time = emulator_.now();
     dropped_ += hand_over_.offer(event, batch_) ? 0 : 1;
+    if (n % 5 != 0) return;
+    emulator_.save(state_);
+    dropped_ += hand_over_.offer(event, state_) ? 0 : 1;
   }
   void take_away() {
     Event event;
-    while (hand_over_.take(event, taken_)) {
+    while (hand_over_.take(event, taken_, taken_state_)) {
     }
   }
   std::size_t impacts() const { return impacts_; }
@@ -97,6 +100,7 @@ class SteppingPath {
   Emulator emulator_;
   HandOver hand_over_;
   Batch batch_, taken_;
+  SavedState state_, taken_state_;
   std::size_t impacts_ = 0;
   int dropped_ = 0;
 };

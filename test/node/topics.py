@@ -3,12 +3,13 @@ import threading
 import time
 
 import rospy
-from afm_emulator.msg import (AppliedDrag, AppliedParameters, Configuration, Deflection, Digest, EmulatorStatus, Friction,
+from afm_emulator.msg import (AppliedDrag, AppliedParameters, Checkpoint, Configuration, Deflection, Digest, EmulatorStatus, Friction,
                               ImpactArray)
 
 NAMESPACE = '/afm'
 TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied_drag': AppliedDrag,
-          'applied_parameters': AppliedParameters, 'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest}
+          'applied_parameters': AppliedParameters, 'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest,
+          'checkpoint': Checkpoint}
 
 _news = threading.Condition()
 

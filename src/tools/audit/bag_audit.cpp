@@ -54,12 +54,23 @@ void BagAudit::begin_epoch(const RecordedBatch& batch) {
   history_known_ = from_start;
   epoch_ = batch.epoch;
   next_command_ = 0;
-  parameters_ = node::to_parameters(configuration);
-  level_ = node::full_level(parameters_);
-  grid_ = {configuration.sample_period_tau, 0, {}};
-  last_time_ = {};
+  begin_where_known(log_.epoch(batch.epoch));
   first_time_ = batch.deflection ? node::from_message(batch.deflection->time) : ModelTime{};
   ++epochs_;
+}
+
+// At the beginning of the epoch, or at the checkpoint that the recording begins with.
+void BagAudit::begin_where_known(const replay::EpochLog& log) {
+  const EmulatorSettings& settings = log.emulator().settings();
+  parameters_ = log.parameters();
+  level_ = {settings.model.kind, settings.contact_tolerance};
+  grid_ = log.emulator().grid();
+  last_time_ = log.emulator().now();
+  if (log.start() == nullptr) return;
+  energy_->change(settings.model, grid_);
+  energy_->add_command(last_time_, log.drag_velocity());
+  friction_->command(log.emulator().estimated_since(), log.drag_velocity());
+  friction_->change(log.emulator().estimated_since());
 }
 
 void BagAudit::finish_epoch() {

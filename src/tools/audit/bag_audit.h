@@ -34,6 +34,7 @@ class BagAudit {
 
  private:
   void begin_epoch(const replay::RecordedBatch& batch);
+  void begin_where_known(const replay::EpochLog& log);
   void finish_epoch();
   void follow_commands(const replay::RecordedBatch& batch);
   void follow(const afm_emulator::AppliedDrag& drag);

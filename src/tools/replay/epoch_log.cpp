@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "message_difference.h"
+#include "node/checkpoint_message.h"
 #include "verdict.h"
 
 namespace afm::replay {
@@ -51,6 +52,22 @@ void check_change(const afm_emulator::AppliedParameters& change, node::Parameter
   }
 }
 
+// A state to begin with; throws Problem where it is none for this program and this epoch.
+Emulator restore(const afm_emulator::Checkpoint& checkpoint, const afm_emulator::Configuration& configuration) {
+  if (checkpoint.layout != kStateLayout) {
+    throw Problem(Verdict::foreign, "epoch " + std::to_string(checkpoint.epoch) + ": begins with a checkpoint of layout " +
+                                        std::to_string(checkpoint.layout) + ", and this program reads layout " +
+                                        std::to_string(kStateLayout) + ": check it with version " +
+                                        configuration.version + " of the emulator, which recorded it");
+  }
+  const auto emulator = node::restored(checkpoint);
+  const std::uint64_t told = checkpoint.digest.configuration_digest;
+  if (!emulator || told != node::RunDigest(configuration).message().configuration_digest) {
+    nonsense(checkpoint.epoch, "the checkpoint that it begins with is no state of this run");
+  }
+  return *emulator;
+}
+
 // All samples that are due before a change are taken before it, and no others.
 bool fits(const afm_emulator::AppliedParameters& change, const SampleGrid& grid) {
   const ModelTime time = node::from_message(change.time);
@@ -87,22 +104,80 @@ SampleGrid EpochLog::grid_of(std::uint64_t sample) const {
   return *(later == grids_.begin() ? later : later - 1);
 }
 
-void EpochLog::put_in_order() {
-  check_configuration(configuration);
-  grids_ = {{configuration.sample_period_tau, 0, {}}};
+node::Parameters EpochLog::parameters() const {
+  node::Parameters parameters = node::to_parameters(configuration);
+  if (start_) node::set_live(node::to_live(*start_), parameters);
+  return parameters;
+}
+
+node::RunDigest EpochLog::digest() const {
+  return start_ ? node::RunDigest(start_->digest) : node::RunDigest(configuration);
+}
+
+double EpochLog::drag_velocity() const { return start_ ? start_->drag_velocity : configuration.drag_velocity; }
+
+// Whether the commands do, as far as a checkpoint counts them.
+bool EpochLog::reaches_back() const {
+  if (checkpoints.empty()) return true;  // told otherwise by the commands themselves
+  const auto& c = checkpoints.front();
+  const auto first_drag = c.next_drag - static_cast<std::uint32_t>(c.drags);
+  const auto first_change = c.next_parameters - static_cast<std::uint32_t>(node::changes_before(c));
+  return !drags.empty() && drags.front().header.seq == first_drag && !changes.empty() &&
+         changes.front().header.seq == first_change;
+}
+
+// The last checkpoint before the first batch of the recording, as then the least is to be simulated. Later epochs are in
+// it from their beginnings on.
+void EpochLog::choose_start(const FirstBatch& first) {
+  for (const auto& c : checkpoints) {
+    const bool before = c.samples <= first.sample && c.impacts <= first.impact &&
+                        node::from_message(c.time) < first.end;
+    if (configuration.epoch < first.epoch || (configuration.epoch == first.epoch && before)) start_ = c;
+  }
+  if (start_ && node::from_message(start_->time) == ModelTime{} && reaches_back()) start_.reset();
+  if (start_) {
+    emulator_ = restore(*start_, configuration);
+  } else {
+    emulator_.emplace(node::emulator_settings(configuration));
+  }
+}
+
+// What remains must follow on.
+void EpochLog::drop_before_start() {
+  const auto drop = [this](auto& messages, std::uint32_t next, const char* what) {
+    const auto after = std::find_if(messages.begin(), messages.end(), [&](const auto& m) { return m.header.seq >= next; });
+    messages.erase(messages.begin(), after);
+    if (!messages.empty() && messages.front().header.seq != next) {
+      missing(configuration.epoch, std::string(what) + " after the checkpoint that it begins with are missing");
+    }
+  };
+  drop(drags, start_->next_drag, "commands");
+  drop(changes, start_->next_parameters, "changes of parameters");
+}
+
+void EpochLog::merge() {
   commands.clear();
   std::size_t next = 0;
   for (const auto& change : changes) {
-    if (change.first_command > drags.size())
+    if (change.first_command < drags_before() || change.first_command - drags_before() > drags.size()) {
       missing(change.epoch, "commands before a change of parameters are missing");
-    for (; next < change.first_command; ++next) commands.emplace_back(drags[next]);
+    }
+    for (; next < change.first_command - drags_before(); ++next) commands.emplace_back(drags[next]);
     commands.emplace_back(change);
   }
   for (; next < drags.size(); ++next) commands.emplace_back(drags[next]);
+}
+
+void EpochLog::put_in_order(const FirstBatch& first) {
+  check_configuration(configuration);
+  choose_start(first);
+  if (start_) drop_before_start();
+  grids_ = {emulator_->grid()};
+  merge();
   check_drags();
   check_changes();
   check_levels();
-  ModelTime last;
+  ModelTime last = emulator_->now();
   for (const Applied& command : commands) {
     const ModelTime time = time_of(command);
     if (!(last <= time) || !(time.phase >= 0.0 && time.phase < 1.0)) {
@@ -113,7 +188,7 @@ void EpochLog::put_in_order() {
 }
 
 void EpochLog::check_drags() const {
-  if (drags.empty() || !(node::from_message(drags.front().time) == ModelTime{})) {
+  if (!start_ && (drags.empty() || !(node::from_message(drags.front().time) == ModelTime{}))) {
     missing(configuration.epoch, "the history of commands does not reach back to its beginning");
   }
   for (const auto& drag : drags) {
@@ -140,11 +215,12 @@ void EpochLog::check_levels() const {
 }
 
 void EpochLog::check_changes() {
-  if (!changes.empty() && !(node::from_message(changes.front().time) == ModelTime{})) {
+  const bool from_beginning = !start_ && !changes.empty();
+  if (from_beginning && !(node::from_message(changes.front().time) == ModelTime{})) {
     missing(configuration.epoch, "the history of changes of parameters does not reach back to its beginning");
   }
   const node::Parameters parameters = node::to_parameters(configuration);
-  if (!changes.empty() && !(node::to_live(changes.front()) == node::live_parameters(parameters))) {
+  if (from_beginning && !(node::to_live(changes.front()) == node::live_parameters(parameters))) {
     nonsense(configuration.epoch, "it does not begin with the live parameters of its configuration");
   }
   for (const auto& change : changes) {

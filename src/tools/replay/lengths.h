@@ -2,6 +2,7 @@
 // gigabytes for a damaged one. So lists are measured against their message first.
 #pragma once
 
+#include <afm_emulator/Checkpoint.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/ImpactArray.h>
 #include <ros/serialization.h>
@@ -55,6 +56,19 @@ inline bool lengths_fit<afm_emulator::ImpactArray>(const std::vector<std::uint8_
   measure.list(1);
   measure.fixed(sizeof(std::uint32_t) + sizeof(std::uint64_t));
   measure.list(ros::serialization::serializationLength(afm_emulator::Impact()));
+  return measure.fits();
+}
+
+template <>
+inline bool lengths_fit<afm_emulator::Checkpoint>(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::uint64_t kEpoch = 4, kWord = 8, kNumber = 4;
+  Measure measure(bytes);
+  measure.fixed(kBeforeName);
+  measure.list(1);
+  measure.fixed(kEpoch + kModelTime + 3 * kWord + 2 * kNumber + 6 * kWord + kBeforeName);
+  measure.list(1);  // of the digests
+  measure.fixed(kEpoch + kModelTime + 10 * kWord + kNumber);
+  measure.list(kWord);
   return measure.fits();
 }
 

@@ -51,6 +51,10 @@ class Comparison {
     if (found_ || a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0) return;
     for (index_ = 0; !found_ && index_ < a.size(); ++index_) field(name, a[index_], b[index_]);
   }
+  void field(const std::string& name, const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
+    field("size of " + name, a.size(), b.size());
+    for (index_ = 0; !found_ && index_ < a.size(); ++index_) field(name, a[index_], b[index_]);
+  }
   void at(std::size_t index) { index_ = index; }
   const std::optional<FieldDifference>& found() const { return found_; }
 
@@ -186,9 +190,10 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Configuration
   return c.found();
 }
 
-std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, const afm_emulator::Digest& b) {
+namespace {
+
+void compare(const afm_emulator::Digest& a, const afm_emulator::Digest& b, Comparison& c) {
   using Message = afm_emulator::Digest;
-  Comparison c;
   c.field("digest.epoch", a.epoch, b.epoch);
   c.field("digest.time", a.time, b.time);
   const std::pair<const char*, std::uint64_t Message::*> figures[] = {
@@ -203,6 +208,38 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, co
       {"impacts_digest", &Message::impacts_digest},
       {"estimates_digest", &Message::estimates_digest}};
   for (const auto& [name, member] : figures) c.field(std::string("digest.") + name, a.*member, b.*member);
+}
+
+}  // namespace
+
+std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, const afm_emulator::Digest& b) {
+  Comparison c;
+  compare(a, b, c);
+  return c.found();
+}
+
+std::optional<FieldDifference> find_difference(const afm_emulator::Checkpoint& a, const afm_emulator::Checkpoint& b) {
+  using Message = afm_emulator::Checkpoint;
+  Comparison c;
+  c.field("checkpoint.epoch", a.epoch, b.epoch);
+  c.field("checkpoint.time", a.time, b.time);
+  c.field("checkpoint.impacts", a.impacts, b.impacts);
+  c.field("checkpoint.samples", a.samples, b.samples);
+  c.field("checkpoint.drags", a.drags, b.drags);
+  c.field("checkpoint.next_drag", a.next_drag, b.next_drag);
+  c.field("checkpoint.next_parameters", a.next_parameters, b.next_parameters);
+  const std::pair<const char*, double Message::*> numbers[] = {{"drag_velocity", &Message::drag_velocity},
+                                                               {"restitution_gamma", &Message::restitution_gamma},
+                                                               {"cutoff_speed", &Message::cutoff_speed},
+                                                               {"rest_height_m", &Message::rest_height_m},
+                                                               {"sample_rate_hz", &Message::sample_rate_hz},
+                                                               {"friction_window_tau", &Message::friction_window_tau}};
+  for (const auto& [name, member] : numbers) c.field(std::string("checkpoint.") + name, a.*member, b.*member);
+  compare(a.digest, b.digest, c);
+  c.field("checkpoint.layout", a.layout, b.layout);
+  c.field("checkpoint.state", a.state, b.state);
+  c.at(0);
+  c.field("checkpoint.state_digest", a.state_digest, b.state_digest);
   return c.found();
 }
 

@@ -3,6 +3,7 @@
 
 #include <afm_emulator/AppliedDrag.h>
 #include <afm_emulator/AppliedParameters.h>
+#include <afm_emulator/Checkpoint.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Digest.h>
@@ -29,6 +30,7 @@ std::optional<FieldDifference> find_difference(const afm_emulator::AppliedParame
                                                const afm_emulator::AppliedParameters& b);
 std::optional<FieldDifference> find_difference(const afm_emulator::Configuration& a,
                                                const afm_emulator::Configuration& b);
+std::optional<FieldDifference> find_difference(const afm_emulator::Checkpoint& a, const afm_emulator::Checkpoint& b);
 std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, const afm_emulator::Digest& b);
 
 }  // namespace afm::replay

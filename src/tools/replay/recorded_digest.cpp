@@ -15,6 +15,8 @@ void RecordedDigest::begin_epoch(const RecordedBatch& batch) {
   epoch_ = batch.epoch;
   last_batch_.reset();
   digest_ = node::RunDigest(log_.epoch(batch.epoch).configuration);
+  commands_ = log_.epoch(batch.epoch).digest();
+  next_command_ = 0;
   whole_ = batch.is_whole() && batch.deflection->first_sample == 0 && batch.impacts->first_index == 0;
 }
 
@@ -46,17 +48,24 @@ void RecordedDigest::follow(const RecordedBatch& batch, const OnDigest& on_diges
   }
 }
 
-std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest& told) {
-  // commands are known from the beginning of the epoch on, wherever the recording was begun
-  const EpochLog& log = log_.epoch(told.epoch);
-  node::RunDigest commands(log.configuration);
-  for (std::size_t i = 0; i < log.commands.size() && i < told.commands; ++i) {
-    std::visit([&](const auto& command) { commands.add(command); }, log.commands[i]);
+// They are known from the beginning of the epoch on, or from a checkpoint that knows the digest of those before it.
+void RecordedDigest::count_commands(const EpochLog& log, std::uint64_t commands) {
+  if (commands < log.commands_before() + next_command_) {
+    commands_ = log.digest();
+    next_command_ = 0;
   }
+  for (; next_command_ < log.commands.size() && log.commands_before() + next_command_ < commands; ++next_command_) {
+    std::visit([this](const auto& command) { commands_.add(command); }, log.commands[next_command_]);
+  }
+}
+
+std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest& told) {
+  const EpochLog& log = log_.epoch(told.epoch);
+  count_commands(log, told.commands);
   afm_emulator::Digest found = whole_ ? digest_.message() : told;
-  found.commands = commands.message().commands;
-  found.commands_digest = commands.message().commands_digest;
-  found.configuration_digest = commands.message().configuration_digest;
+  found.commands = commands_.message().commands;
+  found.commands_digest = commands_.message().commands_digest;
+  found.configuration_digest = node::RunDigest(log.configuration).message().configuration_digest;
   digest_ = node::RunDigest(told);
   whole_ = true;
   return find_difference(found, told);

@@ -28,10 +28,13 @@ class RecordedDigest {
   void begin_epoch(const RecordedBatch& batch);
   void add(const RecordedBatch& batch);
   std::optional<FieldDifference> check(const afm_emulator::Digest& told);
+  void count_commands(const EpochLog& log, std::uint64_t commands);
 
   const RunLog& log_;
   MessageStream<afm_emulator::Digest> digests_;
   node::RunDigest digest_;
+  node::RunDigest commands_;  // of those before the last digest
+  std::size_t next_command_ = 0;
   std::optional<std::uint32_t> epoch_, last_batch_;
   bool whole_ = false;  // nothing is missing since the last digest, or the beginning of the epoch
 };

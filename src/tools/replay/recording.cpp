@@ -2,6 +2,7 @@
 
 #include <afm_emulator/AppliedDrag.h>
 #include <afm_emulator/AppliedParameters.h>
+#include <afm_emulator/Checkpoint.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Digest.h>
@@ -34,6 +35,7 @@ std::map<std::string, std::string> expected_md5sums() {
   std::map<std::string, std::string> sums;
   const auto add = [&](const std::string& type, const char* md5sum) { sums[type] = md5sum; };
   add(datatype<Configuration>(), ros::message_traits::md5sum<Configuration>());
+  add(datatype<Checkpoint>(), ros::message_traits::md5sum<Checkpoint>());
   add(datatype<AppliedDrag>(), ros::message_traits::md5sum<AppliedDrag>());
   add(datatype<AppliedParameters>(), ros::message_traits::md5sum<AppliedParameters>());
   add(datatype<Deflection>(), ros::message_traits::md5sum<Deflection>());

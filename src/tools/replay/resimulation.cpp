@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "node/checkpoint_message.h"
 #include "node/message_conversion.h"
 #include "node/parameters.h"
 
@@ -27,10 +28,18 @@ void drop_before(std::vector<T>& values, std::uint64_t base, std::uint64_t first
 Resimulation::Resimulation(const EpochLog& log)
     : log_(log),
       units_(node::si_model(log.configuration)),
-      parameters_(node::to_parameters(log.configuration)),
-      emulator_(node::emulator_settings(log.configuration)),
-      drag_velocity_(log.configuration.drag_velocity),
-      digest_(log.configuration) {}
+      parameters_(log.parameters()),
+      emulator_(log.emulator()),
+      drags_(log.drags_before()),
+      drag_velocity_(log.drag_velocity()),
+      first_sample_(emulator_.samples()),
+      first_impact_(emulator_.impacts()),
+      digest_(log.digest()) {}
+
+std::optional<Applied> Resimulation::last_command() const {
+  if (log_.commands.empty()) return {};
+  return log_.commands[next_command_ > 0 ? next_command_ - 1 : 0];
+}
 
 double Resimulation::batch_length() const {
   return static_cast<double>(settings().samples_per_batch) * settings().sample_period;
@@ -52,7 +61,7 @@ void Resimulation::run_to(const ModelTime& time, std::optional<std::uint64_t> im
 }
 
 void Resimulation::apply_commands(std::uint64_t commands) {
-  while (next_command_ < std::min<std::uint64_t>(commands, log_.commands.size()) &&
+  while (next_command_ < log_.commands.size() && log_.commands_before() + next_command_ < commands &&
          time_of(log_.commands[next_command_]) <= now()) {
     apply_next_command();
   }
@@ -162,6 +171,24 @@ afm_emulator::ImpactArray Resimulation::impacts(std::uint64_t first, std::uint64
 
 afm_emulator::Friction Resimulation::friction() const {
   return node::to_friction(batch_, drag_velocity_, units_, {{}, log_.configuration.epoch});
+}
+
+afm_emulator::Checkpoint Resimulation::checkpoint() const {
+  const auto following = [](const auto& messages, std::size_t taken) {
+    return messages.front().header.seq + static_cast<std::uint32_t>(taken);
+  };
+  const std::uint64_t drags = drags_ - log_.drags_before();
+  node::CheckpointContext context;
+  context.epoch = log_.configuration.epoch;
+  context.drags = drags_;
+  context.next_drag = log_.drags.empty() ? log_.start()->next_drag : following(log_.drags, drags);
+  context.next_parameters =
+      log_.changes.empty() ? log_.start()->next_parameters : following(log_.changes, next_command_ - drags);
+  context.drag_velocity = drag_velocity_;
+  context.live = node::live_parameters(parameters_);
+  SavedState state;
+  emulator_.save(state);
+  return node::to_checkpoint(context, now(), emulator_.impacts(), emulator_.samples(), digest_, state);
 }
 
 void Resimulation::forget(std::uint64_t samples_before, std::uint64_t impacts_before) {

@@ -27,9 +27,7 @@ class Resimulation {
   ModelTime now() const { return emulator_.now(); }
   std::uint64_t samples() const { return first_sample_ + vertical_.size(); }
   std::uint64_t impacts() const { return first_impact_ + impacts_.size(); }
-  const Applied& last_command() const {
-    return log_.commands[next_command_ > 0 ? next_command_ - 1 : 0];
-  }
+  std::optional<Applied> last_command() const;  // that the recording holds
   ModelTime sample_time(std::uint64_t sample) const { return log_.sample_time(sample); }
   std::uint64_t most_samples_per_batch() const { return log_.most_samples_per_batch(); }
   double batch_length() const;  // [tau]
@@ -40,6 +38,7 @@ class Resimulation {
   afm_emulator::Deflection deflection(std::uint64_t first, std::uint64_t count) const;
   afm_emulator::ImpactArray impacts(std::uint64_t first, std::uint64_t count) const;
   afm_emulator::Friction friction() const;  // at now()
+  afm_emulator::Checkpoint checkpoint() const;
   void forget(std::uint64_t samples_before, std::uint64_t impacts_before);
 
   node::RunDigest& digest() { return digest_; }  // of all that was emulated; estimates are added by who asks for them

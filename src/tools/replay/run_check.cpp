@@ -1,5 +1,8 @@
 #include "run_check.h"
 
+#include <limits>
+
+#include "node/checkpoint_message.h"
 #include "node/message_conversion.h"
 #include "node/topics.h"
 
@@ -42,6 +45,7 @@ void RunCheck::run() {
     if (!difference_) compare(batch);
     recorded_.follow(batch,
                      [&](const auto& told, const auto& contradiction) { check_digest(batch, told, contradiction); });
+    check_checkpoints(batch, std::numeric_limits<std::uint64_t>::max());
     last_batch_ = batch.sequence;
     progress_(static_cast<double>(batches_.read()) / static_cast<double>(batches_.size()), end_);
   }
@@ -58,6 +62,7 @@ void RunCheck::begin_epoch(const RecordedBatch& batch) {
   const bool from_start = !first || (batch.deflection && batch.deflection->first_sample == 0);
   next_sample_ = from_start ? std::optional<std::uint64_t>(0) : std::nullopt;
   last_batch_.reset();
+  next_checkpoint_ = 0;
   if (difference_) return;
   simulation_ = std::make_unique<Resimulation>(log_.epoch(batch.epoch));
   begin_ = from_start || !batch.deflection ? ModelTime{} : node::from_message(batch.deflection->time);
@@ -66,6 +71,34 @@ void RunCheck::begin_epoch(const RecordedBatch& batch) {
                         batch.impacts ? batch.impacts->first_index : 0);
   }
   ++extent_.epochs;
+  check_checkpoints(batch, std::numeric_limits<std::uint64_t>::max());
+}
+
+// Those that were told where the simulation is now, after so many commands. What lies behind it, from before the
+// recording began or from inside of what is missing, has its own digest alone to be judged by.
+void RunCheck::check_checkpoints(const RecordedBatch& batch, std::uint64_t most_commands) {
+  if (difference_) return;
+  const auto& checkpoints = log_.epoch(batch.epoch).checkpoints;
+  for (; next_checkpoint_ < checkpoints.size() && !difference_; ++next_checkpoint_) {
+    const auto& told = checkpoints[next_checkpoint_];
+    const ModelTime time = node::from_message(told.time);
+    const bool ahead = simulation_->now() < time || simulation_->impacts() < told.impacts;
+    if (ahead || most_commands < told.digest.commands) return;
+    const bool here = time == simulation_->now() && told.impacts == simulation_->impacts();
+    if (here && told.layout == kStateLayout) check_checkpoint(batch, told);
+  }
+}
+
+void RunCheck::check_checkpoint(const RecordedBatch& batch, const afm_emulator::Checkpoint& told) {
+  simulation_->apply_commands(told.digest.commands);
+  auto simulated = simulation_->checkpoint();
+  simulated.digest.estimates = told.digest.estimates;  // not repeated before the recording began
+  simulated.digest.estimates_digest = told.digest.estimates_digest;
+  // nor what was never published, as the emulator had to let it go
+  if (told.digest.samples != told.samples || told.digest.impacts != told.impacts) simulated.digest = told.digest;
+  simulated.state_digest = node::digest_of(simulated);
+  if (const auto field = find_difference(told, simulated)) differ(batch, *field, simulation_->now());
+  ++extent_.checkpoints;
 }
 
 // Figures that decide how far to simulate must fit together, or an altered one would keep us busy for ever.
@@ -198,6 +231,7 @@ void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Dige
     differ(batch, *contradiction, node::from_message(told.time));
     difference_->altered = true;
   }
+  check_checkpoints(batch, told.commands);
   if (difference_) return;
   simulation_->apply_commands(told.commands);
   auto simulated = simulation_->digest().message();

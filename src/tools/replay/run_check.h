@@ -20,6 +20,7 @@ namespace afm::replay {
 // What was compared.
 struct Extent {
   std::uint64_t samples = 0, impacts = 0, estimates = 0, commands = 0, epochs = 0, digests = 0;
+  std::uint64_t checkpoints = 0;
   double model_seconds = 0.0;     // simulated
   double compared_seconds = 0.0;  // of model time, in the recording
 };
@@ -61,6 +62,8 @@ class RunCheck {
   template <class Message>
   void expect_same(const RecordedBatch& batch, const Message& recorded, const Message& simulated);
   void differ(const RecordedBatch& batch, const FieldDifference& field, const ModelTime& time);
+  void check_checkpoints(const RecordedBatch& batch, std::uint64_t most_commands);
+  void check_checkpoint(const RecordedBatch& batch, const afm_emulator::Checkpoint& told);
   void check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told,
                     const std::optional<FieldDifference>& contradiction);
   void finish_epoch();
@@ -71,6 +74,7 @@ class RunCheck {
   Progress progress_;
   std::unique_ptr<Resimulation> simulation_;
   std::optional<std::uint32_t> epoch_, last_batch_;
+  std::size_t next_checkpoint_ = 0;           // of the epoch
   std::optional<std::uint64_t> next_sample_;  // that the next batch should begin with
   ModelTime begin_, end_;                     // of what is compared, in this epoch
   Gaps unpublished_;

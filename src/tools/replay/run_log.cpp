@@ -1,9 +1,15 @@
 #include "run_log.h"
 
+#include <afm_emulator/Deflection.h>
 #include <afm_emulator/Digest.h>
+#include <afm_emulator/Friction.h>
+#include <afm_emulator/ImpactArray.h>
+
+#include <limits>
 
 #include "message_difference.h"
 #include "message_stream.h"
+#include "node/checkpoint_message.h"
 #include "node/message_conversion.h"
 #include "node/topics.h"
 
@@ -19,6 +25,30 @@ void check_repeated(const Message& known, const Message& again, const std::strin
                                       difference->first + " when it was told before");
 }
 
+template <class Message>
+MessageStream<Message> stream_of(const Recording& recording, const char* topic) {
+  MessageStream<Message> stream(recording.topic(topic));
+  for (const auto& bag : recording.bags()) stream.add(bag->bag, bag->path);
+  return stream;
+}
+
+// Parts that are not there say nothing.
+FirstBatch first_batch_of(const Recording& recording) {
+  const auto deflection = stream_of<afm_emulator::Deflection>(recording, node::kDeflectionTopic);
+  const auto impacts = stream_of<afm_emulator::ImpactArray>(recording, node::kImpactsTopic);
+  const auto friction = stream_of<afm_emulator::Friction>(recording, node::kFrictionTopic);
+  constexpr auto kAny = std::numeric_limits<std::uint64_t>::max();
+  FirstBatch first{std::numeric_limits<std::uint32_t>::max(), kAny, kAny, kEndOfTime};
+  const auto is_first = [&](const auto* message) {
+    if (message != nullptr && message->epoch < first.epoch) first = {message->epoch, kAny, kAny, kEndOfTime};
+    return message != nullptr && message->epoch == first.epoch;
+  };
+  if (is_first(deflection.head())) first.sample = deflection.head()->first_sample;
+  if (is_first(impacts.head())) first.impact = impacts.head()->first_index;
+  if (is_first(friction.head())) first.end = node::from_message(friction.head()->time);
+  return first;
+}
+
 [[noreturn]] void lost(const std::string& where, std::uint64_t count) {
   throw Problem(Verdict::missing, where + ": " + std::to_string(count) + " messages are missing");
 }
@@ -31,11 +61,13 @@ RunLog::RunLog(const Recording& recording) {
     configurations.add(bag->bag, bag->path);
     const std::string where = bag->path + ": " + configurations.topic();
     for (; configurations.head() != nullptr; configurations.pop()) take(*configurations.head(), where);
+    take_checkpoints(recording, *bag);
     take_all(recording, *bag, node::kAppliedDragTopic, drags_);
     take_all(recording, *bag, node::kAppliedParametersTopic, changes_);
     take_stretches(recording, *bag);
   }
-  for (auto& [number, log] : epochs_) log.put_in_order();
+  const FirstBatch first = first_batch_of(recording);
+  for (auto& [number, log] : epochs_) log.put_in_order(first);
 }
 
 const EpochLog& RunLog::epoch(std::uint32_t number) const {
@@ -55,6 +87,37 @@ void RunLog::take(const afm_emulator::Configuration& configuration, const std::s
   EpochLog& log = epochs_[configuration.epoch];
   log.configuration = configuration;
   last_configuration_ = &log.configuration;
+}
+
+void RunLog::take_checkpoints(const Recording& recording, const RecordedBag& bag) {
+  MessageStream<afm_emulator::Checkpoint> checkpoints(recording.topic(node::kCheckpointTopic));
+  checkpoints.add(bag.bag, bag.path);
+  const std::string where = bag.path + ": " + checkpoints.topic();
+  std::optional<std::uint32_t> previous;  // in this bag
+  for (; checkpoints.head() != nullptr; checkpoints.pop()) {
+    const std::uint32_t sequence = checkpoints.head()->header.seq;
+    const std::uint64_t gap = previous ? follows(*previous, sequence, where) : 0;
+    if (gap > 0) lost(where, gap);
+    previous = sequence;
+    take(*checkpoints.head(), where);
+  }
+}
+
+// A bag that follows on begins with one that was told before.
+void RunLog::take(const afm_emulator::Checkpoint& checkpoint, const std::string& where) {
+  epoch(checkpoint.epoch);
+  if (node::digest_of(checkpoint) != checkpoint.state_digest) {
+    throw Problem(Verdict::altered, where + ": number " + std::to_string(checkpoint.header.seq) +
+                                        " is not as it was told: its digest is another");
+  }
+  auto& checkpoints = epochs_[checkpoint.epoch].checkpoints;
+  for (const auto& known : checkpoints) {
+    if (known.header.seq == checkpoint.header.seq) return check_repeated(known, checkpoint, where);
+  }
+  const std::uint64_t gap = last_checkpoint_ ? follows(*last_checkpoint_, checkpoint.header.seq, where) : 0;
+  if (gap > 0) lost(where, gap);
+  last_checkpoint_ = checkpoint.header.seq;
+  checkpoints.push_back(checkpoint);
 }
 
 template <class Message>

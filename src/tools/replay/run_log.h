@@ -23,6 +23,8 @@ class RunLog {
 
  private:
   void take(const afm_emulator::Configuration& configuration, const std::string& where);
+  void take_checkpoints(const Recording& recording, const RecordedBag& bag);
+  void take(const afm_emulator::Checkpoint& checkpoint, const std::string& where);
   // Of commands of one kind: where they belong, and the sequence number of the last one.
   template <class Message>
   struct Kind {
@@ -36,6 +38,7 @@ class RunLog {
   void take_stretches(const Recording& recording, const RecordedBag& bag);
 
   std::map<std::uint32_t, EpochLog> epochs_;
+  std::optional<std::uint32_t> last_checkpoint_;  // sequence number
   const afm_emulator::Configuration* last_configuration_ = nullptr;
   Kind<afm_emulator::AppliedDrag> drags_{&EpochLog::drags, std::nullopt};
   Kind<afm_emulator::AppliedParameters> changes_{&EpochLog::changes, std::nullopt};
