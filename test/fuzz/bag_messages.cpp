@@ -6,6 +6,7 @@
 #include "audit/bag_audit.h"
 #include "bytes.h"
 #include "node/arithmetic_digest.h"
+#include "node/checkpoint_message.h"
 #include "node/message_conversion.h"
 #include "node/run_digest.h"
 #include "replay/run_check.h"
@@ -54,8 +55,9 @@ class Writer {
   std::map<std::string, std::uint32_t> sequences_;
 };
 
-// As the node would record it: three batches, a command after each of them, a digest, a status.
-Entries make_recording() {
+// As the node would record it: three batches, a command after each of them, a digest, a status. One that is begun late
+// begins with a checkpoint, after a batch and a command that it does not hold.
+Entries make_recording(bool late) {
   node::Parameters parameters;
   parameters.time_scale = 0.05;  // small batches: 10 samples in a third of a tau
   parameters.batch_rate_hz = 1000.0;
@@ -64,9 +66,10 @@ Entries make_recording() {
   Writer out;
   node::RunDigest digest;
   double drag_velocity = parameters.drag_velocity;
+  bool recorded = true;
   const auto send = [&](const char* topic, const auto& message) {
     digest.add(message);
-    out.put(topic, message);
+    if (recorded) out.put(topic, message);
   };
   const auto tell_drag = [&](const Batch& batch) {
     node::StepperState state;
@@ -78,8 +81,27 @@ Entries make_recording() {
   const auto configuration = node::to_configuration(parameters, "fuzz", node::arithmetic_digest(), {});
   digest = node::RunDigest(configuration);
   out.put("configuration", configuration);
-  tell_drag({});
   Batch batch;
+  const auto tell_checkpoint = [&](std::uint64_t drags, std::uint32_t recorded_drags) {
+    node::CheckpointContext context;
+    context.drags = drags;
+    context.next_drag = recorded_drags;
+    context.drag_velocity = drag_velocity;
+    context.live = node::live_parameters(parameters);
+    SavedState state;
+    emulator.save(state);
+    out.put("checkpoint", node::to_checkpoint(context, emulator.now(), emulator.impacts(), emulator.samples(), digest, state));
+  };
+  recorded = !late;
+  tell_drag({});
+  if (late) {
+    emulator.run_batch(batch);
+    send("deflection", node::to_deflection(batch, 1.0 / parameters.sample_rate_hz, units, {}));
+    send("impacts", node::to_impacts(batch, units, {}));
+    send("friction", node::to_friction(batch, drag_velocity, units, {}));
+    tell_checkpoint(1, 0);
+  }
+  recorded = true;
   for (int i = 0; i < 3; ++i) {
     emulator.run_batch(batch);
     send("deflection", node::to_deflection(batch, 1.0 / parameters.sample_rate_hz, units, {}));
@@ -88,6 +110,7 @@ Entries make_recording() {
     drag_velocity = 1e-6 * (i + 2);
     emulator.drag(node::to_eta(drag_velocity, parameters.si));
     tell_drag(batch);
+    if (i == 1) tell_checkpoint(3, late ? 2 : 3);
   }
   out.put("status", afm_emulator::EmulatorStatus{});
   out.put("digest", digest.message());
@@ -95,11 +118,15 @@ Entries make_recording() {
   return out.entries;
 }
 
-bool is_of_the_run(const Entry& e) {
-  return e.topic == "/afm/deflection" || e.topic == "/afm/impacts" || e.topic == "/afm/friction";
-}
-
 constexpr std::size_t kHeader = 16;  // sequence number, stamp and an empty name before what a message tells
+
+// Whether this byte of a message tells something of the run.
+bool tells(const Entry& e, std::size_t at) {
+  constexpr std::size_t kBeforeDigest = 116;  // in a checkpoint: the digests in it have a header too, which is empty
+  if (e.topic == "/afm/checkpoint") return at >= kHeader && (at < kBeforeDigest || at >= kBeforeDigest + kHeader);
+  const bool of_the_run = e.topic == "/afm/deflection" || e.topic == "/afm/impacts" || e.topic == "/afm/friction";
+  return of_the_run && at >= kHeader;
+}
 
 // One edit, told in `story`. Whether it changed what a batch tells.
 bool edit(Entries& entries, fuzz::Bytes& bytes, std::string& story) {
@@ -122,7 +149,7 @@ bool edit(Entries& entries, fuzz::Bytes& bytes, std::string& story) {
     const auto value = op == 6 ? bytes.raw<std::uint64_t>() : bytes.raw<std::uint32_t>();
     std::memcpy(entry.bytes.data() + at, &value, std::min<std::size_t>(op == 6 ? 8 : 4, entry.bytes.size() - at));
   }
-  return is_of_the_run(entry) && before != entry.bytes && at >= kHeader;
+  return before != entry.bytes && tells(entry, at);
 }
 
 void write(const Entries& entries, const std::string& path) {
@@ -174,8 +201,9 @@ std::string memory_file(const char* name) { return "/proc/self/fd/" + std::to_st
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Entries recording = make_recording();
+namespace {
+
+void try_edits(const Entries& recording, const std::uint8_t* data, std::size_t size) {
   static const std::string path = memory_file("bag");
   // rosbag loads its plugins with the first bag and unloads them with the last: one stays
   static const rosbag::Bag plugins(memory_file("plugins"), rosbag::bagmode::Write);
@@ -189,5 +217,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Verdict replayed = verdict_of(path, judge_replay), audited = verdict_of(path, judge_audit);
   if (edits == 0) require(replayed == Verdict::sound && audited == Verdict::sound, "the recording itself is not sound");
   if (edits == 1 && altered) require(replayed != Verdict::sound, "altered, and called identical" + story);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Entries recording = make_recording(false), late = make_recording(true);
+  try_edits(recording, data, size);
+  if (size % 2 == 1 || size == 0) try_edits(late, data, size);  // it takes as long again
   return 0;
 }

@@ -173,8 +173,8 @@ void EpochLog::put_in_order(const FirstBatch& first) {
   choose_start(first);
   if (start_) drop_before_start();
   grids_ = {emulator_->grid()};
-  merge();
   check_drags();
+  merge();
   check_changes();
   check_levels();
   ModelTime last = emulator_->now();

@@ -174,16 +174,17 @@ afm_emulator::Friction Resimulation::friction() const {
 }
 
 afm_emulator::Checkpoint Resimulation::checkpoint() const {
-  const auto following = [](const auto& messages, std::size_t taken) {
-    return messages.front().header.seq + static_cast<std::uint32_t>(taken);
+  // a history without changes of parameters is of a version that had no checkpoints either, or of nobody
+  const auto following = [](const auto& messages, std::uint32_t first, std::uint64_t taken) {
+    return (messages.empty() ? first : messages.front().header.seq) + static_cast<std::uint32_t>(taken);
   };
   const std::uint64_t drags = drags_ - log_.drags_before();
+  const auto* start = log_.start();
   node::CheckpointContext context;
   context.epoch = log_.configuration.epoch;
   context.drags = drags_;
-  context.next_drag = log_.drags.empty() ? log_.start()->next_drag : following(log_.drags, drags);
-  context.next_parameters =
-      log_.changes.empty() ? log_.start()->next_parameters : following(log_.changes, next_command_ - drags);
+  context.next_drag = following(log_.drags, start ? start->next_drag : 0, drags);
+  context.next_parameters = following(log_.changes, start ? start->next_parameters : 0, next_command_ - drags);
   context.drag_velocity = drag_velocity_;
   context.live = node::live_parameters(parameters_);
   SavedState state;
