@@ -8,8 +8,8 @@
 
 namespace afm {
 
-// Raised whenever what the words mean changes; a state of another layout cannot be restored.
-constexpr std::uint32_t kStateLayout = 1;
+// What the words mean, and how many there are; a state of another layout cannot be restored.
+std::uint32_t state_layout();
 
 struct SavedState {
   static constexpr std::size_t kMostWords = 512;

@@ -24,7 +24,7 @@ afm_emulator::Checkpoint to_checkpoint(const CheckpointContext& context, const M
   message.sample_rate_hz = context.live.sample_rate_hz;
   message.friction_window_tau = context.live.friction_window_tau;
   message.digest = digest.message();
-  message.layout = kStateLayout;
+  message.layout = state_layout();
   message.state.assign(state.begin(), state.end());
   message.state_digest = digest_of(message);
   return message;

@@ -54,10 +54,10 @@ void check_change(const afm_emulator::AppliedParameters& change, node::Parameter
 
 // A state to begin with; throws Problem where it is none for this program and this epoch.
 Emulator restore(const afm_emulator::Checkpoint& checkpoint, const afm_emulator::Configuration& configuration) {
-  if (checkpoint.layout != kStateLayout) {
+  if (checkpoint.layout != state_layout()) {
     throw Problem(Verdict::foreign, "epoch " + std::to_string(checkpoint.epoch) + ": begins with a checkpoint of layout " +
                                         std::to_string(checkpoint.layout) + ", and this program reads layout " +
-                                        std::to_string(kStateLayout) + ": check it with version " +
+                                        std::to_string(state_layout()) + ": check it with version " +
                                         configuration.version + " of the emulator, which recorded it");
   }
   const auto emulator = node::restored(checkpoint);

@@ -85,7 +85,7 @@ void RunCheck::check_checkpoints(const RecordedBatch& batch, std::uint64_t most_
     const bool ahead = simulation_->now() < time || simulation_->impacts() < told.impacts;
     if (ahead || most_commands < told.digest.commands) return;
     const bool here = time == simulation_->now() && told.impacts == simulation_->impacts();
-    if (here && told.layout == kStateLayout) check_checkpoint(batch, told);
+    if (here && told.layout == state_layout()) check_checkpoint(batch, told);
   }
 }
 
