@@ -87,6 +87,7 @@ class Tip {
   enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
 
   TipState held(const TipState& state) const;
+  Chatter chatter_now() const;
   void jolt(double eta);
   void end_guide_now();
   void leave_now();
