@@ -1,8 +1,14 @@
-// Prints a digest of each of a few reference runs, with commands, steps, bursts and contact: the same lines from every
-// compiler and every option, or bits depend on who compiled. No ROS, so that it can be built by one command.
+// Prints a digest of each of a few reference runs, with commands, steps, bursts and contact, and of many tips together:
+// the same lines from every compiler, every option and every machine, whatever lanes it has, or bits depend on who
+// compiled. No ROS, so that it can be built by one command.
+// usage: reference_digest [PART...]   only the lines that have one of the parts in them
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "afm_emulator/emulator.h"
+#include "afm_emulator/ensemble.h"
 #include "node/digest.h"
 
 namespace {
@@ -13,19 +19,21 @@ using afm::EmulatorSettings;
 using afm::ModelKind;
 using afm::node::Digest;
 
+void add(const afm::Impact& impact, Digest& digest) {
+  digest.add(static_cast<std::uint64_t>(impact.time.tau));
+  digest.add(impact.time.phase);
+  digest.add(impact.surface_phase);
+  digest.add(impact.normal_speed);
+  digest.add(impact.tangential_velocity);
+  digest.add(impact.energy_loss);
+  digest.add(static_cast<std::uint64_t>(impact.kind));
+  digest.add(std::uint64_t{impact.count});
+}
+
 void add(const Batch& batch, Digest& digest) {
   for (const double sample : batch.vertical) digest.add(sample);
   for (const double sample : batch.lateral) digest.add(sample);
-  for (const afm::Impact& impact : batch.impacts) {
-    digest.add(static_cast<std::uint64_t>(impact.time.tau));
-    digest.add(impact.time.phase);
-    digest.add(impact.surface_phase);
-    digest.add(impact.normal_speed);
-    digest.add(impact.tangential_velocity);
-    digest.add(impact.energy_loss);
-    digest.add(static_cast<std::uint64_t>(impact.kind));
-    digest.add(std::uint64_t{impact.count});
-  }
+  for (const afm::Impact& impact : batch.impacts) add(impact, digest);
   const afm::FrictionEstimate& f = batch.friction;
   for (const double figure : {f.force, f.force_std_error, f.K_f, f.K_f_std_error, f.energy_loss, f.window_force,
                               f.window_K_f, f.window_K_f_std_error}) {
@@ -50,7 +58,18 @@ void run(Emulator& emulator, double eta, Digest& digest) {
   for (int i = 0; i < 5; ++i, taken()) emulator.run_batch(batch);
 }
 
+std::vector<std::string> parts;
+
+bool wanted(const std::string& line) {
+  const auto in_line = [&](const std::string& part) { return line.find(part) != std::string::npos; };
+  return parts.empty() || std::any_of(parts.begin(), parts.end(), in_line);
+}
+
 void print_run(double eta, double cutoff, double contact_tolerance, ModelKind kind = ModelKind::oscillator) {
+  char name[100];
+  std::snprintf(name, sizeof name, "%seta %g cutoff %g contact_tolerance %g", kind == ModelKind::hammer ? "hammer, " : "",
+                eta, cutoff, contact_tolerance);
+  if (!wanted(name)) return;
   EmulatorSettings settings;
   settings.model.kind = kind;
   settings.eta = eta;
@@ -61,16 +80,40 @@ void print_run(double eta, double cutoff, double contact_tolerance, ModelKind ki
   Emulator emulator(settings);
   Digest digest;
   run(emulator, eta, digest);
-  std::printf("%seta %g cutoff %g contact_tolerance %g: %s\n", kind == ModelKind::hammer ? "hammer, " : "", eta, cutoff,
-              contact_tolerance, to_text(digest).c_str());
+  std::printf("%s: %s\n", name, to_text(digest).c_str());
+}
+
+// Every impact of tips that are as different as can be, flown together. What lanes there are, the line does not tell: it
+// is the same without any.
+void print_together(const std::string& name, afm::LaneUse use) {
+  if (!wanted(name)) return;
+  constexpr std::uint32_t kTips = 96, kEvents = 60;
+  afm::Ensemble tips(1, use);
+  for (std::uint32_t i = 0; i < kTips; ++i) {
+    afm::Model model;
+    model.kind = i % 5 == 4 ? ModelKind::hammer : ModelKind::oscillator;
+    model.gamma = i % 3 == 0 ? 0.4 : 0.7;
+    model.v_c = i % 2 == 0 ? 0.3 : 0.05;
+    const double eta = (i % 7 == 6 ? -0.125 : 0.125) * i, extension = 1e-3 * i;
+    tips.add(afm::Tip(model, eta, afm::FreeState{0.25, extension, 0.2, eta, 0.0}, i % 4 == 0 ? 0.0 : 1e-3));
+  }
+  std::vector<afm::Impact> log(kTips * kEvents);
+  tips.advance(kEvents, {200, 0.0}, log.data());
+  Digest digest;
+  for (const afm::Impact& impact : log) add(impact, digest);
+  std::printf("%s: %s\n", name.c_str(), to_text(digest).c_str());
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  parts.assign(argv + 1, argv + argc);
   for (const double eta : {0.0, 0.5, 1.0, 2.0, 3.0, 3.4, 5.0, 7.5, 30.0}) print_run(eta, 0.05, 1e-4);
   print_run(3.0, 0.3, 0.0);   // every bounce by itself
   print_run(3.4, 0.0, 1e-3);  // the same restitution at every speed
   for (const double eta : {0.5, 3.4}) print_run(eta, 0.05, 1e-3, ModelKind::hammer);
+  print_together("96 tips one after another", afm::LaneUse::none);
+  print_together("96 tips four at once where that can be", afm::LaneUse::four);
+  print_together("96 tips as many at once as can be", afm::LaneUse::widest);
   return 0;
 }
