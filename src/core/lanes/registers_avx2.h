@@ -14,6 +14,7 @@ namespace {
 constexpr int kRegisterLanes = 4;
 using Register = __m256d;
 using RegisterMask = __m256d;  // all bits of a lane or none
+typedef unsigned long long Whole __attribute__((vector_size(32)));
 
 AFM_LANE_INLINE Register filled(double x) { return _mm256_set1_pd(x); }
 AFM_LANE_INLINE Register filled_bits(std::int64_t x) { return _mm256_castsi256_pd(_mm256_set1_epi64x(x)); }
@@ -23,12 +24,6 @@ AFM_LANE_INLINE Register smaller(Register a, Register b) { return _mm256_min_pd(
 AFM_LANE_INLINE Register larger(Register a, Register b) { return _mm256_max_pd(a, b); }
 AFM_LANE_INLINE Register root(Register a) { return _mm256_sqrt_pd(a); }
 AFM_LANE_INLINE Register rounded_down(Register a) { return _mm256_floor_pd(a); }
-AFM_LANE_INLINE Register sign_bit() { return filled(-0.0); }
-AFM_LANE_INLINE Register negated(Register a) { return _mm256_xor_pd(a, sign_bit()); }
-AFM_LANE_INLINE Register magnitude(Register a) { return _mm256_andnot_pd(sign_bit(), a); }
-AFM_LANE_INLINE Register with_sign(Register a, Register sign) {
-  return _mm256_or_pd(a, _mm256_and_pd(sign, sign_bit()));
-}
 AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { return _mm256_blendv_pd(no, yes, m); }
 
 AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
@@ -38,13 +33,7 @@ AFM_LANE_INLINE RegisterMask mask_or(RegisterMask a, RegisterMask b) { return _m
 AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return _mm256_xor_pd(a, filled_bits(-1)); }
 AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
 
-// Of whole numbers kept in the bits of a lane.
-AFM_LANE_INLINE Register plus_whole(Register a, Register b) {
-  return _mm256_castsi256_pd(_mm256_add_epi64(_mm256_castpd_si256(a), _mm256_castpd_si256(b)));
-}
-AFM_LANE_INLINE Register minus_whole(Register a, Register b) {
-  return _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_castpd_si256(a), _mm256_castpd_si256(b)));
-}
+// Of whole numbers kept in the bits of the lanes (register_bits.h).
 AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) {
   return _mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_castpd_si256(b), _mm256_castpd_si256(a)));
 }
@@ -54,11 +43,6 @@ AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) {
 AFM_LANE_INLINE RegisterMask odd(Register bits) {
   const __m256i low = _mm256_slli_epi64(_mm256_castpd_si256(bits), 63);
   return _mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_setzero_si256(), low));
-}
-// a with its sign turned round where the bits have a two in them
-AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
-  const Register two = _mm256_castsi256_pd(_mm256_slli_epi64(_mm256_castpd_si256(bits), 62));
-  return _mm256_xor_pd(a, _mm256_and_pd(two, sign_bit()));
 }
 
 AFM_LANE_INLINE Register lane_numbers() { return _mm256_setr_pd(0.0, 1.0, 2.0, 3.0); }

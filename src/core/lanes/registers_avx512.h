@@ -13,6 +13,7 @@ namespace {
 constexpr int kRegisterLanes = 8;
 using Register = __m512d;
 using RegisterMask = __mmask8;
+typedef unsigned long long Whole __attribute__((vector_size(64)));
 
 AFM_LANE_INLINE Register filled(double x) { return _mm512_set1_pd(x); }
 AFM_LANE_INLINE Register filled_bits(std::int64_t x) { return _mm512_castsi512_pd(_mm512_set1_epi64(x)); }
@@ -23,12 +24,6 @@ AFM_LANE_INLINE Register root(Register a) { return _mm512_sqrt_pd(a); }
 AFM_LANE_INLINE Register rounded_down(Register a) {
   return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
-AFM_LANE_INLINE Register sign_bit() { return filled(-0.0); }
-AFM_LANE_INLINE Register negated(Register a) { return _mm512_xor_pd(a, sign_bit()); }
-AFM_LANE_INLINE Register magnitude(Register a) { return _mm512_andnot_pd(sign_bit(), a); }
-AFM_LANE_INLINE Register with_sign(Register a, Register sign) {
-  return _mm512_or_pd(a, _mm512_and_pd(sign, sign_bit()));
-}
 AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { return _mm512_mask_blend_pd(m, no, yes); }
 
 AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
@@ -38,19 +33,14 @@ AFM_LANE_INLINE RegisterMask mask_or(RegisterMask a, RegisterMask b) { return st
 AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return static_cast<RegisterMask>(~a); }
 AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return a; }
 
-AFM_LANE_INLINE __m512i whole(Register a) { return _mm512_castpd_si512(a); }
-AFM_LANE_INLINE Register plus_whole(Register a, Register b) {
-  return _mm512_castsi512_pd(_mm512_add_epi64(whole(a), whole(b)));
+AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) {
+  return _mm512_cmplt_epi64_mask(_mm512_castpd_si512(a), _mm512_castpd_si512(b));
 }
-AFM_LANE_INLINE Register minus_whole(Register a, Register b) {
-  return _mm512_castsi512_pd(_mm512_sub_epi64(whole(a), whole(b)));
+AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) {
+  return _mm512_cmpeq_epi64_mask(_mm512_castpd_si512(a), _mm512_castpd_si512(b));
 }
-AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) { return _mm512_cmplt_epi64_mask(whole(a), whole(b)); }
-AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) { return _mm512_cmpeq_epi64_mask(whole(a), whole(b)); }
-AFM_LANE_INLINE RegisterMask odd(Register bits) { return _mm512_test_epi64_mask(whole(bits), _mm512_set1_epi64(1)); }
-AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
-  const Register two = _mm512_castsi512_pd(_mm512_slli_epi64(whole(bits), 62));
-  return _mm512_xor_pd(a, _mm512_and_pd(two, sign_bit()));
+AFM_LANE_INLINE RegisterMask odd(Register bits) {
+  return _mm512_test_epi64_mask(_mm512_castpd_si512(bits), _mm512_set1_epi64(1));
 }
 
 AFM_LANE_INLINE Register lane_numbers() { return _mm512_setr_pd(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0); }

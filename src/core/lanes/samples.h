@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "../deflection.h"
-#include "pack.h"
+#include "pack_turns.h"
 #include "sample_row.h"
 
 namespace afm {

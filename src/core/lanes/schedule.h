@@ -2,7 +2,9 @@
 // from the longest, so that hardly a lane idles however the flights differ.
 #pragma once
 
-#include "kernels.h"
+#include "bounce.h"
+#include "look.h"
+#include "root.h"
 
 namespace afm {
 namespace {

@@ -1,0 +1,127 @@
+// The way from a look that has certified a root to the root itself.
+#pragma once
+
+#include "rows.h"
+
+namespace afm {
+namespace {
+
+AFM_LANE_INLINE void store_jet(const Rows& rows, const GapJet<Pack>& jet, P step) {
+  rows.store(kJetPhase, jet.state.phase, jet.state.X);
+  rows.store(kJetRateX, jet.state.U, jet.state.Y);
+  rows.store(kJetRateY, jet.state.W, jet.g);
+  rows.store(kJetG1, jet.g1, jet.g2);
+  rows.store(kJetG3, jet.g3, jet.h);
+  rows.store(kJetH1, jet.h1, step);
+}
+
+// Which evaluation gap_near would choose for a step from the time s.
+AFM_LANE_INLINE void split_by_step(unsigned lanes, const Flight<Pack>& f, P s, P step, Ways& ways) {
+  const Pack until = f.bounds().small_until, size = abs(step);
+  const unsigned start = bits(s + step <= until), tiny = bits(size <= until / Pack(128.0)), near = bits(size <= until);
+  ways.lanes[kFinishTiny] |= lanes & tiny & ~start;
+  ways.lanes[kFinishNear] |= lanes & near & ~tiny & ~start;
+  ways.lanes[kFinishFar] |= lanes & (start | ~near);
+}
+
+template <Kind kKind>
+AFM_LANE_INLINE GapJet<Pack> stepped(const Flight<Pack>& f, const GapJet<Pack>& jet, P s, P step) {
+  if (kKind == kFinishTiny) return f.moved_by_tiny_turns(jet, step);
+  if (kKind == kFinishNear) return f.moved_by_small_turns(jet, step);
+  return f.gap(s + step);
+}
+
+// What is known of a certified root.
+struct Root {
+  GapJet<Pack> jet;             // near it
+  Pack step;                    // from there to the root, as far as is known
+  Pack low, high, s, t;         // as in lane_tip.h
+  Pack is_end, unused, guess, count;
+};
+
+AFM_LANE_INLINE void load_root(const Rows& rows, Root& root) {
+  GapJet<Pack>& jet = root.jet;
+  rows.load(kJetPhase, jet.state.phase, jet.state.X);
+  rows.load(kJetRateX, jet.state.U, jet.state.Y);
+  rows.load(kJetRateY, jet.state.W, jet.g);
+  rows.load(kJetG1, jet.g1, jet.g2);
+  rows.load(kJetG3, jet.g3, jet.h);
+  rows.load(kJetH1, jet.h1, root.step);
+  rows.load(kLow, root.low, root.high);
+  rows.load(kJetS, root.s, root.t);
+  rows.load(kIsEnd, root.is_end, root.unused);
+  rows.load(kGuess, root.guess, root.count);
+}
+
+// Those that need another evaluation.
+AFM_LANE_INLINE void go_on(const Rows& rows, const Flight<Pack>& f, const Root& root, unsigned on, M settled,
+                           Ways& ways) {
+  store_jet(rows, root.jet, root.step);
+  rows.store(kJetS, root.s, root.t);
+  rows.store(kIsEnd, select(settled, Pack(1.0), Pack(0.0)), root.unused);
+  rows.store(kGuess, root.guess, root.count + Pack(1.0));
+  const unsigned many = on & bits(root.count >= Pack(kMostEvaluations));
+  ways.lanes[kAlone] = many;
+  split_by_step(on & ~many, f, root.s + root.t, root.step, ways);
+}
+
+// The incident state: of those that drift there by what is left of the step, of those that are at their end, and of
+// the others as it was.
+AFM_LANE_INLINE void store_incident(const Rows& rows, const GapJet<Pack>& jet, const GapJet<Pack>& moved, P g1, M drifts,
+                                    M end, bool all) {
+  if (all) {
+    rows.store(kJetPhase, select(end, jet.state.phase, moved.state.phase), select(end, jet.state.X, moved.state.X));
+    rows.store(kJetRateX, select(end, jet.state.U, moved.state.U), g1);
+  } else {
+    const Mask stay = !(drifts || end);
+    rows.store(kJetPhase, select(drifts, moved.state.phase, jet.state.phase),
+               select(drifts, moved.state.X, jet.state.X));
+    rows.store(kJetRateX, select(drifts, moved.state.U, jet.state.U), select(stay, jet.state.Y, g1));
+  }
+}
+
+// Those that are there: state and time, and whether the limit comes first.
+AFM_LANE_INLINE void arrive(const Rows& rows, const Flight<Pack>& f, const Root& root, unsigned done, M drifts, M end,
+                            Ways& ways) {
+  const GapJet<Pack> moved = drift(f, root.jet, root.step);
+  const Pack end_s = root.s + select(end, root.t, root.t + root.step), g1 = select(end, root.jet.g1, moved.g1);
+  PackTime start, limit;
+  rows.load(kStartTau, start.tau, start.phase);
+  rows.load(kLimitTau, limit.tau, limit.phase);
+  const PackTime time = start + end_s;
+  store_incident(rows, root.jet, moved, g1, drifts, end, done == kAllLanes);
+  rows.store(kEndTau, time.tau, time.phase);
+  const unsigned rising = done & bits(!(g1 < Pack(0.0))), late = done & ~rising & bits(limit < time);
+  ways.lanes[kAlone] |= rising;
+  ways.lanes[kLimited] = late;
+  ways.lanes[kBounce] = done & ~rising & ~late;
+}
+
+// One evaluation of what is left of a certified root (search_detail::finish).
+template <Kind kKind>
+AFM_LANE_INLINE Ways finish(const Rows& rows) {
+  const Flight<Pack> f = load_flight(rows);
+  Root root;
+  load_root(rows, root);
+  GapJet<Pack>& jet = root.jet;
+  Pack &step = root.step, &t = root.t;
+  if (kKind != kFinishHere) {
+    jet = stepped<kKind>(f, jet, root.s + t, step);
+    t = t + step;
+  }
+  const Mask end = root.is_end > Pack(0.0);
+  step = root_step(jet);
+  const Pack to = t + step;
+  step = select(to < root.low || root.high < to, clamp(to, root.low, root.high) - t, step);
+  const Pack at = root.s + t, bend = Pack(4.0) * f.fourth_derivative_bound() * abs(step * step * step);
+  const Mask smooth = bend <= epsilon<Pack>() * abs(jet.g1), settled = search_detail::settles(f, jet, step, at);
+  const Mask hidden = abs(step * jet.g1) <= f.gap_error(at), drifts = (hidden || (smooth && settled)) && !end;
+  Ways ways;
+  const unsigned done = bits(drifts || end), on = kAllLanes & ~done;
+  if (on != 0) go_on(rows, f, root, on, settled, ways);
+  if (done != 0) arrive(rows, f, root, done, drifts, end, ways);
+  return ways;
+}
+
+}  // namespace
+}  // namespace afm
