@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """A recording begun late begins with a checkpoint and few commands, and is simulated again from there to the last bit."""
+import os
 import random
 import time
 from io import BytesIO
@@ -7,6 +8,7 @@ from pathlib import Path
 
 import dynamic_reconfigure.client
 import rosbag
+import roslib.packages
 import rospy
 from afm_emulator.srv import StartRecording
 from std_srvs.srv import SetBool, Trigger
@@ -14,10 +16,11 @@ from std_srvs.srv import SetBool, Trigger
 import bags
 import checks
 import digest_recipe
-from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, run
 from topics import NAMESPACE, TOPICS, Topic, key, wait_until
 
 ETAS = [0.0, 1.0, 2.0, -3.0, 3.4, 5.0, 5.0, 7.5]
+LEVELS = os.path.join(roslib.packages.get_pkg_dir(PACKAGE), 'config', 'levels.csv')
 MOST_COMMANDS = 2000  # between two checkpoints
 
 
@@ -171,7 +174,8 @@ class Checkpoints(NodeTest):
         self.assert_from_checkpoint(path)
 
     def test_split_over_a_reset(self):
-        self.run_emulator(checkpoint_interval_s=0.2, split_duration_s=0.5, time_scale=0.7, batch_rate_hz=200.0)
+        self.run_emulator(checkpoint_interval_s=0.2, split_duration_s=0.5, time_scale=0.7, batch_rate_hz=200.0,
+                          model='auto', tolerance=0.5, level_table=LEVELS)
         self.command(50, 0.005)
         self.wait_for_checkpoint()
         self.record('part')
@@ -183,6 +187,7 @@ class Checkpoints(NodeTest):
         self.end()
         paths = sorted(str(path) for path in self.directory.iterdir())
         self.assertGreaterEqual(len(paths), 3)
+        self.assertGreater(len({message.model for message in self.applied.messages}), 1)  # both levels of the model
         self.assert_from_checkpoint(*paths)
         for path in paths:  # each can be checked without the others
             for tool in (checks.replay_check, checks.bag_check):
