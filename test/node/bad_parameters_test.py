@@ -61,7 +61,8 @@ class BadParameters(NodeTest):
         parameters = {
             'restitution_gamma': 1.5, 'tip_mass_kg': -408e-12, 'omega_v_rad_per_s': math.nan, 'time_scale': 0.0,
             'batch_rate_hz': 'fast', 'sample_rate_hz': math.inf, 'gama': 0.7, 'friction_window_tau': -1.0,
-            'model': 'spring', 'record': 'yes please', 'bag_directory': 5, 'max_drag_velocity': -1.0}
+            'model': 'spring', 'record': 'yes please', 'bag_directory': 5, 'max_drag_velocity': -1.0,
+            'checkpoint_interval_s': 0.0}
         emulator = self.assert_refused(parameters)
         errors = [line for line in emulator.output().splitlines() if 'ERROR' in line or 'FATAL' in line]
         self.assertEqual(len(errors), 1, errors)
