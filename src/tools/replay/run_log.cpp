@@ -118,6 +118,7 @@ void RunLog::take(const afm_emulator::Checkpoint& checkpoint, const std::string&
   if (gap > 0) lost(where, gap);
   last_checkpoint_ = checkpoint.header.seq;
   checkpoints.push_back(checkpoint);
+  epochs_[checkpoint.epoch].stretches.insert(checkpoint.digest.first_sample);
 }
 
 template <class Message>
