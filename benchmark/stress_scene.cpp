@@ -1,12 +1,21 @@
 #include "stress_scene.h"
 
+#include <algorithm>
 #include <cmath>
 
-namespace afm {
+#include "afm_emulator/emulator.h"
 
-StressScene::StressScene(std::uint64_t seed, double contact_tolerance, bool mica)
+namespace afm {
+namespace {
+
+constexpr double kBatch = 63.66;               // [tau] of the node: 10 ms
+constexpr double kBetweenShippedCommands = 128.0;  // [tau] of scripts/soak
+
+}  // namespace
+
+StressScene::StressScene(std::uint64_t seed, double contact_tolerance, Kind kind)
     : seed_(seed),
-      mica_(mica),
+      kind_(kind),
       random_(seed),
       model_(random_model()),
       eta_(random_eta()),
@@ -14,8 +23,8 @@ StressScene::StressScene(std::uint64_t seed, double contact_tolerance, bool mica
 
 Model StressScene::random_model() {
   Model m;
-  if (mica_) m.v_c = std::pow(10.0, within(-3.0, -1.0));
-  if (mica_) return m;
+  if (kind_ == Kind::mica) m.v_c = std::pow(10.0, within(-3.0, -1.0));
+  if (kind_ != Kind::any) return m;
   m.gamma = one_in(8) ? 0.0 : one_in(8) ? 1.0 : within(0.0, 1.0);
   m.v_c = one_in(8) ? 0.0 : std::pow(10.0, within(-4.0, 1.0));
   if (one_in(2)) m.y0 = one_in(4) ? 0.999999 * m.H : one_in(4) ? -10.0 : within(-1.0, m.H);
@@ -25,11 +34,17 @@ Model StressScene::random_model() {
 
 double StressScene::random_eta() {
   if (one_in(10)) return 0.0;
-  if (one_in(10)) return one_in(2) ? 1.0 : -1.0;
-  // where the drag meets the horizontal spring most is lost, and most happens
-  const double slow = mica_ && one_in(8) ? 6.0 : 0.0, fast = slow > 0.0 ? 6.5 : 9.0;
-  const double size = mica_ ? within(slow, fast) : std::pow(10.0, within(-6.0, 2.0));
+  if (kind_ != Kind::shipped && one_in(10)) return one_in(2) ? 1.0 : -1.0;
+  const double size = kind_ == Kind::mica      ? mica_eta()
+                      : kind_ == Kind::shipped ? std::pow(10.0, within(-4.0, 1.0))
+                                               : std::pow(10.0, within(-6.0, 2.0));
   return one_in(2) ? size : -size;
+}
+
+// Where the drag meets the horizontal spring most is lost, and most happens.
+double StressScene::mica_eta() {
+  const double slow = one_in(8) ? 6.0 : 0.0, fast = slow > 0.0 ? 6.5 : 9.0;
+  return within(slow, fast);
 }
 
 FreeState StressScene::random_start() {
@@ -39,16 +54,40 @@ FreeState StressScene::random_start() {
 
 bool StressScene::run(std::int64_t tau) {
   const ModelTime end{tau, 0.0};
+  const double between = kind_ == Kind::shipped ? kBetweenShippedCommands : 1.0;
   while (tip_.tip().now() < end) {
-    if (!tip_.advance(tip_.tip().now() + std::exponential_distribution<double>(1.0)(random_))) return false;
-    eta_ = one_in(20) ? eta_ : random_eta();  // the same again now and then
-    tip_.drag(eta_);
+    const ModelTime next = tip_.tip().now() + std::exponential_distribution<double>(1.0 / between)(random_);
+    while (batch_begin_ + kBatch < next) {
+      if (!tip_.advance(batch_begin_ + kBatch) || !keeps_budget()) return false;
+    }
+    if (!tip_.advance(next)) return false;
+    command();
   }
   return true;
 }
 
+// The same again now and then; now and then a row of them at once.
+void StressScene::command() {
+  for (int n = kind_ == Kind::shipped && one_in(100) ? 20 : 1; n > 0; --n) {
+    eta_ = one_in(20) ? eta_ : random_eta();
+    tip_.drag(eta_);
+  }
+}
+
+// A batch is over.
+bool StressScene::keeps_budget() {
+  const std::uint64_t events = tip_.count().events - events_before_;
+  batch_begin_ = batch_begin_ + kBatch;
+  events_before_ = tip_.count().events;
+  most_events_ = std::max(most_events_, events);
+  spent_ = kind_ == Kind::shipped && events >= EmulatorSettings{}.impact_budget;
+  return !spent_;
+}
+
 std::string StressScene::report() const {
-  return tip_.violation() + "\n  again by: --seed " + std::to_string(seed_) + (mica_ ? " --mica" : "") + " --scenes 1";
+  const char* const options[] = {"", " --mica", " --shipped"};
+  return (spent_ ? "a batch spends its budget: " + std::to_string(most_events_) + " events" : "") + tip_.violation() +
+         "\n  again by: --seed " + std::to_string(seed_) + options[static_cast<int>(kind_)] + " --scenes 1";
 }
 
 }  // namespace afm

@@ -51,6 +51,7 @@ struct ChatterSurroundings {
   double stiffness;  // times -sigma: of it by place
   double along, up;  // x off the guide for each sigma and rho
   double quickness;  // of the changes of P [1/tau]
+  double speed;      // |u| [a/tau]
   double slow_rate;  // of the changes of the slope and of the springs [turns/tau]
 };
 
@@ -60,7 +61,7 @@ class ChatterRates {
   ChatterRates(const Model& model, bool geometric);
 
   ChatterSurroundings surroundings(const SlidePiece<double>& guide, double s) const;
-  // P, squeeze, quickness and slow_rate alone, at the start of a bounce that is no chatter yet.
+  // P, squeeze, quickness, speed and slow_rate alone, at the start of a bounce that is no chatter yet.
   ChatterSurroundings surroundings(const Flight<double>& bounce) const;
 
   EvenChatter even(const ChatterSurroundings& at, const Chatter& c) const;

@@ -34,8 +34,18 @@ struct Mechanics {
 
 // A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the
 // reaction is nothing for ever, would be let go and caught again at every rounding. It moves a release by 1e-11 tau
-// [a/tau^2].
+// [a/tau^2]. Where the terms whose sum the pull is are above 1e4, as under mica's springs from 50 a/tau, it is a part of
+// them.
 constexpr double kReleaseNoise = 1e-9;
+
+template <class T>
+T release_noise(const Mechanics<T>& m, const T& u, const T& X) {
+  using std::abs;
+  using std::max;
+  constexpr double kPart = 1e-13;  // of a slide's series, each sum is good to 3e-14
+  const T k = m.omega_v, turning = k * k * m.H * (T(1.0) + u * u), rest = k * k * abs(m.y0);
+  return max(T(kReleaseNoise), T(kPart) * (turning + rest + k * m.H * (m.omega_h * m.omega_h) * abs(X)));
+}
 
 // The comoving state at one time, with the surface phase.
 template <class T>

@@ -25,8 +25,8 @@ class SlidePiece {
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 
-  // First time in [0, length()] at which the pressure has fallen to -kReleaseNoise, or a negative number where it does
-  // not. Never late: each step is bounded by the second derivative of the pressure.
+  // First time in [0, length()] at which the pressure has fallen to -release_noise() of the start, or a negative number
+  // where it does not. Never late: each step is bounded by the second derivative of the pressure.
   T find_release() const;
 
  private:
@@ -104,7 +104,7 @@ T SlidePiece<T>::find_release() const {
   using std::abs;
   using std::sqrt;
   constexpr int kMostSteps = 200;  // each step converges quadratically on a release: far more than ever needed
-  const T noise(kReleaseNoise);
+  const T noise = release_noise(m_, start_.u, start_.X);
   if (pressure_[0] + noise > largest_change(pressure_, length_)) return T(-1.0);
   T bound2(0.0);
   Series<T> slope{};

@@ -14,6 +14,12 @@ constexpr double kMostLoss = 0.2;
 // The duration of a bounce against the time in which the pressure changes by itself, at most: an exit leaves two
 // bounces.
 constexpr double kMostShortness = 0.05;
+// A tip that rings over a crest, where none rides faster than about 1 a/tau, bounces thousands of times a tau for
+// hundreds of tau, and more than three hundred of them last longer than that. What it costs to average them is a part
+// of the normal speed: slower ones may last longer.
+constexpr double kRinging = 1.5;         // [a/tau] at most
+constexpr double kFullSpeed = 1e3;       // thresholds: bounces of a ringing tip slower than this may last longer
+constexpr double kMostLongerSlow = 2.0;  // times at most
 
 // A step, in parts of the times in which v falls and the reaction changes.
 constexpr double kFallPerStep = 0.7, kChangePerStep = 0.2;
@@ -42,7 +48,9 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
 
 // What the averages leave out is of the third and fourth order of a bounce's duration against all changes.
 bool ChatterLaw::smooth(const ChatterSurroundings& at, double v) const {
-  return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) <= kMostShortness * fineness_;
+  double most = kMostShortness * fineness_;
+  if (at.speed <= kRinging) most *= std::clamp(std::sqrt(kFullSpeed * threshold_ / v), 1.0, kMostLongerSlow);
+  return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) <= most;
 }
 
 AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {

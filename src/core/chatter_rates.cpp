@@ -96,7 +96,8 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<dou
   // the second derivative of the pressure, as if u stayed what it is
   const double u2 = square(q.u), a2 = h.h2 * u2 * (wv2_ - square(kTwoPi) * u2);
   at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
-  at.slow_rate = std::max(std::abs(q.u), slow_rate_);
+  at.speed = std::abs(q.u);
+  at.slow_rate = std::max(at.speed, slow_rate_);
   return at;
 }
 
@@ -135,7 +136,8 @@ AFM_INLINED ChatterSurroundings ChatterRates::look(const SlidePiece<double>& gui
   at.quickness = std::sqrt(std::max(square(p1), std::abs(p2)));
   at.along = free_ * per_N;
   at.up = -h.h1 * per_N;
-  at.slow_rate = std::max(std::abs(u), slow_rate_);
+  at.speed = std::abs(u);
+  at.slow_rate = std::max(at.speed, slow_rate_);
   return at;
 }
 

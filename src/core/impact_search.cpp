@@ -1,5 +1,8 @@
 #include "afm_emulator/impact_search.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "afm_emulator/double_double.h"
 #include "afm_emulator/multiversion.h"
 
@@ -8,6 +11,31 @@ namespace {
 
 AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
   return find_impact(flight, horizon);
+}
+
+// Bounds that hold up to the horizon only. A loose spring turns so slowly that its tip comes nowhere near its greatest
+// speed in that time: stretched far, it may creep over cells that the bounds of a whole flight see it race over.
+FlightBounds<double> bounds_until(const Flight<double>& flight, double horizon) {
+  const Mechanics<double>& m = flight.mechanics();
+  const FlightState<double>& o = flight.start().state;
+  FlightBounds<double> b = flight.bounds();
+  const double k = kTwoPi, U = m.omega_h * b.X, eta = std::abs(flight.eta()), u0 = std::abs(flight.eta() + o.U);
+  b.X = std::min(b.X, std::abs(o.X) + U * horizon);
+  const double wh2 = m.omega_h * m.omega_h, a = wh2 * b.X, slope = k * m.H, wv2 = m.omega_v * m.omega_v;
+  const double u = std::min(eta + U, u0 + a * horizon), slow = std::max({0.0, eta - U, u0 - a * horizon}), v = k * u;
+  const double jerk = slope * (3.0 * v * a + wh2 * U);  // but for that of the steady motion
+  b.second = std::min(b.second, wv2 * b.Y + slope * (v * u + a));
+  b.third = std::min(b.third, m.omega_v * wv2 * b.Y + slope * v * v * u + jerk);
+  b.fourth = std::min(b.fourth, wv2 * wv2 * b.Y + slope * (v * v * v * u + 6.0 * v * v * a + 3.0 * k * a * a +
+                                                           4.0 * v * wh2 * U + wh2 * a));
+  const double change = std::max(std::abs(u * u - 1.0), std::abs(slow * slow - 1.0));
+  b.drive = std::min(b.drive, slope * k * v * change + jerk);
+  b.small_until = 0.125 / std::max({1.0, m.ratio, u});
+  return b;
+}
+
+FlightBounds<DoubleDouble> widened(const FlightBounds<double>& b) {
+  return {b.X, b.Y, b.second, b.third, b.fourth, b.drive, b.small_until};
 }
 
 Landing<double> rounded(const Landing<DoubleDouble>& landing) {
@@ -23,9 +51,15 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_in_double(flight, horizon);
+  if (landing.outcome == SearchOutcome::cap) {
+    const Flight<double> within(flight.mechanics(), flight.eta(), flight.start(), bounds_until(flight, horizon));
+    landing = find_in_double(within, horizon);
+  }
   if (landing.outcome == SearchOutcome::undecided) {
     const Mechanics<DoubleDouble> mechanics(model);
-    const Flight<DoubleDouble> finer(mechanics, DoubleDouble(flight.eta()), flight.launch());
+    const DoubleDouble eta(flight.eta());
+    const Flight<DoubleDouble> whole(mechanics, eta, flight.launch());
+    const Flight<DoubleDouble> finer(mechanics, eta, whole.start(), widened(bounds_until(flight, horizon)));
     landing = rounded(find_impact(finer, DoubleDouble(horizon)));
     if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
   }

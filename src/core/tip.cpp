@@ -144,7 +144,7 @@ void Tip::leave_or_press() {
   const double g2 = flight_.start().g2;
   if (!(start.g1 > 0.0)) {
     // also where the surface does not press, but only rounding pulls: on the glide at eta = 1 for ever
-    if (g2 < kReleaseNoise) mode_ = Mode::touching;
+    if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
   } else if (g2 < 0.0 && start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
     const Settled settled = settle(model_, start);
     burst_normal_speed_ = settled.normal_speed;

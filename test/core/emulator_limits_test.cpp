@@ -93,6 +93,19 @@ TEST(EmulatorLimits, ATinyCutoffCostsNoMoreThanItsBudget) {
   }
 }
 
+// At 1 a/tau the crest just carries a tip: swung over it in its spring a little faster, it presses at both ends of the
+// swing and hardly between, and bounces thousands of times a tau for hundreds of tau.
+TEST(EmulatorLimits, ATipThatRingsOverACrestStaysWithinTheDefaultBudget) {
+  for (const double u : {1.0, 1.02, 1.05, 1.1, 1.2}) {
+    EmulatorSettings settings;
+    settings.eta = 0.0;
+    settings.initial = {0.0, 0.0, settings.model.H + 1e-5, u, 0.0};
+    Emulator emulator(settings);
+    Batch batch;
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(emulator.run_batch(batch), Outcome::time_limit) << u;
+  }
+}
+
 TEST(EmulatorLimits, ABatchNeverAllocatesOnceItHasRoom) {
   for (const double eta : {3.0, 3.4, 0.5}) {
     EmulatorSettings settings = chattering();

@@ -157,6 +157,24 @@ TEST(ImpactSearch, LeavingSlowlyUnderALiftingForceIsNoImpact) {
   EXPECT_GT(lifts, 1000);
 }
 
+// Stretched over a thousand cells the spring lets the tip creep, where at its fastest it would race: the search, begun
+// in more digits at the end of a slide, must not take the steps of a race.
+TEST(ImpactSearch, OfATipThatCreepsOnALooseSpringComesToAnEnd) {
+  Model model;
+  model.frequency_ratio = 0.001;
+  model.H = 9.8047064352176871;
+  const TipState start{0.25049950842403212, 496.4833117208226, 0.07782234564982124, 0.0, 0.0};
+  const Flight<double> flight(Mechanics<double>(model), -1000.0, start);
+  const Landing<double> landing = find_landing(model, flight, kHorizon);
+  ASSERT_EQ(landing.outcome, SearchOutcome::impact);
+  EXPECT_LT(std::abs(landing.jet.g), 1e-12);
+  constexpr int kSamples = 100000;
+  for (int i = 1; i < kSamples; ++i) {
+    const double s = landing.s * i / kSamples;
+    ASSERT_GT(flight.gap(s).g, -flight.gap_error(s)) << s;
+  }
+}
+
 TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
   RandomLaunches launches(6);
   for (int i = 0; i < 1000; ++i) {

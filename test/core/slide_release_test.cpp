@@ -1,6 +1,7 @@
 // Where a slide ends, its mirror image, and rest.
 #include <gtest/gtest.h>
 
+#include "afm_emulator/tip.h"
 #include "slides.h"
 
 namespace afm {
@@ -27,6 +28,32 @@ TEST(SlideRelease, IsWhereThePressureEndsAndNeverLate) {
     ASSERT_LT(piece.pressure_rate(release), 0.0) << i;
   }
   EXPECT_GT(releases, 300);
+}
+
+// Springs and speeds at which a pull of 1e-9 a/tau^2 is less than the rounding of the forces it is left of.
+TEST(SlideRelease, IsFollowedByAFlightHoweverLargeTheForces) {
+  RandomLaunches random(3);
+  int releases = 0, at_once = 0;
+  for (int i = 0; i < 6000; ++i) {
+    Model model;
+    model.gamma = 0.0;
+    model.frequency_ratio = std::pow(10.0, random.within(1.0, 3.0));
+    const double u = std::pow(10.0, random.within(0.0, 4.0));
+    Tip tip(model, random.within(-10.0, 10.0),
+            TipState{random.within(0.0, 1.0), random.within(-10.0, 10.0), i % 2 == 0 ? u : -u, 0.0, 0.0});
+    const ModelTime end{0, 0.01};
+    ModelTime released{-1, 0.0};
+    for (int events = 0; events < 100; ++events) {
+      const Outcome outcome = tip.advance(end);
+      if (outcome == Outcome::time_limit) break;
+      if (tip.now() == released) ++at_once;
+      if (outcome != Outcome::released) continue;
+      released = tip.now();
+      ++releases;
+    }
+  }
+  EXPECT_GT(releases, 4000);
+  EXPECT_EQ(at_once, 0);
 }
 
 TEST(SlideSymmetry, AMirroredSlideIsTheMirrorImageBitForBit) {

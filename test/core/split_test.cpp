@@ -87,7 +87,7 @@ void advance_to_fast_impact(Tip& tip, double slowest) {
 // Burst and split burst may let go at different bounces: they meet again at the next impact that is no chatter.
 TEST_P(Split, InABurstChangesItByTheErrorOfItsSteps) {
   std::vector<double> off;
-  while (off.size() < 100) {
+  while (off.size() < 1000) {
     const SlideState<double> q = random_piece(eta(), random_).start();
     Tip whole(model_at(eta()), eta(), TipState{wrap_phase(q.phase), q.X, q.u, 0.0, within(1e-4, 8e-3)});
     if (whole.tip_state().g1 != 0.0) continue;  // no burst
@@ -99,8 +99,9 @@ TEST_P(Split, InABurstChangesItByTheErrorOfItsSteps) {
         {std::abs(whole.now() - split.now()), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)}));
   }
   std::sort(off.begin(), off.end());
-  EXPECT_LE(off[50], 1e-6);
-  EXPECT_LE(off.back(), 1e-4);
+  // the few that meet the crest differently are further off than any bound
+  EXPECT_LE(off[500], 1e-6);
+  EXPECT_LE(off[980], 3e-5);
 }
 
 TEST_P(Split, ByThePresentVelocityChangesNoBit) {

@@ -15,6 +15,7 @@ namespace afm {
 
 struct TipCount {
   std::uint64_t arcs = 0, impacts = 0, bounces = 0, bursts = 0, contacts = 0, commands = 0;
+  std::uint64_t events = 0;  // what a batch tells and its budget counts
   std::uint64_t most_arcs_in_a_tau = 0;
   double deepest = 0.0;          // below the surface [a], or part of the largest height if that is more than 1 a
   double worst_imbalance = 0.0;  // of the energy turned over
@@ -122,6 +123,7 @@ class TipWatch {
 
   void enter(Outcome outcome) {
     ++count_.arcs;
+    if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) ++count_.events;
     if (outcome == Outcome::contact) ++count_.contacts;
     if (outcome != Outcome::impact) return;
     ++count_.impacts;
