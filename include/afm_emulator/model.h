@@ -50,6 +50,8 @@ constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizon
 constexpr double kMaxAmplitude = 10.0;      // [a]: a hundred times mica
 constexpr double kMinAmplitude = 1e-9;      // [a]: flatter, and the surface is lost in the rounding of the tip's height
 
+constexpr double kMinCutoff = 1e-140;       // [a/tau], or 0: slower bounces are none, and its inverse is a number
+
 // Every fault of the set, not only the first; empty when the model can be run.
 std::vector<ParameterError> find_faults(const Model& model);
 

@@ -48,6 +48,7 @@ std::vector<ParameterError> find_faults(const Model& m) {
   require(m.y0 >= -kMaxAmplitude, "y0", m.y0, "the harmonic centre must be at most 10 lattice spacings down");
   require(m.gamma >= 0.0 && m.gamma <= 1.0, "gamma", m.gamma, "the restitution must be between 0 and 1");
   require(m.v_c >= 0.0 && std::isfinite(m.v_c), "v_c", m.v_c, "the cutoff speed must be finite and not negative");
+  require(!(m.v_c > 0.0) || m.v_c >= kMinCutoff, "v_c", m.v_c, "the cutoff speed must be 0 or at least 1e-140 a/tau");
   return faults;
 }
 

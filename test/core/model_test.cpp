@@ -70,6 +70,7 @@ TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
       {"gamma", &Model::gamma, 0.0, -1e-9},
       {"gamma", &Model::gamma, 1.0, 1.0 + 1e-9},
       {"v_c", &Model::v_c, 0.0, -1e-9},
+      {"v_c", &Model::v_c, 1e-140, 1e-311},
   };
   for (const Limit& limit : limits) {
     Model model;
