@@ -133,16 +133,17 @@ Landing<T> land_briefly(const Flight<T>& f, const T& length) {
 // neither rises nor is let go has no flight: contact is the tip's affair.
 // The gap is evaluated `ahead` of the time `s` that is certified, as far as it is likely to certify what lies behind it
 // too.
+// `from`: the flight is known to be free of impacts up to there.
 template <class T>
-Landing<T> find_impact(const Flight<T>& f, const T& horizon) {
+Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0.0)) {
   using std::min;
   using search_detail::finish;
-  const bool on_surface = !(f.start().g > T(0.0));
+  const bool on_surface = !(f.start().g > T(0.0)) && !(from > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
   const T length = search_detail::parabola_length(f);
   if (on_surface && length < horizon / T(2.0) && search_detail::is_brief(f, length))
     return search_detail::land_briefly(f, length);
-  T s = T(0.0), ahead = T(0.0), guess = T(0.05);
+  T s = from, ahead = T(0.0), guess = T(0.05);
   if (on_surface) search_detail::take_off(f, s, ahead, guess);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
     if (s > horizon) s = horizon;

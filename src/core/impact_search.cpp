@@ -60,7 +60,7 @@ Landing<double> find_landing(const Model& model, const Flight<double>& flight, d
     const DoubleDouble eta(flight.eta());
     const Flight<DoubleDouble> whole(mechanics, eta, flight.launch());
     const Flight<DoubleDouble> finer(mechanics, eta, whole.start(), widened(bounds_until(flight, horizon)));
-    landing = rounded(find_impact(finer, DoubleDouble(horizon)));
+    landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
     if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
   }
   return landing;
