@@ -45,7 +45,7 @@ class ChatterLaw {
     double n, duration;  // of a bounce [tau]
   };
   static double time_at(double n, const Pace& first, const Pace& last, double dt);
-  bool smooth(const ChatterSurroundings& at, double v) const;
+  bool smooth(const ChatterSurroundings& at, double v, bool within) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
   double step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const;
   ChatterRun whole_bounce(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,

@@ -46,10 +46,12 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
   whole_ = std::max(1e-12, 1e-6 * std::min(1.0, threshold / kUsualThreshold));
 }
 
-// What the averages leave out is of the third and fourth order of a bounce's duration against all changes.
-bool ChatterLaw::smooth(const ChatterSurroundings& at, double v) const {
+// What the averages leave out is of the third and fourth order of a bounce's duration against all changes. `within` a
+// burst, or at the entry to one: there bounces of a falling pressure, which lengthen, may not last longer.
+bool ChatterLaw::smooth(const ChatterSurroundings& at, double v, bool within) const {
   double most = kMostShortness * fineness_;
-  if (at.speed <= kRinging) most *= std::clamp(std::sqrt(kFullSpeed * threshold_ / v), 1.0, kMostLongerSlow);
+  if (at.speed <= kRinging && (within || at.squeeze >= 0.0))
+    most *= std::clamp(std::sqrt(kFullSpeed * threshold_ / v), 1.0, kMostLongerSlow);
   return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) <= most;
 }
 
@@ -59,7 +61,7 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (!(bounce.start().g2 < 0.0)) return false;
   const bool below = v_c_ > threshold_;
   if (below && (v > v_c_ || rates_.loss(v) > kMostLoss)) return false;
-  return smooth(rates_.surroundings(bounce), 1.6 * v);
+  return smooth(rates_.surroundings(bounce), 1.6 * v, false);
 }
 
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
@@ -116,8 +118,9 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
     }
     const EvenChatter next = rates_.step(guide, s, dt, rate, then, c);
     const Chatter plain = rates_.plain(then, next);
-    if (exits && !smooth(then, plain.v) && plain.n >= std::floor(now.n) + 1.0)
-      return whole_bounce(guide, s, dt, rate, c, {now.n, 2.0 * now.v * at.per_P}, {plain.n, 2.0 * plain.v * then.per_P});
+    if (exits && !smooth(then, plain.v, true) && plain.n >= std::floor(now.n) + 1.0)
+      return whole_bounce(guide, s, dt, rate, c, {now.n, 2.0 * now.v * at.per_P},
+                          {plain.n, 2.0 * plain.v * then.per_P});
     s += dt;
     c = next;
     now = plain;
