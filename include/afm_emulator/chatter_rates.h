@@ -2,8 +2,8 @@
 //
 // At the distance rho from the surface, s along it: rho'' = -P - K rho while it flies, with the reaction P of the slide
 // that it would make instead (its guide). A bounce of normal speed v lasts 2 v/P and keeps the action
-// v^3/P (1 - K v^2 / 5 P^2); it ends in v -> v (1 - w), w = (1 - gamma) v / v_c, at and above the cutoff in v -> gamma
-// v. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P T(w), so
+// v^3/P (1 - K v^2 / 5 P^2); it ends in v -> v (1 - w), w = (1 - gamma) v / v_c, at and above the cutoff in
+// v -> gamma v. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P T(w), so
 //   dv/dt = -(P/2) w R(w) + v P'/(3 P T(w)),   R = G/T.
 // While it bounces the tip is off its guide by sigma, as the forces differ at its mean height v^2/(3 P), and this
 // changes P. Kept are all terms of the second order of a bounce's duration against every change, for any w; what is
@@ -26,8 +26,8 @@ struct Chatter {
 };
 
 // The same in variables that change evenly, so that an integrator can take long steps: with a cutoff v falls and n
-// grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; without one v falls evenly, x
-// = v, and n goes like its logarithm.
+// grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; without one v falls evenly,
+// x = v, and n goes like its logarithm.
 struct EvenChatter {
   double x, rest, sigma, p, drift, lift;
 };

@@ -73,8 +73,8 @@ class Emulator {
   double set_level(const Level& level);
   // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.
   void take_samples(bool wanted) { sampling_ = wanted; }
-  void
-  reset();  // initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now
+  // Initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now.
+  void reset();
 
   // Each clears the batch, keeps its capacity and fills it. Never allocates while the batch has room for
   // samples_per_batch samples and impact_budget impacts (see reserve).

@@ -111,6 +111,8 @@ class Flight {
         s <= tiny_until(), [&] { return moved_by_tiny_turns(start_, s); }, [&] { return gap_by_small_turns(s); });
   }
 
+  T tiny_until() const { return bounds_.small_until / T(128.0); }  // up to this size a step's turns are tiny
+
   // The ways that these choose from, for those who have chosen.
   GapJet<T> gap_by_turns(const T& s) const { return jet_at(at(s)); }
   GapJet<T> gap_by_small_turns(const T& s) const { return moved(start_, s); }
@@ -130,7 +132,6 @@ class Flight {
 
  private:
   void set_bounds();
-  T tiny_until() const { return bounds_.small_until / T(128.0); }
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
   // is within a few ulp of itself. Precondition: |t| <= small_until.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;

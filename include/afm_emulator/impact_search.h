@@ -24,6 +24,8 @@ struct Landing {
 };
 
 constexpr int kMaxSearchSteps = 20000;
+// A flight without an impact is searched this far and then begun anew from there [tau].
+constexpr double kSearchHorizon = 8.0;
 
 namespace search_detail {
 

@@ -49,7 +49,6 @@ constexpr double kMaxEta = 1e3;             // above it a flight crosses more ce
 constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizontal spring
 constexpr double kMaxAmplitude = 10.0;      // [a]: a hundred times mica
 constexpr double kMinAmplitude = 1e-9;      // [a]: flatter, and the surface is lost in the rounding of the tip's height
-
 constexpr double kMinCutoff = 1e-140;       // [a/tau], or 0: slower bounces are none, and its inverse is a number
 
 // Every fault of the set, not only the first; empty when the model can be run.

@@ -10,9 +10,6 @@
 namespace afm {
 namespace {
 
-// A flight without an impact is searched this far and then begun anew from there [tau].
-constexpr double kHorizon = 8.0;
-
 const Model& checked(const Model& model) {
   const auto faults = find_faults(model);
   if (!faults.empty()) throw faults.front();
@@ -177,7 +174,7 @@ TipState Tip::tip_state() const {
 }
 
 void Tip::find_landing() {
-  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, kHorizon));  // in place, likewise
+  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, kSearchHorizon));  // in place, likewise
   landing_known_ = true;
 }
 

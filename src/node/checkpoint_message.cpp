@@ -18,11 +18,7 @@ afm_emulator::Checkpoint to_checkpoint(const CheckpointContext& context, const M
   message.next_drag = context.next_drag;
   message.next_parameters = context.next_parameters;
   message.drag_velocity = context.drag_velocity;
-  message.restitution_gamma = context.live.restitution_gamma;
-  message.cutoff_speed = context.live.cutoff_speed;
-  message.rest_height_m = context.live.rest_height_m;
-  message.sample_rate_hz = context.live.sample_rate_hz;
-  message.friction_window_tau = context.live.friction_window_tau;
+  write_live(context.live, message);
   message.digest = digest.message();
   message.layout = state_layout();
   message.state.assign(state.begin(), state.end());
@@ -54,10 +50,6 @@ std::uint64_t digest_of(const afm_emulator::Checkpoint& c) {
   digest.add(std::uint64_t{c.layout});
   for (const std::uint64_t word : c.state) digest.add(word);
   return digest.value();
-}
-
-LiveParameters to_live(const afm_emulator::Checkpoint& c) {
-  return {c.restitution_gamma, c.cutoff_speed, c.rest_height_m, c.sample_rate_hz, c.friction_window_tau};
 }
 
 std::optional<Emulator> restored(const afm_emulator::Checkpoint& c) {

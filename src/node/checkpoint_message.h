@@ -28,7 +28,6 @@ afm_emulator::Checkpoint to_checkpoint(const CheckpointContext& context, const M
 
 std::uint64_t digest_of(const afm_emulator::Checkpoint& checkpoint);  // what state_digest should be
 
-LiveParameters to_live(const afm_emulator::Checkpoint& checkpoint);
 // Changes of parameters that took effect before it.
 inline std::uint64_t changes_before(const afm_emulator::Checkpoint& checkpoint) {
   return checkpoint.digest.commands - checkpoint.drags;

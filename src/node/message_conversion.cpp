@@ -108,20 +108,11 @@ afm_emulator::AppliedParameters to_applied_parameters(const StepperState& state,
   message.first_impact = state.impacts;
   message.first_sample = state.samples;
   message.first_command = state.commands;
-  message.restitution_gamma = p.si.restitution_gamma;
-  message.cutoff_speed = p.si.cutoff_speed;
-  message.rest_height_m = p.si.rest_height_m;
-  message.sample_rate_hz = p.sample_rate_hz;
-  message.friction_window_tau = p.friction_window_tau;
+  write_live(live_parameters(p), message);
   message.samples_per_batch = settings.samples_per_batch;
   message.sample_period_tau = settings.sample_period;
   write_level(level, Units(p.si), message);
   return message;
-}
-
-LiveParameters to_live(const afm_emulator::AppliedParameters& applied) {
-  return {applied.restitution_gamma, applied.cutoff_speed, applied.rest_height_m, applied.sample_rate_hz,
-          applied.friction_window_tau};
 }
 
 afm_emulator::EmulatorStatus to_status(const StepperState& state, const Units& units, const Label& label) {

@@ -54,6 +54,20 @@ Level level_of(const Applied& applied) {
   return level;
 }
 
+// The live parameters that an AppliedParameters or a Checkpoint tells.
+template <class Told>
+LiveParameters to_live(const Told& told) {
+  return {told.restitution_gamma, told.cutoff_speed, told.rest_height_m, told.sample_rate_hz, told.friction_window_tau};
+}
+template <class Told>
+void write_live(const LiveParameters& live, Told& told) {
+  told.restitution_gamma = live.restitution_gamma;
+  told.cutoff_speed = live.cutoff_speed;
+  told.rest_height_m = live.rest_height_m;
+  told.sample_rate_hz = live.sample_rate_hz;
+  told.friction_window_tau = live.friction_window_tau;
+}
+
 // Those fields of the status that the stepping thread knows.
 afm_emulator::EmulatorStatus to_status(const StepperState& state, const Units& units, const Label& label);
 
@@ -62,7 +76,6 @@ afm_emulator::Configuration to_configuration(const Parameters& parameters, const
                                              const std::string& digest, const Label& label);
 // The run again: exactly what the messages were made from. Parameters that are no part of a run are at their defaults.
 Parameters to_parameters(const afm_emulator::Configuration& configuration);
-LiveParameters to_live(const afm_emulator::AppliedParameters& applied);
 SiModel si_model(const afm_emulator::Configuration& configuration);
 EmulatorSettings emulator_settings(const afm_emulator::Configuration& configuration);
 

@@ -32,6 +32,21 @@ std::vector<double> ranges_option(const std::string& name, const std::string& te
   return values_of(name, text, split_fields(text));
 }
 
+std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
+                                         const std::string& frequency_ratio) {
+  std::vector<DynamicsOptions> grid;
+  const std::vector<double> gammas = ranges_option("gamma", gamma), etas = ranges_option("eta", eta);
+  const std::vector<double> ratios = ranges_option("frequency-ratio", frequency_ratio);
+  for (const double v_c : ranges_option("cutoff", cutoff)) {
+    for (const double g : gammas) {
+      for (const double ratio : ratios) {
+        for (const double e : etas) grid.push_back({e, g, v_c, "oscillator", ratio});
+      }
+    }
+  }
+  return grid;
+}
+
 void add_model_option(CLI::App& app, std::string& model) {
   app.add_option("--model", model, "oscillator, or hammer: the horizontal spring infinitely stiff")
       ->capture_default_str();

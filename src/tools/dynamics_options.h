@@ -30,6 +30,10 @@ Model checked_model(const DynamicsOptions& options);
 std::vector<double> range_option(const std::string& name, const std::string& text);
 std::vector<double> ranges_option(const std::string& name, const std::string& text);
 
+// Every combination of four such options, drag velocities changing fastest; of the oscillator.
+std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
+                                         const std::string& frequency_ratio);
+
 // Parses, checks and runs; turns what goes wrong into a message and an exit code: 2 for bad input, 1 for the rest.
 int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& run);
 

@@ -57,15 +57,9 @@ struct Point {
 
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
-  for (const double cutoff : afm::ranges_option("cutoff", o.cutoff)) {
-    for (const double gamma : afm::ranges_option("gamma", o.gamma)) {
-      for (const double ratio : afm::ranges_option("frequency-ratio", o.frequency_ratio)) {
-        for (const double eta : afm::ranges_option("eta", o.eta)) {
-          if (!(eta > 0.0)) throw std::invalid_argument("eta = " + std::to_string(eta) + ": must be above 0");
-          points.push_back({afm::checked_model({eta, gamma, cutoff, "oscillator", ratio}), eta});
-        }
-      }
-    }
+  for (const afm::DynamicsOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
+    if (!(at.eta > 0.0)) throw std::invalid_argument("eta = " + std::to_string(at.eta) + ": must be above 0");
+    points.push_back({afm::checked_model(at), at.eta});
   }
   return points;
 }

@@ -78,23 +78,17 @@ struct Point {
   double eta;
 };
 
-Point checked_point(const Options& o, double eta, double gamma, double cutoff, double frequency_ratio) {
-  const double v_c = o.relative_cutoff ? cutoff * std::abs(eta) : cutoff;
-  const Point point{afm::checked_model({eta, gamma, v_c, "oscillator", frequency_ratio}), eta};
-  if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no friction to compare");
+Point checked_point(const Options& o, afm::DynamicsOptions at) {
+  if (o.relative_cutoff) at.cutoff *= std::abs(at.eta);
+  const Point point{afm::checked_model(at), at.eta};
+  if (at.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no friction to compare");
   return point;
 }
 
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
-  for (const double cutoff : afm::ranges_option("cutoff", o.cutoff)) {
-    for (const double gamma : afm::ranges_option("gamma", o.gamma)) {
-      for (const double ratio : afm::ranges_option("frequency-ratio", o.frequency_ratio)) {
-        for (const double eta : afm::ranges_option("eta", o.eta)) {
-          points.push_back(checked_point(o, eta, gamma, cutoff, ratio));
-        }
-      }
-    }
+  for (const afm::DynamicsOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
+    points.push_back(checked_point(o, at));
   }
   return points;
 }

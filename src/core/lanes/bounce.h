@@ -44,18 +44,9 @@ AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   log(tips, time, r);
   const Flight<Pack> f(m, eta, r.after, r.surface);
   const GapJet<Pack>& o = f.start();
-  const FlightBounds<Pack>& b = f.bounds();
   Pack s, ahead, guess;
   search_detail::take_off(f, s, ahead, guess);
-  rows.store(kPhase, o.state.phase, r.after.u);
-  rows.store(kX, o.state.X, o.state.U);
-  rows.store(kY, o.state.Y, o.state.W);
-  rows.store(kG1, o.g1, o.g2);
-  rows.store(kG3, o.g3, o.h);
-  rows.store(kH1, o.h1, b.X);
-  rows.store(kBoundY, b.Y, b.second);
-  rows.store(kBound3, b.third, b.fourth);
-  rows.store(kBoundDrive, b.drive, b.small_until);
+  store_flight(rows, f, r.after.u);
   rows.store(kS, s, ahead);
   rows.store(kGuess, guess, Pack(0.0));
   rows.store(kStartTau, time.tau, time.phase);
@@ -63,7 +54,7 @@ AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   const Mask brief = search_detail::is_brief(f, search_detail::parabola_length(f));
   const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst) && !brief;
   Ways ways;
-  split(bits(ordinary), s + ahead <= b.small_until, kLookNear, kLookFar, ways);
+  split(bits(ordinary), s + ahead <= f.bounds().small_until, kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);
   return ways;
 }

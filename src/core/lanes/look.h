@@ -6,8 +6,6 @@
 namespace afm {
 namespace {
 
-constexpr double kHorizon = 8.0;  // [tau] of the search, as tip.cpp has it
-
 // Those that have certified a root.
 AFM_LANE_INLINE void begin_root(const Rows& rows, const Flight<Pack>& f, const GapJet<Pack>& jet, P p,
                                 const RootInterval<Pack>& root, unsigned certain, Ways& ways) {
@@ -59,7 +57,7 @@ AFM_LANE_INLINE Ways look(const Rows& rows) {
   const auto behind = [&] { return certify_root_behind(f, jet, error, at.ahead); };
   const RootInterval<Pack> root = either(at.jumped, behind, in_front);
   Ways ways;
-  const unsigned beyond = bits(!(p < Pack(kHorizon)) || at.count >= Pack(kMostEvaluations));
+  const unsigned beyond = bits(!(p < Pack(kSearchHorizon)) || at.count >= Pack(kMostEvaluations));
   const unsigned certain = bits(root.certain) & ~beyond, on = kAllLanes & ~(certain | beyond);
   ways.lanes[kAlone] = beyond;
   if (certain != 0) begin_root(rows, f, jet, p, root, certain, ways);

@@ -18,7 +18,7 @@ AFM_LANE_INLINE void store_jet(const Rows& rows, const GapJet<Pack>& jet, P step
 // Which evaluation gap_near would choose for a step from the time s.
 AFM_LANE_INLINE void split_by_step(unsigned lanes, const Flight<Pack>& f, P s, P step, Ways& ways) {
   const Pack until = f.bounds().small_until, size = abs(step);
-  const unsigned start = bits(s + step <= until), tiny = bits(size <= until / Pack(128.0)), near = bits(size <= until);
+  const unsigned start = bits(s + step <= until), tiny = bits(size <= f.tiny_until()), near = bits(size <= until);
   ways.lanes[kFinishTiny] |= lanes & tiny & ~start;
   ways.lanes[kFinishNear] |= lanes & near & ~tiny & ~start;
   ways.lanes[kFinishFar] |= lanes & (start | ~near);

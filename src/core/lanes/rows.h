@@ -70,6 +70,21 @@ AFM_LANE_INLINE Flight<Pack> load_flight(const Rows& rows) {
   return Flight<Pack>(m, eta, start, b);
 }
 
+// The same way round; u: the horizontal velocity at the launch.
+AFM_LANE_INLINE void store_flight(const Rows& rows, const Flight<Pack>& f, P u) {
+  const GapJet<Pack>& o = f.start();
+  const FlightBounds<Pack>& b = f.bounds();
+  rows.store(kPhase, o.state.phase, u);
+  rows.store(kX, o.state.X, o.state.U);
+  rows.store(kY, o.state.Y, o.state.W);
+  rows.store(kG1, o.g1, o.g2);
+  rows.store(kG3, o.g3, o.h);
+  rows.store(kH1, o.h1, b.X);
+  rows.store(kBoundY, b.Y, b.second);
+  rows.store(kBound3, b.third, b.fourth);
+  rows.store(kBoundDrive, b.drive, b.small_until);
+}
+
 AFM_LANE_INLINE void split(unsigned lanes, M first, Kind yes, Kind no, Ways& ways) {
   ways.lanes[yes] |= lanes & bits(first);
   ways.lanes[no] |= lanes & ~bits(first);

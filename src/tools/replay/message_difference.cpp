@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "node/live_parameters.h"
+#include "node/message_conversion.h"
+
 namespace afm::replay {
 namespace {
 
@@ -81,6 +84,14 @@ void compare_levels(const std::string& message, const Applied& a, const Applied&
   c.field(message + ".energy_dropped", a.energy_dropped, b.energy_dropped);
 }
 
+template <class Told>
+void compare_live(const std::string& message, const Told& a, const Told& b, Comparison& c) {
+  const node::LiveParameters first = node::to_live(a), second = node::to_live(b);
+  for (const node::LiveField& field : node::kLiveFields) {
+    c.field(message + "." + field.name, first.*field.value, second.*field.value);
+  }
+}
+
 }  // namespace
 
 std::optional<FieldDifference> find_difference(const afm_emulator::Deflection& a, const afm_emulator::Deflection& b) {
@@ -141,11 +152,7 @@ std::optional<FieldDifference> find_difference(const afm_emulator::AppliedParame
   c.field("applied_parameters.first_impact", a.first_impact, b.first_impact);
   c.field("applied_parameters.first_sample", a.first_sample, b.first_sample);
   c.field("applied_parameters.first_command", a.first_command, b.first_command);
-  c.field("applied_parameters.restitution_gamma", a.restitution_gamma, b.restitution_gamma);
-  c.field("applied_parameters.cutoff_speed", a.cutoff_speed, b.cutoff_speed);
-  c.field("applied_parameters.rest_height_m", a.rest_height_m, b.rest_height_m);
-  c.field("applied_parameters.sample_rate_hz", a.sample_rate_hz, b.sample_rate_hz);
-  c.field("applied_parameters.friction_window_tau", a.friction_window_tau, b.friction_window_tau);
+  compare_live("applied_parameters", a, b, c);
   c.field("applied_parameters.samples_per_batch", a.samples_per_batch, b.samples_per_batch);
   c.field("applied_parameters.sample_period_tau", a.sample_period_tau, b.sample_period_tau);
   compare_levels("applied_parameters", a, b, c);
@@ -219,7 +226,6 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, co
 }
 
 std::optional<FieldDifference> find_difference(const afm_emulator::Checkpoint& a, const afm_emulator::Checkpoint& b) {
-  using Message = afm_emulator::Checkpoint;
   Comparison c;
   c.field("checkpoint.epoch", a.epoch, b.epoch);
   c.field("checkpoint.time", a.time, b.time);
@@ -228,13 +234,8 @@ std::optional<FieldDifference> find_difference(const afm_emulator::Checkpoint& a
   c.field("checkpoint.drags", a.drags, b.drags);
   c.field("checkpoint.next_drag", a.next_drag, b.next_drag);
   c.field("checkpoint.next_parameters", a.next_parameters, b.next_parameters);
-  const std::pair<const char*, double Message::*> numbers[] = {{"drag_velocity", &Message::drag_velocity},
-                                                               {"restitution_gamma", &Message::restitution_gamma},
-                                                               {"cutoff_speed", &Message::cutoff_speed},
-                                                               {"rest_height_m", &Message::rest_height_m},
-                                                               {"sample_rate_hz", &Message::sample_rate_hz},
-                                                               {"friction_window_tau", &Message::friction_window_tau}};
-  for (const auto& [name, member] : numbers) c.field(std::string("checkpoint.") + name, a.*member, b.*member);
+  c.field("checkpoint.drag_velocity", a.drag_velocity, b.drag_velocity);
+  compare_live("checkpoint", a, b, c);
   compare(a.digest, b.digest, c);
   c.field("checkpoint.layout", a.layout, b.layout);
   c.field("checkpoint.state", a.state, b.state);

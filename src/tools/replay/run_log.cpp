@@ -53,6 +53,22 @@ FirstBatch first_batch_of(const Recording& recording) {
   throw Problem(Verdict::missing, where + ": " + std::to_string(count) + " messages are missing");
 }
 
+// Every message of a topic in one bag, with none missing between them.
+template <class Message, class Take>
+void for_each_in_order(const Recording& recording, const RecordedBag& bag, const char* topic, const Take& take) {
+  MessageStream<Message> stream(recording.topic(topic));
+  stream.add(bag.bag, bag.path);
+  const std::string where = bag.path + ": " + stream.topic();
+  std::optional<std::uint32_t> previous;
+  for (; stream.head() != nullptr; stream.pop()) {
+    const std::uint32_t sequence = stream.head()->header.seq;
+    const std::uint64_t gap = previous ? follows(*previous, sequence, where) : 0;
+    if (gap > 0) lost(where, gap);
+    previous = sequence;
+    take(*stream.head(), where);
+  }
+}
+
 }  // namespace
 
 RunLog::RunLog(const Recording& recording) {
@@ -61,7 +77,9 @@ RunLog::RunLog(const Recording& recording) {
     configurations.add(bag->bag, bag->path);
     const std::string where = bag->path + ": " + configurations.topic();
     for (; configurations.head() != nullptr; configurations.pop()) take(*configurations.head(), where);
-    take_checkpoints(recording, *bag);
+    for_each_in_order<afm_emulator::Checkpoint>(
+        recording, *bag, node::kCheckpointTopic,
+        [&](const afm_emulator::Checkpoint& checkpoint, const std::string& where) { take(checkpoint, where); });
     take_all(recording, *bag, node::kAppliedDragTopic, drags_);
     take_all(recording, *bag, node::kAppliedParametersTopic, changes_);
     take_stretches(recording, *bag);
@@ -89,20 +107,6 @@ void RunLog::take(const afm_emulator::Configuration& configuration, const std::s
   last_configuration_ = &log.configuration;
 }
 
-void RunLog::take_checkpoints(const Recording& recording, const RecordedBag& bag) {
-  MessageStream<afm_emulator::Checkpoint> checkpoints(recording.topic(node::kCheckpointTopic));
-  checkpoints.add(bag.bag, bag.path);
-  const std::string where = bag.path + ": " + checkpoints.topic();
-  std::optional<std::uint32_t> previous;  // in this bag
-  for (; checkpoints.head() != nullptr; checkpoints.pop()) {
-    const std::uint32_t sequence = checkpoints.head()->header.seq;
-    const std::uint64_t gap = previous ? follows(*previous, sequence, where) : 0;
-    if (gap > 0) lost(where, gap);
-    previous = sequence;
-    take(*checkpoints.head(), where);
-  }
-}
-
 // A bag that follows on begins with one that was told before.
 void RunLog::take(const afm_emulator::Checkpoint& checkpoint, const std::string& where) {
   epoch(checkpoint.epoch);
@@ -123,17 +127,9 @@ void RunLog::take(const afm_emulator::Checkpoint& checkpoint, const std::string&
 
 template <class Message>
 void RunLog::take_all(const Recording& recording, const RecordedBag& bag, const char* topic, Kind<Message>& kind) {
-  MessageStream<Message> stream(recording.topic(topic));
-  stream.add(bag.bag, bag.path);
-  const std::string where = bag.path + ": " + stream.topic();
-  std::optional<std::uint32_t> previous;  // in this bag
-  for (; stream.head() != nullptr; stream.pop()) {
-    const std::uint32_t sequence = stream.head()->header.seq;
-    const std::uint64_t gap = previous ? follows(*previous, sequence, where) : 0;
-    if (gap > 0) lost(where, gap);
-    previous = sequence;
-    take(*stream.head(), where, kind);
-  }
+  for_each_in_order<Message>(recording, bag, topic, [&](const Message& message, const std::string& where) {
+    take(message, where, kind);
+  });
 }
 
 void RunLog::take_stretches(const Recording& recording, const RecordedBag& bag) {

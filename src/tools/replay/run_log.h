@@ -23,7 +23,6 @@ class RunLog {
 
  private:
   void take(const afm_emulator::Configuration& configuration, const std::string& where);
-  void take_checkpoints(const Recording& recording, const RecordedBag& bag);
   void take(const afm_emulator::Checkpoint& checkpoint, const std::string& where);
   // Of commands of one kind: where they belong, and the sequence number of the last one.
   template <class Message>
