@@ -19,7 +19,7 @@ constexpr double kMostShortness = 0.05;
 // of the normal speed: slower ones may last longer.
 constexpr double kRinging = 1.5;         // [a/tau] at most
 constexpr double kFullSpeed = 1e3;       // thresholds: bounces of a ringing tip slower than this may last longer
-constexpr double kMostLongerSlow = 2.0;  // times at most
+constexpr double kMostLongerSlow = 3.0;  // times at most
 
 // A step, in parts of the times in which v falls and the reaction changes.
 constexpr double kFallPerStep = 0.7, kChangePerStep = 0.2;
@@ -61,7 +61,7 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (!(bounce.start().g2 < 0.0)) return false;
   const bool below = v_c_ > threshold_;
   if (below && (v > v_c_ || rates_.loss(v) > kMostLoss)) return false;
-  return smooth(rates_.surroundings(bounce), 1.6 * v, false);
+  return smooth(rates_.surroundings(bounce), v, false);
 }
 
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.

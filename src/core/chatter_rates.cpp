@@ -93,8 +93,11 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<dou
   at.P = a / std::sqrt(N2);
   at.per_P = 1.0 / at.P;
   at.squeeze = (a1 / a - free_ * h.h1 * h.h2 * q.u / N2) / 3.0;
-  // the second derivative of the pressure, as if u stayed what it is
-  const double u2 = square(q.u), a2 = h.h2 * u2 * (wv2_ - square(kTwoPi) * u2);
+  // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
+  const double u = q.u, u2 = square(u), k2 = square(kTwoPi), reaction = free_ * a / N2;
+  const double x2 = -wh2_ * q.X - h.h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h.h2 * u * reaction, x4 = -wh2_ * x2;
+  const double a2 = h.h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) +
+                    h.h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
   at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
   at.speed = std::abs(q.u);
   at.slow_rate = std::max(at.speed, slow_rate_);
