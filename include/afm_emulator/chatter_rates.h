@@ -10,6 +10,8 @@
 // left out is of the third.
 #pragma once
 
+#include <array>
+
 #include "afm_emulator/flight.h"
 #include "afm_emulator/model.h"
 #include "afm_emulator/slide.h"
@@ -55,12 +57,18 @@ struct ChatterSurroundings {
   double slow_rate;  // of the changes of the slope and of the springs [turns/tau]
 };
 
+// In the middle and at the end of a step.
+struct ChatterAhead {
+  ChatterSurroundings middle, end;
+};
+
 class ChatterRates {
  public:
   // geometric: without regard to the cutoff, as if it were 0
   ChatterRates(const Model& model, bool geometric);
 
   ChatterSurroundings surroundings(const SlidePiece<double>& guide, double s) const;
+  ChatterAhead ahead(const SlidePiece<double>& guide, double s, double dt) const;
   // P, squeeze, quickness, speed and slow_rate alone, at the start of a bounce that is no chatter yet.
   ChatterSurroundings surroundings(const Flight<double>& bounce) const;
 
@@ -69,9 +77,8 @@ class ChatterRates {
 
   // d/dt. In `c` v stands for what it would be on the guide itself.
   EvenChatter operator()(const ChatterSurroundings& at, const EvenChatter& c) const;
-  // Over dt, by the classical Runge-Kutta method: from the rate at s and what is seen at s + dt.
-  EvenChatter step(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,
-                   const ChatterSurroundings& end, const EvenChatter& c) const;
+  // Over dt, by the classical Runge-Kutta method: from the rate at its beginning and what is seen later.
+  EvenChatter step(double dt, const EvenChatter& rate, const ChatterAhead& ahead, const EvenChatter& c) const;
 
   // The time in which v falls by the factor e, or, evenly, to nothing, through the losses alone [tau].
   double fall_time(const ChatterSurroundings& at, double v) const;
@@ -80,7 +87,7 @@ class ChatterRates {
   double loss(double v) const { return loss_ * v; }  // w
 
  private:
-  ChatterSurroundings look(const SlidePiece<double>& guide, double s) const;
+  ChatterSurroundings look(const SlideState<double>& q, const std::array<double, 4>& pressure) const;
   EvenChatter rate(const ChatterSurroundings& at, const EvenChatter& c) const;
   double speed(double x) const;
   double bounces_at(double v) const;

@@ -9,17 +9,24 @@
 
 namespace afm {
 
+constexpr int kSlideBits = 50;
+
 template <class T>
 class SlidePiece {
  public:
-  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start);
+  // bits: to which length() is good; at 50 to 3e-14.
+  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits);
 
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(pressure_, s); }  // reaction along y [a/tau^2]
   T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
-  std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
+  // And its first three time derivatives; of several times at once they wait less for each other.
+  std::array<T, 4> pressure_jet(const T& s) const { return pressure_jets(std::array<T, 1>{s})[0]; }
+  template <std::size_t n>
+  std::array<std::array<T, 4>, n> pressure_jets(const std::array<T, n>& s) const;
+  T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
 
-  T length() const { return length_; }  // to here the series is good to 3e-14 [tau]
+  T length() const { return length_; }  // to here the series is good to 2^-bits [tau]
   const SlideState<T>& start() const { return start_; }
   const Series<T>& displacement() const { return d_; }  // x - x(start)
   const T& eta() const { return eta_; }
@@ -30,7 +37,7 @@ class SlidePiece {
   T find_release() const;
 
  private:
-  T choose_length() const;
+  T choose_length(int bits) const;
 
   Mechanics<T> m_;
   T eta_;
@@ -40,28 +47,27 @@ class SlidePiece {
 };
 
 template <class T>
-SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start)
+SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits)
     : m_(mechanics), eta_(eta), start_(start) {
   const SlideSeries<T> series(mechanics, eta, start);
   d_ = series.d;
   u_ = series.u;
   pressure_ = series.lambda;
-  length_ = choose_length();
+  length_ = choose_length(bits);
 }
 
-// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-kBits. In
+// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits. In
 // quarter powers of 2 and from exponents alone, which are the same on every machine.
 template <class T>
-T SlidePiece<T>::choose_length() const {
+T SlidePiece<T>::choose_length(int bits) const {
   constexpr double kLongest = 8.0;  // [tau]
   constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  constexpr int kBits = 50;
   const bool held = static_cast<double>(m_.mobility) == 0.0;
   double length = kLongest;
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
     const double c = std::abs(static_cast<double>(held ? pressure_[n] : u_[n]));
     if (!(c > 1e-290)) continue;
-    const int quarters = 4 * (-kBits - std::ilogb(c)) / static_cast<int>(n);
+    const int quarters = 4 * (-bits - std::ilogb(c)) / static_cast<int>(n);
     const int whole = quarters >= 0 ? quarters / 4 : -((3 - quarters) / 4);
     length = std::min(length, std::ldexp(kQuarterPowers[quarters - 4 * whole], whole));
   }
@@ -75,14 +81,29 @@ SlideState<T> SlidePiece<T>::at(const T& s) const {
 }
 
 template <class T>
-std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
+T SlidePiece<T>::displacement_integral(const T& s) const {
+  Series<T> mean = d_;
+#pragma GCC unroll 32
+  for (std::size_t k = 1; k <= kSlideOrder; ++k) mean[k] = d_[k] * T(1.0 / static_cast<double>(k + 1));
+  return s * horner(mean, s);
+}
+
+template <class T>
+template <std::size_t n>
+std::array<std::array<T, 4>, n> SlidePiece<T>::pressure_jets(const std::array<T, n>& s) const {
   using std::fma;
-  std::array<T, 4> c{};  // Horner's scheme for the function and, over k!, its derivatives
+  std::array<std::array<T, 4>, n> jets{};  // Horner's scheme for the function and, over k!, its derivatives
   for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
-    for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
-    c[0] = fma(c[0], s, pressure_[k]);
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < n; ++j) {
+      std::array<T, 4>& c = jets[j];
+#pragma GCC unroll 4
+      for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s[j], c[i - 1]);
+      c[0] = fma(c[0], s[j], pressure_[k]);
+    }
   }
-  return {c[0], c[1], T(2.0) * c[2], T(6.0) * c[3]};
+  for (std::array<T, 4>& c : jets) c[2] *= T(2.0), c[3] *= T(6.0);
+  return jets;
 }
 
 // Of the sum of a series from its value at 0, up to s.

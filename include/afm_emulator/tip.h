@@ -94,9 +94,9 @@ class Tip {
   void tolerate(double contact_tolerance);
   void adopt(const Model& model);
   void fly(const TipState& start);
-  void slide(const SlideState<double>& start);
+  void slide(const SlideState<double>& start, int bits = kSlideBits);
   void burst(const SlideState<double>& guide, const Chatter& chatter);
-  SlideState<double> leave_guide(const SlideState<double>& guide, const Chatter& chatter);
+  SlideState<double> leave_guide(double s, const Chatter& chatter);
   void begin_flight();
   void leave_or_press();
   bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }

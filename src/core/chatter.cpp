@@ -68,8 +68,9 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
 double ChatterLaw::step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const {
   // with a cutoff, the less a bounce loses the more evenly ln v falls
   const double loss = v_c_ > threshold_ ? std::min(kMostLoss, rates_.loss(v)) : kMostLoss, evenness = 0.5 + 2.5 * loss;
-  const double dt =
-      fineness_ * std::min(kFallPerStep / evenness * rates_.fall_time(at, v), kChangePerStep / at.quickness);
+  // the error of a step is that of a pressure which swings with the horizontal spring: the less it changes by, the longer
+  const double change = std::sqrt(at.quickness * std::max(at.quickness, kTwoPi * at.slow_rate));
+  const double dt = fineness_ * std::min(kFallPerStep / evenness * rates_.fall_time(at, v), kChangePerStep / change);
   // and not far beyond the threshold, so that n counts the bounces down to it
   return fall > 0.0 ? std::min(dt, 1.02 * (c.x - threshold_x_) / fall) : dt;
 }
@@ -84,12 +85,12 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, d
   double before = 0.0, n_before = first.n;
   constexpr int kMostSteps = 40;
   for (int i = 0; i < kMostSteps; ++i) {
-    const ChatterSurroundings there = rates_.surroundings(guide, s + part);
-    c = rates_.plain(there, rates_.step(guide, s, part, rate, there, start));
+    const ChatterAhead ahead = rates_.ahead(guide, s, part);
+    c = rates_.plain(ahead.end, rates_.step(part, rate, ahead, start));
     const double rest = n - c.n;
     if (std::abs(rest) < whole_) break;
     (rest > 0.0 ? low : high) = part;
-    const double duration = i == 0 ? 2.0 * c.v * there.per_P : (part - before) / (c.n - n_before);
+    const double duration = i == 0 ? 2.0 * c.v * ahead.end.per_P : (part - before) / (c.n - n_before);
     before = part, n_before = c.n;
     const double next = part + rest * duration;
     part = next > low && next < high ? next : 0.5 * (low + high);
@@ -107,16 +108,18 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
   EvenChatter c = rates_.even(at, start);
   while (s < until && now.v > threshold_) {
     const EvenChatter rate = rates_(at, c);
-    double dt = std::min(until - s, step_length(at, now.v, c, -rate.x));
-    ChatterSurroundings then = rates_.surroundings(guide, s + dt);
+    const double rest = until - s, longest = step_length(at, now.v, c, -rate.x);
+    double dt = rest <= longest ? rest : rest < 2.0 * longest ? 0.5 * rest : longest;  // the last two alike
+    ChatterAhead ahead = rates_.ahead(guide, s, dt);
     // the last bounce of all lasts beyond the pressure: it is left where it is
     if (!(s + dt > s) || 2.0 * now.v * at.quickness > at.P) return {ChatterEnd::exits, s, now};
     // past a maximum the pressure may fall faster than its rate foretells
-    for (; !(then.P > kMostFall * at.P); then = rates_.surroundings(guide, s + dt)) {
+    for (; !(ahead.end.P > kMostFall * at.P); ahead = rates_.ahead(guide, s, dt)) {
       dt *= 0.5;
       if (!(s + dt > s)) return {ChatterEnd::exits, s, now};
     }
-    const EvenChatter next = rates_.step(guide, s, dt, rate, then, c);
+    const ChatterSurroundings& then = ahead.end;
+    const EvenChatter next = rates_.step(dt, rate, ahead, c);
     const Chatter plain = rates_.plain(then, next);
     if (exits && !smooth(then, plain.v, true) && plain.n >= std::floor(now.n) + 1.0)
       return whole_bounce(guide, s, dt, rate, c, {now.n, 2.0 * now.v * at.per_P},

@@ -104,9 +104,7 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<dou
   return at;
 }
 
-AFM_INLINED ChatterSurroundings ChatterRates::look(const SlidePiece<double>& guide, double s) const {
-  const SlideState<double> q = guide.at(s);
-  const auto a = guide.pressure_jet(s);
+AFM_INLINED ChatterSurroundings ChatterRates::look(const SlideState<double>& q, const std::array<double, 4>& a) const {
   SurfaceJet<double> h = surface_jet(H_, q.phase);
   // held along x, the tip sees no slope: only that the pressure changes
   h.h1 *= free_, h.h2 *= free_, h.h3 *= free_;
@@ -199,20 +197,24 @@ AFM_INLINED EvenChatter ChatterRates::rate(const ChatterSurroundings& at, const 
 }
 
 AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
-  return look(guide, s);
+  return look(guide.at(s), guide.pressure_jet(s));
+}
+
+AFM_MULTIVERSION ChatterAhead ChatterRates::ahead(const SlidePiece<double>& guide, double s, double dt) const {
+  const double middle = s + dt / 2.0, end = s + dt;
+  const auto pressure = guide.pressure_jets(std::array<double, 2>{middle, end});
+  return {look(guide.at(middle), pressure[0]), look(guide.at(end), pressure[1])};
 }
 
 AFM_MULTIVERSION EvenChatter ChatterRates::operator()(const ChatterSurroundings& at, const EvenChatter& c) const {
   return rate(at, c);
 }
 
-AFM_MULTIVERSION EvenChatter ChatterRates::step(const SlidePiece<double>& guide, double s, double dt,
-                                                const EvenChatter& k1, const ChatterSurroundings& end,
+AFM_MULTIVERSION EvenChatter ChatterRates::step(double dt, const EvenChatter& k1, const ChatterAhead& ahead,
                                                 const EvenChatter& c) const {
-  const ChatterSurroundings middle = look(guide, s + dt / 2.0);
-  const EvenChatter k2 = rate(middle, c + dt / 2.0 * k1);
-  const EvenChatter k3 = rate(middle, c + dt / 2.0 * k2);
-  const EvenChatter k4 = rate(end, c + dt * k3);
+  const EvenChatter k2 = rate(ahead.middle, c + dt / 2.0 * k1);
+  const EvenChatter k3 = rate(ahead.middle, c + dt / 2.0 * k2);
+  const EvenChatter k4 = rate(ahead.end, c + dt * k3);
   return c + dt / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
 }
 

@@ -27,6 +27,13 @@ constexpr double kGrowth = 100.0;
 // 1e-5 a.
 constexpr double kEntry = 0.1;
 
+// A burst's guide need be no better than a millionth of the tolerance, and its pieces are twice as long for it. What it
+// gains of energy by that is in the books.
+int guide_bits(double contact_tolerance) {
+  constexpr double kPart = 1e-6, kLeast = 1e-15;
+  return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 26, kSlideBits);
+}
+
 // Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
 constexpr double kLeastGapRate = 1e-140;
 
@@ -53,8 +60,8 @@ AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
 
 AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta,
-                                               const SlideState<double>& start) {
-  return SlidePiece<double>(mechanics, eta, start);
+                                               const SlideState<double>& start, int bits) {
+  return SlidePiece<double>(mechanics, eta, start, bits);
 }
 
 // Kinetic and in the springs.
@@ -63,6 +70,11 @@ AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideStat
   const double Y = surface.h - m.y0;
   return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
                 m.omega_v * m.omega_v * Y * Y);
+}
+
+// Of x - xc over the first s.
+AFM_MULTIVERSION double stretch_integral(const SlidePiece<double>& slide, double s) {
+  return s * (slide.start().X - 0.5 * slide.eta() * s) + slide.displacement_integral(s);
 }
 
 AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
@@ -109,8 +121,8 @@ void Tip::begin_flight() {
   landing_known_ = false;
 }
 
-void Tip::slide(const SlideState<double>& start) {
-  slide_ = slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u});
+void Tip::slide(const SlideState<double>& start, int bits) {
+  slide_ = slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits);
   mode_ = Mode::sliding;
   start_ = now_;
   const double release = release_of(slide_);
@@ -119,18 +131,21 @@ void Tip::slide(const SlideState<double>& start) {
 }
 
 void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
-  slide(guide);
+  slide(guide, guide_bits(kGrowth * slowest_chatter_));
   mode_ = Mode::bursting;
   chatter_ = chatter;
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
-// To where the chatter has moved the tip. A guide conserves energy by itself; what the move stores more, the drag has
-// worked or the bounces have given.
-SlideState<double> Tip::leave_guide(const SlideState<double>& guide, const Chatter& chatter) {
-  const SlideState<double> moved = moved_guide(model_, guide, chatter);
-  const double work = -mechanics_.omega_h * mechanics_.omega_h * eta_ * chatter.drift;
-  burst_gain_ += work - (slide_energy(mechanics_, moved) - slide_energy(mechanics_, guide)) + chatter.lift;
+// To where the chatter has moved the tip, which has been on the guide for s. What it stores more, the drag has worked or
+// the bounces have given; a tip that is held its holder has moved along the guide.
+SlideState<double> Tip::leave_guide(double s, const Chatter& chatter) {
+  const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
+  const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;
+  const bool held = mechanics_.mobility == 0.0;
+  const double before = slide_energy(mechanics_, held ? guide : slide_.start());
+  if (!held) burst_gain_ += force * stretch_integral(slide_, s);
+  burst_gain_ += work - (slide_energy(mechanics_, moved) - before) + chatter.lift;
   work_off_guide_ += work;
   return moved;
 }
@@ -195,10 +210,10 @@ Outcome Tip::land() {
 Outcome Tip::end_burst() {
   const ChatterRun run = chatter_run_;
   if (run.end == ChatterEnd::time && !slide_releases_) {
-    burst(leave_guide(slide_at(slide_, run.s), run.chatter), {run.chatter.v, run.chatter.n});
+    burst(leave_guide(run.s, run.chatter), {run.chatter.v, run.chatter.n});
     return Outcome::flying;
   }
-  const SlideState<double> guide = leave_guide(slide_at(slide_, run.s), run.chatter);
+  const SlideState<double> guide = leave_guide(run.s, run.chatter);
   const bool died = run.end == ChatterEnd::died;
   const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
   const Settled settled = settle(model_, bounce);

@@ -13,7 +13,7 @@ void Tip::drag(double eta) {
   SlideState<double> guide{state.phase, state.X, state.u};
   if (mode_ == Mode::bursting) {
     const Chatter chatter = chatter_now();
-    guide = leave_guide(guide, chatter);
+    guide = leave_guide(now_ - start_, chatter);
     eta_ = eta;
     return burst(guide, {chatter.v, chatter.n});
   }
@@ -53,7 +53,7 @@ void Tip::retune(const Model& model) {
   SlideState<double> guide{state.phase, state.X, state.u};
   if (mode_ == Mode::bursting) {
     const Chatter chatter = chatter_now();
-    guide = leave_guide(guide, chatter);
+    guide = leave_guide(now_ - start_, chatter);
     adopt(model);
     slide(guide);
     mode_ = Mode::bursting;
