@@ -62,7 +62,7 @@ void Broadcaster::run() {
   name_thread("afm_publish");
   follow_real_time();  // or on a busy machine chatter comes faster than we would be let to take it, and is lost
   Event event;
-  Batch batch;
+  Batch batch = roomy_batch(parameters_);
   SavedState state;
   for (bool last = false; !last;) {
     last = stopping_;  // look once more after being told to stop: nothing handed over before it is lost

@@ -17,6 +17,7 @@ namespace {
 constexpr unsigned kSpinnerThreads = 3;
 // How soon a shutdown that ROS was told of (rosnode kill) is noticed.
 constexpr std::chrono::milliseconds kShutdownLook{100};
+constexpr int kLargeBuffer = 256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 
 std::atomic<bool> g_running{false}, g_stop{false};
 afm::node::Semaphore g_signalled;
@@ -36,6 +37,14 @@ void handle_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+// One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
+// stepping thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts, never
+// come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
+void keep_memory_flat() {
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_THRESHOLD, kLargeBuffer);
+}
+
 void run(const ros::NodeHandle& handle, const afm::node::Parameters& parameters) {
   ros::AsyncSpinner spinner(kSpinnerThreads);  // outlives the node: its services end while they can still be served
   afm::node::EmulatorNode node(handle, parameters);
@@ -47,9 +56,7 @@ void run(const ros::NodeHandle& handle, const afm::node::Parameters& parameters)
 }  // namespace
 
 int main(int argc, char** argv) {
-  // One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
-  // stepping thread, which must not wait for another, allocates nothing.
-  mallopt(M_ARENA_MAX, 1);
+  keep_memory_flat();
   ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
   handle_signals();
   const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle

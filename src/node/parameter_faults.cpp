@@ -189,4 +189,15 @@ EmulatorSettings emulator_settings(const Parameters& p) {
   return settings;
 }
 
+Batch roomy_batch(const Parameters& p) {
+  Parameters fastest = p;
+  fastest.sample_rate_hz = most_sample_rate(p);
+  Batch batch;
+  batch.vertical.reserve(samples_per_batch(fastest));
+  batch.lateral.reserve(samples_per_batch(fastest));
+  batch.impacts.resize(p.impact_budget);
+  batch.impacts.clear();
+  return batch;
+}
+
 }  // namespace afm::node

@@ -23,18 +23,13 @@ constexpr std::chrono::seconds kPublishingPatience{1};
 Stepper::Stepper(const Parameters& parameters, HandOver& hand_over, const SampleDemand& demand)
     : parameters_(parameters),
       emulator_(emulator_settings(parameters)),
+      batch_(roomy_batch(parameters)),
       hand_over_(hand_over),
       demand_(demand),
       pacer_(batch_period(parameters), monotonic_now()),
       drag_velocity_(parameters.drag_velocity),
       level_{full_level(parameters)},
-      requests_(kMaxWaitingRequests) {
-  emulator_.reserve(batch_);
-  Parameters fastest = parameters;  // the sample rate may rise
-  fastest.sample_rate_hz = most_sample_rate(parameters);
-  batch_.vertical.reserve(samples_per_batch(fastest));
-  batch_.lateral.reserve(samples_per_batch(fastest));
-}
+      requests_(kMaxWaitingRequests) {}
 
 void Stepper::start() {
   thread_ = std::thread([this] { run(); });
