@@ -14,7 +14,7 @@ constexpr int kSlideBits = 50;
 template <class T>
 class SlidePiece {
  public:
-  // bits: to which length() is good; at 50 to 3e-14.
+  // At length() the last terms are below 2^-bits: at 50 the series is good to 3e-14 up to there.
   SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits);
 
   SlideState<T> at(const T& s) const;
@@ -24,9 +24,9 @@ class SlidePiece {
   std::array<T, 4> pressure_jet(const T& s) const { return pressure_jets(std::array<T, 1>{s})[0]; }
   template <std::size_t n>
   std::array<std::array<T, 4>, n> pressure_jets(const std::array<T, n>& s) const;
-  T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
+  T displacement_integral(const T& s) const;  // of x - x(start) over time [a tau]
 
-  T length() const { return length_; }  // to here the series is good to 2^-bits [tau]
+  T length() const { return length_; }  // [tau]
   const SlideState<T>& start() const { return start_; }
   const Series<T>& displacement() const { return d_; }  // x - x(start)
   const T& eta() const { return eta_; }

@@ -48,6 +48,21 @@ INSTANTIATE_TEST_SUITE_P(DragSpeeds, BurstsAt,
                                          Drag{9.0, 0.1}, Drag{0.2, 0.01}, Drag{0.5, 0.01}, Drag{3.0, 0.01},
                                          Drag{5.0, 0.01}, Drag{7.0, 0.01}, Drag{9.0, 0.01}));
 
+// A burst costs as much as five bounces. Here the horizontal spring swings, and the pressure with it.
+TEST(Bursts, SeldomReplaceOneBounceOrTwo) {
+  Model model;
+  model.v_c = 0.05;
+  Tip tip(model, 0.35, FreeState{0.3, 0.0, 0.2, 0.35, 0.0});
+  int bursts = 0, brief = 0;
+  for (Outcome outcome; (outcome = tip.advance({1000, 0.0})) != Outcome::time_limit;) {
+    if (outcome != Outcome::impact || tip.last_impact().kind != ImpactKind::burst) continue;
+    ++bursts;
+    if (tip.last_impact().count <= 2) ++brief;
+  }
+  EXPECT_GT(bursts, 300);
+  EXPECT_LT(brief, bursts / 3);
+}
+
 FrictionEstimate friction_of(const Drag& drag, double tolerance) {
   constexpr ModelTime kTransient{300, 0.0}, kEnd{5300, 0.0};
   Tip tip(mica(drag), drag.eta, FreeState{0.25, 0.0, 0.2, drag.eta, 0.0}, tolerance);

@@ -77,6 +77,17 @@ double difference(double a, const Quad& b) { return static_cast<double>(abs(a - 
 
 class Slide : public testing::TestWithParam<double> {};
 
+TEST(Slide, TheIntegralOfItsDisplacementIsThat) {
+  RandomLaunches random(7);
+  for (int i = 0; i < 200; ++i) {
+    const Piece piece = random_piece(random);
+    const auto d = [&](double s) { return piece.at(s).phase - piece.start().phase; };
+    const double s = random.within(0.1, 1.0) * piece.length();
+    const double sum = boost::math::quadrature::gauss<double, 10>::integrate(d, 0.0, s);  // exact for these powers
+    EXPECT_NEAR(piece.displacement_integral(s), sum, 3e-16 * s);
+  }
+}
+
 TEST_P(Slide, IsTheSolutionOfItsEquationOfMotion) {
   RandomLaunches random(1);
   for (int dwell = 0; dwell < 20; ++dwell) {
