@@ -27,6 +27,11 @@ struct Mechanics {
         per_omega_v(T(1.0) / omega_v),
         per_omega_h(afm::mobility(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
 
+  // w / omega to more than the last digit: w times a rounded 1 / omega would add energy at every turn, or take it away.
+  static T turned(const T& w, const T& omega, const T& per) {
+    return mul_add(w, per, T((w * per) * mul_add(T(-omega), per, T(1.0))));
+  }
+
   T mobility;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
   T ratio, omega_v, omega_h, H, y0;
   T per_omega_v, per_omega_h;  // a product is sooner there than a quotient
@@ -126,6 +131,11 @@ class Flight {
   const T& amplitude_Y() const { return bounds_.Y; }
   const T& third_derivative_bound() const { return bounds_.third; }
   const T& fourth_derivative_bound() const { return bounds_.fourth; }
+  // Coarser: every derivative of x brings no more than the fastest turn, and 52 of their products make the fifth of h.
+  T fifth_derivative_bound() const {
+    const T fastest = T(0.125) * two_pi<T>() / bounds_.small_until, square = fastest * fastest;
+    return square * square * fastest * (T(52.0) * m_.H + bounds_.Y);
+  }
   // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on
   // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
@@ -138,6 +148,7 @@ class Flight {
   template <class Turn>
   GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
   GapJet<T> jet_at(const FlightState<T>& state) const;
+  T second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const;
   T third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const;
 
   Mechanics<T> m_;
@@ -160,13 +171,13 @@ T length_bound(const T& x, const T& y) {
 template <class T>
 Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface)
     : m_(mechanics), eta_(eta), launch_(start) {
-  const T W = T(start.g1) + surface.h1 * T(start.u);
+  const T W = mul_add(surface.h1, T(start.u), T(start.g1));
   const T Y = (surface.h - mechanics.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);
-  const T g2 = -m_.omega_v * m_.omega_v * Y - surface.h2 * u * u + surface.h1 * (m_.omega_h * m_.omega_h * X);
+  const T g2 = second_derivative(X, u, Y, surface.h, surface.h1);
   const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
-  start_ = {T(start.g), T(start.g1), g2, third_derivative(state, u, surface.h, surface.h1), state, surface.h,
-            surface.h1};
+  start_ = {T(start.g), T(start.g1), g2,        third_derivative(state, u, surface.h, surface.h1),
+            state,      surface.h,   surface.h1};
   set_bounds();
 }
 
@@ -190,7 +201,7 @@ void Flight<T>::set_bounds() {
   const T ua = (eta + U / T(2.0)) * a_max, u2a = (eta * (eta + U) + T(0.385) * U * U) * a_max;
   bounds_.third = m.omega_v * wv2 * bounds_.Y + slope * (v * v * u_max + T(3.0) * k * ua + wh_a);
   bounds_.fourth = wv2 * wv2 * bounds_.Y + slope * (v * v * v * u_max + T(6.0) * k * k * u2a + T(3.0) * k_a * a_max +
-                                                T(4.0) * v * wh_a + m.omega_h * wh_a);
+                                                    T(4.0) * v * wh_a + m.omega_h * wh_a);
   const T u_change = max(abs(u_max * u_max - T(1.0)), abs(u_low * u_low - T(1.0)));
   bounds_.drive = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
   bounds_.small_until = T(0.125) / max(max(T(1.0), m.ratio), u_max);
@@ -208,38 +219,45 @@ template <class T>
 FlightState<T> Flight<T>::at(const T& s) const {
   const Mechanics<T>& m = m_;
   const FlightState<T>& o = start_.state;
-  const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s));
+  const SinCos<T> h = sin_cos_turn_product(m.ratio, s);
   const SinCos<T> v = sin_cos_turns(s);
-  const T X = o.X * h.cos + o.U * m.per_omega_h * h.sin;
-  const T U = o.U * h.cos - m.omega_h * o.X * h.sin;
-  const T Y = o.Y * v.cos + o.W * m.per_omega_v * v.sin;
-  const T W = o.W * v.cos - m.omega_v * o.Y * v.sin;
-  return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
+  const T X = mul_add(o.X, h.cos, T(m.turned(o.U, m.omega_h, m.per_omega_h) * h.sin));
+  const T U = mul_add(o.U, h.cos, T(-(m.omega_h * o.X) * h.sin));
+  const T Y = mul_add(o.Y, v.cos, T(m.turned(o.W, m.omega_v, m.per_omega_v) * v.sin));
+  const T W = mul_add(o.W, v.cos, T(-(m.omega_v * o.Y) * v.sin));
+  return {(turn_product(eta_, s) + (o.phase - o.X)) + X, X, U, Y, W};
 }
 
+// h'' = -k^2 h, h''' = -k^2 h'; x'' = -omega_h^2 X, y'' = -omega_v^2 Y, and so on.
+template <class T>
+T Flight<T>::second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const {
+  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m_.omega_h * m_.omega_h, wv2 = m_.omega_v * m_.omega_v;
+  return mul_add(h, T(k2 * u * u), mul_add(h1, T(wh2 * X), T(-wv2 * Y)));
+}
 template <class T>
 T Flight<T>::third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const {
-  const Mechanics<T>& m = m_;
-  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h;
-  // h'' = -k^2 h, h''' = -k^2 h', x'' = -omega_h^2 X, x''' = -omega_h^2 U
-  return h1 * (k2 * u * u * u + wh2 * q.U) - T(3.0) * k2 * h * u * (wh2 * q.X) - m.omega_v * m.omega_v * q.W;
+  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m_.omega_h * m_.omega_h, wv2 = m_.omega_v * m_.omega_v;
+  const T straight = mul_add(T(k2 * u * u), u, T(wh2 * q.U)), bend = T(-3.0) * k2 * u * (wh2 * q.X);
+  return mul_add(h1, straight, mul_add(h, bend, T(-wv2 * q.W)));
 }
 
 template <class T>
 GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
-  const Mechanics<T>& m = m_;
-  const SurfaceJet<T> surface = surface_jet(m.H, q.phase);
+  const SurfaceJet<T> surface = surface_jet(m_.H, q.phase);
   const T u = eta_ + q.U;
-  // x'' = -omega_h^2 X, y'' = -omega_v^2 Y
-  const T g2 = -m.omega_v * m.omega_v * q.Y - surface.h2 * u * u + surface.h1 * (m.omega_h * m.omega_h * q.X);
-  return {q.Y + m.y0 - surface.h, q.W - surface.h1 * u, g2, third_derivative(q, u, surface.h, surface.h1), q,
-          surface.h, surface.h1};
+  return {(q.Y + m_.y0) - surface.h,
+          mul_add(T(-surface.h1), u, q.W),
+          second_derivative(q.X, u, q.Y, surface.h, surface.h1),
+          third_derivative(q, u, surface.h, surface.h1),
+          q,
+          surface.h,
+          surface.h1};
 }
 
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
   return either(
-      s <= bounds_.small_until, [&] { return gap_by_small_turns(s); }, [&] { return gap_by_turns(s); });
+      s <= bounds_.small_until, [&] { return gap_soon(s); }, [&] { return gap_by_turns(s); });
 }
 
 template <class T>
@@ -264,30 +282,28 @@ template <class Turn>
 GapJet<T> Flight<T>::moved_by(const GapJet<T>& jet, const T& t, Turn turn) const {
   const Mechanics<T>& m = m_;
   const FlightState<T>& o = jet.state;
-  const T k = two_pi<T>();
-  const T u0 = eta_ + o.U;
+  const T k = two_pi<T>(), per = m.per_omega_v, u0 = eta_ + o.U;
   const SmallTurn<T> h = turn(T(m.ratio * t)), v = turn(t);
 
-  // dx = u0 t + dx2, u = u0 + du
-  const T dx2 = o.U * m.per_omega_h * h.sin_minus_angle - o.X * h.versine;
-  const T du = -o.U * h.versine - m.omega_h * o.X * h.sin;
-  const T dx = u0 * t + dx2;
+  // of x and X what is not linear in t, and of u
+  const T dx2 = mul_add(T(o.U * m.per_omega_h), h.sin_minus_angle, T(-o.X * h.versine));
+  const T du = -mul_add(o.U, h.versine, T((m.omega_h * o.X) * h.sin));
+  const T dx = mul_add(u0, t, dx2), u = u0 + du;
   const SmallTurn<T> d = turn(dx);
+  // and of Y and -W
+  const T dY2 = mul_add(T(o.W * per), v.sin_minus_angle, T(-o.Y * v.versine));
+  const T brake = mul_add(o.W, v.versine, T((m.omega_v * o.Y) * v.sin));
 
-  const T rise = jet.h * d.versine - jet.h1 * (dx2 + d.sin_minus_angle * m.per_omega_v);
-  const T g = jet.g + jet.g1 * (v.sin * m.per_omega_v) + jet.h1 * u0 * (v.sin_minus_angle * m.per_omega_v) -
-              o.Y * v.versine + rise;
-  const T u = u0 + du;
-  const T g1 =
-      jet.g1 - (o.W * v.versine + m.omega_v * o.Y * v.sin + jet.h1 * (du - u * d.versine) - k * jet.h * u * d.sin);
+  const T slip = mul_add(d.sin_minus_angle, per, dx2), rise = mul_add(T(-jet.h1), slip, T(jet.h * d.versine));
+  const T g = mul_add(jet.g1, t, jet.g) + (dY2 + rise);
+  const T turned = mul_add(T(-u), d.versine, du);
+  const T g1 = jet.g1 - mul_add(T(-k * jet.h * u), d.sin, mul_add(jet.h1, turned, brake));
 
-  const T cos_d = T(1.0) - d.versine;
-  const T h_now = jet.h * cos_d + jet.h1 * d.sin * m.per_omega_v;
-  const T h1_now = jet.h1 * cos_d - k * jet.h * d.sin;
-  const T X = o.X + (o.U * m.per_omega_h * h.sin - o.X * h.versine);
-  const FlightState<T> q{o.phase + dx, X, o.U + du, h_now + g - m.y0, h1_now * u + g1};
-  const T g2 = -m.omega_v * m.omega_v * q.Y + k * k * h_now * u * u + h1_now * (m.omega_h * m.omega_h * q.X);
-  return {g, g1, g2, third_derivative(q, u, h_now, h1_now), q, h_now, h1_now};
+  const T h_now = jet.h + mul_add(T(jet.h1 * per), d.sin, T(-jet.h * d.versine));
+  const T h1_now = jet.h1 - mul_add(jet.h1, d.versine, T(k * jet.h * d.sin));
+  const FlightState<T> q{o.phase + dx, o.X + mul_add(o.U, t, dx2), o.U + du, o.Y + mul_add(o.W, t, dY2), o.W - brake};
+  return {g,     g1,    second_derivative(q.X, u, q.Y, h_now, h1_now), third_derivative(q, u, h_now, h1_now), q,
+          h_now, h1_now};
 }
 
 template <class T>

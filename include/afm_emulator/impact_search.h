@@ -37,7 +37,7 @@ template <class T>
 T descent(const Flight<T>& f, const T& reach) {
   using std::min;
   const Mechanics<T>& m = f.mechanics();
-  return min(T(kAhead) * reach, T(0.5) * m.H / (m.omega_v * f.amplitude_Y()));
+  return min(T(kAhead) * reach, T(0.46) * m.H / (m.omega_v * f.amplitude_Y()));
 }
 
 // The root of g1 + g2 t/2 + g3 t^2/6 + g4 t^3/24 near that of the first two, by its series.
@@ -45,14 +45,14 @@ template <class T>
 T end_of_bounce(const Flight<T>& f) {
   const GapJet<T>& o = f.start();
   const T per = T(1.0) / o.g2, t = T(-2.0) * o.g1 * per;
-  const T a = over(T(o.g3 * per), 3.0) * t, b = over(T(fourth_derivative(f, o) * per), 12.0) * t * t;
-  return t * (T(1.0) - a + (T(2.0) * a * a - b) + T(5.0) * a * (b - a * a));
+  const T a = (over(o.g3, 3.0) * per) * t, b = (over(fourth_derivative(f, o), 12.0) * per) * (t * t);
+  return t * (mul_add(a, T(T(2.0) * a - T(1.0)), T(1.0)) + mul_add(T(T(5.0) * a), mul_add(T(-a), a, b), T(-b)));
 }
 
-// A bounce so brief that its third derivative, times its length, is at most this part of its acceleration: the gap is
-// concave until well past its root, which lies within the same part of the parabola's. So there is one, and nothing is
-// left to be certified.
-constexpr double kBrief = 0.05;
+// A bounce so brief that its third derivative, times its length, is at most this part e of its acceleration: the gap is
+// concave until well past its root (e (1 + e) < 1), which lies within the same part of the parabola's ((1 + e)^2 < 3),
+// and there it falls (e <= 0.36). So there is one, and nothing is left to be certified.
+constexpr double kBrief = 0.3;
 
 template <class T>
 T parabola_length(const Flight<T>& f) {
@@ -84,49 +84,64 @@ void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
   guess = T(2.0) * first;
 }
 
-// A step of the third order from here ends within an ulp of the time: nothing is left to look at there.
+// A step of the fourth order from here ends within an ulp of the time: nothing is left to look at there. What the
+// series leaves out, 14 a2^4 - 21 a2^2 a3 + 3 a3^2 + 6 a2 a4 and the fifth derivative, is smaller.
 template <class T>
-Truth<T> settles(const Flight<T>& f, const GapJet<T>& jet, const T& step, const T& time) {
+Truth<T> settles(const Flight<T>& f, const NearJet<T>& near, const T& step, const T& time) {
   using std::abs;
-  const T bend = abs(jet.g2 * step), rest = (f.fourth_derivative_bound() * step * step) * (step * step);
-  const T allowed = epsilon<T>() * time * abs(jet.g1) / T(64.0);
-  return rest < T(24.0) * allowed && bend * bend * bend * abs(step) < allowed * (jet.g1 * jet.g1);
+  const GapJet<T>& jet = near.jet;
+  const T per = abs(near.per_g1), t2 = step * step;
+  const T a = abs(jet.g2 * step) * (per / T(2.0)), b = abs(jet.g3) * t2 * over(per, 6.0);
+  const T c = abs(near.g4 * step) * t2 * over(per, 24.0),
+          rest = f.fifth_derivative_bound() * (t2 * t2) * over(per, 120.0);
+  const T square = a * a + b, left_out = T(14.0) * square * square + T(6.0) * a * c + rest;
+  return left_out * abs(step) < epsilon<T>() * time / T(64.0);
 }
 
-// Finishes the certified root about `jet`, of time s. Steps of the third order, clamped: outside there is nothing to
-// find.
+// What a drift of so far leaves out is well below an ulp of the velocities: it always adds energy.
 template <class T>
-Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, int evaluations) {
+Truth<T> is_smooth(const Flight<T>& f, const GapJet<T>& jet, const T& step) {
+  using std::abs;
+  const T t2 = step * step;
+  return f.fifth_derivative_bound() * (t2 * t2) <= epsilon<T>() * abs(jet.g1);
+}
+
+// Finishes the certified root about `jet`, of time s; `there`: that is near enough. Steps of the fourth order, clamped:
+// outside there is nothing to find.
+template <class T>
+Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, bool there,
+                  int evaluations) {
   using std::abs;
   constexpr int kMaxFinish = 60;
   T t = T(0.0), step = root.estimate;
-  bool there = settles(f, jet, step, s);
   for (int i = 0; i < kMaxFinish; ++i, there = false) {
     if (!there) {
       jet = f.gap_near(jet, s + t, step);
       t = t + step;
       ++evaluations;
     }
-    step = root_step(jet);
+    const NearJet<T> near(f, jet);
+    step = root_step(near);
     if (t + step < root.low || root.high < t + step) step = clamp(t + step, root.low, root.high) - t;
-    // well below an ulp of the velocities: what is left out there always adds energy
-    const bool smooth = T(4.0) * f.fourth_derivative_bound() * abs(step * step * step) <= epsilon<T>() * abs(jet.g1);
-    const bool settled = settles(f, jet, step, T(s + t));
+    const bool settled = there || settles(f, near, step, T(s + t));
     const bool hidden = abs(step * jet.g1) <= f.gap_error(s + t);  // by the rounding of the gap
-    // what is left is of fourth order at most: move the evaluated state instead of evaluating again
-    if (hidden || (smooth && settled)) return {SearchOutcome::impact, s + (t + step), drift(f, jet, step), evaluations};
+    // move the evaluated state instead of evaluating again
+    if (hidden || (settled && is_smooth(f, jet, step)))
+      return {SearchOutcome::impact, s + (t + step), drift(f, near, step), evaluations};
     if (settled) return {SearchOutcome::impact, s + (t + step), f.gap_near(jet, s + t, step), evaluations + 1};
   }
   return {SearchOutcome::cap, s, f.gap(s), evaluations};
 }
 
-// Its end, from a look at where its series ends.
 template <class T>
-Landing<T> land_briefly(const Flight<T>& f, const T& length) {
-  const T p = end_of_bounce(f);
-  const GapJet<T> jet = f.gap_soon(p);
-  return finish(f, p, jet,
-                {length > T(0.0), root_step(jet), T(1.0 - kBrief) * length - p, T(1.0 + kBrief) * length - p}, 1);
+Landing<T> finish(const Flight<T>& f, const T& s, const GapJet<T>& jet, const RootInterval<T>& root, int evaluations) {
+  return finish(f, s, jet, root, settles(f, NearJet<T>(f, jet), root.estimate, s), evaluations);
+}
+
+// The end of one that is brief: near where its series ends.
+template <class T>
+RootInterval<T> brief_root(const Flight<T>& f, const T& length) {
+  return {length > T(0.0), end_of_bounce(f), T(1.0 - kBrief) * length, T(1.0 + kBrief) * length};
 }
 
 }  // namespace search_detail
@@ -138,13 +153,13 @@ Landing<T> land_briefly(const Flight<T>& f, const T& length) {
 // `from`: the flight is known to be free of impacts up to there.
 template <class T>
 Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0.0)) {
-  using std::min;
   using search_detail::finish;
+  using std::min;
   const bool on_surface = !(f.start().g > T(0.0)) && !(from > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
   const T length = search_detail::parabola_length(f);
   if (on_surface && length < horizon / T(2.0) && search_detail::is_brief(f, length))
-    return search_detail::land_briefly(f, length);
+    return finish(f, T(0.0), f.start(), search_detail::brief_root(f, length), false, 0);
   T s = from, ahead = T(0.0), guess = T(0.05);
   if (on_surface) search_detail::take_off(f, s, ahead, guess);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {

@@ -36,8 +36,8 @@ T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
   const FlightState<T>& q = jet.state;
   const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
   const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U, v2 = k2 * u * u;
-  return wv2 * wv2 * q.Y + jet.h * (k2 * (T(3.0) * x2 * x2 + T(4.0) * u * x3) - v2 * v2) +
-         jet.h1 * (T(6.0) * v2 + wh2) * x2;
+  const T bend = mul_add(T(-v2), v2, T(k2 * mul_add(T(T(3.0) * x2), x2, T(T(4.0) * u * x3))));
+  return mul_add(jet.h, bend, mul_add(T(jet.h1 * x2), mul_add(T(6.0), v2, wh2), T(wv2 * wv2 * q.Y)));
 }
 
 // Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. A little less than
@@ -48,7 +48,7 @@ T leave_surface(const Flight<T>& f) {
   using std::max;
   using std::sqrt;
   const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = over(f.third_derivative_bound(), 6.0);
-  const T root = sqrt(b * b + T(4.0) * a * g1);
+  const T root = sqrt(mul_add(T(T(4.0) * a), g1, T(b * b)));
   const T first = T(0.999) * choose(
                                  b > T(0.0), [&] { return T((b + root) / (a * T(2.0))); },
                                  [&] { return T(T(2.0) * g1 / (root - b)); });
@@ -93,8 +93,7 @@ T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& g
         },
         [&] { return guess; });
   };
-  return choose(
-      g > T(0.0), sharpened, [] { return T(0.0); });
+  return choose(g > T(0.0), sharpened, [] { return T(0.0); });
 }
 
 // The gap is certainly positive over all of the time `back` before the jet.
@@ -118,10 +117,12 @@ struct RootInterval {
   T estimate, low, high;
 };
 
-// The cubic's root near that of the parabola, `t`.
+// The root of the gap's series to the fourth order near that of the parabola, `t`: one step of Newton's.
 template <class T>
-T cubic_root(const GapJet<T>& jet, const T& t) {
-  return t - jet.g3 * t * t * t / (T(6.0) * (jet.g1 + t * (jet.g2 + t * jet.g3 / T(2.0))));
+T quartic_root(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
+  const T g4 = fourth_derivative(f, jet);
+  const T slope = mul_add(t, mul_add(t, mul_add(t, over(g4, 6.0), T(jet.g3 / T(2.0))), jet.g2), jet.g1);
+  return t - (t * t * t) * over(mul_add(t, T(g4 / T(4.0)), jet.g3), 6.0) / slope;
 }
 
 template <class T>
@@ -139,7 +140,7 @@ RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& 
     const T third = third_derivative_over(f, jet, d).high;
     const T slope = jet.g1 + max(T(0.0), T(jet.g2 * d + max(T(0.0), third) * d * d / T(2.0)));
     const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + over(T(d * third), 6.0)));
-    return RootInterval<T>{slope < T(0.0) && end < T(0.0), clamp(cubic_root(jet, t), T(0.0), d), T(0.0), d};
+    return RootInterval<T>{slope < T(0.0) && end < T(0.0), clamp(quartic_root(f, jet, t), T(0.0), d), T(0.0), d};
   };
   const auto falling = [&] {
     const T t = choose(
@@ -154,12 +155,12 @@ template <class T>
 RootInterval<T> certify_root_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& back) {
   using std::max;
   using std::sqrt;
-  const T discriminant = jet.g1 * jet.g1 - T(2.0) * jet.g2 * jet.g;
+  const T discriminant = mul_add(T(T(-2.0) * jet.g2), jet.g, T(jet.g1 * jet.g1));
   const auto falling = [&] {
     const T third = max(T(0.0), third_derivative_over(f, jet, back).high);
     const T slope = jet.g1 + max(T(0.0), T(third * back * back / T(2.0) - jet.g2 * back));
     const T t = T(2.0) * jet.g / (sqrt(discriminant) - jet.g1);
-    return RootInterval<T>{slope < T(0.0), clamp(cubic_root(jet, t), T(-back), T(0.0)), T(-back), T(0.0)};
+    return RootInterval<T>{slope < T(0.0), clamp(quartic_root(f, jet, t), T(-back), T(0.0)), T(-back), T(0.0)};
   };
   const auto none = !(jet.g1 < T(0.0)) || !(jet.g + error < T(0.0)) || discriminant < T(0.0);
   return choose(none, no_root<T>, falling);
@@ -174,8 +175,9 @@ R rough_turn(const R& x, const R& y) {
   const R t = select(steep, ax, y) / select(steep, y, ax);
   const R z = t * t;
   // Hastings' polynomial of the arctangent, |error| < 1e-5 rad
-  const R atan = t * (R(0.9998660) + z * (R(-0.3302995) + z * (R(0.1801410) + z * (R(-0.0851330) + z * R(0.0208351)))));
-  const R part = atan / R(kTwoPi), turn = select(steep, R(R(0.25) - part), part);
+  const R low = mul_add(z, R(-0.3302995 / kTwoPi), R(0.9998660 / kTwoPi));
+  const R high = mul_add(z, mul_add(z, R(0.0208351 / kTwoPi), R(-0.0851330 / kTwoPi)), R(0.1801410 / kTwoPi));
+  const R part = t * mul_add(R(z * z), high, low), turn = select(steep, R(R(0.25) - part), part);
   return select(x < R(0.0), R(R(0.5) - turn), turn);
 }
 
@@ -196,12 +198,12 @@ T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
   const R crest = rough(T(f.mechanics().H - f.mechanics().y0));
   const R Y = rough(q.Y), V = rough(T(q.W * f.mechanics().per_omega_v));
   // turn from now to the top plus from the top down to the crest: the angle of a product of two complex numbers
-  const R Q = sqrt(max(R(0.0), R(Y * Y + V * V - crest * crest)));
-  const R sine = Y * Q + V * crest;
+  const R Q = sqrt(max(R(0.0), mul_add(V, V, mul_add(Y, Y, R(-crest * crest)))));
+  const R sine = mul_add(Y, Q, R(V * crest));
   return choose(
       sine > R(0.0),
       [&] {
-        const R down = rough_turn(R(Y * crest - V * Q), sine) - R(kMargin);
+        const R down = rough_turn(mul_add(R(-V), Q, R(Y * crest)), sine) - R(kMargin);
         return T(select(down > R(kWorthwhile), down, R(0.0)));
       },
       [] { return T(0.0); });
@@ -225,26 +227,48 @@ T time_aloft(const Flight<T>& f, const T& s) {
       least > m.H - m.y0, [&] { return time_to_crest(f, q); }, [] { return T(0.0); });
 }
 
-// The step to the root near by, correct to the third order: the series of the inverse function.
+// A jet near a root, with what the steps to there need besides.
 template <class T>
-T root_step(const GapJet<T>& jet) {
-  const T per = T(1.0) / jet.g1;
-  const T r = jet.g * per, a2 = jet.g2 * per / T(2.0), a3 = over(T(jet.g3 * per), 6.0);
-  return -r * (T(1.0) + r * (a2 + r * (T(2.0) * a2 * a2 - a3)));
+struct NearJet {
+  const GapJet<T>& jet;
+  T g4, per_g1;
+
+  NearJet(const Flight<T>& f, const GapJet<T>& near)
+      : jet(near), g4(fourth_derivative(f, near)), per_g1(T(1.0) / near.g1) {}
+};
+
+// The step to the root near by, correct to the fourth order: the series of the inverse function.
+template <class T>
+T root_step(const NearJet<T>& near) {
+  const GapJet<T>& jet = near.jet;
+  const T& per = near.per_g1;
+  const T r = jet.g * per, s2 = (jet.g2 / T(2.0)) * per * r, s3 = over(jet.g3, 6.0) * per * r * r;
+  const T s4 = over(near.g4, 24.0) * per * r * (r * r), w = mul_add(s2, s2, T(-s3));
+  return -r * (mul_add(w, mul_add(T(5.0), s2, T(1.0)), mul_add(s2, s2, T(T(1.0) + s2))) + s4);
 }
 
-// The jet a tiny step further on, to the third order.
+// The jet a tiny step further on: position and gap rate to the fourth order.
 template <class T>
-GapJet<T> drift(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
+GapJet<T> drift(const Flight<T>& f, const NearJet<T>& near, const T& t) {
+  const GapJet<T>& jet = near.jet;
   const Mechanics<T>& m = f.mechanics();
   const FlightState<T>& q = jet.state;
-  const T half = t / T(2.0), third = over(t, 3.0), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
-  const T A = -wh2 * q.X, J = -wh2 * q.U, B = -wv2 * q.Y, K = -wv2 * q.W;
-  const T dU = t * (A + half * J), dX2 = half * (A + third * J);
-  const FlightState<T> moved{q.phase + t * (f.eta() + q.U + dX2), q.X + t * (q.U + dX2), q.U + dU,
-                             q.Y + t * (q.W + half * (B + third * K)), q.W + t * (B + half * K)};
-  return {jet.g + t * (jet.g1 + half * (jet.g2 + third * jet.g3)), jet.g1 + t * (jet.g2 + half * jet.g3),
-          jet.g2 + t * jet.g3, jet.g3, moved, jet.h, jet.h1};
+  const T half = t / T(2.0), third = over(t, 3.0), quarter = t / T(4.0);
+  const T wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  // the second to the fourth derivatives of x, and of y
+  const T A = -wh2 * q.X, J = -wh2 * q.U, S = -wh2 * A, B = -wv2 * q.Y, K = -wv2 * q.W, R = -wv2 * B;
+  const T bend = mul_add(third, mul_add(quarter, S, J), A), U = mul_add(half, bend, q.U);  // the mean of U until then
+  const T V = mul_add(half, mul_add(third, mul_add(quarter, R, K), B), q.W);
+  const FlightState<T> moved{mul_add(t, T(f.eta() + U), q.phase), mul_add(t, U, q.X),
+                             mul_add(t, mul_add(half, mul_add(third, S, J), A), q.U), mul_add(t, V, q.Y),
+                             mul_add(t, mul_add(half, mul_add(third, R, K), B), q.W)};
+  return {mul_add(t, mul_add(half, mul_add(third, mul_add(quarter, near.g4, jet.g3), jet.g2), jet.g1), jet.g),
+          mul_add(t, mul_add(half, mul_add(third, near.g4, jet.g3), jet.g2), jet.g1),
+          mul_add(t, mul_add(half, near.g4, jet.g3), jet.g2),
+          mul_add(t, near.g4, jet.g3),
+          moved,
+          jet.h,
+          jet.h1};
 }
 
 }  // namespace afm

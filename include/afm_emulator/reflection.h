@@ -35,7 +35,7 @@ ReflectionOf<T> reflect(const ReflectionLaw<T>& law, const T& eta, const FlightS
   using std::sqrt;
   const T phase = wrapped(incident.phase), one(1.0), free = law.free;
   const SurfaceJet<T> surface = surface_jet(law.H, phase);
-  const T n2 = one + free * surface.h1 * surface.h1;
+  const T slope = free * surface.h1, n2 = mul_add(slope, surface.h1, one);
   // products are sooner there than quotients
   const T per_n2 = one / n2, per_n = sqrt(n2) * per_n2, loss_slope = (one - law.gamma) / law.v_c;
   const T u = eta + incident.U, speed = -g1 * per_n;
@@ -43,12 +43,12 @@ ReflectionOf<T> reflect(const ReflectionLaw<T>& law, const T& eta, const FlightS
   const auto fast = speed >= law.v_c;
   const T loss = either(
       fast, [&] { return T(one - law.gamma); }, [&] { return T(loss_slope * speed); });
-  const T gamma_eff = select(fast, law.gamma, T(one - loss));
-  return {{phase, incident.X, u + (free * surface.h1 * per_n2) * ((one + gamma_eff) * g1), T(0.0), -gamma_eff * g1},
+  const T gamma_eff = select(fast, law.gamma, T(one - loss)), turned = select(fast, one + law.gamma, T(2.0) - loss);
+  return {{phase, incident.X, mul_add(T((slope * g1) * per_n2), turned, u), T(0.0), -gamma_eff * g1},
           surface,
           speed,
-          (u + free * surface.h1 * (g1 + surface.h1 * u)) * per_n,
-          T(0.5) * loss * (one + gamma_eff) * speed * speed};
+          mul_add(slope, mul_add(surface.h1, u, g1), u) * per_n,
+          T(0.5) * loss * turned * (speed * speed)};
 }
 
 // `incident`: the state at the impact, gap rate g1 <= 0.

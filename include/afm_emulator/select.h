@@ -3,7 +3,10 @@
 // way no lane goes.
 #pragma once
 
+#include <cmath>
 #include <utility>
+
+#include "afm_emulator/multiversion.h"
 
 namespace afm {
 
@@ -31,10 +34,18 @@ T select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
 
-// x / d for 3, 6 or 12: of a pack sooner than by a division, and the same.
+// x / d; of doubles, and packs of them, within an ulp and a half, sooner than by a division.
 template <class T>
 T over(const T& x, double d) {
   return x / T(d);
 }
+AFM_INLINED double over(double x, double d) { return x * (1.0 / d); }
+
+// a b + c; of doubles, and packs of them, rounded once, and sooner than a product and a sum.
+template <class T>
+T mul_add(const T& a, const T& b, const T& c) {
+  return a * b + c;
+}
+AFM_INLINED double mul_add(double a, double b, double c) { return std::fma(a, b, c); }
 
 }  // namespace afm

@@ -89,7 +89,7 @@ class StateFields {
   template <class Archive, class Self>
   static void of_impact(Archive& archive, Self& impact);
   template <class Archive, class Self>
-  static void of_tip(Archive& archive, Self& tip);
+  static void of_tip(Archive& archive, Self& tip, double contact_tolerance);
 };
 
 // An object that is made of doubles and 64-bit numbers alone, and so has no padding: its members in their order.
@@ -127,14 +127,15 @@ void StateFields::of_impact(Archive& archive, Self& i) {
   archive.number(i.count);
 }
 
-// Not mechanics_ and law_, which follow from the model, nor the landing, which follows from the flight.
+// Not mechanics_ and law_, which follow from the model, nor what follows from the tolerance, nor the landing, which
+// follows from the flight.
 template <class Archive, class Self>
-void StateFields::of_tip(Archive& archive, Self& t) {
+void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   constexpr std::size_t kParts =
       sizeof t.flight_ + sizeof t.slide_ + sizeof t.landing_ + sizeof t.law_ + sizeof t.mechanics_;
   static_assert(!kLp64 || sizeof t - kParts == 392);
   of_model(archive, t.model_);
-  for (auto* field : {&t.eta_, &t.slowest_chatter_, &t.burst_gap_rate_}) whole(archive, *field);
+  whole(archive, t.eta_);
   whole(archive, t.flight_);
   whole(archive, t.slide_);
   choice(archive, t.mode_, Tip::Mode::sliding);
@@ -151,6 +152,7 @@ void StateFields::of_tip(Archive& archive, Self& t) {
   choice(archive, t.untold_, true);
   of_impact(archive, t.untold_impact_);
   if constexpr (!std::is_const_v<Self>) {
+    t.tolerate(contact_tolerance);
     t.adopt(Model(t.model_));
     t.landing_known_ = false;
   }
@@ -172,7 +174,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
   static_assert(!kLp64 || sizeof e - sizeof e.settings_ - sizeof e.tip_ - sizeof e.friction_ == 104);
   of_settings(archive, e.settings_);
   whole(archive, e.eta_);
-  of_tip(archive, e.tip_);
+  of_tip(archive, e.tip_, e.settings_.contact_tolerance);
   whole(archive, e.friction_);
   whole(archive, e.now_);
   whole(archive, e.grid_);
@@ -181,7 +183,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
 }
 
 std::uint32_t state_layout() {
-  constexpr std::uint32_t kMeaning = 1;  // to be raised whenever the words mean something else
+  constexpr std::uint32_t kMeaning = 2;  // to be raised whenever the words mean something else
   static const std::uint32_t layout = [] {
     SavedState state;
     Emulator(EmulatorSettings{}).save(state);

@@ -48,13 +48,17 @@ AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, con
                              Flight<double>& flight) {
   new (&flight) Flight<double>(mechanics, eta, state);
 }
-AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const Reflection& bounce,
-                             Flight<double>& flight) {
-  new (&flight) Flight<double>(mechanics, eta, bounce.after, bounce.surface);
-}
 
-AFM_MULTIVERSION Reflection bounce(const Model& model, double eta, const GapJet<double>& incident) {
-  return reflect(model, eta, incident.state, std::min(0.0, incident.g1));
+// The same after a bounce; in one, as what is between them would wait for memory too.
+AFM_MULTIVERSION Reflection rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
+                                    const GapJet<double>& incident, Flight<double>& flight) {
+  Reflection r = reflect(model, eta, incident.state, std::min(0.0, incident.g1));
+  if (r.after.g1 < kLeastGapRate) {  // all is lost that came in
+    r.after.g1 = 0.0;
+    r.energy_loss = 0.5 * r.normal_speed * r.normal_speed;
+  }
+  new (&flight) Flight<double>(mechanics, eta, r.after, r.surface);
+  return r;
 }
 
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
@@ -194,13 +198,8 @@ void Tip::find_landing() {
 }
 
 Outcome Tip::land() {
-  Reflection r = bounce(model_, eta_, landing_.jet);
-  if (r.after.g1 < kLeastGapRate) {  // all is lost that came in
-    r.after.g1 = 0.0;
-    r.energy_loss = 0.5 * r.normal_speed * r.normal_speed;
-  }
+  const Reflection r = rebound(model_, mechanics_, eta_, landing_.jet, flight_);
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
-  launch(mechanics_, eta_, r, flight_);
   begin_flight();
   leave_or_press();
   return Outcome::impact;

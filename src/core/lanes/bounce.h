@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "rows.h"
+#include "root.h"
 
 namespace afm {
 namespace {
@@ -51,10 +51,13 @@ AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   rows.store(kGuess, guess, Pack(0.0));
   rows.store(kStartTau, time.tau, time.phase);
   const Pack zero(0.0);
-  const Mask brief = search_detail::is_brief(f, search_detail::parabola_length(f));
-  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst) && !brief;
+  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst);
+  const Pack length = search_detail::parabola_length(f);
+  const unsigned brief = bits(ordinary && search_detail::is_brief(f, length));
+  if (brief != 0) store_root(rows, o, zero, search_detail::brief_root(f, length));
   Ways ways;
-  split(bits(ordinary), s + ahead <= f.bounds().small_until, kLookNear, kLookFar, ways);
+  ways.lanes[kFinishFar] = brief;
+  split(bits(ordinary) & ~brief, s + ahead <= f.bounds().small_until, kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);
   return ways;
 }

@@ -74,8 +74,7 @@ enum Field : int {
   kFields
 };
 
-// Slower launches are not for lanes: in the squares of what is smaller rounding is another, and `over` no longer a
-// division [a/tau].
+// Slower launches are the tip's own affair: powers of them have no digits left [a/tau].
 constexpr double kSlowestLaunch = 1e-60;
 
 // What is to be done next, where a tip is not at work.

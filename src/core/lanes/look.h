@@ -9,12 +9,8 @@ namespace {
 // Those that have certified a root.
 AFM_LANE_INLINE void begin_root(const Rows& rows, const Flight<Pack>& f, const GapJet<Pack>& jet, P p,
                                 const RootInterval<Pack>& root, unsigned certain, Ways& ways) {
-  const Pack zero(0.0);
-  store_jet(rows, jet, root.estimate);
-  rows.store(kLow, root.low, root.high);
-  rows.store(kJetS, p, zero);
-  rows.store(kIsEnd, zero, zero);
-  const unsigned here = certain & bits(search_detail::settles(f, jet, root.estimate, p));
+  store_root(rows, jet, p, root);
+  const unsigned here = certain & bits(search_detail::settles(f, NearJet<Pack>(f, jet), root.estimate, p));
   ways.lanes[kFinishHere] = here;
   split_by_step(certain & ~here, f, p, root.estimate, ways);
 }
@@ -50,7 +46,7 @@ AFM_LANE_INLINE Ways look(const Rows& rows) {
   rows.load(kS, at.s, at.ahead);
   rows.load(kGuess, at.guess, at.count);
   const Pack p = at.p = at.s + at.ahead;
-  const GapJet<Pack> jet = kKind == kLookNear ? f.gap_by_small_turns(p) : f.gap_by_turns(p);
+  const GapJet<Pack> jet = kKind == kLookNear ? f.gap_soon(p) : f.gap_by_turns(p);
   const Pack error = f.gap_error(p);
   at.jumped = at.ahead > Pack(0.0) && !positive_behind(f, jet, error, at.ahead);
   const auto in_front = [&] { return certify_root(f, jet, error); };

@@ -84,13 +84,8 @@ AFM_LANE_INLINE Mask both(M m, const F& rest) {
   return m && rest();
 }
 
-// The product with 1 / d rounded, and what that leaves over: correctly rounded, as 1 / d is within a quarter ulp of
-// itself (Markstein), where nothing is subnormal. The sign is that of x where the quotient is 0.
-AFM_LANE_INLINE Pack over(P x, double d) {
-  const Pack per(1.0 / d), q = x * per;
-  const Pack quotient = fma(fma(Pack(-d), q, x), per, q);
-  return Pack(with_sign(quotient.r, x.r));
-}
+AFM_LANE_INLINE Pack over(P x, double d) { return x * Pack(1.0 / d); }
+AFM_LANE_INLINE Pack mul_add(P a, P b, P c) { return fma(a, b, c); }
 
 AFM_LANE_INLINE Pack rough(P x) { return x; }
 

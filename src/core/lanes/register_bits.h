@@ -14,9 +14,6 @@ AFM_LANE_INLINE Register minus_whole(Register a, Register b) { return bits_in_la
 AFM_LANE_INLINE Whole sign_bit() { return whole(filled(-0.0)); }
 AFM_LANE_INLINE Register negated(Register a) { return bits_in_lanes(whole(a) ^ sign_bit()); }
 AFM_LANE_INLINE Register magnitude(Register a) { return bits_in_lanes(whole(a) & ~sign_bit()); }
-AFM_LANE_INLINE Register with_sign(Register a, Register sign) {
-  return bits_in_lanes(whole(a) | (whole(sign) & sign_bit()));
-}
 // a with its sign turned round where the bits have a two in them
 AFM_LANE_INLINE Register negated_by_two(Register a, Register bits) {
   return bits_in_lanes(whole(a) ^ ((whole(bits) << 62) & sign_bit()));

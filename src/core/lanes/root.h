@@ -15,6 +15,14 @@ AFM_LANE_INLINE void store_jet(const Rows& rows, const GapJet<Pack>& jet, P step
   rows.store(kJetH1, jet.h1, step);
 }
 
+AFM_LANE_INLINE void store_root(const Rows& rows, const GapJet<Pack>& jet, P s, const RootInterval<Pack>& root) {
+  const Pack zero(0.0);
+  store_jet(rows, jet, root.estimate);
+  rows.store(kLow, root.low, root.high);
+  rows.store(kJetS, s, zero);
+  rows.store(kIsEnd, zero, zero);
+}
+
 // Which evaluation gap_near would choose for a step from the time s.
 AFM_LANE_INLINE void split_by_step(unsigned lanes, const Flight<Pack>& f, P s, P step, Ways& ways) {
   const Pack until = f.bounds().small_until, size = abs(step);
@@ -33,9 +41,9 @@ AFM_LANE_INLINE GapJet<Pack> stepped(const Flight<Pack>& f, const GapJet<Pack>& 
 
 // What is known of a certified root.
 struct Root {
-  GapJet<Pack> jet;             // near it
-  Pack step;                    // from there to the root, as far as is known
-  Pack low, high, s, t;         // as in lane_tip.h
+  GapJet<Pack> jet;      // near it
+  Pack step;             // from there to the root, as far as is known
+  Pack low, high, s, t;  // as in lane_tip.h
   Pack is_end, unused, guess, count;
 };
 
@@ -67,8 +75,8 @@ AFM_LANE_INLINE void go_on(const Rows& rows, const Flight<Pack>& f, const Root& 
 
 // The incident state: of those that drift there by what is left of the step, of those that are at their end, and of
 // the others as it was.
-AFM_LANE_INLINE void store_incident(const Rows& rows, const GapJet<Pack>& jet, const GapJet<Pack>& moved, P g1, M drifts,
-                                    M end, bool all) {
+AFM_LANE_INLINE void store_incident(const Rows& rows, const GapJet<Pack>& jet, const GapJet<Pack>& moved, P g1,
+                                    M drifts, M end, bool all) {
   if (all) {
     rows.store(kJetPhase, select(end, jet.state.phase, moved.state.phase), select(end, jet.state.X, moved.state.X));
     rows.store(kJetRateX, select(end, jet.state.U, moved.state.U), g1);
@@ -81,9 +89,9 @@ AFM_LANE_INLINE void store_incident(const Rows& rows, const GapJet<Pack>& jet, c
 }
 
 // Those that are there: state and time, and whether the limit comes first.
-AFM_LANE_INLINE void arrive(const Rows& rows, const Flight<Pack>& f, const Root& root, unsigned done, M drifts, M end,
-                            Ways& ways) {
-  const GapJet<Pack> moved = drift(f, root.jet, root.step);
+AFM_LANE_INLINE void arrive(const Rows& rows, const Flight<Pack>& f, const Root& root, const NearJet<Pack>& near,
+                            unsigned done, M drifts, M end, Ways& ways) {
+  const GapJet<Pack> moved = drift(f, near, root.step);
   const Pack end_s = root.s + select(end, root.t, root.t + root.step), g1 = select(end, root.jet.g1, moved.g1);
   PackTime start, limit;
   rows.load(kStartTau, start.tau, start.phase);
@@ -110,16 +118,18 @@ AFM_LANE_INLINE Ways finish(const Rows& rows) {
     t = t + step;
   }
   const Mask end = root.is_end > Pack(0.0);
-  step = root_step(jet);
+  const NearJet<Pack> near(f, jet);
+  step = root_step(near);
   const Pack to = t + step;
   step = select(to < root.low || root.high < to, clamp(to, root.low, root.high) - t, step);
-  const Pack at = root.s + t, bend = Pack(4.0) * f.fourth_derivative_bound() * abs(step * step * step);
-  const Mask smooth = bend <= epsilon<Pack>() * abs(jet.g1), settled = search_detail::settles(f, jet, step, at);
-  const Mask hidden = abs(step * jet.g1) <= f.gap_error(at), drifts = (hidden || (smooth && settled)) && !end;
+  const Pack at = root.s + t;
+  const Mask settled = kKind == kFinishHere ? at <= at : search_detail::settles(f, near, step, at);
+  const Mask hidden = abs(step * jet.g1) <= f.gap_error(at);
+  const Mask drifts = (hidden || (settled && search_detail::is_smooth(f, jet, step))) && !end;
   Ways ways;
   const unsigned done = bits(drifts || end), on = kAllLanes & ~done;
   if (on != 0) go_on(rows, f, root, on, settled, ways);
-  if (done != 0) arrive(rows, f, root, done, drifts, end, ways);
+  if (done != 0) arrive(rows, f, root, near, done, drifts, end, ways);
   return ways;
 }
 
