@@ -79,7 +79,7 @@ RunLog::RunLog(const Recording& recording) {
     for (; configurations.head() != nullptr; configurations.pop()) take(*configurations.head(), where);
     for_each_in_order<afm_emulator::Checkpoint>(
         recording, *bag, node::kCheckpointTopic,
-        [&](const afm_emulator::Checkpoint& checkpoint, const std::string& where) { take(checkpoint, where); });
+        [&](const afm_emulator::Checkpoint& checkpoint, const std::string& place) { take(checkpoint, place); });
     take_all(recording, *bag, node::kAppliedDragTopic, drags_);
     take_all(recording, *bag, node::kAppliedParametersTopic, changes_);
     take_stretches(recording, *bag);
