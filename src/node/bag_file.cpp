@@ -1,6 +1,7 @@
 #include "bag_file.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
@@ -88,6 +89,7 @@ std::string BagFile::close() {
            " recovers what is in it";
   }
   bag_.reset();
+  malloc_trim(0);  // what waited for a slow disk has left holes all over the heap
   if (rename_without_overwriting(active_path_, path_)) return {};
   return active_path_ + " is closed but could not be renamed: " + std::strerror(errno);
 }

@@ -1,6 +1,5 @@
 #include "recorder.h"
 
-#include <malloc.h>
 #include <ros/console.h>
 
 #include <chrono>
@@ -155,7 +154,6 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
     bags_->set_dropped(dropped_messages_ - dropped_before_);
     lock.unlock();
     const std::string close_error = bags_->close();
-    malloc_trim(0);  // what waited for a slow disk lies scattered over the heap: it goes back with the recording
     lock.lock();
     if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;
     if (!error.empty()) error = bags_->path() + ": " + error;

@@ -11,7 +11,7 @@ import rospy
 import rostest
 from std_msgs.msg import Float64
 
-from topics import NAMESPACE, Topic, wait_until
+from topics import NAMESPACE, PATIENCE, Topic, wait_until
 
 PACKAGE = 'afm_emulator'
 
@@ -34,7 +34,7 @@ class Process:
         return self.log.read()
 
     def wait(self, deadline_s=15.0):
-        return self.child.wait(timeout=deadline_s)
+        return self.child.wait(timeout=deadline_s * PATIENCE)
 
     def stop(self, with_signal=signal.SIGINT):
         self.child.send_signal(with_signal)

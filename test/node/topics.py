@@ -1,4 +1,5 @@
 """Shared by the tests of the node: its topics, and waiting with deadlines."""
+import os
 import threading
 import time
 
@@ -11,19 +12,21 @@ TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction
           'applied_parameters': AppliedParameters, 'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest,
           'checkpoint': Checkpoint}
 
+PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))  # under a sanitizer all takes longer
+
 _news = threading.Condition()
 
 
 def wait_until(condition, what, deadline_s=15.0):
     """What condition() returns as soon as that is true. Looks again at every message, and 20 times a second."""
-    end = time.monotonic() + deadline_s
+    end = time.monotonic() + deadline_s * PATIENCE
     with _news:
         while True:
             result = condition()
             if result:
                 return result
             if time.monotonic() > end:
-                raise AssertionError('not within %g s: %s' % (deadline_s, what))
+                raise AssertionError('not within %g s: %s' % (deadline_s * PATIENCE, what))
             _news.wait(0.05)
 
 

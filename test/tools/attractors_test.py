@@ -4,6 +4,7 @@
 Usage: attractors_test.py TOOL
 """
 import csv
+import os
 import subprocess
 import sys
 import unittest
@@ -13,7 +14,7 @@ TOOL = None
 
 def run(*arguments):
     done = subprocess.run([TOOL, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          timeout=100)
+                          timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
     return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
 
 

@@ -5,6 +5,7 @@ Usage: model_error_test.py TOOL
 """
 import csv
 import math
+import os
 import subprocess
 import sys
 import unittest
@@ -16,7 +17,7 @@ SLOPE = 2.0 * math.pi * 0.05 / 0.52
 
 def run(*arguments):
     done = subprocess.run([TOOL, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          timeout=100)
+                          timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
     rows = [{key: float(text) if key not in ('model', 'attractor', 'reference_attractor') else text
              for key, text in row.items()} for row in csv.DictReader(done.stdout.splitlines())]
     return done.returncode, rows, done.stderr

@@ -14,7 +14,7 @@ TOOLS = None
 
 def run(tool, *arguments):
     done = subprocess.run([os.path.join(TOOLS, tool), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=100)
+                          universal_newlines=True, timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
     return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
 
 

@@ -4,6 +4,7 @@
 Usage: periodic_orbits_test.py TOOL
 """
 import csv
+import os
 import subprocess
 import sys
 import unittest
@@ -14,7 +15,7 @@ QUICK = ['--trajectory', '20000', '--guesses', '200']
 
 def run(*arguments):
     done = subprocess.run([TOOL, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          timeout=100)
+                          timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
     return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
 
 
