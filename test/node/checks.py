@@ -5,6 +5,7 @@ import roslib.packages
 import rospy
 
 from emulator_under_test import PACKAGE
+from topics import PATIENCE
 
 SOUND, DIFFERS, USAGE, FOREIGN, TRUNCATED, MISSING, REORDERED, ALTERED = range(8)  # exit codes of replay_check
 
@@ -13,7 +14,7 @@ class Answer:
     def __init__(self, tool, *arguments):
         binary = roslib.packages.find_node(PACKAGE, tool)[0]
         done = subprocess.run([binary] + [str(argument) for argument in arguments], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
+                              stderr=subprocess.STDOUT, universal_newlines=True, timeout=60 * PATIENCE)
         self.code, self.text = done.returncode, done.stdout
 
 
