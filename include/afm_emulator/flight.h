@@ -225,7 +225,7 @@ FlightState<T> Flight<T>::at(const T& s) const {
   const T U = mul_add(o.U, h.cos, T(-(m.omega_h * o.X) * h.sin));
   const T Y = mul_add(o.Y, v.cos, T(m.turned(o.W, m.omega_v, m.per_omega_v) * v.sin));
   const T W = mul_add(o.W, v.cos, T(-(m.omega_v * o.Y) * v.sin));
-  return {(turn_product(eta_, s) + (o.phase - o.X)) + X, X, U, Y, W};
+  return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
 }
 
 // h'' = -k^2 h, h''' = -k^2 h'; x'' = -omega_h^2 X, y'' = -omega_v^2 Y, and so on.

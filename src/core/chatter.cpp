@@ -23,8 +23,9 @@ constexpr double kMostLongerSlow = 3.0;  // times at most
 
 // A step, in parts of the times in which v falls and the reaction changes.
 constexpr double kFallPerStep = 0.7, kChangePerStep = 0.2;
-// the pressure may fall to this part of itself in a step
-constexpr double kMostFall = 0.75;
+// the pressure may fall to this part of itself in a step, and v rise to so many times itself; and where it ends, a
+// bounce may outlast the pressure so many times
+constexpr double kMostFall = 0.75, kMostRise = 2.0, kMostOutlasting = 4.0;
 
 double square(double x) { return x * x; }
 
@@ -110,17 +111,25 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
     const EvenChatter rate = rates_(at, c);
     const double rest = until - s, longest = step_length(at, now.v, c, -rate.x);
     double dt = rest <= longest ? rest : rest < 2.0 * longest ? 0.5 * rest : longest;  // the last two alike
-    ChatterAhead ahead = rates_.ahead(guide, s, dt);
     // the last bounce of all lasts beyond the pressure: it is left where it is
     if (!(s + dt > s) || 2.0 * now.v * at.quickness > at.P) return {ChatterEnd::exits, s, now};
-    // past a maximum the pressure may fall faster than its rate foretells
-    for (; !(ahead.end.P > kMostFall * at.P); ahead = rates_.ahead(guide, s, dt)) {
+    ChatterSurroundings then;
+    EvenChatter next;
+    Chatter plain;
+    // past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder
+    // that has just been made fast
+    const auto goes_too_far = [&] {
+      const ChatterAhead ahead = rates_.ahead(guide, s, dt);
+      then = ahead.end;
+      if (!(then.P > kMostFall * at.P) || 2.0 * now.v * then.quickness > kMostOutlasting * then.P) return true;
+      next = rates_.step(dt, rate, ahead, c);
+      plain = rates_.plain(then, next);
+      return !(plain.v < kMostRise * now.v) || !std::isfinite(plain.n);
+    };
+    while (goes_too_far()) {
       dt *= 0.5;
       if (!(s + dt > s)) return {ChatterEnd::exits, s, now};
     }
-    const ChatterSurroundings& then = ahead.end;
-    const EvenChatter next = rates_.step(dt, rate, ahead, c);
-    const Chatter plain = rates_.plain(then, next);
     if (exits && !smooth(then, plain.v, true) && plain.n >= std::floor(now.n) + 1.0)
       return whole_bounce(guide, s, dt, rate, c, {now.n, 2.0 * now.v * at.per_P},
                           {plain.n, 2.0 * plain.v * then.per_P});

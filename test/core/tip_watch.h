@@ -17,7 +17,7 @@ struct TipCount {
   std::uint64_t arcs = 0, impacts = 0, bounces = 0, bursts = 0, contacts = 0, commands = 0;
   std::uint64_t events = 0;  // what a batch tells and its budget counts
   std::uint64_t most_arcs_in_a_tau = 0;
-  double deepest = 0.0;          // below the surface [a], or part of the largest height if that is more than 1 a
+  double deepest = 0.0;          // below the surface [a], or part of what places are rounded with if more than 1 a
   double worst_imbalance = 0.0;  // of the energy turned over
 };
 
@@ -75,7 +75,7 @@ class TipWatch {
   static constexpr double kMostImbalance = 1e-9;
   static constexpr double kLeastTurnover =
       1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
-  static constexpr double kMostDepth = 1e-15;                // [a], times the largest height if that is more than 1 a
+  static constexpr double kMostDepth = 1e-15;  // [a], times what places are rounded with if that is more than 1 a
   static constexpr std::uint64_t kMostArcsInATau = 1000000;  // far more than any tau needs: a stall
 
   bool violated(const std::string& what) {
@@ -86,9 +86,10 @@ class TipWatch {
   bool check_depth(const ModelTime& t) {
     const Deflection d = tip_.deflection(t);
     if (!std::isfinite(d.vertical) || !std::isfinite(d.lateral) || !std::isfinite(d.gap)) return violated("not finite");
-    const double height = std::max(1.0, std::abs(d.vertical));
-    count_.deepest = std::max(count_.deepest, -d.gap / height);
-    return -d.gap <= kMostDepth * height || violated("the gap is " + std::to_string(d.gap * 1e15) + "e-15");
+    // the height, and what the surface rises by over the rounding of the extension
+    const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * std::abs(d.lateral)});
+    count_.deepest = std::max(count_.deepest, -d.gap / rounded);
+    return -d.gap <= kMostDepth * rounded || violated("the gap is " + std::to_string(d.gap * 1e15) + "e-15");
   }
 
   bool check_depths(const ModelTime& begin, const ModelTime& end) {
