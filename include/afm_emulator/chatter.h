@@ -41,21 +41,16 @@ class ChatterLaw {
   Chatter at(const SlidePiece<double>& guide, double s, const Chatter& start) const;
 
  private:
-  struct Pace {
-    double n, duration;  // of a bounce [tau]
-  };
-  static double time_at(double n, const Pace& first, const Pace& last, double dt);
-  bool smooth(const ChatterSurroundings& at, double v, bool within) const;
+  double strain(const ChatterSurroundings& at, double v, bool within) const;
+  double step_length(const ChatterPlace& at) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
-  double step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const;
-  ChatterRun whole_bounce(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,
-                          const EvenChatter& start, const Pace& first, const Pace& last) const;
+  ChatterRun whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
+                          double last_strain) const;
 
   double v_c_, threshold_;
   ChatterRates rates_;
   double threshold_x_;
   double fineness_;  // of the steps
-  double whole_;     // how near a whole number of bounces is whole
 };
 
 // The tip at a bounce with its normal velocity taken out, and put back: tangential velocity kept.

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostLoss = 0.2;
 // The duration of a bounce against the time in which the pressure changes by itself, at most: an exit leaves two
 // bounces.
-constexpr double kMostShortness = 0.05;
+constexpr double kMostShortness = 0.045;
 // A tip that rings over a crest, where none rides faster than about 1 a/tau, bounces thousands of times a tau for
 // hundreds of tau, and more than three hundred of them last longer than that. What it costs to average them is a part
 // of the normal speed: slower ones may last longer.
@@ -21,21 +21,40 @@ constexpr double kRinging = 1.5;         // [a/tau] at most
 constexpr double kFullSpeed = 1e3;       // thresholds: bounces of a ringing tip slower than this may last longer
 constexpr double kMostLongerSlow = 3.0;  // times at most
 
-// A step, in parts of the times in which v falls and the reaction changes.
-constexpr double kFallPerStep = 0.7, kChangePerStep = 0.2;
-// the pressure may fall to this part of itself in a step, and v rise to so many times itself; and where it ends, a
-// bounce may outlast the pressure so many times
-constexpr double kMostFall = 0.75, kMostRise = 2.0, kMostOutlasting = 4.0;
+// A step, in parts of the times in which v falls (evenly to nothing: where there is no cutoff), the reaction changes, and
+// it swings with the horizontal spring.
+constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.45, kSwingPerStep = 1.2;
+// The pressure is to lose no more than this part of itself in a step, and must not fall below that; v may rise to so many
+// times itself; and where a step ends, a bounce may outlast the pressure so many times.
+constexpr double kLossPerStep = 0.4, kMostFall = 0.6, kMostRise = 2.0, kMostOutlasting = 4.0;
 
 double square(double x) { return x * x; }
 
-}  // namespace
+double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.per_P; }
+
+// Past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder that
+// has just been made fast.
+bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
+  const double P = to.around.P;
+  return !(P > kMostFall * from.around.P) || 2.0 * from.plain.v * to.around.quickness > kMostOutlasting * P ||
+         !(to.plain.v < kMostRise * from.plain.v) || !std::isfinite(to.plain.n);
+}
 
 // When n is reached in a step between two ends: the cubic through both with the bounces' durations as its slopes.
-double ChatterLaw::time_at(double n, const Pace& first, const Pace& last, double dt) {
-  const double bounces = last.n - first.n, x = (n - first.n) / bounces, rest = 1.0 - x;
-  return dt * x * x * (3.0 - 2.0 * x) + bounces * x * rest * (first.duration * rest - last.duration * x);
+double time_at(double n, const ChatterPlace& from, const ChatterPlace& to) {
+  const double bounces = to.plain.n - from.plain.n, x = (n - from.plain.n) / bounces, rest = 1.0 - x;
+  return (to.s - from.s) * x * x * (3.0 - 2.0 * x) + bounces * x * rest * (duration(from) * rest - duration(to) * x);
 }
+
+// The part of a step until its bounces last too long: where the pressure falls to nothing they do like its square, upside
+// down.
+double bearable_part(double first_strain, double last_strain) {
+  constexpr double kLeast = 1e-9;
+  const double first = 1.0 / std::sqrt(std::max(first_strain, kLeast)), last = 1.0 / std::sqrt(last_strain);
+  return first > 1.0 ? (first - 1.0) / (first - last) : 0.0;
+}
+
+}  // namespace
 
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : v_c_(model.v_c),
@@ -44,16 +63,16 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
       threshold_x_(rates_.x_of(std::max(threshold, 1e-300))) {
   constexpr double kUsualThreshold = 1e-5;
   fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
-  whole_ = std::max(1e-12, 1e-6 * std::min(1.0, threshold / kUsualThreshold));
 }
 
-// What the averages leave out is of the third and fourth order of a bounce's duration against all changes. `within` a
-// burst, or at the entry to one: there bounces of a falling pressure, which lengthen, may not last longer.
-bool ChatterLaw::smooth(const ChatterSurroundings& at, double v, bool within) const {
+// How long a bounce lasts, over how long it may. What the averages leave out is of the third and fourth order of its
+// duration against all changes. `within` a burst, or at the entry to one: there bounces of a falling pressure, which
+// lengthen, may not last longer.
+double ChatterLaw::strain(const ChatterSurroundings& at, double v, bool within) const {
   double most = kMostShortness * fineness_;
   if (at.speed <= kRinging && (within || at.squeeze >= 0.0))
     most *= std::clamp(std::sqrt(kFullSpeed * threshold_ / v), 1.0, kMostLongerSlow);
-  return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) <= most;
+  return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) / most;
 }
 
 AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
@@ -62,83 +81,70 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (!(bounce.start().g2 < 0.0)) return false;
   const bool below = v_c_ > threshold_;
   if (below && (v > v_c_ || rates_.loss(v) > kMostLoss)) return false;
-  return smooth(rates_.surroundings(bounce), v, false);
+  return strain(rates_.surroundings(bounce), v, false) <= 1.0;
 }
 
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
-double ChatterLaw::step_length(const ChatterSurroundings& at, double v, const EvenChatter& c, double fall) const {
-  // with a cutoff, the less a bounce loses the more evenly ln v falls
-  const double loss = v_c_ > threshold_ ? std::min(kMostLoss, rates_.loss(v)) : kMostLoss, evenness = 0.5 + 2.5 * loss;
+double ChatterLaw::step_length(const ChatterPlace& at) const {
+  const double v = at.plain.v, quickness = at.around.quickness;
   // the error of a step is that of a pressure which swings with the horizontal spring: the less it changes by, the longer
-  const double change = std::sqrt(at.quickness * std::max(at.quickness, kTwoPi * at.slow_rate));
-  const double dt = fineness_ * std::min(kFallPerStep / evenness * rates_.fall_time(at, v), kChangePerStep / change);
+  const double swing = std::sqrt(quickness * std::max(quickness, kTwoPi * at.around.slow_rate));
+  // with a cutoff, the less a bounce loses the more evenly ln v falls
+  const double falls =
+      v_c_ > threshold_ ? kFallPerStep / (0.5 + 2.5 * std::min(kMostLoss, rates_.loss(v))) : kEvenFallPerStep;
+  const double escape = kLossPerStep / std::max(0.0, -3.0 * at.around.squeeze);
+  const double dt = fineness_ * std::min(std::min(falls * rates_.fall_time(at.around, v), escape),
+                                         std::min(kChangePerStep / quickness, kSwingPerStep / swing));
   // and not far beyond the threshold, so that n counts the bounces down to it
-  return fall > 0.0 ? std::min(dt, 1.02 * (c.x - threshold_x_) / fall) : dt;
+  return at.rate.x < 0.0 ? std::min(dt, 1.02 * (threshold_x_ - at.even.x) / at.rate.x) : dt;
 }
 
-// The first whole n in a step of which both ends are known: bracketed, as n only grows.
-ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, double s, double dt, const EvenChatter& rate,
-                                    const EvenChatter& start, const Pace& first, const Pace& last) const {
-  const double n = std::floor(first.n) + 1.0;
-  double low = 0.0, high = dt, part = time_at(n, first, last, dt);
-  if (!(part > low && part < high)) part = dt * (n - first.n) / (last.n - first.n);
-  Chatter c{};
-  double before = 0.0, n_before = first.n;
+// The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows.
+ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
+                                    double last_strain) const {
+  constexpr double kNearlyWhole = 1e-2;  // the rest is done evenly, to its square
   constexpr int kMostSteps = 40;
-  for (int i = 0; i < kMostSteps; ++i) {
-    const ChatterAhead ahead = rates_.ahead(guide, s, part);
-    c = rates_.plain(ahead.end, rates_.step(part, rate, ahead, start));
-    const double rest = n - c.n;
-    if (std::abs(rest) < whole_) break;
-    (rest > 0.0 ? low : high) = part;
-    const double duration = i == 0 ? 2.0 * c.v * ahead.end.per_P : (part - before) / (c.n - n_before);
-    before = part, n_before = c.n;
-    const double next = part + rest * duration;
-    part = next > low && next < high ? next : 0.5 * (low + high);
+  const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
+  const double part = bearable_part(strain(from.around, from.plain.v, true), last_strain);
+  ChatterPlace at =
+      rates_.step(guide, from, std::min(dt, std::max(part * dt, (first_n - from.plain.n) * duration(from))));
+  const double n = std::max(first_n, std::floor(at.plain.n));
+  double low = 0.0, high = dt, next = time_at(n, from, at);
+  for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= kNearlyWhole); ++i) {
+    const double now = at.s - from.s;
+    (n > at.plain.n ? low : high) = now;
+    at = rates_.step(guide, from, next > low && next < high ? next : 0.5 * (low + high));
+    next = at.s - from.s + (n - at.plain.n) * duration(at);
   }
-  return {ChatterEnd::exits, s + part, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
+  const double rest = (n - at.plain.n) * duration(at);
+  const Chatter c = rates_.after(at, rest);
+  return {ChatterEnd::exits, at.s + rest, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
 }
 
-// A step that ends where the interpolation no longer holds is gone back from, to its first whole bounce. Without exits,
-// for the state in the middle of a burst, it is not asked.
+// A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the middle
+// of a burst, it is not asked.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
                                                const Chatter& start, bool exits) const {
-  double s = from;
-  Chatter now = start;
-  ChatterSurroundings at = rates_.surroundings(guide, s);
-  EvenChatter c = rates_.even(at, start);
-  while (s < until && now.v > threshold_) {
-    const EvenChatter rate = rates_(at, c);
-    const double rest = until - s, longest = step_length(at, now.v, c, -rate.x);
+  ChatterPlace now = rates_.begin(guide, from, start);
+  while (now.s < until && now.plain.v > threshold_) {
+    const double rest = until - now.s, longest = step_length(now);
     double dt = rest <= longest ? rest : rest < 2.0 * longest ? 0.5 * rest : longest;  // the last two alike
     // the last bounce of all lasts beyond the pressure: it is left where it is
-    if (!(s + dt > s) || 2.0 * now.v * at.quickness > at.P) return {ChatterEnd::exits, s, now};
-    ChatterSurroundings then;
-    EvenChatter next;
-    Chatter plain;
-    // past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder
-    // that has just been made fast
-    const auto goes_too_far = [&] {
-      const ChatterAhead ahead = rates_.ahead(guide, s, dt);
-      then = ahead.end;
-      if (!(then.P > kMostFall * at.P) || 2.0 * now.v * then.quickness > kMostOutlasting * then.P) return true;
-      next = rates_.step(dt, rate, ahead, c);
-      plain = rates_.plain(then, next);
-      return !(plain.v < kMostRise * now.v) || !std::isfinite(plain.n);
-    };
-    while (goes_too_far()) {
+    if (!(now.s + dt > now.s) || 2.0 * now.plain.v * now.around.quickness > now.around.P)
+      return {ChatterEnd::exits, now.s, now.plain};
+    ChatterPlace next = rates_.step(guide, now, dt);
+    while (goes_too_far(now, next)) {
       dt *= 0.5;
-      if (!(s + dt > s)) return {ChatterEnd::exits, s, now};
+      if (!(now.s + dt > now.s)) return {ChatterEnd::exits, now.s, now.plain};
+      next = rates_.step(guide, now, dt);
     }
-    if (exits && !smooth(then, plain.v, true) && plain.n >= std::floor(now.n) + 1.0)
-      return whole_bounce(guide, s, dt, rate, c, {now.n, 2.0 * now.v * at.per_P},
-                          {plain.n, 2.0 * plain.v * then.per_P});
-    s += dt;
-    c = next;
-    now = plain;
-    at = then;
+    if (exits && next.plain.n >= std::floor(now.plain.n) + 1.0) {
+      const double strained = strain(next.around, next.plain.v, true);
+      if (strained > 1.0) return whole_bounce(guide, now, next, strained);
+    }
+    now = next;
   }
-  return {now.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, s, now};
+  return {now.plain.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, now.s, now.plain};
 }
 
 ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const {

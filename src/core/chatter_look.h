@@ -1,0 +1,107 @@
+// The definitions of chatter_view.h: inlined into the functions that are compiled for several machines.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "afm_emulator/chatter_view.h"
+#include "afm_emulator/multiversion.h"
+#include "collocation.h"
+
+namespace afm {
+
+constexpr double kThird = 1.0 / 3.0;
+
+AFM_INLINED double square(double x) { return x * x; }
+
+// What follows from the reaction, its derivatives and K.
+AFM_INLINED void set_reaction_terms(ChatterSurroundings& at) {
+  const double per_P = 1.0 / at.P, per_P2 = square(per_P), K = at.bend;
+  const double p1 = at.P1 * per_P, p2 = at.P2 * per_P, p3 = at.P3 * per_P, p1_2 = square(p1);
+  at.per_P = per_P;
+  at.squeeze = kThird * p1;
+  at.stretch = std::fma(3.0 / 27, p2, std::fma(-4.0 / 27, p1_2, -kThird * K)) * per_P2;
+  at.twist =
+      std::fma(-3.0 / 135, p3, std::fma(20.0 / 135 * p1, p2 - p1_2, std::fma(-0.2 * K, p1, at.bend1 * (1.0 / 15)))) *
+      per_P2;
+  at.lag = std::fma(-2.0, p1_2, p2) * (per_P * (1.0 / 18));
+}
+
+AFM_INLINED ChatterSurroundings ChatterView::look(const SlidePiece<double>& guide, double time) const {
+  const SlideState<double> q = guide.at(time);
+  const std::array<double, 4> a = guide.pressure_jet(time);
+  SurfaceJet<double> h = surface_jet(H_, q.phase);
+  // held along x, the tip sees no slope: only that the pressure changes
+  h.h1 *= free_, h.h2 *= free_, h.h3 *= free_;
+  const double u = q.u, u2 = u * u, N2 = 1.0 + square(h.h1), per_N2 = 1.0 / N2, per_N = std::sqrt(per_N2);
+  // time derivatives of x, of the guide with the reaction on it, and of the slope
+  const double s = h.h1, s1 = h.h2 * u, x2 = -wh2_ * q.X - s * a[0];
+  const double x3 = -wh2_ * (u - guide.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
+  const double s3 = u * (3.0 * h.h3 * x2 - square(kTwoPi) * h.h2 * u2) + h.h2 * x3;
+  // the rate at which the surface turns under the tip and its derivatives; from them those of ln N, and from these P'/P,
+  // ... with P = N a
+  const double turn = s1 * per_N2, turn1 = s2 * per_N2 - 2.0 * s * square(turn);
+  const double turn2 = s3 * per_N2 - 2.0 * turn * (s * s2 * per_N2 + s1 * turn + 2.0 * s * turn1);
+  const double L1 = s * turn, L2 = s1 * turn + s * turn1, L3 = s2 * turn + 2.0 * s1 * turn1 + s * turn2;
+  const double per_a = 1.0 / a[0], q1 = a[1] * per_a, q2 = a[2] * per_a, q3 = a[3] * per_a;
+  const double p1 = q1 + L1, b2 = q2 - square(q1) + L2, b3 = q3 - 3.0 * q1 * q2 + 2.0 * q1 * square(q1) + L3;
+  const double p2 = b2 + square(p1), p3 = b3 + 3.0 * p1 * b2 + p1 * square(p1);
+  ChatterSurroundings at{};
+  at.P = a[0] * N2 * per_N;
+  at.P1 = at.P * p1, at.P2 = at.P * p2, at.P3 = at.P * p3;
+  at.bend = 3.0 * square(turn) + (wh2_ * square(s) + wv2_) * per_N2;
+  at.bend1 = 6.0 * turn * turn1 + 2.0 * L1 * (wh2_ - wv2_) * per_N2;
+  set_reaction_terms(at);
+  at.turn = turn;
+  // curvature k = h''/N^3, its rate along the surface, speed N u, acceleration along the surface from the springs alone
+  const double curvature = h.h2 * per_N2 * per_N,
+               curvature1 = (h.h3 - 3.0 * s * square(h.h2) * per_N2) * square(per_N2);
+  const double pull = (x2 + L1 * u) * N2 * per_N, speed2 = u2 * N2;
+  at.lean = s * (wh2_ - wv2_) * per_N2 - curvature * pull - curvature1 * speed2;
+  at.stiffness = (wh2_ + wv2_ * square(s)) * per_N2 - curvature * (curvature * speed2 - at.P);
+  at.along = free_ * per_N;
+  at.up = -s * per_N;
+  at.quickness = std::sqrt(std::max(square(p1), std::abs(p2)));
+  at.speed = std::abs(u);
+  at.slow_rate = std::max(at.speed, slow_rate_);
+  return at;
+}
+
+AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) const {
+  const TipState& q = bounce.launch();
+  const SurfaceJet<double> h = surface_jet(H_, q.phase);
+  const double a = -bounce.start().g2, a1 = -bounce.start().g3, N2 = 1.0 + free_ * square(h.h1);
+  ChatterSurroundings at{};
+  at.P = a / std::sqrt(N2);
+  at.per_P = 1.0 / at.P;
+  at.squeeze = (a1 / a - free_ * h.h1 * h.h2 * q.u / N2) / 3.0;
+  // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
+  const double u = q.u, u2 = square(u), k2 = square(kTwoPi), reaction = free_ * a / N2;
+  const double x2 = -wh2_ * q.X - h.h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h.h2 * u * reaction,
+               x4 = -wh2_ * x2;
+  const double a2 =
+      h.h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h.h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
+  at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
+  at.speed = std::abs(q.u);
+  at.slow_rate = std::max(at.speed, slow_rate_);
+  return at;
+}
+
+AFM_INLINED ChatterSurroundings ChatterView::between(const ChatterSurroundings& first, const ChatterSurroundings& last,
+                                                     double dt, std::size_t node) const {
+  const auto P = hermite(node, dt, {first.P, first.P1, first.P2, first.P3}, {last.P, last.P1, last.P2, last.P3});
+  const double c = kInnerNodes[node];
+  const auto even = [c](double a, double b) { return std::fma(c, b, (1.0 - c) * a); };
+  ChatterSurroundings at{};
+  at.P = P[0], at.P1 = P[1], at.P2 = P[2];
+  at.P3 = even(first.P3, last.P3);
+  at.bend = even(first.bend, last.bend), at.bend1 = even(first.bend1, last.bend1);
+  set_reaction_terms(at);
+  at.turn = even(first.turn, last.turn);
+  at.lean = even(first.lean, last.lean), at.stiffness = even(first.stiffness, last.stiffness);
+  at.along = even(first.along, last.along), at.up = even(first.up, last.up);
+  return at;
+}
+
+}  // namespace afm
