@@ -53,8 +53,8 @@ class ChatterRates {
   ChatterSurroundings surroundings(const Flight<double>& bounce) const;
 
   ChatterPlace begin(const SlidePiece<double>& guide, double s, const Chatter& start) const;
-  // Over dt, by Lobatto's method of order 8, its equations solved by iteration: what is left is a few parts in 1e6 of the
-  // loss in the step. Where it goes too far the numbers may be none.
+  // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may be
+  // none.
   ChatterPlace step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;
   // By so little that what the rates change by in it is nothing.
   Chatter after(const ChatterPlace& from, double dt) const;

@@ -23,10 +23,11 @@ constexpr double kMostLongerSlow = 3.0;  // times at most
 
 // A step, in parts of the times in which v falls (evenly to nothing: where there is no cutoff), the reaction changes, and
 // it swings with the horizontal spring.
-constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.45, kSwingPerStep = 1.2;
+constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.45, kSwingPerStep = 1.4;
 // The pressure is to lose no more than this part of itself in a step, and must not fall below that; v may rise to so many
-// times itself; and where a step ends, a bounce may outlast the pressure so many times.
-constexpr double kLossPerStep = 0.4, kMostFall = 0.6, kMostRise = 2.0, kMostOutlasting = 4.0;
+// times itself; and where a step ends, it may be so many times as long as the pressure takes to change, and a bounce so many
+// times as long as it lasts.
+constexpr double kLossPerStep = 0.4, kMostFall = 0.6, kMostChange = 0.7, kMostRise = 2.0, kMostOutlasting = 4.0;
 
 double square(double x) { return x * x; }
 
@@ -36,8 +37,9 @@ double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.pe
 // has just been made fast.
 bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
   const double P = to.around.P;
-  return !(P > kMostFall * from.around.P) || 2.0 * from.plain.v * to.around.quickness > kMostOutlasting * P ||
-         !(to.plain.v < kMostRise * from.plain.v) || !std::isfinite(to.plain.n);
+  return !(P > kMostFall * from.around.P) || (to.s - from.s) * to.around.quickness > kMostChange ||
+         2.0 * from.plain.v * to.around.quickness > kMostOutlasting * P || !(to.plain.v < kMostRise * from.plain.v) ||
+         !std::isfinite(to.plain.n);
 }
 
 // When n is reached in a step between two ends: the cubic through both with the bounces' durations as its slopes.
@@ -87,8 +89,10 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
 double ChatterLaw::step_length(const ChatterPlace& at) const {
   const double v = at.plain.v, quickness = at.around.quickness;
-  // the error of a step is that of a pressure which swings with the horizontal spring: the less it changes by, the longer
-  const double swing = std::sqrt(quickness * std::max(quickness, kTwoPi * at.around.slow_rate));
+  // the error of a step is that of a pressure which swings with the horizontal spring and at twice its rate: the less it
+  // changes by, the longer
+  const double fastest = std::max(quickness, 2.0 * kTwoPi * at.around.slow_rate);
+  const double swing = std::sqrt(fastest * std::sqrt(quickness * fastest));
   // with a cutoff, the less a bounce loses the more evenly ln v falls
   const double falls =
       v_c_ > threshold_ ? kFallPerStep / (0.5 + 2.5 * std::min(kMostLoss, rates_.loss(v))) : kEvenFallPerStep;
@@ -102,12 +106,18 @@ double ChatterLaw::step_length(const ChatterPlace& at) const {
 // The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
                                     double last_strain) const {
-  constexpr double kNearlyWhole = 1e-2;  // the rest is done evenly, to its square
+  constexpr double kBearable = 1.05, kNearlyWhole = 1e-2;  // the rest is done evenly, to its square
+  constexpr int kMostTries = 5;
   constexpr int kMostSteps = 40;
   const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
-  const double part = bearable_part(strain(from.around, from.plain.v, true), last_strain);
-  ChatterPlace at =
-      rates_.step(guide, from, std::min(dt, std::max(part * dt, (first_n - from.plain.n) * duration(from))));
+  const double least = std::min(dt, (first_n - from.plain.n) * duration(from));
+  const double first_strain = strain(from.around, from.plain.v, true);
+  ChatterPlace at = to;
+  // more than once where the pressure passes its maximum
+  for (int i = 0; i < kMostTries && last_strain > kBearable && at.s - from.s > least; ++i) {
+    at = rates_.step(guide, from, std::max(least, bearable_part(first_strain, last_strain) * (at.s - from.s)));
+    last_strain = strain(at.around, at.plain.v, true);
+  }
   const double n = std::max(first_n, std::floor(at.plain.n));
   double low = 0.0, high = dt, next = time_at(n, from, at);
   for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= kNearlyWhole); ++i) {

@@ -91,7 +91,7 @@ AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) 
 AFM_INLINED ChatterSurroundings ChatterView::between(const ChatterSurroundings& first, const ChatterSurroundings& last,
                                                      double dt, std::size_t node) const {
   const auto P = hermite(node, dt, {first.P, first.P1, first.P2, first.P3}, {last.P, last.P1, last.P2, last.P3});
-  const double c = kInnerNodes[node];
+  const double c = kNodes[node];
   const auto even = [c](double a, double b) { return std::fma(c, b, (1.0 - c) * a); };
   ChatterSurroundings at{};
   at.P = P[0], at.P1 = P[1], at.P2 = P[2];

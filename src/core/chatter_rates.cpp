@@ -142,23 +142,19 @@ AFM_INLINED EvenChatter ChatterRates::brief_step(const ChatterPlace& from, const
   return from.even + 0.5 * dt * (from.rate + rate(end, from.even + dt * from.rate));
 }
 
+// From what the first rate foretells, twice: it leaves a few parts in 1e6 of what a step changes.
 AFM_INLINED EvenChatter ChatterRates::long_step(const ChatterPlace& from, const ChatterSurroundings& end,
                                                 double dt) const {
-  constexpr int kIterations = 2;  // each leaves a twentieth of the error, or less: a bounce loses at most a fifth of v
-  ChatterSurroundings at[4] = {{}, {}, {}, end};
+  const ChatterSurroundings at[4] = {view_.between(from.around, end, dt, 0), view_.between(from.around, end, dt, 1),
+                                     view_.between(from.around, end, dt, 2), end};
   EvenChatter rates[4];
-#pragma GCC unroll 3
-  for (std::size_t k = 0; k < 3; ++k) at[k] = view_.between(from.around, end, dt, k);
 #pragma GCC unroll 4
-  for (std::size_t k = 0; k < 4; ++k) rates[k] = rate(at[k], from.even);
-#pragma GCC unroll 2
-  for (int i = 0; i < kIterations; ++i) {
-    EvenChatter c[4];
+  for (std::size_t k = 0; k < 4; ++k) rates[k] = rate(at[k], from.even + kNodes[k] * dt * from.rate);
+  EvenChatter c[4];
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < 4; ++k) c[k] = collocated(k, dt, from.even, from.rate, rates);
+  for (std::size_t k = 0; k < 4; ++k) c[k] = collocated(k, dt, from.even, from.rate, rates);
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < 4; ++k) rates[k] = rate(at[k], c[k]);
-  }
+  for (std::size_t k = 0; k < 4; ++k) rates[k] = rate(at[k], c[k]);
   return collocated(3, dt, from.even, from.rate, rates);
 }
 

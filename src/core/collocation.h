@@ -10,7 +10,7 @@
 namespace afm {
 
 constexpr double kRoot21 = 4.58257569495584;
-constexpr std::array<double, 3> kInnerNodes = {0.5 - kRoot21 / 14, 0.5, 0.5 + kRoot21 / 14};
+constexpr std::array<double, 4> kNodes = {0.5 - kRoot21 / 14, 0.5, 0.5 + kRoot21 / 14, 1.0};  // without the first
 
 // From the beginning to each inner node and to the end: the weights of the rates at all five.
 constexpr std::array<std::array<double, 5>, 4> kLobatto = {{
@@ -43,8 +43,8 @@ constexpr HermiteWeights hermite_weights(double c) {
   return w;
 }
 
-constexpr std::array<HermiteWeights, 3> kHermite = {hermite_weights(kInnerNodes[0]), hermite_weights(kInnerNodes[1]),
-                                                    hermite_weights(kInnerNodes[2])};
+constexpr std::array<HermiteWeights, 3> kHermite = {hermite_weights(kNodes[0]), hermite_weights(kNodes[1]),
+                                                    hermite_weights(kNodes[2])};
 
 // The value and two derivatives at an inner node, from those at both ends.
 AFM_INLINED std::array<double, 3> hermite(std::size_t node, double dt, const std::array<double, 4>& first,
