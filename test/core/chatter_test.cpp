@@ -99,6 +99,20 @@ TEST_P(Chatters, TheLawIsThatOfTheBouncesToTheSecondOrder) {
   EXPECT_GT(short_ones, 300);
 }
 
+TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
+  RandomLaunches random(4);
+  const ChatterRates rates(model_, false);
+  for (int i = 0; i < 200; ++i) {
+    const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
+    const ChatterPlace start = rates.begin(chatter.guide, 0.0, {chatter.v, 0.0});
+    const double fastest = std::max({start.around.quickness, kTwoPi * start.around.slow_rate, std::abs(start.rate.x)});
+    for (double part = 1e-3; part > 1e-20; part *= 0.1) {
+      const double dt = part / fastest, x = rates.step(chatter.guide, start, dt).even.x;
+      ASSERT_NEAR(x, start.even.x + dt * start.rate.x, 10.0 * part * part + 1e-14) << i << ' ' << part;
+    }
+  }
+}
+
 TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAFifthOrLess) {
   RandomLaunches random(2);
   std::vector<double> n_ratios, v_ratios;
