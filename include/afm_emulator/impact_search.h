@@ -89,13 +89,15 @@ void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
 template <class T>
 Truth<T> settles(const Flight<T>& f, const NearJet<T>& near, const T& step, const T& time) {
   using std::abs;
+  using std::max;
   const GapJet<T>& jet = near.jet;
-  const T per = abs(near.per_g1), t2 = step * step;
-  const T a = abs(jet.g2 * step) * (per / T(2.0)), b = abs(jet.g3) * t2 * over(per, 6.0);
-  const T c = abs(near.g4 * step) * t2 * over(per, 24.0),
+  // where the series is worth nothing its sum may be small by chance: its first term is not
+  const T per = abs(near.per_g1), reach = max(abs(step), T(abs(jet.g) * per)), t2 = reach * reach;
+  const T a = abs(jet.g2) * reach * (per / T(2.0)), b = abs(jet.g3) * t2 * over(per, 6.0);
+  const T c = abs(near.g4) * reach * t2 * over(per, 24.0),
           rest = f.fifth_derivative_bound() * (t2 * t2) * over(per, 120.0);
   const T square = a * a + b, left_out = T(14.0) * square * square + T(6.0) * a * c + rest;
-  return left_out * abs(step) < epsilon<T>() * time / T(64.0);
+  return left_out * reach < epsilon<T>() * time / T(64.0);
 }
 
 // What a drift of so far leaves out is well below an ulp of the velocities: it always adds energy.
@@ -106,14 +108,23 @@ Truth<T> is_smooth(const Flight<T>& f, const GapJet<T>& jet, const T& step) {
   return f.fifth_derivative_bound() * (t2 * t2) <= epsilon<T>() * abs(jet.g1);
 }
 
-// Finishes the certified root about `jet`, of time s; `there`: that is near enough. Steps of the fourth order, clamped:
-// outside there is nothing to find.
+// The same for a certified root about `jet`. It is the step that counts, not the estimate: where a spring turns within the
+// root's interval the series behind either is worth nothing.
+template <class T>
+Truth<T> is_there(const Flight<T>& f, const GapJet<T>& jet, const RootInterval<T>& root, const T& time) {
+  const NearJet<T> near(f, jet);
+  const T step = root_step(near);
+  return settles(f, near, step, time) && root.low <= step && step <= root.high;
+}
+
+// Finishes the certified root about `jet`, of time s; `there`: that is near enough. Steps of the fourth order within the
+// root's interval, which each look makes smaller; by halves where they would leave it.
 template <class T>
 Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, bool there,
                   int evaluations) {
   using std::abs;
   constexpr int kMaxFinish = 60;
-  T t = T(0.0), step = root.estimate;
+  T t = T(0.0), step = root.estimate, low = root.low, high = root.high;
   for (int i = 0; i < kMaxFinish; ++i, there = false) {
     if (!there) {
       jet = f.gap_near(jet, s + t, step);
@@ -122,7 +133,8 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
     }
     const NearJet<T> near(f, jet);
     step = root_step(near);
-    if (t + step < root.low || root.high < t + step) step = clamp(t + step, root.low, root.high) - t;
+    (jet.g > T(0.0) ? low : high) = t;
+    if (t + step < low || high < t + step) step = (low + high) / T(2.0) - t;
     const bool settled = there || settles(f, near, step, T(s + t));
     const bool hidden = abs(step * jet.g1) <= f.gap_error(s + t);  // by the rounding of the gap
     // move the evaluated state instead of evaluating again
@@ -135,7 +147,7 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
 
 template <class T>
 Landing<T> finish(const Flight<T>& f, const T& s, const GapJet<T>& jet, const RootInterval<T>& root, int evaluations) {
-  return finish(f, s, jet, root, settles(f, NearJet<T>(f, jet), root.estimate, s), evaluations);
+  return finish(f, s, jet, root, is_there(f, jet, root, s), evaluations);
 }
 
 // The end of one that is brief: near where its series ends.

@@ -106,7 +106,7 @@ double ChatterLaw::step_length(const ChatterPlace& at) const {
 // The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
                                     double last_strain) const {
-  constexpr double kBearable = 1.05, kNearlyWhole = 1e-2;  // the rest is done evenly, to its square
+  constexpr double kBearable = 1.05, kNearlyWhole = 1e-2, kLeastRest = 1e-6;  // the rest is done evenly, to its square
   constexpr int kMostTries = 5;
   constexpr int kMostSteps = 40;
   const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
@@ -119,8 +119,10 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const Chatt
     last_strain = strain(at.around, at.plain.v, true);
   }
   const double n = std::max(first_n, std::floor(at.plain.n));
+  // of a bounce, and of what is left to the whole one
+  const double nearly = kNearlyWhole * std::clamp(n - from.plain.n, kLeastRest, 1.0);
   double low = 0.0, high = dt, next = time_at(n, from, at);
-  for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= kNearlyWhole); ++i) {
+  for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= nearly); ++i) {
     const double now = at.s - from.s;
     (n > at.plain.n ? low : high) = now;
     at = rates_.step(guide, from, next > low && next < high ? next : 0.5 * (low + high));
@@ -128,7 +130,7 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const Chatt
   }
   const double rest = (n - at.plain.n) * duration(at);
   const Chatter c = rates_.after(at, rest);
-  return {ChatterEnd::exits, at.s + rest, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
+  return {ChatterEnd::exits, std::max(from.s, at.s + rest), {c.v, n, c.sigma, c.p, c.drift, c.lift}};
 }
 
 // A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the middle

@@ -175,6 +175,26 @@ TEST(ImpactSearch, OfATipThatCreepsOnALooseSpringComesToAnEnd) {
   }
 }
 
+// Its stiff spring turns within the interval that holds the root, where no series of the gap converges.
+TEST(ImpactSearch, OfATipOnAStiffSpringEndsOnTheSurface) {
+  Model model;
+  model.frequency_ratio = 1000.0;
+  const Mechanics<double> mechanics(model);
+  RandomLaunches random(12);
+  for (int i = 0; i < 20000; ++i) {
+    TipState start = random.next(2.0, -2.0, 1.0);
+    start.X *= std::pow(10.0, random.within(-6.0, 0.0));
+    start.u = 2.0 + random.within(-1.0, 1.0) * mechanics.omega_h * std::abs(start.X);
+    const Flight<double> f(mechanics, 2.0, start);
+    const Landing<double> landing = find_landing(model, f, kHorizon);
+    ASSERT_EQ(landing.outcome, SearchOutcome::impact) << i;
+    const GapJet<double> there = f.gap(landing.s);
+    const double late = 4.0 * kEps * landing.s * (std::abs(there.g1) + mechanics.omega_h);
+    ASSERT_LT(std::abs(there.g), 4.0 * f.gap_error(landing.s) + late) << i;
+    ASSERT_NEAR(landing.jet.state.U, there.state.U, 1e-9 * (1.0 + mechanics.omega_h * f.amplitude_X())) << i;
+  }
+}
+
 TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
   RandomLaunches launches(6);
   for (int i = 0; i < 1000; ++i) {

@@ -10,7 +10,7 @@ namespace {
 AFM_LANE_INLINE void begin_root(const Rows& rows, const Flight<Pack>& f, const GapJet<Pack>& jet, P p,
                                 const RootInterval<Pack>& root, unsigned certain, Ways& ways) {
   store_root(rows, jet, p, root);
-  const unsigned here = certain & bits(search_detail::settles(f, NearJet<Pack>(f, jet), root.estimate, p));
+  const unsigned here = certain & bits(search_detail::is_there(f, jet, root, p));
   ways.lanes[kFinishHere] = here;
   split_by_step(certain & ~here, f, p, root.estimate, ways);
 }

@@ -65,6 +65,7 @@ AFM_LANE_INLINE void load_root(const Rows& rows, Root& root) {
 AFM_LANE_INLINE void go_on(const Rows& rows, const Flight<Pack>& f, const Root& root, unsigned on, M settled,
                            Ways& ways) {
   store_jet(rows, root.jet, root.step);
+  rows.store(kLow, root.low, root.high);
   rows.store(kJetS, root.s, root.t);
   rows.store(kIsEnd, select(settled, Pack(1.0), Pack(0.0)), root.unused);
   rows.store(kGuess, root.guess, root.count + Pack(1.0));
@@ -121,7 +122,9 @@ AFM_LANE_INLINE Ways finish(const Rows& rows) {
   const NearJet<Pack> near(f, jet);
   step = root_step(near);
   const Pack to = t + step;
-  step = select(to < root.low || root.high < to, clamp(to, root.low, root.high) - t, step);
+  const Mask above = jet.g > Pack(0.0);
+  root.low = select(above, t, root.low), root.high = select(above, root.high, t);
+  step = select(to < root.low || root.high < to, (root.low + root.high) * Pack(0.5) - t, step);
   const Pack at = root.s + t;
   const Mask settled = kKind == kFinishHere ? at <= at : search_detail::settles(f, near, step, at);
   const Mask hidden = abs(step * jet.g1) <= f.gap_error(at);
