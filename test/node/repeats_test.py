@@ -108,6 +108,13 @@ class Repeats(NodeTest):
         self.deflection.wait_for_more(100)
         checks.assert_identical(self, *self.end())
 
+    def test_the_hammer_brought_to_rest_again_and_again(self):
+        self.run_emulator(record=True, model='hammer')
+        for eta in 80 * (5.0, 0.0):
+            self.emulator.drag(eta * SPEED_UNIT)
+            time.sleep(0.02)  # on its way to rest; nothing is waited for
+        checks.assert_identical(self, *self.end())
+
     def test_under_load(self):
         load = [multiprocessing.Process(target=burn, daemon=True) for _ in range(4)]
         for process in load:

@@ -97,7 +97,7 @@ void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
 
 void EnergyAudit::judge(const ModelTime& until) {
   for (; events_.size() > 2 && events_[1].time + 3.0 * grid_.period < until; events_.pop_front()) {
-    if (events_[1].impact && events_[1].impact->kind == afm_emulator::Impact::IMPACT) {
+    if (events_[1].impact && events_[1].impact->kind == afm_emulator::Impact::IMPACT && flies_off()) {
       judge_impact(events_[0], events_[1], events_[2]);
     }
   }
@@ -106,6 +106,14 @@ void EnergyAudit::judge(const ModelTime& until) {
   const std::uint64_t dropped = std::min<std::uint64_t>(wanted - first_sample_, samples_.size());
   samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(dropped));
   first_sample_ += dropped;
+}
+
+// Whether the tip leaves the surface with the second event: a burst begins with a bounce too, and is told when it ends.
+bool EnergyAudit::flies_off() const {
+  const auto next =
+      std::find_if(events_.begin() + 2, events_.end(), [](const Event& e) { return e.impact.has_value(); });
+  return next != events_.end() && next->impact->kind != afm_emulator::Impact::BURST &&
+         next->impact->kind != afm_emulator::Impact::CONTACT_BEGUN;
 }
 
 // At that time or before it; of a time that cannot be, such as a command's that was altered, one that is not there.

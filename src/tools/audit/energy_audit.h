@@ -36,9 +36,9 @@ class EnergyAudit {
   void add(const afm_emulator::Deflection& batch);
   void add(const afm_emulator::ImpactArray& batch);
   void add_command(const ModelTime& time, double drag_velocity);
-  void gap();                          // something is missing here
+  void gap();                                               // something is missing here
   void change(const Model& model, const SampleGrid& grid);  // what is near is not judged
-  void judge(const ModelTime& until);  // all that lies well before
+  void judge(const ModelTime& until);                       // all that lies well before
 
   const EnergyReport& report() const { return report_; }
 
@@ -57,6 +57,7 @@ class EnergyAudit {
 
   double conditioning() const;
   void judge_law(const afm_emulator::Impact& impact);
+  bool flies_off() const;
   void judge_impact(const Event& before, const Event& event, const Event& after);
   std::uint64_t last_sample_before(const ModelTime& time) const;
   Motion motion(std::uint64_t first, const ModelTime& at) const;  // from this sample and the next
