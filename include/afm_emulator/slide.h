@@ -20,11 +20,8 @@ class SlidePiece {
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(pressure_, s); }  // reaction along y [a/tau^2]
   T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
-  // And its first three time derivatives; of several times at once they wait less for each other.
-  std::array<T, 4> pressure_jet(const T& s) const { return pressure_jets(std::array<T, 1>{s})[0]; }
-  template <std::size_t n>
-  std::array<std::array<T, 4>, n> pressure_jets(const std::array<T, n>& s) const;
-  T displacement_integral(const T& s) const;  // of x - x(start) over time [a tau]
+  std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
+  T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
 
   T length() const { return length_; }  // [tau]
   const SlideState<T>& start() const { return start_; }
@@ -89,21 +86,16 @@ T SlidePiece<T>::displacement_integral(const T& s) const {
 }
 
 template <class T>
-template <std::size_t n>
-std::array<std::array<T, 4>, n> SlidePiece<T>::pressure_jets(const std::array<T, n>& s) const {
+std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
   using std::fma;
-  std::array<std::array<T, 4>, n> jets{};  // Horner's scheme for the function and, over k!, its derivatives
+  std::array<T, 4> c{};  // Horner's scheme for the function and, over k!, its derivatives
   for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
 #pragma GCC unroll 4
-    for (std::size_t j = 0; j < n; ++j) {
-      std::array<T, 4>& c = jets[j];
-#pragma GCC unroll 4
-      for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s[j], c[i - 1]);
-      c[0] = fma(c[0], s[j], pressure_[k]);
-    }
+    for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
+    c[0] = fma(c[0], s, pressure_[k]);
   }
-  for (std::array<T, 4>& c : jets) c[2] *= T(2.0), c[3] *= T(6.0);
-  return jets;
+  c[2] *= T(2.0), c[3] *= T(6.0);
+  return c;
 }
 
 // Of the sum of a series from its value at 0, up to s.

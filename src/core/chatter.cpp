@@ -107,8 +107,7 @@ double ChatterLaw::step_length(const ChatterPlace& at) const {
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
                                     double last_strain) const {
   constexpr double kBearable = 1.05, kNearlyWhole = 1e-2, kLeastRest = 1e-6;  // the rest is done evenly, to its square
-  constexpr int kMostTries = 5;
-  constexpr int kMostSteps = 40;
+  constexpr int kMostTries = 5, kMostSteps = 40;
   const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
   const double least = std::min(dt, (first_n - from.plain.n) * duration(from));
   const double first_strain = strain(from.around, from.plain.v, true);

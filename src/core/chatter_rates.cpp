@@ -1,10 +1,10 @@
 #include "afm_emulator/chatter_rates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "afm_emulator/impact_steps.h"
 #include "afm_emulator/multiversion.h"
 #include "chatter_look.h"
 #include "portable_exp.h"
