@@ -70,8 +70,9 @@ class ChatterRates {
   Chatter plain(const ChatterSurroundings& at, const EvenChatter& c) const;
   // d/dt. In `c` v stands for what it would be on the guide itself.
   EvenChatter rate(const ChatterSurroundings& at, const EvenChatter& c) const;
-  EvenChatter brief_step(const ChatterPlace& from, const ChatterSurroundings& end, double dt) const;
-  EvenChatter long_step(const ChatterPlace& from, const ChatterSurroundings& end, double dt) const;
+  // What `to` changes to, and how fast it goes on: what is around it is known.
+  void brief_step(const ChatterPlace& from, double dt, ChatterPlace& to) const;
+  void long_step(const ChatterPlace& from, double dt, ChatterPlace& to) const;
   double speed(double x) const;
   double bounces_at(double v) const;
 

@@ -18,16 +18,16 @@ constexpr double kMostShortness = 0.045;
 // hundreds of tau, and more than three hundred of them last longer than that. What it costs to average them is a part
 // of the normal speed: slower ones may last longer.
 constexpr double kRinging = 1.5;         // [a/tau] at most
-constexpr double kFullSpeed = 1e3;       // thresholds: bounces of a ringing tip slower than this may last longer
-constexpr double kMostLongerSlow = 3.0;  // times at most
+constexpr double kFullSpeed = 2e3;       // thresholds: bounces of a ringing tip slower than this may last longer
+constexpr double kMostLongerSlow = 2.5;  // times at most
 
 // A step, in parts of the times in which v falls (evenly to nothing: where there is no cutoff), the reaction changes, and
 // it swings with the horizontal spring.
-constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.45, kSwingPerStep = 1.4;
+constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.8, kSwingPerStep = 2.4;
 // The pressure is to lose no more than this part of itself in a step, and must not fall below that; v may rise to so many
 // times itself; and where a step ends, it may be so many times as long as the pressure takes to change, and a bounce so many
 // times as long as it lasts.
-constexpr double kLossPerStep = 0.4, kMostFall = 0.6, kMostChange = 0.7, kMostRise = 2.0, kMostOutlasting = 4.0;
+constexpr double kLossPerStep = 0.55, kMostFall = 0.45, kMostChange = 1.2, kMostRise = 2.0, kMostOutlasting = 4.0;
 
 double square(double x) { return x * x; }
 

@@ -137,14 +137,15 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guid
 }
 
 // Over so little that differences over dt of what is seen at its ends would be noise: by the mean of two rates.
-AFM_INLINED EvenChatter ChatterRates::brief_step(const ChatterPlace& from, const ChatterSurroundings& end,
-                                                 double dt) const {
-  return from.even + 0.5 * dt * (from.rate + rate(end, from.even + dt * from.rate));
+AFM_INLINED void ChatterRates::brief_step(const ChatterPlace& from, double dt, ChatterPlace& to) const {
+  to.rate = rate(to.around, from.even + dt * from.rate);
+  to.even = from.even + 0.5 * dt * (from.rate + to.rate);
 }
 
-// From what the first rate foretells, twice: it leaves a few parts in 1e6 of what a step changes.
-AFM_INLINED EvenChatter ChatterRates::long_step(const ChatterPlace& from, const ChatterSurroundings& end,
-                                                double dt) const {
+// From what the first rate foretells, twice: it leaves a few parts in 1e6 of what a step changes. The rate at its end is
+// that of the first time, near enough for the next step, which gives it a twentieth of the weight.
+AFM_INLINED void ChatterRates::long_step(const ChatterPlace& from, double dt, ChatterPlace& to) const {
+  const ChatterSurroundings& end = to.around;
   const ChatterSurroundings at[4] = {view_.between(from.around, end, dt, 0), view_.between(from.around, end, dt, 1),
                                      view_.between(from.around, end, dt, 2), end};
   EvenChatter rates[4];
@@ -155,7 +156,8 @@ AFM_INLINED EvenChatter ChatterRates::long_step(const ChatterPlace& from, const 
   for (std::size_t k = 0; k < 4; ++k) c[k] = collocated(k, dt, from.even, from.rate, rates);
 #pragma GCC unroll 4
   for (std::size_t k = 0; k < 4; ++k) rates[k] = rate(at[k], c[k]);
-  return collocated(3, dt, from.even, from.rate, rates);
+  to.even = collocated(3, dt, from.even, from.rate, rates);
+  to.rate = rates[3];
 }
 
 AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide, const ChatterPlace& from,
@@ -163,9 +165,8 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide
   constexpr double kBrief = 1e-5;
   ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
   const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
-  to.even = brief ? brief_step(from, to.around, dt) : long_step(from, to.around, dt);
+  brief ? brief_step(from, dt, to) : long_step(from, dt, to);
   to.plain = plain(to.around, to.even);
-  to.rate = rate(to.around, to.even);
   return to;
 }
 
