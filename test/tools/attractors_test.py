@@ -3,19 +3,16 @@
 
 Usage: attractors_test.py TOOL
 """
-import csv
-import os
-import subprocess
 import sys
 import unittest
+
+from tables import run_tool
 
 TOOL = None
 
 
 def run(*arguments):
-    done = subprocess.run([TOOL, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
-    return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
+    return run_tool(TOOL, *arguments)
 
 
 class Table(unittest.TestCase):

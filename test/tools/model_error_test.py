@@ -3,12 +3,11 @@
 
 Usage: model_error_test.py TOOL
 """
-import csv
 import math
-import os
-import subprocess
 import sys
 import unittest
+
+from tables import run_tool
 
 TOOL = None
 QUICK = ['--starts', '1', '--duration', '200', '--transient', '200']
@@ -16,11 +15,9 @@ SLOPE = 2.0 * math.pi * 0.05 / 0.52
 
 
 def run(*arguments):
-    done = subprocess.run([TOOL, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
-    rows = [{key: float(text) if key not in ('model', 'attractor', 'reference_attractor') else text
-             for key, text in row.items()} for row in csv.DictReader(done.stdout.splitlines())]
-    return done.returncode, rows, done.stderr
+    code, rows, report = run_tool(TOOL, *arguments)
+    return code, [{key: float(text) if key not in ('model', 'attractor', 'reference_attractor') else text
+                   for key, text in row.items()} for row in rows], report
 
 
 class Errors(unittest.TestCase):

@@ -3,19 +3,17 @@
 
 Usage: orbit_tools_test.py DIRECTORY_OF_THE_TOOLS
 """
-import csv
 import os
-import subprocess
 import sys
 import unittest
+
+from tables import run_tool
 
 TOOLS = None
 
 
 def run(tool, *arguments):
-    done = subprocess.run([os.path.join(TOOLS, tool), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=float(os.environ.get('AFM_TIME_LIMIT', '100')))
-    return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
+    return run_tool(os.path.join(TOOLS, tool), *arguments)
 
 
 class Continue(unittest.TestCase):
