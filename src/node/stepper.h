@@ -38,13 +38,14 @@ class Stepper {
   void run();
   void wait_for_work();
   void serve_requests();
+  bool few_to_remember();
   void serve(const Request& request);
   void apply_drag(double drag_velocity);
   void take_level(double eta);
   void apply_change(const LiveParameters& live);
   void watch_for_commands();
   void look_for_checkpoint();
-  void take_checkpoint();
+  bool take_checkpoint();  // false: no room to tell of it
   void pause(bool paused);
   void reset();
   void run_batch();

@@ -13,10 +13,12 @@ constexpr std::uint64_t kMostCommandsBetweenCheckpoints = 2000;
 // A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
 void Stepper::serve_requests() {
   Request request;
-  while (!stopping_ && hand_over_.has_room_for_request() && requests_.pop(request)) {
-    serve(request);
-    if (commands_since_saved_ >= kMostCommandsBetweenCheckpoints) take_checkpoint();
-  }
+  while (!stopping_ && few_to_remember() && hand_over_.has_room_for_request() && requests_.pop(request)) serve(request);
+}
+
+// Otherwise a checkpoint takes the next room there is: requests would take it again and again.
+bool Stepper::few_to_remember() {
+  return commands_since_saved_ < kMostCommandsBetweenCheckpoints || take_checkpoint();
 }
 
 void Stepper::serve(const Request& request) {
@@ -128,12 +130,13 @@ void Stepper::look_for_checkpoint() {
 }
 
 // Where there is no room to tell of it, the next look takes it.
-void Stepper::take_checkpoint() {
+bool Stepper::take_checkpoint() {
   emulator_.save(saved_);
-  if (!hand_over_.offer(event(Event::Kind::checkpoint), saved_)) return;
+  if (!hand_over_.offer(event(Event::Kind::checkpoint), saved_)) return false;
   commands_since_saved_ = 0;
   saved_time_ = emulator_.now();
   checkpoint_due_ = monotonic_now() + checkpoint_interval(parameters_);
+  return true;
 }
 
 }  // namespace afm::node

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "node/checkpoint_message.h"
 #include "node/message_conversion.h"
@@ -14,10 +15,15 @@ namespace {
 
 constexpr std::size_t kMostCommands = 2000;  // between checkpoints
 
-// A stepping thread under a flood of commands, and what the publishing side remembers of it.
+// A stepping thread under a flood of commands, and what the publishing side remembers of it: after each event that side
+// does something else for a while.
 class Flood {
  public:
-  Flood() : units_(parameters().si), hand_over_({1000, 2000000, 400000}), stepper_(parameters(), hand_over_, demand_) {
+  explicit Flood(std::chrono::microseconds away = {})
+      : away_(away),
+        units_(parameters().si),
+        hand_over_({1000, 2000000, 400000}),
+        stepper_(parameters(), hand_over_, demand_) {
     stepper_.start();
   }
 
@@ -27,8 +33,12 @@ class Flood {
       Request request;
       request.value = 1e-8 * static_cast<double>(sent % 1000);
       while (sent < commands && stepper_.submit(request)) ++sent;
-      hand_over_.wait_for(std::chrono::milliseconds(1));
-      while (hand_over_.take(event_, batch_, state_)) remember();
+      if (hand_over_.take(event_, batch_, state_)) {
+        remember();
+        if (away_.count() > 0) std::this_thread::sleep_for(away_);
+      } else {
+        hand_over_.wait_for(std::chrono::milliseconds(1));
+      }
     }
   }
 
@@ -41,6 +51,7 @@ class Flood {
   static Parameters parameters() {
     Parameters p;
     p.checkpoint_interval_s = 3600.0;  // commands alone ask for them
+    p.batch_rate_hz = 1000.0;
     p.max_drag_velocity = 1e-4;
     return p;
   }
@@ -63,6 +74,7 @@ class Flood {
     most_commands_ = std::max(most_commands_, history_.commands().size());
   }
 
+  const std::chrono::microseconds away_;
   const Units units_;
   HandOver hand_over_;
   SampleDemand demand_;
@@ -89,6 +101,16 @@ TEST(RunHistory, StaysSmallOverAHundredThousandCommands) {
   const auto emulator = restored(checkpoint);
   ASSERT_TRUE(emulator.has_value());
   EXPECT_EQ(checkpoint.state_digest, digest_of(checkpoint));
+}
+
+// Where commands wait for each place that publishing leaves, a checkpoint comes before the next of them.
+TEST(RunHistory, StaysSmallWherePublishingIsSlow) {
+  constexpr std::uint64_t kCommands = 6000;
+  Flood flood(std::chrono::microseconds(400));
+  flood.send(kCommands);
+  ASSERT_GE(flood.applied(), kCommands / 2);
+  EXPECT_GE(flood.checkpoints(), 2);
+  EXPECT_LE(flood.most_commands(), kMostCommands + 1);
 }
 
 TEST(RunHistory, KeepsWhatIsInForceAtACheckpoint) {
