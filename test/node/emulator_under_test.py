@@ -52,7 +52,7 @@ class Emulator(Process):
         set_parameters(parameters or {})
         binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
         super().__init__([binary, '__name:=' + NAMESPACE[1:]], env=dict(os.environ, **environment))
-        self.drag_publisher = rospy.Publisher(NAMESPACE + '/drag_velocity', Float64, queue_size=100, tcp_nodelay=True)
+        self.drag_publisher = rospy.Publisher(NAMESPACE + '/drag_velocity', Float64, queue_size=1000, tcp_nodelay=True)
 
     def call(self, service, kind, **request):
         name = NAMESPACE + '/' + service
