@@ -1,0 +1,100 @@
+"""A recording to spoil: its messages as bytes, which a test alters, loses or reorders and writes again."""
+import tempfile
+from io import BytesIO
+from pathlib import Path
+
+import dynamic_reconfigure.client
+import rosbag
+from afm_emulator.msg import Recording
+
+import checks
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest
+from topics import NAMESPACE, TOPICS, Topic
+
+
+class Entry:
+    """A message of a bag as bytes, with all that it takes to write it again."""
+
+    def __init__(self, topic, raw, stamp, header):
+        self.topic, self.raw, self.stamp, self.header = topic[len(NAMESPACE) + 1:], raw, stamp, header
+
+    def message(self):
+        return (Recording if self.topic == 'recording' else TOPICS[self.topic])().deserialize(self.raw[1])
+
+    def put(self, message):
+        buffer = BytesIO()
+        message.serialize(buffer)
+        self.raw = (self.raw[0], buffer.getvalue()) + self.raw[2:]
+
+    def edit(self, **values):
+        message = self.message()
+        for name, value in values.items():
+            setattr(message, name, value)
+        self.put(message)
+
+
+def flip_last_bit(entry, byte):
+    data = bytearray(entry.raw[1])
+    data[byte] ^= 1
+    entry.raw = (entry.raw[0], bytes(data)) + entry.raw[2:]
+
+
+class SpoiledBag(NodeTest):
+    """The same good recording for all tests of a class; each begins with all its messages."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.holder = tempfile.TemporaryDirectory()
+        cls.directory = Path(cls.holder.name)
+        emulator = Emulator({'record': True, 'bag_directory': str(cls.directory), 'sample_rate_hz': 60000.0})
+        try:
+            deflection, applied = Topic('deflection'), Topic('applied_drag')
+            deflection.wait_for(lambda m: m.first_sample > 36000, 'part of a run')
+            dynamic_reconfigure.client.Client(NAMESPACE, timeout=10).update_configuration({'rest_height_m': -2.0e-12})
+            emulator.drag(2.0 * SPEED_UNIT)
+            applied.wait_for(lambda m: m.drag_velocity == 2.0 * SPEED_UNIT, 'a command')
+            deflection.wait_for(lambda m: m.first_sample > 135000, 'more than two seconds')
+            emulator.assert_alive()
+            assert emulator.stop() == 0
+        finally:
+            emulator.clean_up()
+        Topic.close_all()
+        cls.good = next(cls.directory.glob('*.bag'))
+        with rosbag.Bag(str(cls.good)) as bag:
+            cls.content = list(bag.read_messages(raw=True, return_connection_header=True))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.holder.cleanup()
+
+    def setUp(self):
+        super().setUp()
+        self.entries = [Entry(*message) for message in self.content]
+
+    def of(self, topic):
+        return [entry for entry in self.entries if entry.topic == topic]
+
+    def write(self):
+        path = self.directory / 'spoiled.bag'
+        with rosbag.Bag(str(path), 'w') as bag:
+            for e in self.entries:
+                bag.write(NAMESPACE + '/' + e.topic, e.raw, e.stamp, raw=True, connection_header=e.header)
+        return path
+
+    def assert_told(self, code, *words, arguments=()):
+        answer = checks.replay_check(self.write(), *arguments)
+        self.assertEqual(answer.code, code, answer.text)
+        for word in words:
+            self.assertIn(word, answer.text)
+        self.assertEqual(checks.bag_check(self.write()).code == 0, code in (checks.SOUND, checks.DIFFERS))
+        return answer
+
+    def remove(self, *entries):
+        self.entries = [e for e in self.entries if e not in entries]
+
+    def remove_digests(self):
+        """As one would who knows that they tell."""
+        digests = self.of('digest')
+        self.remove(*digests)
+        mark = self.of('recording')[-1]
+        mark.edit(messages=mark.message().messages - len(digests))
