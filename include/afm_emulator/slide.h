@@ -63,7 +63,7 @@ T SlidePiece<T>::choose_length(int bits) const {
   double length = kLongest;
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
     const double c = std::abs(static_cast<double>(held ? pressure_[n] : u_[n]));
-    if (!(c > 1e-290)) continue;
+    if (!(c > 1e-290 && c < 1e290)) continue;  // nothing to choose by; beyond, of a state that was altered
     const int quarters = 4 * (-bits - std::ilogb(c)) / static_cast<int>(n);
     const int whole = quarters >= 0 ? quarters / 4 : -((3 - quarters) / 4);
     length = std::min(length, std::ldexp(kQuarterPowers[quarters - 4 * whole], whole));
