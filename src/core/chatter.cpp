@@ -28,6 +28,7 @@ constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.
 // times itself; and where a step ends, it may be so many times as long as the pressure takes to change, and a bounce so many
 // times as long as it lasts.
 constexpr double kLossPerStep = 0.55, kMostFall = 0.45, kMostChange = 1.2, kMostRise = 2.0, kMostOutlasting = 4.0;
+constexpr double kMostFallOfX = 10.0;  // of ln v: far more than any step is to take
 
 double square(double x) { return x * x; }
 
@@ -39,7 +40,7 @@ bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
   const double P = to.around.P;
   return !(P > kMostFall * from.around.P) || (to.s - from.s) * to.around.quickness > kMostChange ||
          2.0 * from.plain.v * to.around.quickness > kMostOutlasting * P || !(to.plain.v < kMostRise * from.plain.v) ||
-         !std::isfinite(to.plain.n);
+         !(from.even.x - to.even.x < kMostFallOfX) || !std::isfinite(to.plain.n);
 }
 
 // When n is reached in a step between two ends: the cubic through both with the bounces' durations as its slopes.

@@ -24,11 +24,11 @@ AFM_INLINED double portable_log(double x) {
   return 2.0 * z * sum + exponent * kLog2;
 }
 
-// e^x to 1e-15. Precondition: |x| < 700.
+// e^x to 1e-15 of |x| < 700; beyond it some number or none, the same everywhere.
 AFM_INLINED double portable_exp(double x) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
   constexpr double kRounder = 6755399441055744.0;  // 1.5 * 2^52: adding and taking it away rounds to a whole number
-  const double k = (x * 1.4426950408889634 + kRounder) - kRounder;
+  const double shifted = x * 1.4426950408889634 + kRounder, k = shifted - kRounder;
   const double r = std::fma(-k, kLog2Low, std::fma(-k, kLog2High, x));
   const double r2 = r * r, r4 = r2 * r2;
   // terms in pairs, pairs in pairs: little waits for what is before it
@@ -38,7 +38,9 @@ AFM_INLINED double portable_exp(double x) {
   const double p8 = std::fma(r2, pair(1.0 / 3628800, 1.0 / 39916800), pair(1.0 / 40320, 1.0 / 362880));
   const double p12 = pair(1.0 / 479001600, 1.0 / 6227020800.0);
   const double sum = std::fma(r4 * r4, std::fma(r4, p12, p8), std::fma(r4, p4, p0));
-  const std::uint64_t bits = static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52;  // 2^k
+  std::uint64_t bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  bits = (bits + 1023) << 52;  // 2^k, as the last bits are k
   double power;
   std::memcpy(&power, &bits, sizeof power);
   return sum * power;
