@@ -27,8 +27,8 @@ constexpr double kGrowth = 100.0;
 // 1e-5 a.
 constexpr double kEntry = 0.1;
 
-// A burst's guide need be no better than a ten-thousandth of the tolerance, and its pieces are 2.5 times as long for it. What it
-// gains of energy by that is in the books.
+// A burst's guide need be no better than a ten-thousandth of the tolerance, and its pieces are 2.7 times as long for it.
+// What it gains of energy by that is in the books.
 int guide_bits(double contact_tolerance) {
   constexpr double kPart = 1e-4, kLeast = 1e-15;
   return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);

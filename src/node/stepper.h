@@ -38,7 +38,7 @@ class Stepper {
   void run();
   void wait_for_work();
   void serve_requests();
-  bool few_to_remember();
+  bool keep_few_to_remember();  // takes a checkpoint if it must; false: no room for it
   void serve(const Request& request);
   void apply_drag(double drag_velocity);
   void take_level(double eta);

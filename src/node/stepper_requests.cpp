@@ -13,11 +13,13 @@ constexpr std::uint64_t kMostCommandsBetweenCheckpoints = 2000;
 // A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
 void Stepper::serve_requests() {
   Request request;
-  while (!stopping_ && few_to_remember() && hand_over_.has_room_for_request() && requests_.pop(request)) serve(request);
+  while (!stopping_ && keep_few_to_remember() && hand_over_.has_room_for_request() && requests_.pop(request)) {
+    serve(request);
+  }
 }
 
 // Otherwise a checkpoint takes the next room there is: requests would take it again and again.
-bool Stepper::few_to_remember() {
+bool Stepper::keep_few_to_remember() {
   return commands_since_saved_ < kMostCommandsBetweenCheckpoints || take_checkpoint();
 }
 
