@@ -139,6 +139,8 @@ class Flight {
   // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on
   // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
+  // Over the first S only. Stretched far and slow still, the tip is nowhere near the speeds of the whole flight.
+  T fourth_derivative_bound(const T& S) const;
 
  private:
   void set_bounds();
@@ -213,6 +215,19 @@ T Flight<T>::third_derivative_bound(const GapJet<T>& now, const T& S) const {
   using std::min;
   const T rate = abs(now.g1) + S * (abs(now.g2) + S * bounds_.third / T(2.0));
   return min(bounds_.third, bounds_.drive + m_.omega_v * m_.omega_v * rate);
+}
+
+template <class T>
+T Flight<T>::fourth_derivative_bound(const T& S) const {
+  using std::abs;
+  using std::min;
+  const Mechanics<T>& m = m_;
+  const FlightState<T>& o = start_.state;
+  const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  const T a = wh2 * min(bounds_.X, T(abs(o.X) + S * (m.omega_h * bounds_.X))), change = a * S;
+  const T u = abs(eta_ + o.U) + change, v = k * u, jerk = wh2 * (abs(o.U) + change);
+  const T steady = v * v * (v * u + T(6.0) * a), stretched = a * (T(3.0) * k * a + wh2) + T(4.0) * v * jerk;
+  return min(bounds_.fourth, T(wv2 * wv2 * bounds_.Y + k * m.H * (steady + stretched)));
 }
 
 template <class T>

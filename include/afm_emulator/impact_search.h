@@ -62,9 +62,11 @@ T parabola_length(const Flight<T>& f) {
 // Precondition: it starts on the surface.
 template <class T>
 Truth<T> is_brief(const Flight<T>& f, const T& length) {
-  const T pull = T(-kBrief) * f.start().g2, most = T(1.0 + kBrief) * length;
-  return length > T(0.0) && f.start().g1 > T(0.0) && f.third_derivative_bound() * most < pull &&
-         most <= f.bounds().small_until;
+  using std::abs;
+  const T pull = T(-kBrief) * f.start().g2, most = T(1.0 + kBrief) * length, third = abs(f.start().g3);
+  const auto fine = [&] { return (third + f.fourth_derivative_bound(most) * most) * most < pull; };
+  return length > T(0.0) && f.start().g1 > T(0.0) && most <= f.bounds().small_until &&
+         (f.third_derivative_bound() * most < pull || both(third * most < pull, fine));
 }
 
 // Leaves the surface: certified up to s; where to look next, and how far a step may reach.

@@ -70,18 +70,19 @@ AFM_INLINED ChatterSurroundings ChatterView::look(const SlidePiece<double>& guid
 
 AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
-  const SurfaceJet<double> h = surface_jet(H_, q.phase);
-  const double a = -bounce.start().g2, a1 = -bounce.start().g3, N2 = 1.0 + free_ * square(h.h1);
+  const GapJet<double>& start = bounce.start();
+  const double k2 = square(kTwoPi), h1 = start.h1, h2 = -k2 * start.h;
+  const double a = -start.g2, a1 = -start.g3, per_N2 = 1.0 / (1.0 + free_ * square(h1));
   ChatterSurroundings at{};
-  at.P = a / std::sqrt(N2);
+  at.P = a * std::sqrt(per_N2);
   at.per_P = 1.0 / at.P;
-  at.squeeze = (a1 / a - free_ * h.h1 * h.h2 * q.u / N2) / 3.0;
+  at.squeeze = kThird * (a1 / a - free_ * h1 * h2 * q.u * per_N2);
   // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
-  const double u = q.u, u2 = square(u), k2 = square(kTwoPi), reaction = free_ * a / N2;
-  const double x2 = -wh2_ * q.X - h.h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h.h2 * u * reaction,
+  const double u = q.u, u2 = square(u), reaction = free_ * a * per_N2;
+  const double x2 = -wh2_ * q.X - h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h2 * u * reaction,
                x4 = -wh2_ * x2;
   const double a2 =
-      h.h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h.h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
+      h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
   at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
   at.speed = std::abs(q.u);
   at.slow_rate = std::max(at.speed, slow_rate_);

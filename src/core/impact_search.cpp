@@ -26,8 +26,7 @@ FlightBounds<double> bounds_until(const Flight<double>& flight, double horizon) 
   const double jerk = slope * (3.0 * v * a + wh2 * U);  // but for that of the steady motion
   b.second = std::min(b.second, wv2 * b.Y + slope * (v * u + a));
   b.third = std::min(b.third, m.omega_v * wv2 * b.Y + slope * v * v * u + jerk);
-  b.fourth = std::min(b.fourth, wv2 * wv2 * b.Y + slope * (v * v * v * u + 6.0 * v * v * a + 3.0 * k * a * a +
-                                                           4.0 * v * wh2 * U + wh2 * a));
+  b.fourth = flight.fourth_derivative_bound(horizon);
   const double change = std::max(std::abs(u * u - 1.0), std::abs(slow * slow - 1.0));
   b.drive = std::min(b.drive, slope * k * v * change + jerk);
   b.small_until = 0.125 / std::max({1.0, m.ratio, u});
