@@ -158,5 +158,30 @@ TEST(Flight, TheThirdDerivativeStaysWithinItsBound) {
   EXPECT_GT(closest, 0.3) << "a bound so loose would make the search slow";
 }
 
+// Also of tips that are stretched far, for which the bound over a stretch is made.
+TEST(Flight, TheFourthDerivativeStaysWithinItsBoundOverAStretch) {
+  RandomLaunches launches(9);
+  const Quad step(1e-10);
+  double closest = 0.0, least_gain = 1.0;
+  for (int i = 0; i < 400; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    TipState start = launches.next(eta);
+    if (i % 2 == 0) start.X = launches.within(-12.0, 12.0);
+    const Flight<Quad> flight(kQuadMechanics, eta, start);
+    const Quad S = std::pow(10.0, launches.within(-5.0, -1.0)), bound = flight.fourth_derivative_bound(S);
+    ASSERT_LE(bound, flight.fourth_derivative_bound());
+    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
+    for (int k = 0; k <= 50; ++k) {
+      const Quad s = S * Quad(k) / Quad(50.0);
+      const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
+      const double share = static_cast<double>(abs(fourth) / bound);
+      ASSERT_LE(share, 1.0 + 1e-6) << eta << " " << s << " of " << S;
+      closest = std::max(closest, share);
+    }
+  }
+  EXPECT_GT(closest, 0.3);
+  EXPECT_LT(least_gain, 1e-2);
+}
+
 }  // namespace
 }  // namespace afm
