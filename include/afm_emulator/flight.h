@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm_emulator/model.h"
+#include "afm_emulator/flight_bounds.h"
+#include "afm_emulator/mechanics.h"
 #include "afm_emulator/select.h"
 #include "afm_emulator/state.h"
 #include "afm_emulator/surface.h"
@@ -13,65 +14,12 @@
 
 namespace afm {
 
-// The constants of one model in the number type of the computation.
-template <class T>
-struct Mechanics {
-  Mechanics() = default;
-  explicit Mechanics(const Model& model)
-      : mobility(afm::mobility(model)),
-        ratio(mobility * T(model.frequency_ratio)),
-        omega_v(two_pi<T>()),
-        omega_h(omega_v * ratio),
-        H(model.H),
-        y0(model.y0),
-        per_omega_v(T(1.0) / omega_v),
-        per_omega_h(afm::mobility(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
-
-  // w / omega to more than the last digit: w times a rounded 1 / omega would add energy at every turn, or take it away.
-  static T turned(const T& w, const T& omega, const T& per) {
-    return mul_add(w, per, T((w * per) * mul_add(T(-omega), per, T(1.0))));
-  }
-
-  T mobility;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
-  T ratio, omega_v, omega_h, H, y0;
-  T per_omega_v, per_omega_h;  // a product is sooner there than a quotient
-};
-
-// A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the
-// reaction is nothing for ever, would be let go and caught again at every rounding. It moves a release by 1e-11 tau
-// [a/tau^2]. Where the terms whose sum the pull is are above 1e4, as under mica's springs from 50 a/tau, it is a part of
-// them.
-constexpr double kReleaseNoise = 1e-9;
-
-template <class T>
-T release_noise(const Mechanics<T>& m, const T& u, const T& X) {
-  using std::abs;
-  using std::max;
-  constexpr double kPart = 1e-13;  // of a slide's series, each sum is good to 3e-14
-  const T k = m.omega_v, turning = k * k * m.H * (T(1.0) + u * u), rest = k * k * abs(m.y0);
-  return max(T(kReleaseNoise), T(kPart) * (turning + rest + k * m.H * (m.omega_h * m.omega_h) * abs(X)));
-}
-
-// The comoving state at one time, with the surface phase.
-template <class T>
-struct FlightState {
-  T phase, X, U, Y, W;
-};
-
 // The gap y - h(x) and its time derivatives, with the state they belong to and the surface below it.
 template <class T>
 struct GapJet {
   T g, g1, g2, g3;
   FlightState<T> state;
   T h, h1;
-};
-
-// Bounds that hold for a whole flight, a little more than needed: of |X| and |Y|, and of the gap's derivatives.
-template <class T>
-struct FlightBounds {
-  T X, Y, second, third, fourth;
-  T drive;        // of |p'|, where g''' = p' - omega_v^2 g' and p depends on x alone
-  T small_until;  // not a bound: up to this time every turn is at most 1/8
 };
 
 // What a flight begins with: of a number whatever its digits in double, of a pack of lanes its own.
@@ -140,10 +88,9 @@ class Flight {
   // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
   // Over the first S only. Stretched far and slow still, the tip is nowhere near the speeds of the whole flight.
-  T fourth_derivative_bound(const T& S) const;
+  T fourth_derivative_bound(const T& S) const { return afm::fourth_derivative_bound(m_, eta_, start_.state, bounds_, S); }
 
  private:
-  void set_bounds();
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
   // is within a few ulp of itself. Precondition: |t| <= small_until.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
@@ -160,16 +107,6 @@ class Flight {
   FlightBounds<T> bounds_;
 };
 
-// |(x, y)| from above, by at most a twelfth.
-template <class T>
-T length_bound(const T& x, const T& y) {
-  using std::abs;
-  using std::max;
-  using std::min;
-  const T a = abs(x), b = abs(y);
-  return max(a, b) + T(0.41422) * min(a, b);
-}
-
 template <class T>
 Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface)
     : m_(mechanics), eta_(eta), launch_(start) {
@@ -180,33 +117,7 @@ Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& sta
   const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
   start_ = {T(start.g), T(start.g1), g2,        third_derivative(state, u, surface.h, surface.h1),
             state,      surface.h,   surface.h1};
-  set_bounds();
-}
-
-template <class T>
-void Flight<T>::set_bounds() {
-  using std::abs;
-  using std::max;
-  const Mechanics<T>& m = m_;
-  const FlightState<T>& o = start_.state;
-  const T k = two_pi<T>();
-  bounds_.X = length_bound(o.X, T(o.U * m.per_omega_h));
-  bounds_.Y = length_bound(o.Y, T(o.W * m.per_omega_v));
-  const T u_max = abs(eta_) + m.omega_h * bounds_.X;
-  const T u_low = max(T(0.0), abs(eta_) - m.omega_h * bounds_.X);
-  const T a_max = m.omega_h * m.omega_h * bounds_.X;
-  const T slope = k * m.H, v = k * u_max, wv2 = m.omega_v * m.omega_v;
-  bounds_.second = wv2 * bounds_.Y + slope * (v * u_max + a_max);
-  // g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x''', and once more. U and x'' are a sine and a cosine of one angle: of
-  // u x'' no more than (|eta| + U_max/2) a is reached at once, of u^2 x'' (eta^2 + |eta| U_max + 0.385 U_max^2) a
-  const T U = m.omega_h * bounds_.X, eta = abs(eta_), k_a = k * a_max, wh_a = m.omega_h * a_max;
-  const T ua = (eta + U / T(2.0)) * a_max, u2a = (eta * (eta + U) + T(0.385) * U * U) * a_max;
-  bounds_.third = m.omega_v * wv2 * bounds_.Y + slope * (v * v * u_max + T(3.0) * k * ua + wh_a);
-  bounds_.fourth = wv2 * wv2 * bounds_.Y + slope * (v * v * v * u_max + T(6.0) * k * k * u2a + T(3.0) * k_a * a_max +
-                                                    T(4.0) * v * wh_a + m.omega_h * wh_a);
-  const T u_change = max(abs(u_max * u_max - T(1.0)), abs(u_low * u_low - T(1.0)));
-  bounds_.drive = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
-  bounds_.small_until = T(0.125) / max(max(T(1.0), m.ratio), u_max);
+  set_bounds(mechanics, eta, start_.state, bounds_);
 }
 
 template <class T>
@@ -215,19 +126,6 @@ T Flight<T>::third_derivative_bound(const GapJet<T>& now, const T& S) const {
   using std::min;
   const T rate = abs(now.g1) + S * (abs(now.g2) + S * bounds_.third / T(2.0));
   return min(bounds_.third, bounds_.drive + m_.omega_v * m_.omega_v * rate);
-}
-
-template <class T>
-T Flight<T>::fourth_derivative_bound(const T& S) const {
-  using std::abs;
-  using std::min;
-  const Mechanics<T>& m = m_;
-  const FlightState<T>& o = start_.state;
-  const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
-  const T a = wh2 * min(bounds_.X, T(abs(o.X) + S * (m.omega_h * bounds_.X))), change = a * S;
-  const T u = abs(eta_ + o.U) + change, v = k * u, jerk = wh2 * (abs(o.U) + change);
-  const T steady = v * v * (v * u + T(6.0) * a), stretched = a * (T(3.0) * k * a + wh2) + T(4.0) * v * jerk;
-  return min(bounds_.fourth, T(wv2 * wv2 * bounds_.Y + k * m.H * (steady + stretched)));
 }
 
 template <class T>
