@@ -85,7 +85,7 @@ class Flight {
     return square * square * fastest * (T(52.0) * m_.H + bounds_.Y);
   }
   // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on
-  // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller.
+  // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller, as the gap rate swings.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
   // Over the first S only. Stretched far and slow still, the tip is nowhere near the speeds of the whole flight.
   T fourth_derivative_bound(const T& S) const { return afm::fourth_derivative_bound(m_, eta_, start_.state, bounds_, S); }
@@ -124,8 +124,9 @@ template <class T>
 T Flight<T>::third_derivative_bound(const GapJet<T>& now, const T& S) const {
   using std::abs;
   using std::min;
-  const T rate = abs(now.g1) + S * (abs(now.g2) + S * bounds_.third / T(2.0));
-  return min(bounds_.third, bounds_.drive + m_.omega_v * m_.omega_v * rate);
+  const T growing = abs(now.g1) + S * (abs(now.g2) + S * bounds_.third / T(2.0));
+  const T swinging = length_bound(now.g1, T(now.g2 * m_.per_omega_v)) + S * (bounds_.drive * m_.per_omega_v);
+  return min(bounds_.third, bounds_.drive + m_.omega_v * m_.omega_v * min(growing, swinging));
 }
 
 template <class T>
