@@ -23,8 +23,8 @@ print_help() {
   awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
 }
 
-# For builds with one version of each function (sanitizers): where the machine has fused multiply-add and they do not use it, each
-# is a call of the C library, and what computes takes 1.6 to 15 times as long. The bits are the same.
+# For builds with one version of each function (sanitizers): where the machine has fused multiply-add and they do not use
+# it, each is a call of the C library, and what computes takes 1.6 to 15 times as long. The bits are the same.
 fused_multiply_add_flag() {
   if grep -qsw fma /proc/cpuinfo; then echo -mfma; fi
 }
