@@ -43,7 +43,7 @@ void print_ordinary(double eta, const Options& o) {
     const auto landing = afm::find_landing(model, flight, afm::kGrazeHorizon);
     if (afm::find_impact(flight, afm::kGrazeHorizon).outcome == afm::SearchOutcome::undecided) ++finer;
     start = landing.outcome == afm::SearchOutcome::impact
-                ? afm::reflect(model, eta, landing.jet.state, std::fmin(landing.jet.g1, 0.0)).after
+                ? afm::reflect(model, eta, landing.jet).after
                 : flight.tip_state(landing.s);
   }
   std::printf("ordinary at eta %g,,%ld,,,%ld,\n", eta, o.ordinary, finer);

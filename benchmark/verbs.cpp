@@ -47,7 +47,7 @@ double eta_of(const benchmark::State& state) { return 1e-2 * static_cast<double>
 AFM_MULTIVERSION double sine_of(double x) { return sin_cos_turns(x).sin; }
 AFM_MULTIVERSION GapJet<double> gap_of(const Flight<double>& flight, double s) { return flight.gap(s); }
 AFM_MULTIVERSION Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) {
-  return reflect(model, eta, jet.state, std::fmin(jet.g1, 0.0));
+  return reflect(model, eta, jet);
 }
 AFM_MULTIVERSION double release_of(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start) {
   return SlidePiece<double>(mechanics, eta, start).find_release();

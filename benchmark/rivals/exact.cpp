@@ -13,7 +13,7 @@ AFM_MULTIVERSION void launch(const Model& model, double eta, const TipState& sta
   flight = Flight<double>(Mechanics<double>(model), eta, start);
 }
 AFM_MULTIVERSION Hit bounce(const Model& model, double eta, const Landing<double>& landing) {
-  const Reflection r = reflect(model, eta, landing.jet.state, std::fmin(landing.jet.g1, 0.0));
+  const Reflection r = reflect(model, eta, landing.jet);
   return {Hit::impact, landing.s, r.after, r.energy_loss};
 }
 

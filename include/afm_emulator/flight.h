@@ -37,6 +37,8 @@ class Flight {
       : Flight(mechanics, eta, start, surface_jet(mechanics.H, T(start.phase))) {}
   // The same where the surface at the start is known already.
   Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface);
+  // The same under other bounds.
+  Flight(const Flight& flight, const FlightBounds<T>& bounds) : Flight(flight) { bounds_ = bounds; }
   // One that has been launched before: `launch()` is not asked for.
   Flight(const Mechanics<T>& mechanics, const T& eta, const GapJet<T>& start, const FlightBounds<T>& bounds)
       : m_(mechanics), eta_(eta), launch_(), start_(start), bounds_(bounds) {}
@@ -88,7 +90,9 @@ class Flight {
   // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller, as the gap rate swings.
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
   // Over the first S only. Stretched far and slow still, the tip is nowhere near the speeds of the whole flight.
-  T fourth_derivative_bound(const T& S) const { return afm::fourth_derivative_bound(m_, eta_, start_.state, bounds_, S); }
+  T fourth_derivative_bound(const T& S) const {
+    return afm::fourth_derivative_bound(m_, eta_, start_.state, bounds_, S);
+  }
 
  private:
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
@@ -98,6 +102,8 @@ class Flight {
   GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
   GapJet<T> jet_at(const FlightState<T>& state) const;
   T second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const;
+  // The same so far above the surface: what is there last, its height, is waited for with one product.
+  T second_derivative_above(const SurfaceJet<T>& surface, const T& g, const T& X, const T& u) const;
   T third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const;
 
   Mechanics<T> m_;
@@ -113,7 +119,7 @@ Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& sta
   const T W = mul_add(surface.h1, T(start.u), T(start.g1));
   const T Y = (surface.h - mechanics.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);
-  const T g2 = second_derivative(X, u, Y, surface.h, surface.h1);
+  const T g2 = second_derivative_above(surface, T(start.g), X, u);
   const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
   start_ = {T(start.g), T(start.g1), g2,        third_derivative(state, u, surface.h, surface.h1),
             state,      surface.h,   surface.h1};
@@ -147,6 +153,12 @@ template <class T>
 T Flight<T>::second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const {
   const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m_.omega_h * m_.omega_h, wv2 = m_.omega_v * m_.omega_v;
   return mul_add(h, T(k2 * u * u), mul_add(h1, T(wh2 * X), T(-wv2 * Y)));
+}
+template <class T>
+T Flight<T>::second_derivative_above(const SurfaceJet<T>& surface, const T& g, const T& X, const T& u) const {
+  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m_.omega_h * m_.omega_h, wv2 = m_.omega_v * m_.omega_v;
+  const T rest = mul_add(surface.h1, T(wh2 * X), T(wv2 * (m_.y0 - g)));
+  return mul_add(surface.h, mul_add(T(k2 * u), u, T(-wv2)), rest);
 }
 template <class T>
 T Flight<T>::third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const {
@@ -201,7 +213,7 @@ GapJet<T> Flight<T>::moved_by(const GapJet<T>& jet, const T& t, Turn turn) const
 
   // of x and X what is not linear in t, and of u
   const T dx2 = mul_add(T(o.U * m.per_omega_h), h.sin_minus_angle, T(-o.X * h.versine));
-  const T du = -mul_add(o.U, h.versine, T((m.omega_h * o.X) * h.sin));
+  const T du = mul_add(T(-o.U), h.versine, T(-(m.omega_h * o.X) * h.sin));
   const T dx = mul_add(u0, t, dx2), u = u0 + du;
   const SmallTurn<T> d = turn(dx);
   // and of Y and -W

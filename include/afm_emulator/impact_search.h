@@ -5,6 +5,7 @@
 
 #include "afm_emulator/flight.h"
 #include "afm_emulator/impact_steps.h"
+#include "afm_emulator/near_root.h"
 
 namespace afm {
 
@@ -44,9 +45,10 @@ T descent(const Flight<T>& f, const T& reach) {
 template <class T>
 T end_of_bounce(const Flight<T>& f) {
   const GapJet<T>& o = f.start();
-  const T per = T(1.0) / o.g2, t = T(-2.0) * o.g1 * per;
-  const T a = (over(o.g3, 3.0) * per) * t, b = (over(fourth_derivative(f, o), 12.0) * per) * (t * t);
-  return t * (mul_add(a, T(T(2.0) * a - T(1.0)), T(1.0)) + mul_add(T(T(5.0) * a), mul_add(T(-a), a, b), T(-b)));
+  const T per = T(1.0) / o.g2, t = T(-2.0) * o.g1 * per, g4 = fourth_derivative(f, o, T(f.launch().u));
+  const T a = (over(o.g3, 3.0) * per) * t, b = g4 * (over(per, 12.0) * (t * t)), one(1.0), two(2.0), five(5.0);
+  const T sum = mul_add(b, mul_add(five, a, T(-one)), mul_add(a, mul_add(two, a, T(-one)), one));
+  return mul_add(t, sum, T((T(-five) * a * t) * (a * a)));
 }
 
 // A bounce so brief that its third derivative, times its length, is at most this part e of its acceleration: the gap is

@@ -29,15 +29,19 @@ ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& je
   return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + over(change, 3.0)))};
 }
 
-// The fourth derivative of the gap.
+// The fourth derivative of the gap; u: the velocity there, where it is known.
 template <class T>
-T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
+T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet, const T& u) {
   const Mechanics<T>& m = f.mechanics();
   const FlightState<T>& q = jet.state;
   const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
-  const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U, v2 = k2 * u * u;
+  const T x2 = -wh2 * q.X, x3 = -wh2 * q.U, v2 = k2 * u * u;
   const T bend = mul_add(T(-v2), v2, T(k2 * mul_add(T(T(3.0) * x2), x2, T(T(4.0) * u * x3))));
   return mul_add(jet.h, bend, mul_add(T(jet.h1 * x2), mul_add(T(6.0), v2, wh2), T(wv2 * wv2 * q.Y)));
+}
+template <class T>
+T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
+  return fourth_derivative(f, jet, T(f.eta() + jet.state.U));
 }
 
 // Leaving the surface: g = g1 s + g2 s^2/2 - bound3 s^3/6 at least, positive up to its first root. A little less than
@@ -225,50 +229,6 @@ T time_aloft(const Flight<T>& f, const T& s) {
   const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * f.amplitude_Y() / T(2.0)));
   return either(
       least > m.H - m.y0, [&] { return time_to_crest(f, q); }, [] { return T(0.0); });
-}
-
-// A jet near a root, with what the steps to there need besides.
-template <class T>
-struct NearJet {
-  const GapJet<T>& jet;
-  T g4, per_g1;
-
-  NearJet(const Flight<T>& f, const GapJet<T>& near)
-      : jet(near), g4(fourth_derivative(f, near)), per_g1(T(1.0) / near.g1) {}
-};
-
-// The step to the root near by, correct to the fourth order: the series of the inverse function.
-template <class T>
-T root_step(const NearJet<T>& near) {
-  const GapJet<T>& jet = near.jet;
-  const T& per = near.per_g1;
-  const T r = jet.g * per, s2 = (jet.g2 / T(2.0)) * per * r, s3 = over(jet.g3, 6.0) * per * r * r;
-  const T s4 = over(near.g4, 24.0) * per * r * (r * r), w = mul_add(s2, s2, T(-s3));
-  return -r * (mul_add(w, mul_add(T(5.0), s2, T(1.0)), mul_add(s2, s2, T(T(1.0) + s2))) + s4);
-}
-
-// The jet a tiny step further on: position and gap rate to the fourth order.
-template <class T>
-GapJet<T> drift(const Flight<T>& f, const NearJet<T>& near, const T& t) {
-  const GapJet<T>& jet = near.jet;
-  const Mechanics<T>& m = f.mechanics();
-  const FlightState<T>& q = jet.state;
-  const T half = t / T(2.0), third = over(t, 3.0), quarter = t / T(4.0);
-  const T wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
-  // the second to the fourth derivatives of x, and of y
-  const T A = -wh2 * q.X, J = -wh2 * q.U, S = -wh2 * A, B = -wv2 * q.Y, K = -wv2 * q.W, R = -wv2 * B;
-  const T bend = mul_add(third, mul_add(quarter, S, J), A), U = mul_add(half, bend, q.U);  // the mean of U until then
-  const T V = mul_add(half, mul_add(third, mul_add(quarter, R, K), B), q.W);
-  const FlightState<T> moved{mul_add(t, T(f.eta() + U), q.phase), mul_add(t, U, q.X),
-                             mul_add(t, mul_add(half, mul_add(third, S, J), A), q.U), mul_add(t, V, q.Y),
-                             mul_add(t, mul_add(half, mul_add(third, R, K), B), q.W)};
-  return {mul_add(t, mul_add(half, mul_add(third, mul_add(quarter, near.g4, jet.g3), jet.g2), jet.g1), jet.g),
-          mul_add(t, mul_add(half, mul_add(third, near.g4, jet.g3), jet.g2), jet.g1),
-          mul_add(t, mul_add(half, near.g4, jet.g3), jet.g2),
-          mul_add(t, near.g4, jet.g3),
-          moved,
-          jet.h,
-          jet.h1};
 }
 
 }  // namespace afm

@@ -1,6 +1,8 @@
 // The mica surface h(x) = H cos(2 pi x), crest at x = 0 [a].
 #pragma once
 
+#include <cmath>
+
 #include "afm_emulator/select.h"
 #include "afm_emulator/turns.h"
 
@@ -28,6 +30,8 @@ T wrapped(const T& x) {
   const T phase = x - floor(x);
   return select(phase < T(1.0), phase, T(0.0));
 }
+// Most are there already: a branch that is foreseen is sooner than the rounding.
+AFM_INLINED double wrapped(double x) { return x > 0.0 && x < 1.0 ? x : wrapped<double>(x); }
 inline double wrap_phase(double x) { return wrapped(x); }
 
 }  // namespace afm

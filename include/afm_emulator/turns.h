@@ -138,7 +138,7 @@ template <class T>
 AFM_INLINED SmallTurn<T> small_turn_of(T x) {
   const T z = x * x, cube = x * z;
   return {sine(x, z), fma(cube, sine_rest(z), cube * T(kS3)),
-          -fma(z * z, cosine_rest(z), fma(z, T(kC2), z * fma(z, T(kC4Low), T(kC2Low))))};
+          fma(-(z * z), cosine_rest(z), fma(z, T(-kC2), z * fma(z, T(-kC4Low), T(-kC2Low))))};
 }
 
 template <class T>
@@ -146,7 +146,7 @@ AFM_INLINED SmallTurn<T> tiny_turn_of(T x) {
   const T z = x * x, cube = x * z;
   const T sine_rest = z * fma(z, T(kS7), T(kS5)), cosine_rest = fma(z, T(kC6), T(kC4));
   return {fma(x, T(kTwoPiHigh), fma(cube, sine_rest, fma(cube, T(kS3), x * T(kTwoPiLow)))),
-          fma(cube, sine_rest, cube * T(kS3)), -fma(z * z, cosine_rest, z * T(kC2))};
+          fma(cube, sine_rest, cube * T(kS3)), fma(-(z * z), cosine_rest, z * T(-kC2))};
 }
 
 }  // namespace turns_detail

@@ -41,8 +41,8 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
   const auto d = [](const DoubleDouble& x) { return static_cast<double>(x); };
   const FlightState<DoubleDouble>& q = landing.jet.state;
   const GapJet<DoubleDouble>& j = landing.jet;
-  const GapJet<double> jet{d(j.g), d(j.g1), d(j.g2), d(j.g3), {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)}, d(j.h),
-                           d(j.h1)};
+  const GapJet<double> jet{d(j.g), d(j.g1), d(j.g2), d(j.g3), {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)},
+                           d(j.h), d(j.h1)};
   return {landing.outcome, d(landing.s), jet, landing.evaluations};
 }
 
@@ -51,14 +51,11 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_in_double(flight, horizon);
   if (landing.outcome == SearchOutcome::cap) {
-    const Flight<double> within(flight.mechanics(), flight.eta(), flight.start(), bounds_until(flight, horizon));
-    landing = find_in_double(within, horizon);
+    landing = find_in_double(Flight<double>(flight, bounds_until(flight, horizon)), horizon);
   }
   if (landing.outcome == SearchOutcome::undecided) {
-    const Mechanics<DoubleDouble> mechanics(model);
-    const DoubleDouble eta(flight.eta());
-    const Flight<DoubleDouble> whole(mechanics, eta, flight.launch());
-    const Flight<DoubleDouble> finer(mechanics, eta, whole.start(), widened(bounds_until(flight, horizon)));
+    const Flight<DoubleDouble> whole(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
+    const Flight<DoubleDouble> finer(whole, widened(bounds_until(flight, horizon)));
     landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
     if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
   }

@@ -20,7 +20,7 @@ MapStep PoincareMap::operator()(const TipState& start) const {
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
-  const Reflection bounce = reflect(model_, eta_, landing.jet.state, landing.jet.g1);
+  const Reflection bounce = reflect(model_, eta_, landing.jet);
   step.outcome = MapOutcome::impact;
   step.after = bounce.after;
   step.dt = landing.s;

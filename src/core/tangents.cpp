@@ -25,7 +25,7 @@ AFM_MULTIVERSION void follow(const Model& model, const Mechanics<double>& mechan
   const Flight<double> flight(mechanics, eta, start);
   GapJet<double> landing = flight.gap(dt);
   landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
-  const Reflection bounce = reflect(model, eta, landing.state, landing.g1);
+  const Reflection bounce = reflect(model, eta, landing);
   bounced.after = bounce.after;
   bounced.normal_speed = bounce.normal_speed;
   bounced.jacobian = section_jacobian(model, flight, dt, landing);
@@ -48,7 +48,7 @@ bool Tangents::start(double within) {
     if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return false;
     if (outcome != Outcome::impact || tip_.last_impact().kind != ImpactKind::impact) continue;
     const GapJet<double> landing = Flight<double>(mechanics_, tip_.eta(), launch).gap(tip_.now() - before);
-    restart(reflect(model_, tip_.eta(), landing.state, std::fmin(landing.g1, 0.0)).after);
+    restart(reflect(model_, tip_.eta(), landing).after);
     return true;
   }
   start_ = tip_.tip_state();

@@ -49,16 +49,29 @@ AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, con
   new (&flight) Flight<double>(mechanics, eta, state);
 }
 
+// What of a reflection its record keeps.
+struct Bounce {
+  double phase, normal_speed, tangential_velocity, energy_loss;
+};
+
 // The same after a bounce; in one, as what is between them would wait for memory too.
-AFM_MULTIVERSION Reflection rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
-                                    const GapJet<double>& incident, Flight<double>& flight) {
-  Reflection r = reflect(model, eta, incident.state, std::min(0.0, incident.g1));
-  if (r.after.g1 < kLeastGapRate) {  // all is lost that came in
-    r.after.g1 = 0.0;
-    r.energy_loss = 0.5 * r.normal_speed * r.normal_speed;
-  }
-  new (&flight) Flight<double>(mechanics, eta, r.after, r.surface);
-  return r;
+AFM_MULTIVERSION void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
+                              const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
+  const Reflection r = reflect(model, eta, incident);
+  const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, r.after.g1};
+  new (&flight) Flight<double>(mechanics, eta, after);
+  bounce.phase = r.after.phase;
+  bounce.normal_speed = r.normal_speed;
+  bounce.tangential_velocity = r.tangential_velocity;
+  bounce.energy_loss = r.energy_loss;
+}
+
+// A bounce so slow that it is none: all is lost that came in.
+void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight, Bounce& bounce) {
+  TipState at_rest = flight.launch();
+  at_rest.g1 = 0.0;
+  launch(mechanics, eta, at_rest, flight);
+  bounce.energy_loss = 0.5 * bounce.normal_speed * bounce.normal_speed;
 }
 
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
@@ -198,8 +211,10 @@ void Tip::find_landing() {
 }
 
 Outcome Tip::land() {
-  const Reflection r = rebound(model_, mechanics_, eta_, landing_.jet, flight_);
-  last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
+  Bounce r;
+  rebound(model_, mechanics_, eta_, landing_.jet, flight_, r);
+  if (flight_.launch().g1 < kLeastGapRate) stay(mechanics_, eta_, flight_, r);
+  last_impact_ = {now_, r.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
   begin_flight();
   leave_or_press();
   return Outcome::impact;

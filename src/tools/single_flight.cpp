@@ -87,7 +87,7 @@ FlightResult fly_to_next_impact(const FlightInput& input) {
   check(input);
   const Model model = model_of(input);
   const Landing<double> landing = land(model, input.eta, start_of(input));
-  const Reflection r = reflect(model, input.eta, landing.jet.state, std::fmin(landing.jet.g1, 0.0));
+  const Reflection r = reflect(model, input.eta, landing.jet);
   const FreeState after = to_free_state(model.H, r.after);
   return {landing.s, after.phase, after.X, after.u, after.w, r.normal_speed, r.tangential_velocity, r.energy_loss};
 }

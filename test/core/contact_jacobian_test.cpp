@@ -163,7 +163,7 @@ TEST(BurstJacobian, IsThatOfItsBounces) {
         const Landing<double> landing = find_landing(model, flight, 8.0);
         ASSERT_EQ(landing.outcome, SearchOutcome::impact);
         truth = section_jacobian(model, flight, landing.s, landing.jet) * truth;
-        now = reflect(model, eta, landing.jet.state, landing.jet.g1).after;
+        now = reflect(model, eta, landing.jet).after;
         duration += landing.s;
       }
       const SectionJacobian<double> J = burst_jacobian(model, eta, start, duration, now);

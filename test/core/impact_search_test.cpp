@@ -195,6 +195,25 @@ TEST(ImpactSearch, OfATipOnAStiffSpringEndsOnTheSurface) {
   }
 }
 
+// A reflection turns velocities round by it, and takes no sine.
+TEST(ImpactSearch, ComesWithTheSlopeOfTheSurfaceWhereItEnds) {
+  for (const double ratio : {0.01, 6.25, 1000.0}) {
+    Model model;
+    model.frequency_ratio = ratio;
+    const Mechanics<double> mechanics(model);
+    RandomLaunches random(13);
+    for (int i = 0; i < 20000; ++i) {
+      const double eta = random.within(-9.0, 9.0);
+      const TipState start = random.next(eta, i % 2 == 0 ? -6.0 : -2.0, 1.0);
+      const Landing<double> landing = find_landing(model, Flight<double>(mechanics, eta, start), kHorizon);
+      if (landing.outcome != SearchOutcome::impact) continue;
+      const Quad slope = surface_jet(Quad(model.H), Quad(landing.jet.state.phase)).h1;
+      const double place = std::max(1.0, std::abs(landing.jet.state.phase));  // it is rounded too
+      ASSERT_NEAR(landing.jet.h1, to_double(slope), kEps * (4.0 + kTwoPi * place) * kTwoPi * model.H) << i;
+    }
+  }
+}
+
 // There the gap swings by itself, however little, and what it swings by may be far below the rounding of places.
 TEST(ImpactSearch, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
   for (const ModelKind kind : {ModelKind::oscillator, ModelKind::hammer}) {

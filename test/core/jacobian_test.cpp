@@ -55,7 +55,7 @@ class Bounces {
             flight,
             landing,
             section_jacobian(model_, flight, landing.s, landing.jet),
-            reflect(model_, eta, landing.jet.state, landing.jet.g1).after};
+            reflect(model_, eta, landing.jet).after};
   }
 
  private:

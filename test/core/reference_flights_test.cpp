@@ -34,7 +34,7 @@ Flown fly(const ReferenceFlight& f) {
   const Model model = f.model();
   const TipState start = f.start();
   const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), f.eta, start), kHorizon);
-  return {start, landing, reflect(model, f.eta, landing.jet.state, std::fmin(landing.jet.g1, 0.0))};
+  return {start, landing, reflect(model, f.eta, landing.jet)};
 }
 
 double error(double value, const Quad& truth) { return static_cast<double>(abs(value - truth)); }

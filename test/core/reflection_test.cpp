@@ -10,10 +10,15 @@
 namespace afm {
 namespace {
 
+GapJet<double> on_surface(const Model& model, const FlightState<double>& state, double g1) {
+  const SurfaceJet<double> surface = surface_jet(model.H, state.phase);
+  return {0.0, g1, 0.0, 0.0, state, surface.h, surface.h1};
+}
+
 // An incident state in double, and its velocities in quad.
 struct Incident {
-  double eta, g1;
-  FlightState<double> state;
+  double eta;
+  GapJet<double> jet;
   Quad slope, u, w, normal, tangential;
 };
 
@@ -24,13 +29,13 @@ class Incidents {
   Incident next(const Model& model) {
     Incident i;
     i.eta = within(-9.0, 9.0);
-    i.state = {within(-2.0, 2.0), within(-0.1, 0.1), within(-5.0, 5.0), 0.0, 0.0};
-    i.g1 = -std::pow(10.0, within(-8.0, 1.0));
-    i.slope = surface_jet(Quad(model.H), Quad(i.state.phase)).h1;
-    i.u = Quad(i.eta) + i.state.U;
-    i.w = i.slope * i.u + i.g1;
+    const FlightState<double> state{within(-2.0, 2.0), within(-0.1, 0.1), within(-5.0, 5.0), 0.0, 0.0};
+    i.jet = on_surface(model, state, -std::pow(10.0, within(-8.0, 1.0)));
+    i.slope = surface_jet(Quad(model.H), Quad(state.phase)).h1;
+    i.u = Quad(i.eta) + state.U;
+    i.w = i.slope * i.u + i.jet.g1;
     const Quad n = sqrt(1 + i.slope * i.slope);
-    i.normal = i.g1 / n;
+    i.normal = i.jet.g1 / n;
     i.tangential = (i.u + i.slope * i.w) / n;
     return i;
   }
@@ -76,7 +81,7 @@ TEST(Reflection, KeepsTangentialVelocity) {
     Incidents incidents(1);
     for (int k = 0; k < 2000; ++k) {
       const Incident i = incidents.next(model);
-      const Reflection r = reflect(model, i.eta, i.state, i.g1);
+      const Reflection r = reflect(model, i.eta, i.jet);
       const Quad w = i.slope * r.after.u + r.after.g1, n = sqrt(1 + i.slope * i.slope);
       const double near_enough = 1e-15 * (1.0 + static_cast<double>(abs(i.u) + abs(i.w)));
       ASSERT_LE(static_cast<double>(abs((r.after.u + i.slope * w) / n - i.tangential)), near_enough);
@@ -90,10 +95,10 @@ TEST(Reflection, TurnsTheNormalVelocityRoundTimesTheRestitution) {
     Incidents incidents(2);
     for (int k = 0; k < 2000; ++k) {
       const Incident i = incidents.next(model);
-      const Reflection r = reflect(model, i.eta, i.state, i.g1);
+      const Reflection r = reflect(model, i.eta, i.jet);
       const Quad speed = -i.normal, gamma_eff = exact_restitution(model, speed);
       ASSERT_LE(relative_error(r.normal_speed, speed), 1e-15);
-      ASSERT_LE(static_cast<double>(abs(r.after.g1 + gamma_eff * i.g1)), 1e-15 * std::abs(i.g1));
+      ASSERT_LE(static_cast<double>(abs(r.after.g1 + gamma_eff * i.jet.g1)), 1e-15 * std::abs(i.jet.g1));
     }
   }
 }
@@ -103,7 +108,7 @@ TEST(Reflection, TheEnergyLostIsTheKineticEnergyThatIsMissing) {
     Incidents incidents(3);
     for (int k = 0; k < 2000; ++k) {
       const Incident i = incidents.next(model);
-      const Reflection r = reflect(model, i.eta, i.state, i.g1);
+      const Reflection r = reflect(model, i.eta, i.jet);
       // exactly reflected, Eq. 11: the difference of doubles would drown in rounding
       const Quad gamma_eff = exact_restitution(model, -i.normal), n = sqrt(1 + i.slope * i.slope);
       const Quad u = i.u + (1 + gamma_eff) * i.normal * i.slope / n, w = i.w - (1 + gamma_eff) * i.normal / n;
@@ -120,9 +125,9 @@ TEST(Reflection, WithGammaOneNothingIsLost) {
   Incidents incidents(4);
   for (int k = 0; k < 1000; ++k) {
     const Incident i = incidents.next(kModels[4]);
-    const Reflection r = reflect(kModels[4], i.eta, i.state, i.g1);
+    const Reflection r = reflect(kModels[4], i.eta, i.jet);
     ASSERT_EQ(r.energy_loss, 0.0);
-    ASSERT_EQ(r.after.g1, -i.g1);
+    ASSERT_EQ(r.after.g1, -i.jet.g1);
   }
 }
 
@@ -130,7 +135,7 @@ TEST(Reflection, WithGammaNoughtTheNormalVelocityIsGone) {
   Incidents incidents(5);
   for (int k = 0; k < 1000; ++k) {
     const Incident i = incidents.next(kModels[3]);
-    const Reflection r = reflect(kModels[3], i.eta, i.state, i.g1);
+    const Reflection r = reflect(kModels[3], i.eta, i.jet);
     ASSERT_EQ(r.after.g1, 0.0);
     ASSERT_LE(relative_error(r.energy_loss, i.normal * i.normal / 2), 1e-15);
   }
@@ -140,9 +145,9 @@ TEST(Reflection, LeavesTheTipWhereItIs) {
   Incidents incidents(6);
   for (int k = 0; k < 1000; ++k) {
     const Incident i = incidents.next(kModels[0]);
-    const Reflection r = reflect(kModels[0], i.eta, i.state, i.g1);
-    ASSERT_EQ(r.after.phase, wrap_phase(i.state.phase));
-    ASSERT_EQ(r.after.X, i.state.X);
+    const Reflection r = reflect(kModels[0], i.eta, i.jet);
+    ASSERT_EQ(r.after.phase, wrap_phase(i.jet.state.phase));
+    ASSERT_EQ(r.after.X, i.jet.state.X);
     ASSERT_EQ(r.after.g, 0.0);
   }
 }
@@ -150,7 +155,7 @@ TEST(Reflection, LeavesTheTipWhereItIs) {
 TEST(Reflection, OfATouchWithoutSpeedChangesNothing) {
   const FlightState<double> state{0.1, 0.01, 0.3, 0.0, 0.0};
   for (const Model& model : kModels) {
-    const Reflection r = reflect(model, 3.4, state, 0.0);
+    const Reflection r = reflect(model, 3.4, on_surface(model, state, 0.0));
     EXPECT_EQ(r.after.u, 3.4 + 0.3);
     EXPECT_EQ(r.after.g1, 0.0);
     EXPECT_EQ(r.energy_loss, 0.0);

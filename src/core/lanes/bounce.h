@@ -29,20 +29,21 @@ AFM_LANE_INLINE void log(LaneTip* const* tips, const PackTime& time, const Refle
 // The reflection, its record, and the flight that it begins (Tip::land and take_off).
 AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   Mechanics<Pack> m;
-  Pack eta, burst, g1;
+  Pack eta, burst;
   load_model(rows, m, eta);
   ReflectionLaw<Pack> law;
-  law.H = m.H;
   rows.load(kMobility, law.free, law.gamma);
   rows.load(kCutoff, law.v_c, burst);
-  FlightState<Pack> incident{};
-  rows.load(kJetPhase, incident.phase, incident.X);
-  rows.load(kJetRateX, incident.U, g1);
+  GapJet<Pack> incident{};
+  Pack unused;
+  rows.load(kJetPhase, incident.state.phase, incident.state.X);
+  rows.load(kJetRateX, incident.state.U, incident.g1);
+  rows.load(kJetRateY, incident.h1, unused);
   PackTime time;
   rows.load(kEndTau, time.tau, time.phase);
-  const ReflectionOf<Pack> r = reflect(law, eta, incident, g1);
+  const ReflectionOf<Pack> r = reflect(law, eta, incident);
   log(tips, time, r);
-  const Flight<Pack> f(m, eta, r.after, r.surface);
+  const Flight<Pack> f(m, eta, r.after);
   const GapJet<Pack>& o = f.start();
   Pack s, ahead, guess;
   search_detail::take_off(f, s, ahead, guess);

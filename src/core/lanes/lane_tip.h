@@ -46,7 +46,8 @@ enum Field : int {
   kGamma,
   kCutoff,
   kBurstGapRate,
-  // the jet near a certified root; after the last step the incident state
+  // the jet near a certified root; after the last step what a reflection asks for: gap rate and slope are then in the
+  // places of Y and its rate
   kJetPhase,
   kJetX,
   kJetRateX,

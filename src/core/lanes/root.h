@@ -74,18 +74,21 @@ AFM_LANE_INLINE void go_on(const Rows& rows, const Flight<Pack>& f, const Root& 
   split_by_step(on & ~many, f, root.s + root.t, root.step, ways);
 }
 
-// The incident state: of those that drift there by what is left of the step, of those that are at their end, and of
-// the others as it was.
+// What a reflection asks for (`bounce`): of those that drift there by what is left of the step, of those that are at
+// their end, and of the others what was in its place.
 AFM_LANE_INLINE void store_incident(const Rows& rows, const GapJet<Pack>& jet, const GapJet<Pack>& moved, P g1,
                                     M drifts, M end, bool all) {
+  const Pack h1 = select(end, jet.h1, moved.h1);
   if (all) {
     rows.store(kJetPhase, select(end, jet.state.phase, moved.state.phase), select(end, jet.state.X, moved.state.X));
     rows.store(kJetRateX, select(end, jet.state.U, moved.state.U), g1);
+    rows.store(kJetRateY, h1, jet.g);
   } else {
     const Mask stay = !(drifts || end);
     rows.store(kJetPhase, select(drifts, moved.state.phase, jet.state.phase),
                select(drifts, moved.state.X, jet.state.X));
     rows.store(kJetRateX, select(drifts, moved.state.U, jet.state.U), select(stay, jet.state.Y, g1));
+    rows.store(kJetRateY, select(stay, jet.state.W, h1), jet.g);
   }
 }
 
