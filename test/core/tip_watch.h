@@ -86,8 +86,9 @@ class TipWatch {
   bool check_depth(const ModelTime& t) {
     const Deflection d = tip_.deflection(t);
     if (!std::isfinite(d.vertical) || !std::isfinite(d.lateral) || !std::isfinite(d.gap)) return violated("not finite");
-    // the height, and what the surface rises by over the rounding of the extension
-    const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * std::abs(d.lateral)});
+    // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the extension
+    const double place = std::max(0.25, std::abs(d.lateral));
+    const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * place});
     count_.deepest = std::max(count_.deepest, -d.gap / rounded);
     return -d.gap <= kMostDepth * rounded || violated("the gap is " + std::to_string(d.gap * 1e15) + "e-15");
   }
