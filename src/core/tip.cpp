@@ -6,6 +6,7 @@
 
 #include "afm_emulator/multiversion.h"
 #include "afm_emulator/reflection.h"
+#include "lanes/lane_tip.h"
 
 namespace afm {
 namespace {
@@ -36,6 +37,14 @@ int guide_bits(double contact_tolerance) {
 
 // Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
 constexpr double kLeastGapRate = 1e-140;
+
+// Nor is a flight in which no time passes [tau] and that ends faster than a growing pull could make it: where hardly a
+// force is left, its end is rounding. Only of launches that are no lane's affair.
+bool is_rounding(const TipState& launch, double s, double incident_rate) {
+  constexpr double kLeastFlight = 1e-18, kFastest = 4.0;
+  const bool slow = launch.g1 > 0.0 && launch.g1 < lanes::kSlowestLaunch;
+  return slow && s < kLeastFlight && -incident_rate > kFastest * launch.g1;
+}
 
 std::uint32_t whole_count(double n) {
   constexpr double kMost = 4294967295.0;
@@ -212,8 +221,9 @@ void Tip::find_landing() {
 
 Outcome Tip::land() {
   Bounce r;
+  const bool rounding = is_rounding(flight_.launch(), landing_.s, landing_.jet.g1);
   rebound(model_, mechanics_, eta_, landing_.jet, flight_, r);
-  if (flight_.launch().g1 < kLeastGapRate) stay(mechanics_, eta_, flight_, r);
+  if (rounding || flight_.launch().g1 < kLeastGapRate) stay(mechanics_, eta_, flight_, r);
   last_impact_ = {now_, r.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
   begin_flight();
   leave_or_press();

@@ -220,6 +220,23 @@ TEST(Tip, BouncesByThemselvesDieOutIntoContact) {
   }
 }
 
+// On the steepest of the slope springs and surface are in balance at eta = 0, and at 1e-18 all but: what presses is the
+// third derivative, and bounces of 1e-57 a/tau ended where rounding said, as fast as they began however small gamma.
+TEST(Tip, WhereHardlyAForceIsLeftItComesToRest) {
+  Model model;
+  model.gamma = 5.9371814145560333e-08;
+  model.v_c = 0.0;
+  const double eta = 1.0000013124039413e-18;
+  for (const double tolerance : {0.0, kDefaultContactTolerance}) {
+    Tip tip(model, eta, TipState{0.75, 0.0, eta, 0.0, 2.11806e-43}, tolerance);
+    Outcome outcome = tip.advance({10, 0.0});
+    int bounces = 0;
+    for (; outcome == Outcome::impact && bounces < 100; ++bounces) outcome = tip.advance({10, 0.0});
+    EXPECT_EQ(outcome, Outcome::contact) << tolerance;
+    EXPECT_EQ(tip.advance({10, 0.0}), Outcome::time_limit) << tolerance;
+  }
+}
+
 // A commanded velocity may halve until it is next to nothing: it throws a riding hammer off by as little.
 TEST(Tip, AHammerIsThrownOffByNextToNothing) {
   Model model;

@@ -109,8 +109,9 @@ bool RunCheck::is_plausible(const RecordedBatch& batch) {
     differ(batch, field, simulation_->now());
     return false;
   }
-  // where the recording begins nothing else tells how far the run had come
-  if (batch.deflection && !next_sample_ && !is_at_its_time(batch)) {
+  // where the recording begins, or batches are missing, nothing else tells how far the run had come
+  const bool jumps = !next_sample_ || missing_before(batch) > 0;
+  if (batch.deflection && jumps && !is_at_its_time(batch)) {
     const ModelTime told = node::from_message(batch.deflection->time);
     const std::uint64_t sample = batch.deflection->first_sample;
     const std::string due = to_text(simulation_->sample_time(sample)) + " for sample " + std::to_string(sample);
