@@ -38,12 +38,12 @@ int guide_bits(double contact_tolerance) {
 // Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
 constexpr double kLeastGapRate = 1e-140;
 
-// Nor is a flight in which no time passes [tau] and that ends faster than a growing pull could make it: where hardly a
-// force is left, its end is rounding. Only of launches that are no lane's affair.
-bool is_rounding(const TipState& launch, double s, double incident_rate) {
-  constexpr double kLeastFlight = 1e-18, kFastest = 4.0;
-  const bool slow = launch.g1 > 0.0 && launch.g1 < lanes::kSlowestLaunch;
-  return slow && s < kLeastFlight && -incident_rate > kFastest * launch.g1;
+// Nor is a flight of next to no time under no pressure: where hardly a force is left, its end is rounding, and of the drag
+// by 1e-18 a/tau that would bring pressure no phase is moved.
+bool is_rounding(const Flight<double>& flight, double s) {
+  const TipState& start = flight.launch();
+  return s < lanes::kLeastFlight && start.g1 > 0.0 &&
+         flight.start().g2 > -release_noise(flight.mechanics(), start.u, start.X);
 }
 
 std::uint32_t whole_count(double n) {
@@ -221,7 +221,7 @@ void Tip::find_landing() {
 
 Outcome Tip::land() {
   Bounce r;
-  const bool rounding = is_rounding(flight_.launch(), landing_.s, landing_.jet.g1);
+  const bool rounding = is_rounding(flight_, landing_.s);
   rebound(model_, mechanics_, eta_, landing_.jet, flight_, r);
   if (rounding || flight_.launch().g1 < kLeastGapRate) stay(mechanics_, eta_, flight_, r);
   last_impact_ = {now_, r.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};

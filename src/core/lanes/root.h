@@ -103,10 +103,11 @@ AFM_LANE_INLINE void arrive(const Rows& rows, const Flight<Pack>& f, const Root&
   const PackTime time = start + end_s;
   store_incident(rows, root.jet, moved, g1, drifts, end, done == kAllLanes);
   rows.store(kEndTau, time.tau, time.phase);
-  const unsigned rising = done & bits(!(g1 < Pack(0.0))), late = done & ~rising & bits(limit < time);
-  ways.lanes[kAlone] |= rising;
+  const unsigned alone = done & bits(!(g1 < Pack(0.0)) || end_s < Pack(kLeastFlight));
+  const unsigned late = done & ~alone & bits(limit < time);
+  ways.lanes[kAlone] |= alone;
   ways.lanes[kLimited] = late;
-  ways.lanes[kBounce] = done & ~rising & ~late;
+  ways.lanes[kBounce] = done & ~alone & ~late;
 }
 
 // One evaluation of what is left of a certified root (search_detail::finish).
