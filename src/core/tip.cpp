@@ -38,12 +38,13 @@ int guide_bits(double contact_tolerance) {
 // Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
 constexpr double kLeastGapRate = 1e-140;
 
-// Nor is a flight of next to no time under no pressure: where hardly a force is left, its end is rounding, and a drag of
+// Nor is a flight of next to no time, for the fastest turn, under next to no force: its end is rounding, and a drag of
 // 1e-18 a/tau that would bring pressure moves no phase.
 bool is_rounding(const Flight<double>& flight, double s) {
   const TipState& start = flight.launch();
-  return s < lanes::kLeastFlight && start.g1 > 0.0 &&
-         flight.start().g2 > -release_noise(flight.mechanics(), start.u, start.X);
+  const double turns = s / (8.0 * flight.bounds().small_until);
+  return turns < lanes::kLeastFlight && start.g1 > 0.0 &&
+         std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
 }
 
 std::uint32_t whole_count(double n) {
