@@ -33,10 +33,7 @@ class Flight {
  public:
   using Launch = typename LaunchOf<T>::State;
 
-  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start)
-      : Flight(mechanics, eta, start, surface_jet(mechanics.H, T(start.phase))) {}
-  // The same where the surface at the start is known already.
-  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface);
+  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start);
   // The same under other bounds.
   Flight(const Flight& flight, const FlightBounds<T>& bounds) : Flight(flight) { bounds_ = bounds; }
   // One that has been launched before: `launch()` is not asked for.
@@ -114,8 +111,9 @@ class Flight {
 };
 
 template <class T>
-Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, const SurfaceJet<T>& surface)
+Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start)
     : m_(mechanics), eta_(eta), launch_(start) {
+  const SurfaceJet<T> surface = surface_jet(mechanics.H, T(start.phase));
   const T W = mul_add(surface.h1, T(start.u), T(start.g1));
   const T Y = (surface.h - mechanics.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);

@@ -129,6 +129,9 @@ T quartic_root(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   return t - (t * t * t) * over(mul_add(t, T(g4 / T(4.0)), jet.g3), 6.0) / slope;
 }
 
+// Nobody looks further ahead than that [tau], and bounds that end with the search need not hold there.
+constexpr double kFarthestRoot = 8.0;
+
 template <class T>
 RootInterval<T> no_root() {
   const T zero(0.0);
@@ -144,7 +147,8 @@ RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& 
     const T third = third_derivative_over(f, jet, d).high;
     const T slope = jet.g1 + max(T(0.0), T(jet.g2 * d + max(T(0.0), third) * d * d / T(2.0)));
     const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + over(T(d * third), 6.0)));
-    return RootInterval<T>{slope < T(0.0) && end < T(0.0), clamp(quartic_root(f, jet, t), T(0.0), d), T(0.0), d};
+    return RootInterval<T>{slope < T(0.0) && end < T(0.0) && d < T(kFarthestRoot),
+                           clamp(quartic_root(f, jet, t), T(0.0), d), T(0.0), d};
   };
   const auto falling = [&] {
     const T t = choose(

@@ -13,28 +13,32 @@ AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, do
   return find_impact(flight, horizon);
 }
 
-// Bounds that hold up to the horizon only. A loose spring turns so slowly that its tip comes nowhere near its greatest
+// Bounds that hold up to a time `s` only. A loose spring turns so slowly that its tip comes nowhere near its greatest
 // speed in that time: stretched far, it may creep over cells that the bounds of a whole flight see it race over.
-FlightBounds<double> bounds_until(const Flight<double>& flight, double horizon) {
-  const Mechanics<double>& m = flight.mechanics();
-  const FlightState<double>& o = flight.start().state;
-  FlightBounds<double> b = flight.bounds();
-  const double k = kTwoPi, U = m.omega_h * b.X, eta = std::abs(flight.eta()), u0 = std::abs(flight.eta() + o.U);
-  b.X = std::min(b.X, std::abs(o.X) + U * horizon);
-  const double wh2 = m.omega_h * m.omega_h, a = wh2 * b.X, slope = k * m.H, wv2 = m.omega_v * m.omega_v;
-  const double u = std::min(eta + U, u0 + a * horizon), slow = std::max({0.0, eta - U, u0 - a * horizon}), v = k * u;
-  const double jerk = slope * (3.0 * v * a + wh2 * U);  // but for that of the steady motion
-  b.second = std::min(b.second, wv2 * b.Y + slope * (v * u + a));
-  b.third = std::min(b.third, m.omega_v * wv2 * b.Y + slope * v * v * u + jerk);
-  b.fourth = flight.fourth_derivative_bound(horizon);
-  const double change = std::max(std::abs(u * u - 1.0), std::abs(slow * slow - 1.0));
-  b.drive = std::min(b.drive, slope * k * v * change + jerk);
-  b.small_until = 0.125 / std::max({1.0, m.ratio, u});
+// In the flight's own digits: where springs and surface are in balance twice the digits see derivatives that double
+// takes for none.
+template <class T>
+FlightBounds<T> bounds_until(const Flight<T>& flight, const T& s) {
+  using std::abs;
+  using std::max;
+  using std::min;
+  const Mechanics<T>& m = flight.mechanics();
+  const FlightState<T>& o = flight.start().state;
+  FlightBounds<T> b = flight.bounds();
+  const T k = two_pi<T>(), zero(0.0), one(1.0), three(3.0);
+  const T U = m.omega_h * b.X, eta = abs(flight.eta()), u0 = abs(flight.eta() + o.U);
+  b.X = min(b.X, T(abs(o.X) + U * s));
+  const T wh2 = m.omega_h * m.omega_h, a = wh2 * b.X, slope = k * m.H, wv2 = m.omega_v * m.omega_v;
+  const T u = min(T(eta + U), T(u0 + a * s)), v = k * u;
+  const T slow = max(zero, max(T(eta - U), T(u0 - a * s)));
+  const T jerk = slope * (three * v * a + wh2 * U);  // but for that of the steady motion
+  b.second = min(b.second, T(wv2 * b.Y + slope * (v * u + a)));
+  b.third = min(b.third, T(m.omega_v * wv2 * b.Y + slope * v * v * u + jerk));
+  b.fourth = flight.fourth_derivative_bound(s);
+  const T change = max(abs(u * u - one), abs(slow * slow - one));
+  b.drive = min(b.drive, T(slope * k * v * change + jerk));
+  b.small_until = T(0.125) / max(one, max(T(m.ratio), u));
   return b;
-}
-
-FlightBounds<DoubleDouble> widened(const FlightBounds<double>& b) {
-  return {b.X, b.Y, b.second, b.third, b.fourth, b.drive, b.small_until};
 }
 
 Landing<double> rounded(const Landing<DoubleDouble>& landing) {
@@ -50,12 +54,13 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_in_double(flight, horizon);
+  const double seen = horizon + kFarthestRoot;
   if (landing.outcome == SearchOutcome::cap) {
-    landing = find_in_double(Flight<double>(flight, bounds_until(flight, horizon)), horizon);
+    landing = find_in_double(Flight<double>(flight, bounds_until(flight, seen)), horizon);
   }
   if (landing.outcome == SearchOutcome::undecided) {
     const Flight<DoubleDouble> whole(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
-    const Flight<DoubleDouble> finer(whole, widened(bounds_until(flight, horizon)));
+    const Flight<DoubleDouble> finer(whole, bounds_until(whole, DoubleDouble(seen)));
     landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
     if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
   }

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <new>
 
-#include "afm_emulator/multiversion.h"
-#include "afm_emulator/reflection.h"
-#include "lanes/lane_tip.h"
+#include "tip_arcs.h"
 
 namespace afm {
 namespace {
@@ -35,78 +33,10 @@ int guide_bits(double contact_tolerance) {
   return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
 }
 
-// Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
-constexpr double kLeastGapRate = 1e-140;
-
-// Nor is a flight of next to no time, for the fastest turn, under next to no force: its end is rounding, and a drag of
-// 1e-18 a/tau that would bring pressure moves no phase.
-bool is_rounding(const Flight<double>& flight, double s) {
-  const TipState& start = flight.launch();
-  const double turns = s / (8.0 * flight.bounds().small_until);
-  return turns < lanes::kLeastFlight && start.g1 > 0.0 &&
-         std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
-}
-
 std::uint32_t whole_count(double n) {
   constexpr double kMost = 4294967295.0;
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
 }
-
-// Made anew in place: a copy of what has just been written would wait until it is in memory, a tenth of an impact's
-// time.
-AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
-                             Flight<double>& flight) {
-  new (&flight) Flight<double>(mechanics, eta, state);
-}
-
-// What of a reflection its record keeps.
-struct Bounce {
-  double phase, normal_speed, tangential_velocity, energy_loss;
-};
-
-// The same after a bounce; in one, as what is between them would wait for memory too.
-AFM_MULTIVERSION void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
-                              const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
-  const Reflection r = reflect(model, eta, incident);
-  const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, r.after.g1};
-  new (&flight) Flight<double>(mechanics, eta, after);
-  bounce.phase = r.after.phase;
-  bounce.normal_speed = r.normal_speed;
-  bounce.tangential_velocity = r.tangential_velocity;
-  bounce.energy_loss = r.energy_loss;
-}
-
-// A bounce so slow that it is none: all is lost that came in.
-void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight, Bounce& bounce) {
-  TipState at_rest = flight.launch();
-  at_rest.g1 = 0.0;
-  launch(mechanics, eta, at_rest, flight);
-  bounce.energy_loss = 0.5 * bounce.normal_speed * bounce.normal_speed;
-}
-
-AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
-
-AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta,
-                                               const SlideState<double>& start, int bits) {
-  return SlidePiece<double>(mechanics, eta, start, bits);
-}
-
-// Kinetic and in the springs.
-AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
-  const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
-  const double Y = surface.h - m.y0;
-  return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
-                m.omega_v * m.omega_v * Y * Y);
-}
-
-// Of x - xc over the first s.
-AFM_MULTIVERSION double stretch_integral(const SlidePiece<double>& slide, double s) {
-  return s * (slide.start().X - 0.5 * slide.eta() * s) + slide.displacement_integral(s);
-}
-
-AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
-
-AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
 
 }  // namespace
 
@@ -216,16 +146,14 @@ TipState Tip::tip_state() const {
 }
 
 void Tip::find_landing() {
-  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, kSearchHorizon));  // in place, likewise
+  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, kSearchHorizon));  // in place (tip_arcs.cpp)
   landing_known_ = true;
 }
 
 Outcome Tip::land() {
-  Bounce r;
-  const bool rounding = is_rounding(flight_, landing_.s);
-  rebound(model_, mechanics_, eta_, landing_.jet, flight_, r);
-  if (rounding || flight_.launch().g1 < kLeastGapRate) stay(mechanics_, eta_, flight_, r);
-  last_impact_ = {now_, r.phase, r.normal_speed, r.tangential_velocity, r.energy_loss, ImpactKind::impact, 1};
+  Bounce b;
+  rebound(model_, mechanics_, eta_, landing_, flight_, b);
+  last_impact_ = {now_, b.phase, b.normal_speed, b.tangential_velocity, b.energy_loss, ImpactKind::impact, 1};
   begin_flight();
   leave_or_press();
   return Outcome::impact;

@@ -175,6 +175,20 @@ TEST(ImpactSearch, OfATipThatCreepsOnALooseSpringComesToAnEnd) {
   }
 }
 
+// A hair above the surface, where springs and surface hold each other to the last digit: what the search sees there in
+// twice the digits must not be bounded by what it sees in one.
+TEST(ImpactSearch, WhereAllForcesCancelEndsAtTheHorizon) {
+  Model model;
+  model.frequency_ratio = 450.98094653157005;
+  for (const double eta : {0.0, 6.028798081552414e-312, 3.7580843034835234e-308, 1e-150, 1e-20}) {
+    const TipState start{0.74999999999999967, 0.0, eta, 2.0122318257742107e-16, -0.604152 * eta};
+    const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), eta, start), kHorizon);
+    EXPECT_EQ(landing.outcome, SearchOutcome::clear) << eta;
+    EXPECT_EQ(landing.s, kHorizon) << eta;
+    EXPECT_NEAR(landing.jet.g, start.g, 1e-18) << eta;
+  }
+}
+
 // Its stiff spring turns within the interval that holds the root, where no series of the gap converges.
 TEST(ImpactSearch, OfATipOnAStiffSpringEndsOnTheSurface) {
   Model model;

@@ -117,6 +117,8 @@ class Scenes(NodeTest):
         begin = wait_until(lambda: eta[0] in told()[1:] and told().index(eta[0], 1), 'from the first on')
         wait_until(lambda: len(drags.messages) > begin + len(eta), 'once up and down', deadline_s=30.0)
         self.assertEqual(told()[begin:begin + len(eta)], eta)
+        # a moment of their own, for estimates come by another way than drags
+        self.friction.wait_for(lambda m: m.time.tau > drags.messages[begin + len(eta)].time.tau, 'of the next round')
         ends = {}  # the last estimate of each
         for m in self.friction.messages:
             index = sum(d.time.tau < m.time.tau for d in drags.messages) - 1
