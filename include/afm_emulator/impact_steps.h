@@ -79,6 +79,7 @@ T first_root(const T& g, const T& g1, const T& q, const T& none) {
 
 // A step over which the gap is certainly positive: on [0, S] it is at least g - error + g1 t + (g2 + low S/3) t^2/2
 // where low, its third derivative's bound, is negative. Any S is safe; a good one lies just beyond the root it gives.
+// None from a gap that is half rounding: so every step changes the gap by more than that, and they come to an end.
 template <class T>
 T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& guess) {
   using std::min;
@@ -97,7 +98,7 @@ T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& g
         },
         [&] { return guess; });
   };
-  return choose(g > T(0.0), sharpened, [] { return T(0.0); });
+  return choose(g > error, sharpened, [] { return T(0.0); });
 }
 
 // The gap is certainly positive over all of the time `back` before the jet.

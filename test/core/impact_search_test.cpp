@@ -189,6 +189,18 @@ TEST(ImpactSearch, WhereAllForcesCancelEndsAtTheHorizon) {
   }
 }
 
+// Left at rest on the floor of a valley the spring lifts the tip, which is back on the floor after a turn, and touches it:
+// steps towards a gap that is half rounding would never get there.
+TEST(ImpactSearch, OfAGrazeOfTheFloorItRoseFromComesToAnEnd) {
+  Model model;
+  model.H = 10.0;
+  const TipState start{0.50000273558322672, 0.0, 0.0, 0.0, 0.0};
+  const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), 0.0, start), kHorizon);
+  ASSERT_EQ(landing.outcome, SearchOutcome::impact);
+  EXPECT_NEAR(landing.s, 1.0, 1e-15);
+  EXPECT_LT(std::abs(landing.jet.g1), 1e-12);
+}
+
 // Its stiff spring turns within the interval that holds the root, where no series of the gap converges.
 TEST(ImpactSearch, OfATipOnAStiffSpringEndsOnTheSurface) {
   Model model;
