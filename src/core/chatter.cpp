@@ -11,12 +11,13 @@ namespace {
 
 // |w| up to which the series below are good to 3e-4
 constexpr double kMostLoss = 0.2;
-// The duration of a bounce against the time in which the pressure changes by itself, at most: an exit leaves two
-// bounces.
+// The duration of a bounce against the time in which the pressure changes by itself, at most, where a burst begins. What
+// the averages leave out there it carries along; at its end only the last bounces do, and they may last longer.
 constexpr double kMostShortness = 0.045;
+constexpr double kLongerWithin = 1.5;
 // A tip that rings over a crest, where none rides faster than about 1 a/tau, bounces thousands of times a tau for
 // hundreds of tau, and more than three hundred of them last longer than that. What it costs to average them is a part
-// of the normal speed: slower ones may last longer.
+// of the normal speed: slower ones may last longer, from the first.
 constexpr double kRinging = 1.5;         // [a/tau] at most
 constexpr double kFullSpeed = 2e3;       // thresholds: bounces of a ringing tip slower than this may last longer
 constexpr double kMostLongerSlow = 2.5;  // times at most
@@ -72,10 +73,10 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
 // duration against all changes. `within` a burst, or at the entry to one: there bounces of a falling pressure, which
 // lengthen, may not last longer.
 double ChatterLaw::strain(const ChatterSurroundings& at, double v, bool within) const {
-  double most = kMostShortness * fineness_;
+  double longer = within ? kLongerWithin : 1.0;
   if (at.speed <= kRinging && (within || at.squeeze >= 0.0))
-    most *= std::clamp(std::sqrt(kFullSpeed * threshold_ / v), 1.0, kMostLongerSlow);
-  return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) / most;
+    longer = std::clamp(std::sqrt(kFullSpeed * threshold_ / v), longer, kMostLongerSlow);
+  return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) / (kMostShortness * fineness_ * longer);
 }
 
 AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {

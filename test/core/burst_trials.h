@@ -11,7 +11,7 @@
 
 namespace afm {
 
-// Impacts slower than this are part of chatter: about three times the fastest bounce that a burst holds [a/tau].
+// Impacts slower than this are part of chatter: more than twice the fastest bounce that a burst holds [a/tau].
 inline double slowest_real_impact(double tolerance) { return std::sqrt(tolerance); }
 
 struct BurstTrial {
@@ -130,8 +130,8 @@ class BurstTrials {
             std::abs(a.g1 - b.g1)};
   }
 
-  static constexpr int kRun = 5;        // [tau] between fresh starts
-  static constexpr double kNear = 1e-3;// [tau]
+  static constexpr int kRun = 5;         // [tau] between fresh starts
+  static constexpr double kNear = 1e-3;  // [tau]
 
   Model model_;
   double eta_, tolerance_;
