@@ -12,7 +12,7 @@ namespace afm {
 enum class SearchOutcome {
   impact,     // found: `s` and `jet` are at the root
   clear,      // certified free of impacts up to the horizon, `s`
-  undecided,  // a graze that rounding hides at `s`; certified free up to there. More digits decide it
+  undecided,  // a graze or a root that rounding hides, from `s` on; certified free up to there. More digits decide it
   cap         // too many steps; certified free up to `s`
 };
 
@@ -121,6 +121,13 @@ Truth<T> is_there(const Flight<T>& f, const GapJet<T>& jet, const RootInterval<T
   return settles(f, near, step, time) && root.low <= step && step <= root.high;
 }
 
+// The gap falls on all of the root's interval. Where it seems not to, or no step gets to the root, rounding hides it.
+template <class T>
+Landing<T> hidden_root(const Flight<T>& f, const T& s, const RootInterval<T>& root, int evaluations) {
+  const T before = root.low < T(0.0) ? T(s + root.low) : s;
+  return {SearchOutcome::undecided, before, f.gap(before), evaluations};
+}
+
 // Finishes the certified root about `jet`, of time s; `there`: that is near enough. Steps of the fourth order within the
 // root's interval, which each look makes smaller; by halves where they would leave it.
 template <class T>
@@ -134,6 +141,7 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
       jet = f.gap_near(jet, s + t, step);
       t = t + step;
       ++evaluations;
+      if (!(jet.g1 < T(0.0))) return hidden_root(f, s, root, evaluations);
     }
     const NearJet<T> near(f, jet);
     step = root_step(near);
@@ -146,7 +154,7 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
       return {SearchOutcome::impact, s + (t + step), drift(f, near, step), evaluations};
     if (settled) return {SearchOutcome::impact, s + (t + step), f.gap_near(jet, s + t, step), evaluations + 1};
   }
-  return {SearchOutcome::cap, s, f.gap(s), evaluations};
+  return hidden_root(f, s, root, evaluations);
 }
 
 template <class T>

@@ -9,6 +9,8 @@
 namespace afm {
 namespace {
 
+constexpr double kTouch = 1e-20;  // no gap at all, where rounding hides it in twice the digits [a]
+
 AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
   return find_impact(flight, horizon);
 }
@@ -62,7 +64,8 @@ Landing<double> find_landing(const Model& model, const Flight<double>& flight, d
     const Flight<DoubleDouble> whole(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
     const Flight<DoubleDouble> finer(whole, bounds_until(whole, DoubleDouble(seen)));
     landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
-    if (landing.outcome == SearchOutcome::undecided) landing.outcome = SearchOutcome::impact;
+    if (landing.outcome == SearchOutcome::undecided)
+      landing.outcome = landing.jet.g > kTouch ? SearchOutcome::cap : SearchOutcome::impact;
   }
   return landing;
 }

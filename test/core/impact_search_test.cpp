@@ -255,6 +255,16 @@ TEST(ImpactSearch, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
   }
 }
 
+// On the glide the gap swings like a spring by itself, also where it is a hundredth of what places are rounded with.
+TEST(ImpactSearch, OnTheGlideAGapBelowAllRoundingEndsWhereItsSwingDoes) {
+  Model model;
+  model.frequency_ratio = 554.11654911257108;
+  const TipState start{0.5, 0.0, -1.0, 1.3877787807814457e-17, -5.7046045342847535e-17};
+  const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), -1.0, start), kHorizon);
+  ASSERT_EQ(landing.outcome, SearchOutcome::impact);
+  EXPECT_NEAR(landing.s, std::atan(-kTwoPi * start.g / start.g1) / kTwoPi, 1e-9);
+}
+
 TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
   RandomLaunches launches(6);
   for (int i = 0; i < 1000; ++i) {

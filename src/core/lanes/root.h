@@ -133,10 +133,12 @@ AFM_LANE_INLINE Ways finish(const Rows& rows) {
   const Mask settled = kKind == kFinishHere ? at <= at : search_detail::settles(f, near, step, at);
   const Mask hidden = abs(step * jet.g1) <= f.gap_error(at);
   const Mask drifts = (hidden || (settled && search_detail::is_smooth(f, jet, step))) && !end;
+  const unsigned hides = kKind == kFinishHere ? 0u : bits(!(jet.g1 < Pack(0.0))) & ~bits(end);
   Ways ways;
-  const unsigned done = bits(drifts || end), on = kAllLanes & ~done;
+  const unsigned done = bits(drifts || end) & ~hides, on = kAllLanes & ~(done | hides);
   if (on != 0) go_on(rows, f, root, on, settled, ways);
   if (done != 0) arrive(rows, f, root, near, done, drifts, end, ways);
+  ways.lanes[kAlone] |= hides;
   return ways;
 }
 
