@@ -12,7 +12,7 @@ namespace afm {
 enum class SearchOutcome {
   impact,     // found: `s` and `jet` are at the root
   clear,      // certified free of impacts up to the horizon, `s`
-  undecided,  // a graze or a root that rounding hides, from `s` on; certified free up to there. More digits decide it
+  undecided,  // a graze or a root that rounding hides; certified free up to `s`. More digits decide it
   cap         // too many steps; certified free up to `s`
 };
 
@@ -26,7 +26,7 @@ struct Landing {
 
 constexpr int kMaxSearchSteps = 20000;
 // A flight without an impact is searched this far and then begun anew from there [tau].
-constexpr double kSearchHorizon = 8.0;
+constexpr double kSearchHorizon = kFarthestRoot;
 
 namespace search_detail {
 
@@ -218,8 +218,9 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   return {SearchOutcome::cap, s, f.gap(s), kMaxSearchSteps};
 }
 
-// In double, and where rounding hides a graze, on the same start in twice the digits; one that even they cannot tell
-// from a touch is a touch. So an impact or a miss is what exact arithmetic on the given doubles says, down to 1e-30.
+// In double, and where rounding hides a graze or a root, on the same start in twice the digits; what even they cannot
+// tell from a touch is a touch where no gap is left, and `cap` otherwise. So an impact or a miss is what exact
+// arithmetic on the given doubles says, down to 1e-30.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 
 }  // namespace afm

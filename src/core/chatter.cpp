@@ -11,8 +11,8 @@ namespace {
 
 // |w| up to which the series below are good to 3e-4
 constexpr double kMostLoss = 0.2;
-// The duration of a bounce against the time in which the pressure changes by itself, at most, where a burst begins. What
-// the averages leave out there it carries along; at its end only the last bounces do, and they may last longer.
+// The duration of a bounce against the time in which the pressure changes by itself, at most, where a burst begins.
+// What the averages leave out there it carries along; at its end only the last bounces do, and they may last longer.
 constexpr double kMostShortness = 0.045;
 constexpr double kLongerWithin = 1.5;
 // A tip that rings over a crest, where none rides faster than about 1 a/tau, bounces thousands of times a tau for

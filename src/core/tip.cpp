@@ -22,8 +22,8 @@ const TipState& checked(const TipState& start) {
 
 // The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
 constexpr double kGrowth = 100.0;
-// Bounces slower than this may become a burst [a/tau]: what the averages leave out of the first of them is the most of a
-// burst's error. 0.014 at the default, where they rise by 2e-5 a. By square roots, which every machine rounds alike.
+// Bounces slower than this may become a burst [a/tau]: what the averages leave out of the first of them is the most of
+// a burst's error. 0.014 at the default, where they rise by 2e-5 a. By square roots, which every machine rounds alike.
 double entry_gap_rate(double contact_tolerance) {
   constexpr double kEntry = 1.05;
   return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));

@@ -10,8 +10,8 @@
 namespace afm {
 namespace {
 
-// Nor is a flight of next to no time, for the fastest turn, under next to no force: its end is rounding, and a drag of
-// 1e-18 a/tau that would bring pressure moves no phase.
+// A flight of next to no time, for the fastest turn, under next to no force is none either: its end is rounding, and a
+// drag of 1e-18 a/tau that would bring pressure moves no phase.
 bool is_rounding(const Flight<double>& flight, double s) {
   const TipState& start = flight.launch();
   const double fastest_turn = 8.0 * flight.bounds().small_until;

@@ -189,8 +189,8 @@ TEST(ImpactSearch, WhereAllForcesCancelEndsAtTheHorizon) {
   }
 }
 
-// Left at rest on the floor of a valley the spring lifts the tip, which is back on the floor after a turn, and touches it:
-// steps towards a gap that is half rounding would never get there.
+// Left at rest on the floor of a valley the spring lifts the tip, which is back on the floor after a turn, and touches
+// it: steps towards a gap that is half rounding would never get there.
 TEST(ImpactSearch, OfAGrazeOfTheFloorItRoseFromComesToAnEnd) {
   Model model;
   model.H = 10.0;
