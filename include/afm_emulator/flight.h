@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "afm_emulator/flight_bounds.h"
 #include "afm_emulator/mechanics.h"
@@ -28,12 +29,21 @@ struct LaunchOf {
   using State = TipState;
 };
 
+struct BoundLater {};
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 template <class T>
 class Flight {
  public:
   using Launch = typename LaunchOf<T>::State;
 
-  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start);
+  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start)
+      : Flight(mechanics, eta, start, BoundLater{}) {
+    afm::bound_derivatives(m_, eta_, bounds_);
+  }
+  // Without the bounds of the third and fourth derivative, which brief bounces do not ask for: infinite until they are
+  // bounded.
+  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, BoundLater);
   // The same under other bounds.
   Flight(const Flight& flight, const FlightBounds<T>& bounds) : Flight(flight) { bounds_ = bounds; }
   // One that has been launched before: `launch()` is not asked for.
@@ -57,13 +67,15 @@ class Flight {
   // The gap at s + step, sooner, from its jet at s near by. Within a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
-  // The gap at a time that is small: s <= small_until.
+  // In a time so long every turn is at most 1/8, or 2^-10.
+  Truth<T> is_small(const T& s) const { return s * bounds_.fastest <= T(kSmallTurn); }
+  Truth<T> is_tiny(const T& s) const { return s * bounds_.fastest <= T(kTinyTurn); }
+
+  // The gap at a time that is small.
   GapJet<T> gap_soon(const T& s) const {
     return either(
-        s <= tiny_until(), [&] { return moved_by_tiny_turns(start_, s); }, [&] { return gap_by_small_turns(s); });
+        is_tiny(s), [&] { return moved_by_tiny_turns(start_, s); }, [&] { return gap_by_small_turns(s); });
   }
-
-  T tiny_until() const { return bounds_.small_until / T(128.0); }  // up to this size a step's turns are tiny
 
   // The ways that these choose from, for those who have chosen.
   GapJet<T> gap_by_turns(const T& s) const { return jet_at(at(s)); }
@@ -73,15 +85,21 @@ class Flight {
     return moved_by(jet, step, [](const T& x) { return tiny_turn(x); });
   }
 
+  void bound_derivatives() {  // those that were left for later
+    if (!(bounds_.third < T(kUnbounded))) afm::bound_derivatives(m_, eta_, bounds_);
+  }
   const FlightBounds<T>& bounds() const { return bounds_; }
   const T& amplitude_X() const { return bounds_.X; }
   const T& amplitude_Y() const { return bounds_.Y; }
   const T& third_derivative_bound() const { return bounds_.third; }
   const T& fourth_derivative_bound() const { return bounds_.fourth; }
-  // Coarser: every derivative of x brings no more than the fastest turn, and 52 of their products make the fifth of h.
+  // Coarser: every derivative of x brings no more than the fastest turn [rad/tau], and 52 of their products make the
+  // fifth of h: of the n-th, n <= 5, no more than the n-th power of that times the reach.
+  T fastest() const { return two_pi<T>() * bounds_.fastest; }
+  T reach() const { return T(52.0) * m_.H + bounds_.Y; }
   T fifth_derivative_bound() const {
-    const T fastest = T(0.125) * two_pi<T>() / bounds_.small_until, square = fastest * fastest;
-    return square * square * fastest * (T(52.0) * m_.H + bounds_.Y);
+    const T square = fastest() * fastest();
+    return square * square * (fastest() * reach());
   }
   // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on
   // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller, as the gap rate swings.
@@ -93,7 +111,7 @@ class Flight {
 
  private:
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
-  // is within a few ulp of itself. Precondition: |t| <= small_until.
+  // is within a few ulp of itself. Precondition: t is small.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
   template <class Turn>
   GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
@@ -111,7 +129,7 @@ class Flight {
 };
 
 template <class T>
-Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start)
+Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, BoundLater)
     : m_(mechanics), eta_(eta), launch_(start) {
   const SurfaceJet<T> surface = surface_jet(mechanics.H, T(start.phase));
   const T W = mul_add(surface.h1, T(start.u), T(start.g1));
@@ -121,7 +139,8 @@ Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& sta
   const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
   start_ = {T(start.g), T(start.g1), g2,        third_derivative(state, u, surface.h, surface.h1),
             state,      surface.h,   surface.h1};
-  set_bounds(mechanics, eta, start_.state, bounds_);
+  bounds_.third = bounds_.fourth = bounds_.drive = T(kUnbounded);
+  bound_places(mechanics, eta, start_.state, bounds_);
 }
 
 template <class T>
@@ -181,7 +200,7 @@ GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
   return either(
-      s <= bounds_.small_until, [&] { return gap_soon(s); }, [&] { return gap_by_turns(s); });
+      is_small(s), [&] { return gap_soon(s); }, [&] { return gap_by_turns(s); });
 }
 
 template <class T>
@@ -190,14 +209,14 @@ GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) c
   const T size = abs(step);
   const auto far = [&] {
     return either(
-        size <= bounds_.small_until, [&] { return moved(jet, step); }, [&] { return gap(s + step); });
+        is_small(size), [&] { return moved(jet, step); }, [&] { return gap(s + step); });
   };
   const auto near = [&] {
     return either(
-        size <= tiny_until(), [&] { return moved_by_tiny_turns(jet, step); }, far);
+        is_tiny(size), [&] { return moved_by_tiny_turns(jet, step); }, far);
   };
   return either(
-      s + step <= bounds_.small_until, [&] { return gap(s + step); }, near);
+      is_small(s + step), [&] { return gap(s + step); }, near);
 }
 
 // The terms linear in t cancel on paper, into g1 t: what is left is small of second order, each term to a few ulp.
@@ -248,8 +267,7 @@ T Flight<T>::gap_error(const T& s) const {
   using std::abs;
   const T small = epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bounds_.second * s));
   return choose(
-      s <= bounds_.small_until, [&] { return small; },
-      [&] { return T(epsilon<T>() * (T(4.0) * bounds_.Y + T(16.0) * m_.H)); });
+      is_small(s), [&] { return small; }, [&] { return T(epsilon<T>() * (T(4.0) * bounds_.Y + T(16.0) * m_.H)); });
 }
 
 }  // namespace afm

@@ -67,8 +67,7 @@ Truth<T> is_brief(const Flight<T>& f, const T& length) {
   using std::abs;
   const T pull = T(-kBrief) * f.start().g2, most = T(1.0 + kBrief) * length, third = abs(f.start().g3);
   const auto fine = [&] { return (third + f.fourth_derivative_bound(most) * most) * most < pull; };
-  return length > T(0.0) && f.start().g1 > T(0.0) && most <= f.bounds().small_until &&
-         (f.third_derivative_bound() * most < pull || both(third * most < pull, fine));
+  return length > T(0.0) && f.start().g1 > T(0.0) && f.is_small(most) && both(third * most < pull, fine);
 }
 
 // Leaves the surface: certified up to s; where to look next, and how far a step may reach.
@@ -112,8 +111,8 @@ Truth<T> is_smooth(const Flight<T>& f, const GapJet<T>& jet, const T& step) {
   return f.fifth_derivative_bound() * (t2 * t2) <= epsilon<T>() * abs(jet.g1);
 }
 
-// The same for a certified root about `jet`. It is the step that counts, not the estimate: where a spring turns within the
-// root's interval the series behind either is worth nothing.
+// The same for a certified root about `jet`. It is the step that counts, not the estimate: where a spring turns within
+// the root's interval the series behind either is worth nothing.
 template <class T>
 Truth<T> is_there(const Flight<T>& f, const GapJet<T>& jet, const RootInterval<T>& root, const T& time) {
   const NearJet<T> near(f, jet);
@@ -128,15 +127,19 @@ Landing<T> hidden_root(const Flight<T>& f, const T& s, const RootInterval<T>& ro
   return {SearchOutcome::undecided, before, f.gap(before), evaluations};
 }
 
-// Finishes the certified root about `jet`, of time s; `there`: that is near enough. Steps of the fourth order within the
-// root's interval, which each look makes smaller; by halves where they would leave it.
+// Where the way to a certified root begins: at a look away from it or near enough, or at the launch of a brief bounce.
+enum class Beginning { away, there, brief };
+
+// Finishes the certified root about `jet`, of time s. Steps of the fourth order within the root's interval, which each
+// look makes smaller; by halves where they would leave it. At the end of a brief bounce the first is mostly short.
 template <class T>
-Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, bool there,
+Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, Beginning beginning,
                   int evaluations) {
   using std::abs;
   constexpr int kMaxFinish = 60;
   T t = T(0.0), step = root.estimate, low = root.low, high = root.high;
-  for (int i = 0; i < kMaxFinish; ++i, there = false) {
+  for (int i = 0; i < kMaxFinish; ++i) {
+    const bool there = i == 0 && beginning == Beginning::there;
     if (!there) {
       jet = f.gap_near(jet, s + t, step);
       t = t + step;
@@ -144,6 +147,11 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
       if (!(jet.g1 < T(0.0))) return hidden_root(f, s, root, evaluations);
     }
     const NearJet<T> near(f, jet);
+    if (i == 0 && beginning == Beginning::brief) {
+      const ShortStep<T> rest = short_step(f, near, T(s + t));
+      if (rest.enough && lies_within(low, T(t + rest.step), high))
+        return {SearchOutcome::impact, s + (t + rest.step), short_drift(f, jet, rest.step), evaluations};
+    }
     step = root_step(near);
     (jet.g > T(0.0) ? low : high) = t;
     if (t + step < low || high < t + step) step = (low + high) / T(2.0) - t;
@@ -159,7 +167,8 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
 
 template <class T>
 Landing<T> finish(const Flight<T>& f, const T& s, const GapJet<T>& jet, const RootInterval<T>& root, int evaluations) {
-  return finish(f, s, jet, root, is_there(f, jet, root, s), evaluations);
+  const Beginning beginning = is_there(f, jet, root, s) ? Beginning::there : Beginning::away;
+  return finish(f, s, jet, root, beginning, evaluations);
 }
 
 // The end of one that is brief: near where its series ends.
@@ -174,16 +183,18 @@ RootInterval<T> brief_root(const Flight<T>& f, const T& length) {
 // neither rises nor is let go has no flight: contact is the tip's affair.
 // The gap is evaluated `ahead` of the time `s` that is certified, as far as it is likely to certify what lies behind it
 // too.
-// `from`: the flight is known to be free of impacts up to there.
-template <class T>
-Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0.0)) {
+// `from`: the flight is known to be free of impacts up to there. `bound`: called before bounds of the third and fourth
+// derivative are asked for.
+template <class T, class Bound>
+Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from, const Bound& bound) {
   using search_detail::finish;
   using std::min;
   const bool on_surface = !(f.start().g > T(0.0)) && !(from > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
   const T length = search_detail::parabola_length(f);
   if (on_surface && length < horizon / T(2.0) && search_detail::is_brief(f, length))
-    return finish(f, T(0.0), f.start(), search_detail::brief_root(f, length), false, 0);
+    return finish(f, T(0.0), f.start(), search_detail::brief_root(f, length), search_detail::Beginning::brief, 0);
+  bound();
   T s = from, ahead = T(0.0), guess = T(0.05);
   if (on_surface) search_detail::take_off(f, s, ahead, guess);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
@@ -218,9 +229,16 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   return {SearchOutcome::cap, s, f.gap(s), kMaxSearchSteps};
 }
 
+template <class T>
+Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0.0)) {
+  return find_impact(f, horizon, from, [] {});
+}
+
 // In double, and where rounding hides a graze or a root, on the same start in twice the digits; what even they cannot
 // tell from a touch is a touch where no gap is left, and `cap` otherwise. So an impact or a miss is what exact
 // arithmetic on the given doubles says, down to 1e-30.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
+// The same of one whose higher derivatives are bounded where they are asked for.
+Landing<double> find_landing(const Model& model, Flight<double>& flight, double horizon);
 
 }  // namespace afm

@@ -13,6 +13,11 @@ T clamp(const T& x, const T& low, const T& high) {
   return select(x < low, low, select(high < x, high, x));
 }
 
+template <class T>
+Truth<T> lies_within(const T& low, const T& x, const T& high) {
+  return low <= x && x <= high;
+}
+
 // Bounds of the third derivative over the next S, or the last, sharp enough for g >= g + g1 t + g2 t^2/2 + low t^3/6 on
 // all of [0, S], and likewise from above for gap and gap rate: from what it is now and the fourth derivative, or from
 // its own bound.

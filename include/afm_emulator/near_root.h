@@ -27,6 +27,32 @@ T root_step(const NearJet<T>& near) {
   return -r * mul_add(w, mul_add(T(5.0), s2, T(1.0)), sum);
 }
 
+// The same for a root so near that the second order is enough: `enough` where what it leaves out of the step is well
+// below an ulp of the time, and what short_drift leaves out of the gap rate below an ulp of that.
+template <class T>
+struct ShortStep {
+  Truth<T> enough;
+  T step;
+};
+
+template <class T>
+ShortStep<T> short_step(const Flight<T>& f, const NearJet<T>& near, const T& time) {
+  using std::abs;
+  const GapJet<T>& jet = near.jet;
+  const T& per = near.per_g1;
+  const T r = jet.g * per, s2 = (jet.g2 / T(2.0)) * per * r, s3 = (over(jet.g3, 6.0) * per) * r * r;
+  const T size = abs(r), turn = f.fastest() * size, cube = turn * turn * turn, eps = epsilon<T>();
+  const T left_out = T(5.0) * abs(s2) * mul_add(s2, s2, T(abs(s3)));
+  return {cube * T(4.0) <= eps && cube * (f.fastest() * f.reach()) * T(8.0) <= eps * abs(jet.g1) &&
+              left_out * size * T(64.0) <= eps * time,
+          -r * (mul_add(s2, mul_add(T(2.0), s2, T(1.0)), T(1.0)) - s3)};
+}
+
+// c0 + c1 t + c2 t^2/2
+template <class T>
+T taylor(const T& t, const T& c0, const T& c1, const T& c2) {
+  return mul_add(t, mul_add(t, T(c2 / T(2.0)), c1), c0);
+}
 // c0 + c1 t + c2 t^2/2 + c3 t^3/6 + c4 t^4/24
 template <class T>
 T taylor(const T& t, const T& c0, const T& c1, const T& c2, const T& c3) {
@@ -67,6 +93,25 @@ GapJet<T> drift(const Flight<T>& f, const NearJet<T>& near, const T& t) {
           moved,
           (moved.Y + m.y0) - g,
           slope_after(jet, t, u, A, J, S)};
+}
+
+// The same to the second order, after a short step.
+template <class T>
+GapJet<T> short_drift(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
+  const Mechanics<T>& m = f.mechanics();
+  const FlightState<T>& q = jet.state;
+  const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+  const T u = f.eta() + q.U, A = -wh2 * q.X, J = -wh2 * q.U, B = -wv2 * q.Y, K = -wv2 * q.W, h = jet.h, h1 = jet.h1;
+  const FlightState<T> moved{taylor(t, q.phase, u, A), taylor(t, q.X, q.U, A), taylor(t, q.U, A, J),
+                             taylor(t, q.Y, q.W, B), taylor(t, q.W, B, K)};
+  const T g = taylor(t, jet.g, jet.g1, jet.g2);
+  return {g,
+          taylor(t, jet.g1, jet.g2, jet.g3),
+          mul_add(t, jet.g3, jet.g2),
+          jet.g3,
+          moved,
+          (moved.Y + m.y0) - g,
+          taylor(t, h1, T(-k2 * (h * u)), T(-k2 * mul_add(T(h1 * u), u, T(h * A))))};
 }
 
 }  // namespace afm

@@ -167,6 +167,8 @@ SinCos<T> sin_cos_turn_product(const T& a, const T& b) {
   return sin_cos_turns(turn_product(a, b));
 }
 
+constexpr double kSmallTurn = 0.125, kTinyTurn = 0x1p-10;
+
 // Precondition: |x| <= 1/8.
 AFM_INLINED SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
 

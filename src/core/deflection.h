@@ -19,7 +19,7 @@ DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
     const Mechanics<T>& m = flight.mechanics();
     return DeflectionOf<T>{q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
   };
-  return either(s <= flight.bounds().small_until, near, far);
+  return either(flight.is_small(s), near, far);
 }
 
 // Along a piece of contact, or of the guide of a burst.

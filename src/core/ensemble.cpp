@@ -53,30 +53,26 @@ void write_model(const Tip& tip, double* row) {
   for (std::size_t i = 0; i < sizeof values / sizeof *values; ++i) row[kPlaces[i]] = values[i];
 }
 
-void write_flight(const Tip& tip, double* row) {
+void write_flight(const Flight<double>& flight, const ModelTime& start, double* row) {
   using namespace lanes;
-  const GapJet<double>& o = tip.flight().start();
-  const FlightBounds<double>& b = tip.flight().bounds();
-  const double values[] = {o.state.phase, tip.flight().launch().u,
-                           o.state.X,     o.state.U,
-                           o.state.Y,     o.state.W,
-                           o.g1,          o.g2,
-                           o.g3,          o.h,
-                           o.h1,          b.X,
-                           b.Y,           b.second,
-                           b.third,       b.fourth,
-                           b.drive,       b.small_until};
-  static_assert(kPhase == 0 && kSmallUntil == 17 && sizeof values / sizeof *values == 18, "in the order of the fields");
+  const GapJet<double>& o = flight.start();
+  const FlightBounds<double>& b = flight.bounds();
+  const double values[] = {
+      o.state.phase, flight.launch().u, o.state.X, o.state.U, o.state.Y, o.state.W, o.g1, o.g2, o.g3, o.h, o.h1, b.X,
+      b.Y,           b.second,          b.third,   b.fourth,  b.drive,   b.fastest};
+  static_assert(kPhase == 0 && kFastest == 17 && sizeof values / sizeof *values == 18, "in the order of the fields");
   std::copy(std::begin(values), std::end(values), row);
-  row[kStartTau] = bits_of(tip.flight_start().tau);
-  row[kStartPhase] = tip.flight_start().phase;
+  row[kStartTau] = bits_of(start.tau);
+  row[kStartPhase] = start.phase;
 }
 
 // The flight of a tip, from its launch on, for lanes to go on with.
 void take_up(const Tip& tip, LaneTip& row) {
   write_model(tip, row.row);
-  write_flight(tip, row.row);
-  begin_search(tip.flight(), row.row);
+  Flight<double> flight = tip.flight();
+  flight.bound_derivatives();
+  write_flight(flight, tip.flight_start(), row.row);
+  begin_search(flight, row.row);
   row.last = tip.last_impact();
   row.row[lanes::kCount] = 0.0;
   row.stage = Stage::look;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kTouch = 1e-20;  // no gap at all, where rounding hides it in twice the digits [a]
 
-AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
-  return find_impact(flight, horizon);
+AFM_MULTIVERSION Landing<double> find_in_double(Flight<double>& flight, double horizon) {
+  return find_impact(flight, horizon, 0.0, [&] { flight.bound_derivatives(); });
 }
 
 // Bounds that hold up to a time `s` only. A loose spring turns so slowly that its tip comes nowhere near its greatest
@@ -36,10 +36,10 @@ FlightBounds<T> bounds_until(const Flight<T>& flight, const T& s) {
   const T jerk = slope * (three * v * a + wh2 * U);  // but for that of the steady motion
   b.second = min(b.second, T(wv2 * b.Y + slope * (v * u + a)));
   b.third = min(b.third, T(m.omega_v * wv2 * b.Y + slope * v * v * u + jerk));
-  b.fourth = flight.fourth_derivative_bound(s);
+  b.fourth = min(b.fourth, flight.fourth_derivative_bound(s));
   const T change = max(abs(u * u - one), abs(slow * slow - one));
   b.drive = min(b.drive, T(slope * k * v * change + jerk));
-  b.small_until = T(0.125) / max(one, max(T(m.ratio), u));
+  b.fastest = max(one, max(T(m.ratio), u));
   return b;
 }
 
@@ -55,10 +55,16 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
 }  // namespace
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
+  Flight<double> own = flight;
+  return find_landing(model, own, horizon);
+}
+
+Landing<double> find_landing(const Model& model, Flight<double>& flight, double horizon) {
   Landing<double> landing = find_in_double(flight, horizon);
   const double seen = horizon + kFarthestRoot;
   if (landing.outcome == SearchOutcome::cap) {
-    landing = find_in_double(Flight<double>(flight, bounds_until(flight, seen)), horizon);
+    Flight<double> closer(flight, bounds_until(flight, seen));
+    landing = find_in_double(closer, horizon);
   }
   if (landing.outcome == SearchOutcome::undecided) {
     const Flight<DoubleDouble> whole(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());

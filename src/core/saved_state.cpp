@@ -12,6 +12,12 @@
 namespace afm {
 namespace {
 
+// Whether or not its search has begun.
+Flight<double> bounded(Flight<double> flight) {
+  flight.bound_derivatives();
+  return flight;
+}
+
 constexpr bool kLp64 = sizeof(void*) == 8;  // where the sizes below are known
 
 class Writer {
@@ -136,7 +142,12 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   static_assert(!kLp64 || sizeof t - kParts == 392);
   of_model(archive, t.model_);
   whole(archive, t.eta_);
-  whole(archive, t.flight_);
+  if constexpr (std::is_const_v<Self>) {
+    const Flight<double> flight = bounded(t.flight_);
+    whole(archive, flight);
+  } else {
+    whole(archive, t.flight_);
+  }
   whole(archive, t.slide_);
   choice(archive, t.mode_, Tip::Mode::sliding);
   whole(archive, t.start_);
@@ -183,7 +194,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
 }
 
 std::uint32_t state_layout() {
-  constexpr std::uint32_t kMeaning = 2;  // to be raised whenever the words mean something else
+  constexpr std::uint32_t kMeaning = 3;  // to be raised whenever the words mean something else
   static const std::uint32_t layout = [] {
     SavedState state;
     Emulator(EmulatorSettings{}).save(state);

@@ -14,8 +14,7 @@ namespace {
 // drag of 1e-18 a/tau that would bring pressure moves no phase.
 bool is_rounding(const Flight<double>& flight, double s) {
   const TipState& start = flight.launch();
-  const double fastest_turn = 8.0 * flight.bounds().small_until;
-  return s < lanes::kLeastFlight * fastest_turn && start.g1 > 0.0 &&
+  return s * flight.bounds().fastest < lanes::kLeastFlight && start.g1 > 0.0 &&
          std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
 }
 
@@ -24,7 +23,7 @@ AFM_MULTIVERSION void reflect_and_launch(const Model& model, const Mechanics<dou
                                          const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
   const Reflection r = reflect(model, eta, incident);
   const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, r.after.g1};
-  new (&flight) Flight<double>(mechanics, eta, after);
+  new (&flight) Flight<double>(mechanics, eta, after, BoundLater{});
   bounce.phase = r.after.phase;
   bounce.normal_speed = r.normal_speed;
   bounce.tangential_velocity = r.tangential_velocity;
@@ -44,7 +43,7 @@ void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight
 // time.
 AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
                              Flight<double>& flight) {
-  new (&flight) Flight<double>(mechanics, eta, state);
+  new (&flight) Flight<double>(mechanics, eta, state, BoundLater{});
 }
 
 void rebound(const Model& model, const Mechanics<double>& mechanics, double eta, const Landing<double>& landing,

@@ -58,7 +58,7 @@ AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
   if (brief != 0) store_root(rows, o, zero, search_detail::brief_root(f, length));
   Ways ways;
   ways.lanes[kFinishFar] = brief;
-  split(bits(ordinary) & ~brief, s + ahead <= f.bounds().small_until, kLookNear, kLookFar, ways);
+  split(bits(ordinary) & ~brief, f.is_small(s + ahead), kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);
   return ways;
 }

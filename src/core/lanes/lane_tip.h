@@ -29,7 +29,7 @@ enum Field : int {
   kBound3,
   kBound4,
   kBoundDrive,
-  kSmallUntil,
+  kFastest,
   // the search: certified up to, next look, reach of a step; or the time of the jet and the step from there to the root
   kS,
   kAhead,

@@ -35,7 +35,7 @@ AFM_LANE_INLINE void look_on(const Rows& rows, const Flight<Pack>& f, const GapJ
   rows.store(kGuess, select(at.jumped || over, at.guess, step * Pack(2.0)), at.count + Pack(1.0));
   const unsigned alone = on & bits(stuck && !at.jumped && !over);
   ways.lanes[kAlone] |= alone;
-  split(on & ~alone, next_s + next_ahead <= f.bounds().small_until, kLookNear, kLookFar, ways);
+  split(on & ~alone, f.is_small(next_s + next_ahead), kLookNear, kLookFar, ways);
 }
 
 // One evaluation of the search (find_impact).

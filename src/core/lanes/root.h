@@ -25,8 +25,8 @@ AFM_LANE_INLINE void store_root(const Rows& rows, const GapJet<Pack>& jet, P s, 
 
 // Which evaluation gap_near would choose for a step from the time s.
 AFM_LANE_INLINE void split_by_step(unsigned lanes, const Flight<Pack>& f, P s, P step, Ways& ways) {
-  const Pack until = f.bounds().small_until, size = abs(step);
-  const unsigned start = bits(s + step <= until), tiny = bits(size <= f.tiny_until()), near = bits(size <= until);
+  const Pack size = abs(step);
+  const unsigned start = bits(f.is_small(s + step)), tiny = bits(f.is_tiny(size)), near = bits(f.is_small(size));
   ways.lanes[kFinishTiny] |= lanes & tiny & ~start;
   ways.lanes[kFinishNear] |= lanes & near & ~tiny & ~start;
   ways.lanes[kFinishFar] |= lanes & (start | ~near);
@@ -93,9 +93,8 @@ AFM_LANE_INLINE void store_incident(const Rows& rows, const GapJet<Pack>& jet, c
 }
 
 // Those that are there: state and time, and whether the limit comes first.
-AFM_LANE_INLINE void arrive(const Rows& rows, const Flight<Pack>& f, const Root& root, const NearJet<Pack>& near,
-                            unsigned done, M drifts, M end, Ways& ways) {
-  const GapJet<Pack> moved = drift(f, near, root.step);
+AFM_LANE_INLINE void arrive(const Rows& rows, const Root& root, const GapJet<Pack>& moved, unsigned done, M drifts,
+                            M end, Ways& ways) {
   const Pack end_s = root.s + select(end, root.t, root.t + root.step), g1 = select(end, root.jet.g1, moved.g1);
   PackTime start, limit;
   rows.load(kStartTau, start.tau, start.phase);
@@ -118,26 +117,35 @@ AFM_LANE_INLINE Ways finish(const Rows& rows) {
   load_root(rows, root);
   GapJet<Pack>& jet = root.jet;
   Pack &step = root.step, &t = root.t;
+  const Pack zero(0.0);
+  const Mask first = !(root.s > zero) && !(t > zero);  // at the end of a brief bounce
   if (kKind != kFinishHere) {
     jet = stepped<kKind>(f, jet, root.s + t, step);
     t = t + step;
   }
   const Mask end = root.is_end > Pack(0.0);
+  const Pack at = root.s + t;
   const NearJet<Pack> near(f, jet);
+  const ShortStep<Pack> rest = short_step(f, near, at);
+  const Mask brief = first && rest.enough && lies_within(root.low, t + rest.step, root.high);
   step = root_step(near);
   const Pack to = t + step;
   const Mask above = jet.g > Pack(0.0);
   root.low = select(above, t, root.low), root.high = select(above, root.high, t);
   step = select(to < root.low || root.high < to, (root.low + root.high) * Pack(0.5) - t, step);
-  const Pack at = root.s + t;
+  const bool some = kKind == kFinishFar && bits(first) != 0;  // may have come shortly
+  if (some) step = select(brief, rest.step, step);
   const Mask settled = kKind == kFinishHere ? at <= at : search_detail::settles(f, near, step, at);
   const Mask hidden = abs(step * jet.g1) <= f.gap_error(at);
-  const Mask drifts = (hidden || (settled && search_detail::is_smooth(f, jet, step))) && !end;
+  const Mask near_by = hidden || (settled && search_detail::is_smooth(f, jet, step));
+  const Mask drifts = (some ? brief || near_by : near_by) && !end;
   const unsigned hides = kKind == kFinishHere ? 0u : bits(!(jet.g1 < Pack(0.0))) & ~bits(end);
   Ways ways;
   const unsigned done = bits(drifts || end) & ~hides, on = kAllLanes & ~(done | hides);
   if (on != 0) go_on(rows, f, root, on, settled, ways);
-  if (done != 0) arrive(rows, f, root, near, done, drifts, end, ways);
+  const auto in_full = [&] { return drift(f, near, step); };
+  const auto shortly = [&] { return short_drift(f, jet, step); };
+  if (done != 0) arrive(rows, root, some ? either(brief, shortly, in_full) : in_full(), done, drifts, end, ways);
   ways.lanes[kAlone] |= hides;
   return ways;
 }

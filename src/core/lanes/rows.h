@@ -66,7 +66,7 @@ AFM_LANE_INLINE Flight<Pack> load_flight(const Rows& rows) {
   rows.load(kH1, start.h1, b.X);
   rows.load(kBoundY, b.Y, b.second);
   rows.load(kBound3, b.third, b.fourth);
-  rows.load(kBoundDrive, b.drive, b.small_until);
+  rows.load(kBoundDrive, b.drive, b.fastest);
   return Flight<Pack>(m, eta, start, b);
 }
 
@@ -82,7 +82,7 @@ AFM_LANE_INLINE void store_flight(const Rows& rows, const Flight<Pack>& f, P u) 
   rows.store(kH1, o.h1, b.X);
   rows.store(kBoundY, b.Y, b.second);
   rows.store(kBound3, b.third, b.fourth);
-  rows.store(kBoundDrive, b.drive, b.small_until);
+  rows.store(kBoundDrive, b.drive, b.fastest);
 }
 
 AFM_LANE_INLINE void split(unsigned lanes, M first, Kind yes, Kind no, Ways& ways) {

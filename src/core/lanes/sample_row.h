@@ -24,7 +24,7 @@ struct SampleRow {
   double* lateral;
   bool on_guide;
   // the arc: its start, and of a guide the series of its displacement
-  double phase, X, U, Y, W, g, g1, h, h1, small_until;
+  double phase, X, U, Y, W, g, g1, h, h1, fastest;
   double ratio, omega_h, per_omega_h, H, y0, eta;
   const double* displacement;
 };

@@ -27,7 +27,7 @@ AFM_LANE_INLINE Flight<Pack> flight_of(const SampleRow& row) {
   start.g = Pack(row.g), start.g1 = Pack(row.g1), start.h = Pack(row.h), start.h1 = Pack(row.h1);
   start.state = {Pack(row.phase), Pack(row.X), Pack(row.U), Pack(row.Y), Pack(row.W)};
   FlightBounds<Pack> bounds{};
-  bounds.small_until = Pack(row.small_until);
+  bounds.fastest = Pack(row.fastest);
   return Flight<Pack>(m, Pack(row.eta), start, bounds);
 }
 

@@ -55,7 +55,7 @@ class Schedule {
     } else if (tip.stage == Stage::bounce) {
       lists_[kBounce].push(&tip);
     } else {
-      const bool near = tip.row[kS] + tip.row[kAhead] <= tip.row[kSmallUntil];
+      const bool near = (tip.row[kS] + tip.row[kAhead]) * tip.row[kFastest] <= kSmallTurn;
       lists_[near ? kLookNear : kLookFar].push(&tip);
     }
   }
