@@ -68,7 +68,7 @@ Landing<double> land(const Model& model, double eta, TipState start) {
   const Mechanics<double> mechanics(model);
   double flown = 0.0;
   for (int attempt = 0; attempt < kAttempts && flown < kLongestFlight; ++attempt) {
-    const Flight<double> flight(mechanics, eta, start);
+    Flight<double> flight(mechanics, eta, start, BoundLater{});
     Landing<double> landing = find_landing(model, flight, kLongestFlight - flown);
     const double s = landing.s;
     landing.s = flown += s;
