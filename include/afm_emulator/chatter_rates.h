@@ -51,6 +51,7 @@ class ChatterRates {
   ChatterRates(const Model& model, bool geometric);
 
   ChatterSurroundings surroundings(const Flight<double>& bounce) const;
+  bool outlasts(const Flight<double>& bounce, double part) const;  // as ChatterView
 
   ChatterPlace begin(const SlidePiece<double>& guide, double s, const Chatter& start) const;
   // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may be

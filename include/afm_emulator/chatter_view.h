@@ -34,6 +34,8 @@ class ChatterView {
   ChatterSurroundings look(const SlidePiece<double>& guide, double s) const;
   // P, squeeze, quickness, speed and slow_rate alone, at the start of a bounce that is no chatter yet.
   ChatterSurroundings look(const Flight<double>& bounce) const;
+  // Whether such a bounce certainly lasts longer than `part` of the time in which P changes, by P' alone: sooner told.
+  bool outlasts(const Flight<double>& bounce, double part) const;
   // At an inner node of a step of which both ends are known, without the last three. The reaction is interpolated to the
   // order 8, what is only in terms of the second order evenly.
   ChatterSurroundings between(const ChatterSurroundings& first, const ChatterSurroundings& last, double dt,

@@ -154,7 +154,7 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
     }
     step = root_step(near);
     (jet.g > T(0.0) ? low : high) = t;
-    if (t + step < low || high < t + step) step = (low + high) / T(2.0) - t;
+    if (!lies_within(low, T(t + step), high)) step = (low + high) / T(2.0) - t;  // also where it is no number
     const bool settled = there || settles(f, near, step, T(s + t));
     const bool hidden = abs(step * jet.g1) <= f.gap_error(s + t);  // by the rounding of the gap
     // move the evaluated state instead of evaluating again

@@ -8,9 +8,10 @@
 
 namespace afm {
 
+// Of what is no number, `low`.
 template <class T>
 T clamp(const T& x, const T& low, const T& high) {
-  return select(x < low, low, select(high < x, high, x));
+  return select(x > low, select(x < high, x, high), low);
 }
 
 template <class T>

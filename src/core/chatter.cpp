@@ -85,6 +85,9 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (!(bounce.start().g2 < 0.0)) return false;
   const bool below = v_c_ > threshold_;
   if (below && (v > v_c_ || rates_.loss(v) > kMostLoss)) return false;
+  // most that are asked for are refused
+  const double longest = std::abs(bounce.launch().u) <= kRinging ? kMostLongerSlow : 1.0;
+  if (rates_.outlasts(bounce, kMostShortness * fineness_ * longest)) return false;
   return strain(rates_.surroundings(bounce), v, false) <= 1.0;
 }
 

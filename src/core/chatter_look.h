@@ -79,14 +79,21 @@ AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) 
   at.squeeze = kThird * (a1 / a - free_ * h1 * h2 * q.u * per_N2);
   // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
   const double u = q.u, u2 = square(u), reaction = free_ * a * per_N2;
-  const double x2 = -wh2_ * q.X - h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h2 * u * reaction,
-               x4 = -wh2_ * x2;
+  const double x2 = -wh2_ * q.X - h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h2 * u * reaction, x4 = -wh2_ * x2;
   const double a2 =
       h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
   at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
   at.speed = std::abs(q.u);
   at.slow_rate = std::max(at.speed, slow_rate_);
   return at;
+}
+
+// A bounce lasts 2 v/P, and P is at most the pull a; P'/P = a'/a - h' h'' u / N^2.
+AFM_INLINED bool ChatterView::outlasts(const Flight<double>& bounce, double part) const {
+  const GapJet<double>& start = bounce.start();
+  const double slope = free_ * start.h1, N2 = 1.0 + slope * start.h1, a = -start.g2;
+  const double change = slope * square(kTwoPi) * start.h * bounce.launch().u * a - start.g3 * N2;
+  return 2.0 * start.g1 * std::abs(change) > part * (a * a * N2);
 }
 
 AFM_INLINED ChatterSurroundings ChatterView::between(const ChatterSurroundings& first, const ChatterSurroundings& last,

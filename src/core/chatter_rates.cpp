@@ -128,6 +128,10 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<dou
   return view_.look(bounce);
 }
 
+AFM_MULTIVERSION bool ChatterRates::outlasts(const Flight<double>& bounce, double part) const {
+  return view_.outlasts(bounce, part);
+}
+
 AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guide, double s,
                                                   const Chatter& start) const {
   ChatterPlace at{s, view_.look(guide, s), {}, {}, start};

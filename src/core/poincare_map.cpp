@@ -6,6 +6,7 @@
 
 #include "afm_emulator/impact_search.h"
 #include "afm_emulator/reflection.h"
+#include "tip_arcs.h"
 
 namespace afm {
 
@@ -15,7 +16,7 @@ TipState PoincareMap::held(const TipState& start) const {
 
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
-  if (!(start.g1 > 0.0) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
+  if (!(start.g1 >= kLeastGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
   Flight<double> flight(mechanics_, eta_, held(start), BoundLater{});
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;

@@ -118,6 +118,17 @@ TEST_P(ImpactSearchAtEta, AHorizonBeforeTheImpactIsReachedOrTheImpactIsSeenBeyon
 
 INSTANTIATE_TEST_SUITE_P(DragSpeeds, ImpactSearchAtEta, testing::Values(0.0, 0.2, 1.01, -3.4, 3.4, 9.0, 50.0));
 
+// The inverse of such a gap rate is no number, nor is any step made of it: what is left is to halve the interval.
+TEST(ImpactSearch, AFallTooSlowToBeInvertedLands) {
+  Model model;
+  model.frequency_ratio = 450.98094653157005;
+  const TipState start{0.25, 0.0, 0.0, 1.9633695594121459e-314, -3.0237901138519302e-312};
+  const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), 0.0, start), kHorizon);
+  EXPECT_EQ(landing.outcome, SearchOutcome::impact);
+  EXPECT_NEAR(landing.s, start.g / -start.g1, 1e-4);
+  EXPECT_LT(landing.jet.g1, 0.0);
+}
+
 // Of fast launches and of chatter, as the tip leaves bounds for later.
 TEST(ImpactSearch, BoundsThatAreLeftForLaterChangeNothing) {
   RandomLaunches launches(8);

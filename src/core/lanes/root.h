@@ -132,7 +132,7 @@ AFM_LANE_INLINE Ways finish(const Rows& rows) {
   const Pack to = t + step;
   const Mask above = jet.g > Pack(0.0);
   root.low = select(above, t, root.low), root.high = select(above, root.high, t);
-  step = select(to < root.low || root.high < to, (root.low + root.high) * Pack(0.5) - t, step);
+  step = select(lies_within(root.low, to, root.high), step, (root.low + root.high) * Pack(0.5) - t);
   const bool some = kKind == kFinishFar && bits(first) != 0;  // may have come shortly
   if (some) step = select(brief, rest.step, step);
   const Mask settled = kKind == kFinishHere ? at <= at : search_detail::settles(f, near, step, at);
