@@ -106,6 +106,11 @@ class Flight {
   T third_derivative_bound(const GapJet<T>& now, const T& S) const;
   // Over the first S only. Stretched far and slow still, the tip is nowhere near the speeds of the whole flight.
   T fourth_derivative_bound(const T& S) const {
+    using std::min;
+    return min(bounds_.fourth, early_fourth_derivative_bound(S));
+  }
+  // The same without regard to that of the whole flight, which may not be known.
+  T early_fourth_derivative_bound(const T& S) const {
     return afm::fourth_derivative_bound(m_, eta_, start_.state, bounds_, S);
   }
 

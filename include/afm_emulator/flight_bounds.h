@@ -67,8 +67,7 @@ void bound_derivatives(const Mechanics<T>& m, const T& eta, FlightBounds<T>& b) 
   b.drive = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
 }
 
-// The fourth over the first S only: long after the start it may be more than that of the whole flight, which is not
-// asked for here.
+// The fourth over the first S only: after a long S it may be more than that of the whole flight.
 template <class T>
 T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, const FlightBounds<T>& b,
                           const T& S) {

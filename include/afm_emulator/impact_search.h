@@ -66,7 +66,7 @@ template <class T>
 Truth<T> is_brief(const Flight<T>& f, const T& length) {
   using std::abs;
   const T pull = T(-kBrief) * f.start().g2, most = T(1.0 + kBrief) * length, third = abs(f.start().g3);
-  const auto fine = [&] { return (third + f.fourth_derivative_bound(most) * most) * most < pull; };
+  const auto fine = [&] { return (third + f.early_fourth_derivative_bound(most) * most) * most < pull; };
   return length > T(0.0) && f.start().g1 > T(0.0) && f.is_small(most) && both(third * most < pull, fine);
 }
 

@@ -36,7 +36,7 @@ FlightBounds<T> bounds_until(const Flight<T>& flight, const T& s) {
   const T jerk = slope * (three * v * a + wh2 * U);  // but for that of the steady motion
   b.second = min(b.second, T(wv2 * b.Y + slope * (v * u + a)));
   b.third = min(b.third, T(m.omega_v * wv2 * b.Y + slope * v * v * u + jerk));
-  b.fourth = min(b.fourth, flight.fourth_derivative_bound(s));
+  b.fourth = flight.fourth_derivative_bound(s);
   const T change = max(abs(u * u - one), abs(slow * slow - one));
   b.drive = min(b.drive, T(slope * k * v * change + jerk));
   b.fastest = max(one, max(T(m.ratio), u));

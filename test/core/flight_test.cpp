@@ -169,6 +169,7 @@ TEST(Flight, TheFourthDerivativeStaysWithinItsBoundOverAStretch) {
     if (i % 2 == 0) start.X = launches.within(-12.0, 12.0);
     const Flight<Quad> flight(kQuadMechanics, eta, start);
     const Quad S = std::pow(10.0, launches.within(-5.0, -1.0)), bound = flight.fourth_derivative_bound(S);
+    ASSERT_LE(bound, flight.fourth_derivative_bound());
     least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
     for (int k = 0; k <= 50; ++k) {
       const Quad s = S * Quad(k) / Quad(50.0);
