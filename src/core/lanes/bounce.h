@@ -27,38 +27,32 @@ AFM_LANE_INLINE void log(LaneTip* const* tips, const PackTime& time, const Refle
 }
 
 // The reflection, its record, and the flight that it begins (Tip::land and take_off).
-AFM_LANE_INLINE Ways bounce(LaneTip* const* tips, const Rows& rows) {
-  Mechanics<Pack> m;
-  Pack eta, burst;
-  load_model(rows, m, eta);
-  ReflectionLaw<Pack> law;
-  rows.load(kMobility, law.free, law.gamma);
-  rows.load(kCutoff, law.v_c, burst);
+AFM_LANE_INLINE Ways bounce(Live& live) {
+  live.ask_for_law();
+  const Mechanics<Pack> m = live.flight.mechanics();
+  const Pack eta = live.flight.eta();
+  const Incident& end = live.incident;
   GapJet<Pack> incident{};
-  Pack unused;
-  rows.load(kJetPhase, incident.state.phase, incident.state.X);
-  rows.load(kJetRateX, incident.state.U, incident.g1);
-  rows.load(kJetRateY, incident.h1, unused);
-  PackTime time;
-  rows.load(kEndTau, time.tau, time.phase);
-  const ReflectionOf<Pack> r = reflect(law, eta, incident);
-  log(tips, time, r);
-  const Flight<Pack> f(m, eta, r.after);
+  incident.state.phase = end.phase, incident.state.X = end.X, incident.state.U = end.U;
+  incident.g1 = end.g1, incident.h1 = end.h1;
+  const ReflectionOf<Pack> r = reflect(live.law, eta, incident);
+  log(live.tips, live.incident.time, r);
+  const Flight<Pack>& f = live.flight = Flight<Pack>(m, eta, r.after);
+  live.start = live.incident.time;
+  live.whole = true;
+  live.newer = Live::kFlight | Live::kLook;
   const GapJet<Pack>& o = f.start();
-  Pack s, ahead, guess;
-  search_detail::take_off(f, s, ahead, guess);
-  store_flight(rows, f, r.after.u);
-  rows.store(kS, s, ahead);
-  rows.store(kGuess, guess, Pack(0.0));
-  rows.store(kStartTau, time.tau, time.phase);
+  Look& look = live.look;
+  search_detail::take_off(f, look.s, look.ahead, look.guess);
   const Pack zero(0.0);
-  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= burst);
+  look.count = zero;
+  const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= live.burst_gap_rate);
   const Pack length = search_detail::parabola_length(f);
   const unsigned brief = bits(ordinary && search_detail::is_brief(f, length));
-  if (brief != 0) store_root(rows, o, zero, search_detail::brief_root(f, length));
+  if (brief != 0) hold_root(live, o, zero, search_detail::brief_root(f, length));
   Ways ways;
   ways.lanes[kFinishFar] = brief;
-  split(bits(ordinary) & ~brief, f.is_small(s + ahead), kLookNear, kLookFar, ways);
+  split(bits(ordinary) & ~brief, f.is_small(look.s + look.ahead), kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);
   return ways;
 }

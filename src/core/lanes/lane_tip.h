@@ -46,8 +46,7 @@ enum Field : int {
   kGamma,
   kCutoff,
   kBurstGapRate,
-  // the jet near a certified root; after the last step what a reflection asks for: gap rate and slope are then in the
-  // places of Y and its rate
+  // the jet near a certified root
   kJetPhase,
   kJetX,
   kJetRateX,
@@ -66,6 +65,13 @@ enum Field : int {
   kJetT,   // since then
   kIsEnd,  // 1: the next evaluation is the last
   kUnused,
+  // at the root, what a reflection asks for, and when
+  kEndSurface,  // phase
+  kEndX,
+  kEndRateX,
+  kEndG1,
+  kEndH1,
+  kUnusedToo,
   kStartTau,  // whole tau as bits
   kStartPhase,
   kEndTau,

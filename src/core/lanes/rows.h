@@ -30,6 +30,13 @@ enum Kind : int {
 // A bit for each lane, for each way it can go.
 struct Ways {
   unsigned lanes[kWays] = {};
+
+  // The one that all go, or none: kKinds.
+  AFM_LANE_INLINE int common() const {
+    int kind = 0;
+    while (kind < kKinds && lanes[kind] != kAllLanes) ++kind;
+    return kind;
+  }
 };
 
 // The rows of the tips in a pack.
@@ -42,48 +49,6 @@ struct Rows {
   AFM_LANE_INLINE void load(int at, Pack& first, Pack& second) const { load_pair(row, at, first.r, second.r); }
   AFM_LANE_INLINE void store(int at, P first, P second) const { store_pair(row, at, first.r, second.r); }
 };
-
-AFM_LANE_INLINE void load_model(const Rows& rows, Mechanics<Pack>& m, Pack& eta) {
-  rows.load(kRatio, m.ratio, m.omega_h);
-  rows.load(kPerOmegaH, m.per_omega_h, m.H);
-  rows.load(kCentre, m.y0, eta);
-  m.omega_v = Pack(kTwoPi);
-  m.per_omega_v = Pack(1.0 / kTwoPi);
-}
-
-AFM_LANE_INLINE Flight<Pack> load_flight(const Rows& rows) {
-  Mechanics<Pack> m;
-  Pack eta, u;
-  load_model(rows, m, eta);
-  GapJet<Pack> start;
-  FlightBounds<Pack> b;
-  start.g = Pack(0.0);
-  rows.load(kPhase, start.state.phase, u);
-  rows.load(kX, start.state.X, start.state.U);
-  rows.load(kY, start.state.Y, start.state.W);
-  rows.load(kG1, start.g1, start.g2);
-  rows.load(kG3, start.g3, start.h);
-  rows.load(kH1, start.h1, b.X);
-  rows.load(kBoundY, b.Y, b.second);
-  rows.load(kBound3, b.third, b.fourth);
-  rows.load(kBoundDrive, b.drive, b.fastest);
-  return Flight<Pack>(m, eta, start, b);
-}
-
-// The same way round; u: the horizontal velocity at the launch.
-AFM_LANE_INLINE void store_flight(const Rows& rows, const Flight<Pack>& f, P u) {
-  const GapJet<Pack>& o = f.start();
-  const FlightBounds<Pack>& b = f.bounds();
-  rows.store(kPhase, o.state.phase, u);
-  rows.store(kX, o.state.X, o.state.U);
-  rows.store(kY, o.state.Y, o.state.W);
-  rows.store(kG1, o.g1, o.g2);
-  rows.store(kG3, o.g3, o.h);
-  rows.store(kH1, o.h1, b.X);
-  rows.store(kBoundY, b.Y, b.second);
-  rows.store(kBound3, b.third, b.fourth);
-  rows.store(kBoundDrive, b.drive, b.fastest);
-}
 
 AFM_LANE_INLINE void split(unsigned lanes, M first, Kind yes, Kind no, Ways& ways) {
   ways.lanes[yes] |= lanes & bits(first);

@@ -60,50 +60,59 @@ class Schedule {
     }
   }
 
+  // Every full pack that waits for this now; or the one that is not full.
   void fly(Kind kind) {
-    switch (kind) {
-      case kLookNear:
-        return fly_all<kLookNear>();
-      case kLookFar:
-        return fly_all<kLookFar>();
-      case kFinishHere:
-        return fly_all<kFinishHere>();
-      case kFinishTiny:
-        return fly_all<kFinishTiny>();
-      case kFinishNear:
-        return fly_all<kFinishNear>();
-      case kFinishFar:
-        return fly_all<kFinishFar>();
-      default:
-        return fly_all<kBounce>();
-    }
-  }
-
-  // Every full pack that waits for this now, one after another without a word in between; or the one that is not full.
-  template <Kind kKind>
-  AFM_LANE_KERNEL void fly_all() {
-    List& list = lists_[kKind];
+    List& list = lists_[kind];
     LaneTip* tips[kLanes];
     if (list.size < kLanes) {
       for (std::uint32_t i = 0; i < kLanes; ++i) tips[i] = i < list.size ? list.tips[i] : work_.spare;
       const unsigned there = (1u << list.size) - 1u;
       list.size = 0;
-      return fly_pack<kKind>(tips, there);
+      return fly_pack(tips, kind, there);
     }
     for (std::uint32_t packs = list.size / kLanes; packs > 0; --packs) {
       list.size -= kLanes;
       for (std::uint32_t i = 0; i < kLanes; ++i) tips[i] = list.tips[list.size + i];
-      fly_pack<kKind>(tips, kAllLanes);
+      fly_pack(tips, kind, kAllLanes);
+    }
+  }
+
+  // A full pack for as long as all go the same way, another once.
+  void fly_pack(LaneTip* const* tips, Kind kind, unsigned there) {
+    Live live(tips, kind);
+    for (;;) {
+      Ways ways = step(kind, live);
+      const unsigned stop = kind == kBounce ? count_bounces(tips, there, ways) : 0u;
+      const int next = stop == 0 && there == kAllLanes ? ways.common() : kKinds;
+      if (next == kKinds || (next == kFinishFar && !live.whole)) {
+        live.store();
+        return part(tips, there, stop, ways);
+      }
+      kind = static_cast<Kind>(next);
     }
   }
 
   template <Kind kKind>
-  AFM_LANE_INLINE void fly_pack(LaneTip* const* tips, unsigned there) {
-    const Rows rows(tips);
-    Ways ways = kKind == kBounce                          ? bounce(tips, rows)
-                : kKind == kLookNear || kKind == kLookFar ? look<kKind>(rows)
-                                                          : finish<kKind>(rows);
-    if (kKind == kBounce) count_bounces(tips, there, ways);
+  static AFM_LANE_KERNEL Ways step_of(Live& live) {
+    if constexpr (kKind == kBounce) {
+      return bounce(live);
+    } else if constexpr (kKind == kLookNear || kKind == kLookFar) {
+      return look<kKind>(live);
+    } else {
+      return finish<kKind>(live);
+    }
+  }
+  static Ways step(Kind kind, Live& live) {
+    constexpr Ways (*kSteps[])(Live&) = {step_of<kLookNear>,   step_of<kLookFar>,    step_of<kFinishHere>,
+                                         step_of<kFinishTiny>, step_of<kFinishNear>, step_of<kFinishFar>,
+                                         step_of<kBounce>};
+    static_assert(sizeof kSteps / sizeof *kSteps == kKinds, "one for each kind, in their order");
+    return kSteps[kind](live);
+  }
+
+  // Each into the list of what it needs next.
+  void part(LaneTip* const* tips, unsigned there, unsigned stop, Ways& ways) {
+    if (stop != 0) stop_after_bounce(tips, stop, ways);
     for (int k = 0; k < kKinds; ++k) sort(lists_[k], tips, ways.lanes[k] & there);
     for (unsigned left = ways.lanes[kLimited] & there; left != 0; left &= left - 1) wait(*tips[__builtin_ctz(left)]);
     if ((ways.lanes[kAlone] & there) != 0) all_alone(tips, ways.lanes[kAlone] & there);
@@ -119,7 +128,7 @@ class Schedule {
   }
 
   // Those with all their events go no further, nor do those that must bounce alone as yet.
-  AFM_LANE_INLINE void count_bounces(LaneTip* const* tips, unsigned there, Ways& ways) {
+  unsigned count_bounces(LaneTip* const* tips, unsigned there, Ways& ways) const {
     unsigned stop = ways.lanes[kAlone] & there;
     ways.lanes[kAlone] = 0;
     for (int i = 0; i < kLanes; ++i) {
@@ -128,7 +137,7 @@ class Schedule {
       if (++tip.events == work_.most_events) stop |= 1u << i & there;
       if (tip.log != nullptr) *tip.log++ = tip.last;
     }
-    if (stop != 0) stop_after_bounce(tips, stop, ways);
+    return stop;
   }
   void wait(LaneTip& tip) {
     tip.stage = Stage::bounce;
