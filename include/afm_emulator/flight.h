@@ -29,6 +29,9 @@ struct LaunchOf {
   using State = TipState;
 };
 
+// So many times slower than it may become, a tip is nowhere near the bounds of its whole flight.
+constexpr double kMuchSlower = 4.0;
+
 struct BoundLater {};
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -108,6 +111,15 @@ class Flight {
   T fourth_derivative_bound(const T& S) const {
     using std::min;
     return min(bounds_.fourth, early_fourth_derivative_bound(S));
+  }
+  // Over the next S, or the last. With a spring stretched far it is smaller by powers of ten where the tip turns.
+  T fourth_derivative_bound(const GapJet<T>& now, const T& S) const {
+    using std::abs;
+    using std::min;
+    return either(
+        bounds_.fastest > T(kMuchSlower) * (abs(eta_ + now.state.U) + m_.ratio + T(1.0)),
+        [&] { return T(min(bounds_.fourth, afm::fourth_derivative_bound(m_, eta_, now.state, bounds_, S))); },
+        [&] { return bounds_.fourth; });
   }
   // The same without regard to that of the whole flight, which may not be known.
   T early_fourth_derivative_bound(const T& S) const {

@@ -74,13 +74,14 @@ Truth<T> is_brief(const Flight<T>& f, const T& length) {
 template <class T>
 void take_off(const Flight<T>& f, T& s, T& ahead, T& guess) {
   using std::max;
-  const T first = leave_surface(f), aloft = time_aloft(f, first);
+  const T quickly = leave_quickly(f), slowly = leave_slowly(f, quickly), first = max(quickly, slowly);
+  const T aloft = time_aloft(f, first);
   s = select(aloft > first, aloft, first);
   const auto low = [&] {
     // where the parabola's own root was nearest, it is the impact
     return either(
-        f.start().g2 * first < T(-1.6) * f.start().g1, [&] { return T(max(T(0.0), T(end_of_bounce(f) - first))); },
-        [&] { return T(T(kAhead) * first); });
+        f.start().g2 * first < T(-1.6) * f.start().g1 && !(slowly > quickly),
+        [&] { return T(max(T(0.0), T(end_of_bounce(f) - first))); }, [&] { return T(T(kAhead) * first); });
   };
   ahead = either(
       aloft > first, [&] { return descent(f, first); }, low);

@@ -31,7 +31,7 @@ template <class T>
 ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& jet, const T& S) {
   using std::max;
   using std::min;
-  const T bound3 = f.third_derivative_bound(jet, S), change = f.fourth_derivative_bound() * S;
+  const T bound3 = f.third_derivative_bound(jet, S), change = f.fourth_derivative_bound(jet, S) * S;
   return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + over(change, 3.0)))};
 }
 
@@ -54,7 +54,7 @@ T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
 // that, so that a bounce whose root it nearly is still has a gap to be seen, and the root is near. Where gap rate and
 // acceleration are nothing, as at the end of a slide, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
 template <class T>
-T leave_surface(const Flight<T>& f) {
+T leave_quickly(const Flight<T>& f) {
   using std::max;
   using std::sqrt;
   const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = over(f.third_derivative_bound(), 6.0);
@@ -67,6 +67,28 @@ T leave_surface(const Flight<T>& f) {
       [&] {
         return T(max(select(b > T(0.0), first, T(0.0)), T(T(3.0) * f.start().g3 / f.fourth_derivative_bound())));
       });
+}
+
+// The same where hardly a turn of the fastest is free by that: at the end of a dwell gap rate and acceleration are next
+// to nothing, and the third derivative takes the tip up. For as long as half of it is left, and at most a part of a turn,
+// if g1 s + g2 s^2/2 + g3 s^3/12 has no root; otherwise 0.
+template <class T>
+T leave_slowly(const Flight<T>& f) {
+  using std::abs;
+  using std::min;
+  constexpr double kSoon = 0x1p-3;
+  const GapJet<T>& o = f.start();
+  const T b = o.g2 / T(2.0), soon = T(kSoon) / (abs(f.eta() + o.state.U) + f.mechanics().ratio + T(1.0));
+  const T S = min(soon, T(T(2.0) * o.g3 / f.fourth_derivative_bound(soon)));
+  const Truth<T> noise = !(o.g1 > T(0.0)) && !(b < T(-kReleaseNoise));
+  const Truth<T> up = o.g3 > T(0.0) && (!(b < T(0.0)) || b * b * T(3.0) < o.g1 * o.g3 || noise);
+  return select(up, S, T(0.0));
+}
+template <class T>
+T leave_slowly(const Flight<T>& f, const T& quickly) {
+  constexpr double kHardly = 0x1p-6;
+  return either(
+      quickly * f.bounds().fastest <= T(kHardly), [&] { return leave_slowly(f); }, [] { return T(0.0); });
 }
 
 // First positive root of g + g1 t + q t^2/2, or `none` where there is none. Precondition: g > 0.
