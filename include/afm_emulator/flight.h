@@ -116,8 +116,9 @@ class Flight {
   T fourth_derivative_bound(const GapJet<T>& now, const T& S) const {
     using std::abs;
     using std::min;
+    const T room = bounds_.fastest * T(1.0 / kMuchSlower) - (m_.ratio + T(1.0));
     return either(
-        bounds_.fastest > T(kMuchSlower) * (abs(eta_ + now.state.U) + m_.ratio + T(1.0)),
+        both(room > T(0.0), [&] { return room > abs(eta_ + now.state.U); }),
         [&] { return T(min(bounds_.fourth, afm::fourth_derivative_bound(m_, eta_, now.state, bounds_, S))); },
         [&] { return bounds_.fourth; });
   }

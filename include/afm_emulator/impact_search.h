@@ -11,7 +11,7 @@ namespace afm {
 
 enum class SearchOutcome {
   impact,     // found: `s` and `jet` are at the root
-  clear,      // certified free of impacts up to the horizon, `s`
+  clear,      // certified free of impacts up to `s`: the horizon, or as far as many looks have come
   undecided,  // a graze or a root that rounding hides; certified free up to `s`. More digits decide it
   cap         // too many steps; certified free up to `s`
 };
@@ -237,7 +237,7 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
 
 // In double, and where rounding hides a graze or a root, on the same start in twice the digits; what even they cannot
 // tell from a touch is a touch where no gap is left, and `cap` otherwise. So an impact or a miss is what exact
-// arithmetic on the given doubles says, down to 1e-30.
+// arithmetic on the given doubles says, down to 1e-30. Where too many looks have come a tenth of a tau, it is clear so far.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 // The same of one whose higher derivatives are bounded where they are asked for.
 Landing<double> find_landing(const Model& model, Flight<double>& flight, double horizon);

@@ -9,7 +9,8 @@
 namespace afm {
 namespace {
 
-constexpr double kTouch = 1e-20;  // no gap at all, where rounding hides it in twice the digits [a]
+constexpr double kFarEnough = 0.1;  // certified so far, a flight of too many looks is begun anew from there [tau]
+constexpr double kTouch = 1e-20;    // no gap at all, where rounding hides it in twice the digits [a]
 
 AFM_MULTIVERSION Landing<double> find_in_double(Flight<double>& flight, double horizon) {
   return find_impact(flight, horizon, 0.0, [&] { flight.bound_derivatives(); });
@@ -66,6 +67,7 @@ Landing<double> find_landing(const Model& model, Flight<double>& flight, double 
     Flight<double> closer(flight, bounds_until(flight, seen));
     landing = find_in_double(closer, horizon);
   }
+  if (landing.outcome == SearchOutcome::cap && landing.s >= kFarEnough) landing.outcome = SearchOutcome::clear;
   if (landing.outcome == SearchOutcome::undecided) {
     const Flight<DoubleDouble> whole(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
     const Flight<DoubleDouble> finer(whole, bounds_until(whole, DoubleDouble(seen)));

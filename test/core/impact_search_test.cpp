@@ -307,5 +307,20 @@ TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
   }
 }
 
+// Found by fuzzing: the surface shakes below at 936 turns a tau, 3300 looks each. As far as they come nothing is hit.
+TEST(ImpactSearch, AFlightOfTooManyLooksIsClearAsFarAsTheyCome) {
+  Model shaken;
+  shaken.H = 5.3309067632448643;
+  shaken.y0 = 0.0;
+  shaken.frequency_ratio = 935.70777915161329;
+  const TipState start{0.43561489630232375, 0.069185876982674949, -424.61715691441185, 5.0357812379056721,
+                       -5599.8054202421808};
+  const Flight<double> flight(Mechanics<double>(shaken), -1.2419887072831295e-14, start);
+  const Landing<double> landing = find_landing(shaken, flight, kHorizon);
+  EXPECT_EQ(landing.outcome, SearchOutcome::clear);
+  EXPECT_GT(landing.s, 1.0);
+  EXPECT_GT(landing.jet.g, 0.0);
+}
+
 }  // namespace
 }  // namespace afm
