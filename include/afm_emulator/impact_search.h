@@ -237,7 +237,7 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
 
 // In double, and where rounding hides a graze or a root, on the same start in twice the digits; what even they cannot
 // tell from a touch is a touch where no gap is left, and `cap` otherwise. So an impact or a miss is what exact
-// arithmetic on the given doubles says, down to 1e-30. Where too many looks have come a tenth of a tau, it is clear so far.
+// arithmetic on the given doubles says, down to 1e-30. Where too many looks have come 0.1 tau it is clear so far.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 // The same of one whose higher derivatives are bounded where they are asked for.
 Landing<double> find_landing(const Model& model, Flight<double>& flight, double horizon);

@@ -69,6 +69,7 @@ class Tip {
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   bool in_contact() const { return mode_ == Mode::sliding; }
+  bool in_burst() const { return mode_ == Mode::bursting; }
   const Impact& last_impact() const { return last_impact_; }
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }

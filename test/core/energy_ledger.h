@@ -64,9 +64,9 @@ class EnergyLedger {
     const Impact& impact = tip.last_impact();
     lost_ += impact.energy_loss;
     gross_ += std::abs(impact.energy_loss);
-    // in a burst the state is that of the guide, without the bounces; it has none where the last was too slow to be one
+    // in a burst the state is that of the guide, without the bounces
     const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
-    bursting_ = impact.kind == ImpactKind::impact && after > 1e-130 && tip.tip_state().g1 == 0.0;
+    bursting_ = impact.kind == ImpactKind::impact && tip.in_burst();
     in_bounces_ = bursting_ ? 0.5 * after * after : 0.0;
   }
 
