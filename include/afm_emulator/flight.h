@@ -31,6 +31,8 @@ struct LaunchOf {
 
 // So many times slower than it may become, a tip is nowhere near the bounds of its whole flight.
 constexpr double kMuchSlower = 4.0;
+// No more accelerated than that, a tip creeps about one place [a/tau^2].
+constexpr double kCreeping = 1e-6;
 
 struct BoundLater {};
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -112,15 +114,16 @@ class Flight {
     using std::min;
     return min(bounds_.fourth, early_fourth_derivative_bound(S));
   }
-  // Over the next S, or the last. With a spring stretched far it is smaller by powers of ten where the tip turns.
+  // Over the next S, or the last: smaller by powers of ten where a tip turns whose spring is stretched far, and at rest
+  // on a floor.
   T fourth_derivative_bound(const GapJet<T>& now, const T& S) const {
     using std::abs;
     using std::min;
     const T room = bounds_.fastest * T(1.0 / kMuchSlower) - (m_.ratio + T(1.0));
+    const auto about = [&] { return afm::fourth_derivative_bound(m_, eta_, now.state, now.h1, bounds_, S); };
     return either(
-        both(room > T(0.0), [&] { return room > abs(eta_ + now.state.U); }),
-        [&] { return T(min(bounds_.fourth, afm::fourth_derivative_bound(m_, eta_, now.state, bounds_, S))); },
-        [&] { return bounds_.fourth; });
+        both(room > T(0.0), [&] { return room > abs(eta_ + now.state.U); }) || bounds_.second < T(kCreeping),
+        [&] { return T(min(bounds_.fourth, about())); }, [&] { return bounds_.fourth; });
   }
   // The same without regard to that of the whole flight, which may not be known.
   T early_fourth_derivative_bound(const T& S) const {

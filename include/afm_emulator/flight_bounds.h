@@ -67,7 +67,7 @@ void bound_derivatives(const Mechanics<T>& m, const T& eta, FlightBounds<T>& b) 
   b.drive = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
 }
 
-// The fourth over the first S only: after a long S it may be more than that of the whole flight.
+// The fourth over the next S, or the last, only: after a long S it may be more than that of the whole flight.
 template <class T>
 T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, const FlightBounds<T>& b,
                           const T& S) {
@@ -78,6 +78,20 @@ T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState
   const T u = abs(eta + o.U) + change, v = k * u, jerk = wh2 * (abs(o.U) + change);
   const T steady = v * v * (v * u + T(6.0) * a), stretched = a * (T(3.0) * k * a + wh2) + T(4.0) * v * jerk;
   return wv2 * wv2 * b.Y + k * m.H * (steady + stretched);
+}
+
+// The same where the slope is h1 now: a tip that creeps about a crest or a floor sees next to none.
+template <class T>
+T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, const T& h1,
+                          const FlightBounds<T>& b, const T& S) {
+  using std::abs;
+  using std::min;
+  const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v, bend = k * k * m.H;
+  const T a = wh2 * min(b.X, T(abs(o.X) + S * (m.omega_h * b.X))), change = a * S;
+  const T u = abs(eta + o.U) + change, v = k * u, jerk = wh2 * (abs(o.U) + change);
+  const T slope = min(T(k * m.H), T(abs(h1) + bend * u * S));
+  const T bent = v * v * u * u + T(3.0) * a * a + T(4.0) * u * jerk, sloping = a * (T(6.0) * v * v + wh2);
+  return wv2 * wv2 * b.Y + (bend * bent + slope * sloping);
 }
 
 }  // namespace afm

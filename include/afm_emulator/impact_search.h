@@ -235,9 +235,9 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   return find_impact(f, horizon, from, [] {});
 }
 
-// In double, and where rounding hides a graze or a root, on the same start in twice the digits; what even they cannot
-// tell from a touch is a touch where no gap is left, and `cap` otherwise. So an impact or a miss is what exact
-// arithmetic on the given doubles says, down to 1e-30. Where too many looks have come 0.1 tau it is clear so far.
+// In double, and where rounding hides a graze or a root, on the same start in twice the digits. So an impact or a miss
+// is what exact arithmetic on the given doubles says, down to 1e-30. What even they cannot tell, or too many looks, is
+// a touch where no gap is left, clear so far where 0.1 tau are certified, and `cap` otherwise.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 // The same of one whose higher derivatives are bounded where they are asked for.
 Landing<double> find_landing(const Model& model, Flight<double>& flight, double horizon);

@@ -53,6 +53,11 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
   return {landing.outcome, d(landing.s), jet, landing.evaluations};
 }
 
+SearchOutcome without_end(const Landing<double>& landing) {
+  if (!(landing.jet.g > kTouch)) return SearchOutcome::impact;
+  return landing.s >= kFarEnough ? SearchOutcome::clear : SearchOutcome::cap;
+}
+
 }  // namespace
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
@@ -67,14 +72,13 @@ Landing<double> find_landing(const Model& model, Flight<double>& flight, double 
     Flight<double> closer(flight, bounds_until(flight, seen));
     landing = find_in_double(closer, horizon);
   }
-  if (landing.outcome == SearchOutcome::cap && landing.s >= kFarEnough) landing.outcome = SearchOutcome::clear;
   if (landing.outcome == SearchOutcome::undecided) {
     const Flight<DoubleDouble> whole(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
     const Flight<DoubleDouble> finer(whole, bounds_until(whole, DoubleDouble(seen)));
     landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
-    if (landing.outcome == SearchOutcome::undecided)
-      landing.outcome = landing.jet.g > kTouch ? SearchOutcome::cap : SearchOutcome::impact;
   }
+  if (landing.outcome == SearchOutcome::undecided || landing.outcome == SearchOutcome::cap)
+    landing.outcome = without_end(landing);
   return landing;
 }
 

@@ -208,5 +208,30 @@ TEST(Flight, TheFourthDerivativeStaysWithinItsBoundAboutATime) {
   EXPECT_LT(least_gain, 1e-2);
 }
 
+// Also of one that creeps about a floor or a crest at the height of rest, where slopes are next to nothing.
+TEST(Flight, TheFourthDerivativeStaysWithinItsBoundAboutARestingPlace) {
+  RandomLaunches launches(11);
+  const Quad step(1e-10);
+  double least_gain = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    Model model;
+    model.H = 10.0;
+    model.y0 = i % 2 == 0 ? -10.0 : 10.0;
+    const double size = std::pow(10.0, launches.within(-12.0, -9.0));
+    const TipState start{i % 2 == 0 ? 0.5 : 0.0, size * launches.within(-1.0, 1.0), size * launches.within(-9.0, 9.0),
+                         size * size, size * launches.within(-1.0, 1.0)};
+    const Flight<Quad> flight(Mechanics<Quad>(model), Quad(0.0), start);
+    const Quad now = launches.within(0.0, 0.5), S = std::pow(10.0, launches.within(-4.0, -1.0));
+    const Quad bound = flight.fourth_derivative_bound(flight.gap(now), S);
+    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
+    for (int k = -10; k <= 10; ++k) {
+      const Quad s = now + S * Quad(k) / Quad(10.0);
+      const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
+      ASSERT_LE(static_cast<double>(abs(fourth) / bound), 1.0 + 1e-6) << size << " " << s << " about " << now;
+    }
+  }
+  EXPECT_LT(least_gain, 1e-2);
+}
+
 }  // namespace
 }  // namespace afm

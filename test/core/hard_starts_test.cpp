@@ -1,5 +1,5 @@
-// Starts on which a search is hard put to it, and most on which it once failed: loose and stiff springs, forces in balance,
-// the glide, speeds and gaps below all rounding.
+// Starts on which a search is hard put to it, most of which it once failed on: loose and stiff springs, forces in
+// balance, the glide, speeds and gaps below all rounding.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -126,6 +126,20 @@ TEST(HardStart, AFlightOfTooManyLooksIsClearAsFarAsTheyCome) {
   EXPECT_EQ(landing.outcome, SearchOutcome::clear);
   EXPECT_GT(landing.s, 1.0);
   EXPECT_GT(landing.jet.g, 0.0);
+}
+
+// It moves by 1e-20 a: the slopes that it sees are of that size, not those of the surface. By these it took 9230 looks
+// in twice the digits.
+TEST(HardStart, ATipThatCreepsOnTheFloorLandsInFewLooks) {
+  Model model;
+  model.H = 10.0;
+  model.y0 = -10.0;
+  const TipState start{0.5, -2.504373087363358e-20, -2.5027893591181433e-19, 5.7758781386465366e-41,
+                       -2.7987092738099678e-38};
+  const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), 0.0, start), kHorizon);
+  ASSERT_EQ(landing.outcome, SearchOutcome::impact);
+  EXPECT_NEAR(landing.s, 0.0013868250508038, 1e-12);
+  EXPECT_LT(landing.evaluations, 10);
 }
 
 }  // namespace
