@@ -67,16 +67,30 @@ void bound_derivatives(const Mechanics<T>& m, const T& eta, FlightBounds<T>& b) 
   b.drive = slope * (k * v * u_change + T(3.0) * k * ua + wh_a);
 }
 
+// What a tip is within S of a state, before or after: no faster along x, no more accelerated, with no more jerk.
+template <class T>
+struct Reach {
+  T speed, acceleration, jerk;
+};
+
+template <class T>
+Reach<T> reach_within(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, const FlightBounds<T>& b,
+                      const T& S) {
+  using std::abs;
+  using std::min;
+  const T wh2 = m.omega_h * m.omega_h;
+  const T a = wh2 * min(b.X, T(abs(o.X) + S * (m.omega_h * b.X))), change = a * S;
+  return {abs(eta + o.U) + change, a, wh2 * (abs(o.U) + change)};
+}
+
 // The fourth over the next S, or the last, only: after a long S it may be more than that of the whole flight.
 template <class T>
 T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, const FlightBounds<T>& b,
                           const T& S) {
-  using std::abs;
-  using std::min;
   const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
-  const T a = wh2 * min(b.X, T(abs(o.X) + S * (m.omega_h * b.X))), change = a * S;
-  const T u = abs(eta + o.U) + change, v = k * u, jerk = wh2 * (abs(o.U) + change);
-  const T steady = v * v * (v * u + T(6.0) * a), stretched = a * (T(3.0) * k * a + wh2) + T(4.0) * v * jerk;
+  const Reach<T> r = reach_within(m, eta, o, b, S);
+  const T u = r.speed, a = r.acceleration, v = k * u;
+  const T steady = v * v * (v * u + T(6.0) * a), stretched = a * (T(3.0) * k * a + wh2) + T(4.0) * v * r.jerk;
   return wv2 * wv2 * b.Y + k * m.H * (steady + stretched);
 }
 
@@ -87,10 +101,9 @@ T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState
   using std::abs;
   using std::min;
   const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v, bend = k * k * m.H;
-  const T a = wh2 * min(b.X, T(abs(o.X) + S * (m.omega_h * b.X))), change = a * S;
-  const T u = abs(eta + o.U) + change, v = k * u, jerk = wh2 * (abs(o.U) + change);
-  const T slope = min(T(k * m.H), T(abs(h1) + bend * u * S));
-  const T bent = v * v * u * u + T(3.0) * a * a + T(4.0) * u * jerk, sloping = a * (T(6.0) * v * v + wh2);
+  const Reach<T> r = reach_within(m, eta, o, b, S);
+  const T u = r.speed, a = r.acceleration, v = k * u, slope = min(T(k * m.H), T(abs(h1) + bend * u * S));
+  const T bent = v * v * u * u + T(3.0) * a * a + T(4.0) * u * r.jerk, sloping = a * (T(6.0) * v * v + wh2);
   return wv2 * wv2 * b.Y + (bend * bent + slope * sloping);
 }
 

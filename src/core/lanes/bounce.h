@@ -36,9 +36,9 @@ AFM_LANE_INLINE Ways bounce(Live& live) {
   incident.state.phase = end.phase, incident.state.X = end.X, incident.state.U = end.U;
   incident.g1 = end.g1, incident.h1 = end.h1;
   const ReflectionOf<Pack> r = reflect(live.law, eta, incident);
-  log(live.tips, live.incident.time, r);
+  log(live.tips, end.time, r);
   const Flight<Pack>& f = live.flight = Flight<Pack>(m, eta, r.after);
-  live.start = live.incident.time;
+  live.start = end.time;
   live.whole = true;
   live.newer = Live::kFlight | Live::kLook;
   const GapJet<Pack>& o = f.start();

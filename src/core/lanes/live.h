@@ -28,13 +28,14 @@ struct Live {
   Live(LaneTip* const* pack, Kind kind) : tips(pack) {
     const Rows rows(tips);
     const bool looks = kind == kLookNear || kind == kLookFar;
+    Pack unused;
     load_flight(rows, kind, looks || kind == kFinishFar);
     if (looks) rows.load(kS, look.s, look.ahead);
     if (kind == kBounce) {
-      load_incident(rows, incident);
+      incident_part(Load{rows}, incident, unused);
     } else {
       rows.load(kGuess, look.guess, look.count);
-      if (!looks) load_root(rows, root);
+      if (!looks) root_part(Load{rows}, root, unused);
     }
   }
 
@@ -53,22 +54,26 @@ struct Live {
 
   void store() const {
     const Rows rows(tips);
-    if ((newer & kFlight) != 0) store_flight(rows, flight, start);
+    const Pack zero(0.0);
+    if ((newer & kFlight) != 0) {
+      flight_part(Store{rows}, flight.start(), flight.bounds(), flight.launch().u);
+      rows.store(kStartTau, start.tau, start.phase);
+    }
     if ((newer & kLook) != 0) rows.store(kS, look.s, look.ahead);
     if ((newer & (kLook | kRoot)) != 0) rows.store(kGuess, look.guess, look.count);
-    if ((newer & kRoot) != 0) store_root(rows, root);
-    if ((newer & kIncident) != 0) store_incident(rows, incident);
+    if ((newer & kRoot) != 0) root_part(Store{rows}, root, zero);
+    if ((newer & kIncident) != 0) incident_part(Store{rows}, incident, zero);
   }
 
  private:
   AFM_LANE_INLINE void load_flight(const Rows& rows, Kind kind, bool all) {
     Mechanics<Pack> m;
-    Pack eta;
+    Pack eta, u;
     load_model(rows, m, eta);
     GapJet<Pack> o{};
     FlightBounds<Pack> b{};
     if (all) {
-      afm::load_flight(rows, o, b);
+      flight_part(Load{rows}, o, b, u);
     } else if (kind != kBounce) {
       load_bounds(rows, o, b);
     }

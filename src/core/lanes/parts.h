@@ -36,17 +36,18 @@ AFM_LANE_INLINE void load_law(const Rows& rows, ReflectionLaw<Pack>& law, Pack& 
   rows.load(kCutoff, law.v_c, burst_gap_rate);
 }
 
-AFM_LANE_INLINE void load_flight(const Rows& rows, GapJet<Pack>& o, FlightBounds<Pack>& b) {
-  Pack u;
-  rows.load(kPhase, o.state.phase, u);
-  rows.load(kX, o.state.X, o.state.U);
-  rows.load(kY, o.state.Y, o.state.W);
-  rows.load(kG1, o.g1, o.g2);
-  rows.load(kG3, o.g3, o.h);
-  rows.load(kH1, o.h1, b.X);
-  rows.load(kBoundY, b.Y, b.second);
-  rows.load(kBound3, b.third, b.fourth);
-  rows.load(kBoundDrive, b.drive, b.fastest);
+// Each names its fields once, to be loaded or stored.
+template <class Pairs, class Jet, class Bounds, class U>
+AFM_LANE_INLINE void flight_part(const Pairs& pairs, Jet& o, Bounds& b, U& u) {
+  pairs(kPhase, o.state.phase, u);
+  pairs(kX, o.state.X, o.state.U);
+  pairs(kY, o.state.Y, o.state.W);
+  pairs(kG1, o.g1, o.g2);
+  pairs(kG3, o.g3, o.h);
+  pairs(kH1, o.h1, b.X);
+  pairs(kBoundY, b.Y, b.second);
+  pairs(kBound3, b.third, b.fourth);
+  pairs(kBoundDrive, b.drive, b.fastest);
 }
 // Of a flight that is no more evaluated from its start.
 AFM_LANE_INLINE void load_bounds(const Rows& rows, GapJet<Pack>& o, FlightBounds<Pack>& b) {
@@ -54,59 +55,25 @@ AFM_LANE_INLINE void load_bounds(const Rows& rows, GapJet<Pack>& o, FlightBounds
   rows.load(kBoundY, b.Y, b.second);
   rows.load(kBoundDrive, b.drive, b.fastest);
 }
-AFM_LANE_INLINE void store_flight(const Rows& rows, const Flight<Pack>& f, const PackTime& start) {
-  const GapJet<Pack>& o = f.start();
-  const FlightBounds<Pack>& b = f.bounds();
-  rows.store(kPhase, o.state.phase, f.launch().u);
-  rows.store(kX, o.state.X, o.state.U);
-  rows.store(kY, o.state.Y, o.state.W);
-  rows.store(kG1, o.g1, o.g2);
-  rows.store(kG3, o.g3, o.h);
-  rows.store(kH1, o.h1, b.X);
-  rows.store(kBoundY, b.Y, b.second);
-  rows.store(kBound3, b.third, b.fourth);
-  rows.store(kBoundDrive, b.drive, b.fastest);
-  rows.store(kStartTau, start.tau, start.phase);
+template <class Pairs, class R, class Unused>
+AFM_LANE_INLINE void root_part(const Pairs& pairs, R& root, Unused& unused) {
+  auto& jet = root.jet;
+  pairs(kJetPhase, jet.state.phase, jet.state.X);
+  pairs(kJetRateX, jet.state.U, jet.state.Y);
+  pairs(kJetRateY, jet.state.W, jet.g);
+  pairs(kJetG1, jet.g1, jet.g2);
+  pairs(kJetG3, jet.g3, jet.h);
+  pairs(kJetH1, jet.h1, root.step);
+  pairs(kLow, root.low, root.high);
+  pairs(kJetS, root.s, root.t);
+  pairs(kIsEnd, root.is_end, unused);
 }
-
-AFM_LANE_INLINE void load_root(const Rows& rows, Root& root) {
-  GapJet<Pack>& jet = root.jet;
-  Pack unused;
-  rows.load(kJetPhase, jet.state.phase, jet.state.X);
-  rows.load(kJetRateX, jet.state.U, jet.state.Y);
-  rows.load(kJetRateY, jet.state.W, jet.g);
-  rows.load(kJetG1, jet.g1, jet.g2);
-  rows.load(kJetG3, jet.g3, jet.h);
-  rows.load(kJetH1, jet.h1, root.step);
-  rows.load(kLow, root.low, root.high);
-  rows.load(kJetS, root.s, root.t);
-  rows.load(kIsEnd, root.is_end, unused);
-}
-AFM_LANE_INLINE void store_root(const Rows& rows, const Root& root) {
-  const GapJet<Pack>& jet = root.jet;
-  rows.store(kJetPhase, jet.state.phase, jet.state.X);
-  rows.store(kJetRateX, jet.state.U, jet.state.Y);
-  rows.store(kJetRateY, jet.state.W, jet.g);
-  rows.store(kJetG1, jet.g1, jet.g2);
-  rows.store(kJetG3, jet.g3, jet.h);
-  rows.store(kJetH1, jet.h1, root.step);
-  rows.store(kLow, root.low, root.high);
-  rows.store(kJetS, root.s, root.t);
-  rows.store(kIsEnd, root.is_end, Pack(0.0));
-}
-
-AFM_LANE_INLINE void load_incident(const Rows& rows, Incident& end) {
-  Pack unused;
-  rows.load(kEndSurface, end.phase, end.X);
-  rows.load(kEndRateX, end.U, end.g1);
-  rows.load(kEndH1, end.h1, unused);
-  rows.load(kEndTau, end.time.tau, end.time.phase);
-}
-AFM_LANE_INLINE void store_incident(const Rows& rows, const Incident& end) {
-  rows.store(kEndSurface, end.phase, end.X);
-  rows.store(kEndRateX, end.U, end.g1);
-  rows.store(kEndH1, end.h1, Pack(0.0));
-  rows.store(kEndTau, end.time.tau, end.time.phase);
+template <class Pairs, class I, class Unused>
+AFM_LANE_INLINE void incident_part(const Pairs& pairs, I& end, Unused& unused) {
+  pairs(kEndSurface, end.phase, end.X);
+  pairs(kEndRateX, end.U, end.g1);
+  pairs(kEndH1, end.h1, unused);
+  pairs(kEndTau, end.time.tau, end.time.phase);
 }
 
 }  // namespace

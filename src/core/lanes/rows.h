@@ -50,6 +50,16 @@ struct Rows {
   AFM_LANE_INLINE void store(int at, P first, P second) const { store_pair(row, at, first.r, second.r); }
 };
 
+// What is done to a pair of numbers, and the place of the first in each row.
+struct Load {
+  const Rows& rows;
+  AFM_LANE_INLINE void operator()(int at, Pack& first, Pack& second) const { rows.load(at, first, second); }
+};
+struct Store {
+  const Rows& rows;
+  AFM_LANE_INLINE void operator()(int at, P first, P second) const { rows.store(at, first, second); }
+};
+
 AFM_LANE_INLINE void split(unsigned lanes, M first, Kind yes, Kind no, Ways& ways) {
   ways.lanes[yes] |= lanes & bits(first);
   ways.lanes[no] |= lanes & ~bits(first);
