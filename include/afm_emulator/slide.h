@@ -4,29 +4,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "afm_emulator/first_fall.h"
 #include "afm_emulator/slide_series.h"
 
 namespace afm {
 
-constexpr int kSlideBits = 50;
+constexpr int kSlideBits = 48;
 
 template <class T>
 class SlidePiece {
  public:
-  // At length() the last terms are below 2^-bits: at 50 the series is good to 3e-14 up to there.
+  // At length() the last terms are below 2^-bits: at 48 the series is good to 3e-14 up to there.
   SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits);
 
   SlideState<T> at(const T& s) const;
-  T pressure(const T& s) const { return horner(pressure_, s); }  // reaction along y [a/tau^2]
+  T pressure(const T& s) const { return horner(series_.lambda, s); }  // reaction along y [a/tau^2]
   T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
   std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
   T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
 
   T length() const { return length_; }  // [tau]
   const SlideState<T>& start() const { return start_; }
-  const Series<T>& displacement() const { return d_; }  // x - x(start)
+  const Series<T>& displacement() const { return series_.d; }  // x - x(start)
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 
@@ -40,49 +42,50 @@ class SlidePiece {
   Mechanics<T> m_;
   T eta_;
   SlideState<T> start_;
-  Series<T> d_, u_, pressure_;  // x - x(start), lab velocity, pressure: powers of the time since the start
+  SlideSeries<T> series_;
   T length_;
 };
 
 template <class T>
 SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits)
     : m_(mechanics), eta_(eta), start_(start) {
-  const SlideSeries<T> series(mechanics, eta, start);
-  d_ = series.d;
-  u_ = series.u;
-  pressure_ = series.lambda;
+  SlideOrders<T>(mechanics, eta, start, series_);
   length_ = choose_length(bits);
 }
 
-// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits. In
-// quarter powers of 2 and from exponents alone, which are the same on every machine.
+// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits, or
+// three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they are
+// divided as such, which is quick, and the same on every machine.
 template <class T>
 T SlidePiece<T>::choose_length(int bits) const {
-  constexpr double kLongest = 8.0;  // [tau]
-  constexpr double kQuarterPowers[4] = {1.0, 1.189207115002721, 1.4142135623730951, 1.681792830507429};
-  const bool held = static_cast<double>(m_.mobility) == 0.0;
-  double length = kLongest;
+  constexpr std::int64_t kBit = std::int64_t{1} << 52, kOne = 1023 * kBit;
+  const Series<T>& c = static_cast<double>(m_.mobility) == 0.0 ? series_.lambda : series_.u;
+  double longest = 8.0;  // [tau]
+#pragma GCC unroll 2
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
-    const double c = std::abs(static_cast<double>(held ? pressure_[n] : u_[n]));
-    if (!(c > 1e-290 && c < 1e290)) continue;  // nothing to choose by; beyond, of a state that was altered
-    const int quarters = 4 * (-bits - std::ilogb(c)) / static_cast<int>(n);
-    const int whole = quarters >= 0 ? quarters / 4 : -((3 - quarters) / 4);
-    length = std::min(length, std::ldexp(kQuarterPowers[quarters - 4 * whole], whole));
+    const double last = std::abs(static_cast<double>(c[n]));
+    if (!(last > 1e-290 && last < 1e290)) continue;  // nothing to choose by; beyond, of a state that was altered
+    std::int64_t logarithm;
+    std::memcpy(&logarithm, &last, sizeof last);
+    logarithm = (kOne - bits * kBit - logarithm) / static_cast<std::int64_t>(n) + kOne;
+    double length;
+    std::memcpy(&length, &logarithm, sizeof length);
+    longest = std::min(longest, length);
   }
-  return T(length);
+  return T(longest);
 }
 
 template <class T>
 SlideState<T> SlidePiece<T>::at(const T& s) const {
-  const T d = horner(d_, s);
-  return {start_.phase + d, start_.X + (d - eta_ * s), horner(u_, s)};
+  const T d = horner(series_.d, s);
+  return {start_.phase + d, start_.X + (d - eta_ * s), horner(series_.u, s)};
 }
 
 template <class T>
 T SlidePiece<T>::displacement_integral(const T& s) const {
-  Series<T> mean = d_;
+  Series<T> mean = series_.d;
 #pragma GCC unroll 32
-  for (std::size_t k = 1; k <= kSlideOrder; ++k) mean[k] = d_[k] * T(1.0 / static_cast<double>(k + 1));
+  for (std::size_t k = 1; k <= kSlideOrder; ++k) mean[k] = series_.d[k] * T(1.0 / static_cast<double>(k + 1));
   return s * horner(mean, s);
 }
 
@@ -93,7 +96,7 @@ std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
   for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
 #pragma GCC unroll 4
     for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
-    c[0] = fma(c[0], s, pressure_[k]);
+    c[0] = fma(c[0], s, series_.lambda[k]);
   }
   c[2] *= T(2.0), c[3] *= T(6.0);
   return c;
@@ -116,11 +119,12 @@ T largest_change(const Series<T>& series, const T& s) {
 template <class T>
 T SlidePiece<T>::find_release() const {
   constexpr double kPart = 1.0 / 1024.0;
-  const T noise = release_noise(m_, start_.u, start_.X);
-  Series<T> pull = pressure_;
-  pull[0] = pull[0] + noise;
-  if (pull[0] > largest_change(pressure_, length_)) return T(-1.0);
-  return pull[0] <= T(kPart) * noise ? T(0.0) : first_fall(pull, length_, T(kPart * noise));
+  const T noise = release_noise(m_, start_.u, start_.X), pressed = series_.lambda[0] + noise;
+  if (pressed > largest_change(series_.lambda, length_)) return T(-1.0);
+  if (pressed <= T(kPart) * noise) return T(0.0);
+  Series<T> pull = series_.lambda;
+  pull[0] = pressed;
+  return first_fall(pull, length_, T(kPart * noise));
 }
 
 }  // namespace afm

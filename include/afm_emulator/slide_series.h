@@ -46,76 +46,102 @@ T early_product(const Series<T>& a, const Series<T>& b) {
   return even + odd;
 }
 
-// The same with terms n - 1, without terms n.
+// The same with a[n - 1] b[1], without a[1] b[n - 1].
+template <std::size_t n, class T>
+T older_product(const Series<T>& a, const Series<T>& b) {
+  using std::fma;
+  if constexpr (n < 3) return T(0.0);
+  if constexpr (n > 2) return fma(a[n - 1], b[1], early_product<n>(a, b));
+}
+
+// Without terms n.
 template <std::size_t n, class T>
 T inner_product(const Series<T>& a, const Series<T>& b) {
   using std::fma;
   if constexpr (n < 2) return T(0.0);
   if constexpr (n == 2) return a[1] * b[1];
-  if constexpr (n > 2) return fma(a[1], b[n - 1], fma(a[n - 1], b[1], early_product<n>(a, b)));
+  if constexpr (n > 2) return fma(a[1], b[n - 1], older_product<n>(a, b));
 }
 
-// Coefficient n of the product of two series.
-template <std::size_t n, class T>
-T product(const Series<T>& a, const Series<T>& b) {
-  using std::fma;
-  if constexpr (n == 0) return a[0] * b[0];
-  if constexpr (n > 0) return fma(a[0], b[n], fma(a[n], b[0], inner_product<n>(a, b)));
-}
-
-// With r = -h', c = -h'' and the reaction lambda (of the surface on a tip of mass 1, along y): x'' = -omega_h^2 X + r
-// lambda and lambda = q - r x'', where q = omega_v^2 (h - y0) - c x'^2; as omega_v is the surface's wave number too,
-// omega_v^2 h = c.
+// Powers of the time since the start.
 template <class T>
 struct SlideSeries {
-  SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start);
+  Series<T> d, u, lambda;  // x - x(start), x', reaction
+};
 
-  Series<T> d{}, u{}, lambda{};  // x - x(start), x', reaction
+// With r = -h', c = -h'' and the reaction lambda (of the surface on a tip of mass 1, along y):
+//   x'' = -omega_h^2 X + r lambda,   lambda = y'' + omega_v^2 (h - y0) = c - omega_v^2 y0 - (r u)',
+// as y' = -r u and omega_v is the surface's wave number too; and c' = -(2 pi)^2 r u. So three products of series are all
+// there is. They are written in place: a copy of what has just been written number by number waits until it is in
+// memory, a fifth of a piece's time.
+template <class T>
+class SlideOrders {
+ public:
+  SlideOrders(const Mechanics<T>& m, const T& eta, const SlideState<T>& start, SlideSeries<T>& series);
 
  private:
   template <std::size_t n>
   void add_order();
+  template <std::size_t n>
+  void finish_order(const T& r1, const T& rest, const T& fall, const T& pulled);
 
+  Series<T>&d, &u, &lambda;
+  Series<T> r, c, X;
   T k2, wh2, inertia, pull, r_inertia;
-  Series<T> r{}, c{}, X{}, r1{}, a{};  // of them r' = c x', a = x''
 };
 
 template <class T>
-SlideSeries<T>::SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start)
-    : k2(two_pi<T>() * two_pi<T>()), wh2(m.omega_h * m.omega_h), pull(m.omega_v * m.omega_v * m.y0) {
+SlideOrders<T>::SlideOrders(const Mechanics<T>& m, const T& eta, const SlideState<T>& start, SlideSeries<T>& series)
+    : d(series.d),
+      u(series.u),
+      lambda(series.lambda),
+      k2(two_pi<T>() * two_pi<T>()),
+      wh2(m.omega_h * m.omega_h),
+      pull(m.omega_v * m.omega_v * m.y0) {
   const SinCos<T> turn = sin_cos_turns(start.phase);
   r[0] = two_pi<T>() * m.H * turn.sin;
   c[0] = k2 * m.H * turn.cos;
   u[0] = d[1] = start.u;
+  d[0] = T(0.0);
   X[0] = start.X;
   X[1] = start.u - eta;
+  c[1] = -k2 * r[0] * u[0];
   inertia = m.mobility / (T(1.0) + r[0] * r[0]);
   r_inertia = r[0] * inertia;
-  add_order<0>();
+  const T r1 = c[0] * u[0], fall = u[0] * r1;
+  finish_order<0>(r1, (c[0] - pull) - fall, fall, inertia * (-wh2 * X[0]));
 }
 
-// r, c and u are known to order n, X to order n + 1; x'' and lambda of order n follow from each other: lambda = rest -
-// r x''.
+// r and u are known to order n, c and X to n + 1, lambda to n - 1. The last to be known, u[n] and lambda[n - 1], come in
+// last.
 template <class T>
 template <std::size_t n>
-void SlideSeries<T>::add_order() {
+void SlideOrders<T>::add_order() {
   using std::fma;
-  // a[n] and lambda[n] are not known yet, and stand only beside r[0]
-  T early = -wh2 * X[n], rest = c[n];
-  if constexpr (n == 0) rest = rest - pull;
-  if constexpr (n > 0) early = fma(r[n], lambda[0], inner_product<n>(r, lambda) + early);
-  if constexpr (n > 0) rest = rest - fma(r[n], a[0], inner_product<n>(r, a));
-  r1[n] = product<n>(c, u);
-  if constexpr (n == 0) rest = fma(-u[0], r1[0], rest);
-  if constexpr (n > 0) rest = fma(-u[0], r1[n], fma(-u[n], r1[0], rest - inner_product<n>(u, r1)));
-  a[n] = fma(r_inertia, rest, inertia * early);
-  lambda[n] = fma(-r[0], a[n], rest);
+  const T newest = T(static_cast<double>(n + 2)) * r[1];  // as r[1] = c[0] u[0]
+  const T r1 = fma(c[n], u[0], inner_product<n>(c, u));
+  const T fall = fma(u[0], r1, T(static_cast<double>(n + 1)) * older_product<n + 1>(r, u));
+  T pulled = inertia * fma(r[n], lambda[0], older_product<n>(r, lambda) - wh2 * X[n]);
+  if constexpr (n > 1) pulled = fma(inertia * r[1], lambda[n - 1], pulled);
+  finish_order<n>(fma(c[0], u[n], r1), fma(-newest, u[n], c[n] - fall), fma(newest, u[n], fall), pulled);
+}
+
+// Of order n: r' = c u; lambda and (r u)' without r[0] x''; inertia times x'' without r[0] lambda. x'' and lambda, of
+// which either has the other beside r[0], follow.
+template <class T>
+template <std::size_t n>
+void SlideOrders<T>::finish_order(const T& r1, const T& rest, const T& fall, const T& pulled) {
+  using std::fma;
+  constexpr double kFirst = static_cast<double>(n + 1), kPerSecond = 1.0 / static_cast<double>(n + 2);
+  const T a = fma(r_inertia, rest, pulled), y2 = fma(r[0], a, fall);
+  lambda[n] = fma(-r[0], a, rest);
   if constexpr (n < kSlideOrder) {
-    constexpr double kPerNext = 1.0 / static_cast<double>(n + 1), kPerSecond = 1.0 / static_cast<double>(n + 2);
-    u[n + 1] = a[n] * T(kPerNext);
-    r[n + 1] = r1[n] * T(kPerNext);
-    c[n + 1] = -k2 * product<n>(r, u) * T(kPerNext);
-    if constexpr (n + 2 <= kSlideOrder) d[n + 2] = X[n + 2] = u[n + 1] * T(kPerSecond);
+    u[n + 1] = a * T(1.0 / kFirst);
+    r[n + 1] = r1 * T(1.0 / kFirst);
+    if constexpr (n + 2 <= kSlideOrder) {
+      c[n + 2] = -k2 * y2 * T(kPerSecond / kFirst);
+      d[n + 2] = X[n + 2] = u[n + 1] * T(kPerSecond);
+    }
     add_order<n + 1>();
   }
 }

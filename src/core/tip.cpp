@@ -82,7 +82,7 @@ void Tip::begin_flight() {
 }
 
 void Tip::slide(const SlideState<double>& start, int bits) {
-  slide_ = slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits);
+  slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits, slide_);
   mode_ = Mode::sliding;
   start_ = now_;
   const double release = release_of(slide_);

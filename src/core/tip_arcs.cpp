@@ -55,9 +55,9 @@ void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
 
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
 
-AFM_MULTIVERSION SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta,
-                                               const SlideState<double>& start, int bits) {
-  return SlidePiece<double>(mechanics, eta, start, bits);
+AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
+                                 int bits, SlidePiece<double>& slide) {
+  new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
 }
 
 AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {

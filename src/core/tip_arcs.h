@@ -24,8 +24,9 @@ void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
 
 TipState state_of(const Flight<double>& flight, double s);
 
-SlidePiece<double> slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
-                              int bits);
+// Begins a piece of a slide in the place of another.
+void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits,
+                SlidePiece<double>& slide);
 SlideState<double> slide_at(const SlidePiece<double>& slide, double s);
 double release_of(const SlidePiece<double>& slide);  // when the surface lets go; negative: not in it
 double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);  // kinetic and in the springs
