@@ -17,7 +17,7 @@ constexpr int kSlideBits = 48;
 template <class T>
 class SlidePiece {
  public:
-  // At length() the last terms are below 2^-bits: at 48 the series is good to 3e-14 up to there.
+  // At length() the last terms are at most about three times 2^-bits: at 48 the velocity is good to 1e-14 up to there.
   SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits);
 
   SlideState<T> at(const T& s) const;

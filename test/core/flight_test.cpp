@@ -166,6 +166,7 @@ double largest_share(const Flight<Quad>& flight, const Quad& from, const Quad& t
   for (int k = 0; k <= kTimes; ++k) {
     const Quad s = from + (to - from) * Quad(k) / Quad(kTimes);
     const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
+    EXPECT_EQ(fourth, fourth) << "no number at " << s;
     largest = std::max(largest, Quad(abs(fourth)));
   }
   return static_cast<double>(largest / bound);
