@@ -48,14 +48,11 @@ class SlidePiece {
 
 template <class T>
 SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits)
-    : m_(mechanics), eta_(eta), start_(start) {
-  SlideOrders<T>(mechanics, eta, start, series_);
-  length_ = choose_length(bits);
-}
+    : m_(mechanics), eta_(eta), start_(start), series_(mechanics, eta, start), length_(choose_length(bits)) {}
 
 // So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits, or
-// three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they are
-// divided as such, which is quick, and the same on every machine.
+// three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they
+// are divided as such, which is quick, and the same on every machine.
 template <class T>
 T SlidePiece<T>::choose_length(int bits) const {
   constexpr std::int64_t kBit = std::int64_t{1} << 52, kOne = 1023 * kBit;

@@ -66,13 +66,15 @@ T inner_product(const Series<T>& a, const Series<T>& b) {
 // Powers of the time since the start.
 template <class T>
 struct SlideSeries {
+  SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start);
+
   Series<T> d, u, lambda;  // x - x(start), x', reaction
 };
 
 // With r = -h', c = -h'' and the reaction lambda (of the surface on a tip of mass 1, along y):
 //   x'' = -omega_h^2 X + r lambda,   lambda = y'' + omega_v^2 (h - y0) = c - omega_v^2 y0 - (r u)',
-// as y' = -r u and omega_v is the surface's wave number too; and c' = -(2 pi)^2 r u. So three products of series are all
-// there is. They are written in place: a copy of what has just been written number by number waits until it is in
+// as y' = -r u and omega_v is the surface's wave number too; and c' = -(2 pi)^2 r u. So three products of series are
+// all there is. They are written in place: a copy of what has just been written number by number waits until it is in
 // memory, a fifth of a piece's time.
 template <class T>
 class SlideOrders {
@@ -112,8 +114,8 @@ SlideOrders<T>::SlideOrders(const Mechanics<T>& m, const T& eta, const SlideStat
   finish_order<0>(r1, (c[0] - pull) - fall, fall, inertia * (-wh2 * X[0]));
 }
 
-// r and u are known to order n, c and X to n + 1, lambda to n - 1. The last to be known, u[n] and lambda[n - 1], come in
-// last.
+// r and u are known to order n, c and X to n + 1, lambda to n - 1. The last to be known, u[n] and lambda[n - 1], come
+// in last.
 template <class T>
 template <std::size_t n>
 void SlideOrders<T>::add_order() {
@@ -144,6 +146,11 @@ void SlideOrders<T>::finish_order(const T& r1, const T& rest, const T& fall, con
     }
     add_order<n + 1>();
   }
+}
+
+template <class T>
+SlideSeries<T>::SlideSeries(const Mechanics<T>& m, const T& eta, const SlideState<T>& start) {
+  SlideOrders<T>(m, eta, start, *this);
 }
 
 }  // namespace afm
