@@ -45,6 +45,9 @@ struct ChatterPlace {
   Chatter plain;
 };
 
+// How long a bounce lasts there [tau].
+inline double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.per_P; }
+
 class ChatterRates {
  public:
   // geometric: without regard to the cutoff, as if it were 0
@@ -57,6 +60,8 @@ class ChatterRates {
   // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may be
   // none.
   ChatterPlace step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;
+  // The same over no more than a bounce or two, forwards or back, by the mean of two rates: good to the second order.
+  ChatterPlace brief_step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;
   // By so little that what the rates change by in it is nothing.
   Chatter after(const ChatterPlace& from, double dt) const;
 
@@ -72,7 +77,7 @@ class ChatterRates {
   // d/dt. In `c` v stands for what it would be on the guide itself.
   EvenChatter rate(const ChatterSurroundings& at, const EvenChatter& c) const;
   // What `to` changes to, and how fast it goes on: what is around it is known.
-  void brief_step(const ChatterPlace& from, double dt, ChatterPlace& to) const;
+  void brief(const ChatterPlace& from, double dt, ChatterPlace& to) const;
   void long_step(const ChatterPlace& from, double dt, ChatterPlace& to) const;
   double speed(double x) const;
   double bounces_at(double v) const;

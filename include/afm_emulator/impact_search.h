@@ -178,6 +178,40 @@ RootInterval<T> brief_root(const Flight<T>& f, const T& length) {
   return {length > T(0.0), end_of_bounce(f), T(1.0 - kBrief) * length, T(1.0 + kBrief) * length};
 }
 
+// Of one that is not as brief: g/t = g1 + g2 t/2 + g3 t^2/6, give or take M t^3/24, and where its slope is below -steep
+// up to `far` there is one root, within M t^3 / (24 steep) of that of the parabola. The gap falls there: its rate is g/t
+// and t times that slope.
+template <class T>
+RootInterval<T> soon_root(const Flight<T>& f) {
+  using std::abs;
+  using std::max;
+  using std::sqrt;
+  constexpr double kRounding = 0x1p-46;  // of the parabola's own root, ample
+  const GapJet<T>& o = f.start();
+  const T half = o.g2 / T(2.0), sixth = over(o.g3, 6.0), fall = sqrt(mul_add(half, half, T(T(-4.0) * sixth * o.g1)));
+  const T t = T(2.0) * o.g1 / (fall - half), far = T(1.25) * t, bound = f.early_fourth_derivative_bound(far);
+  const T swing = bound * (far * far) * T(0.125), bend = T(2.0) * sixth * far;
+  const T steep = -(half + (max(T(0.0), bend) + swing)), steepest = abs(half) + (abs(bend) + swing), t3 = t * (t * t);
+  const T width = bound * over(t3, 24.0) / steep + T(kRounding) * t;
+  const T estimate = t + fourth_derivative(f, o, T(f.launch().u)) * over(t3, 24.0) / fall;
+  return {steep > T(0.0) && width < T(0.2) * t && T(2.0) * width * steepest < (t - width) * steep,
+          clamp(estimate, T(t - width), T(t + width)), t - width, t + width};
+}
+
+// The end of a flight that is certain from how it begins, if it is.
+template <class T>
+RootInterval<T> root_from_launch(const Flight<T>& f) {
+  constexpr double kSoon = 0.25;  // of the fastest turn: longer ones would not be certain
+  const T length = parabola_length(f);
+  const auto longer = [&] {
+    const Truth<T> soon = length > T(0.0) && f.start().g1 > T(0.0) && length * f.bounds().fastest < T(kSoon);
+    return either(
+        soon, [&] { return soon_root(f); }, no_root<T>);
+  };
+  return either(
+      is_brief(f, length), [&] { return brief_root(f, length); }, longer);
+}
+
 }  // namespace search_detail
 
 // Searches from the start to the horizon. A flight that starts on the surface falling is an impact at once; one that
@@ -192,9 +226,11 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from, cons
   using std::min;
   const bool on_surface = !(f.start().g > T(0.0)) && !(from > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
-  const T length = search_detail::parabola_length(f);
-  if (on_surface && length < horizon / T(2.0) && search_detail::is_brief(f, length))
-    return finish(f, T(0.0), f.start(), search_detail::brief_root(f, length), search_detail::Beginning::brief, 0);
+  if (on_surface) {
+    const RootInterval<T> root = search_detail::root_from_launch(f);
+    if (root.certain && root.high < horizon)
+      return finish(f, T(0.0), f.start(), root, search_detail::Beginning::brief, 0);
+  }
   bound();
   T s = from, ahead = T(0.0), guess = T(0.05);
   if (on_surface) search_detail::take_off(f, s, ahead, guess);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <new>
+#include <utility>
 
 #include "afm_emulator/multiversion.h"
 
@@ -33,8 +34,6 @@ constexpr double kMostFallOfX = 10.0;  // of ln v: far more than any step is to 
 
 double square(double x) { return x * x; }
 
-double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.per_P; }
-
 // Past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder that
 // has just been made fast.
 bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
@@ -42,20 +41,6 @@ bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
   return !(P > kMostFall * from.around.P) || (to.s - from.s) * to.around.quickness > kMostChange ||
          2.0 * from.plain.v * to.around.quickness > kMostOutlasting * P || !(to.plain.v < kMostRise * from.plain.v) ||
          !(from.even.x - to.even.x < kMostFallOfX) || !std::isfinite(to.plain.n);
-}
-
-// When n is reached in a step between two ends: the cubic through both with the bounces' durations as its slopes.
-double time_at(double n, const ChatterPlace& from, const ChatterPlace& to) {
-  const double bounces = to.plain.n - from.plain.n, x = (n - from.plain.n) / bounces, rest = 1.0 - x;
-  return (to.s - from.s) * x * x * (3.0 - 2.0 * x) + bounces * x * rest * (duration(from) * rest - duration(to) * x);
-}
-
-// The part of a step until its bounces last too long: where the pressure falls to nothing they do like its square, upside
-// down.
-double bearable_part(double first_strain, double last_strain) {
-  constexpr double kLeast = 1e-9;
-  const double first = 1.0 / std::sqrt(std::max(first_strain, kLeast)), last = 1.0 / std::sqrt(last_strain);
-  return first > 1.0 ? (first - 1.0) / (first - last) : 0.0;
 }
 
 }  // namespace
@@ -108,59 +93,37 @@ double ChatterLaw::step_length(const ChatterPlace& at) const {
   return at.rate.x < 0.0 ? std::min(dt, 1.02 * (threshold_x_ - at.even.x) / at.rate.x) : dt;
 }
 
-// The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows.
-ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
-                                    double last_strain) const {
-  constexpr double kBearable = 1.05, kNearlyWhole = 1e-2, kLeastRest = 1e-6;  // the rest is done evenly, to its square
-  constexpr int kMostTries = 5, kMostSteps = 40;
-  const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
-  const double least = std::min(dt, (first_n - from.plain.n) * duration(from));
-  const double first_strain = strain(from.around, from.plain.v, true);
-  ChatterPlace at = to;
-  // more than once where the pressure passes its maximum
-  for (int i = 0; i < kMostTries && last_strain > kBearable && at.s - from.s > least; ++i) {
-    at = rates_.step(guide, from, std::max(least, bearable_part(first_strain, last_strain) * (at.s - from.s)));
-    last_strain = strain(at.around, at.plain.v, true);
-  }
-  const double n = std::max(first_n, std::floor(at.plain.n));
-  // of a bounce, and of what is left to the whole one
-  const double nearly = kNearlyWhole * std::clamp(n - from.plain.n, kLeastRest, 1.0);
-  double low = 0.0, high = dt, next = time_at(n, from, at);
-  for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= nearly); ++i) {
-    const double now = at.s - from.s;
-    (n > at.plain.n ? low : high) = now;
-    at = rates_.step(guide, from, next > low && next < high ? next : 0.5 * (low + high));
-    next = at.s - from.s + (n - at.plain.n) * duration(at);
-  }
-  const double rest = (n - at.plain.n) * duration(at);
-  const Chatter c = rates_.after(at, rest);
-  return {ChatterEnd::exits, std::max(from.s, at.s + rest), {c.v, n, c.sigma, c.p, c.drift, c.lift}};
-}
-
 // A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the middle
 // of a burst, it is not asked.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
                                                const Chatter& start, bool exits) const {
-  ChatterPlace now = rates_.begin(guide, from, start);
-  while (now.s < until && now.plain.v > threshold_) {
-    const double rest = until - now.s, longest = step_length(now);
+  constexpr double kFewBounces = 2.0;  // are not worth a step
+  // made in place, in turn: a copy of what has just been written would wait until it is in memory
+  ChatterPlace places[2] = {rates_.begin(guide, from, start), {}};
+  ChatterPlace *now = &places[0], *next = &places[1];
+  double bearable = until;
+  while (now->s < until && now->plain.v > threshold_) {
+    const double rest = until - now->s, longest = step_length(*now);
     double dt = rest <= longest ? rest : rest < 2.0 * longest ? 0.5 * rest : longest;  // the last two alike
     // the last bounce of all lasts beyond the pressure: it is left where it is
-    if (!(now.s + dt > now.s) || 2.0 * now.plain.v * now.around.quickness > now.around.P)
-      return {ChatterEnd::exits, now.s, now.plain};
-    ChatterPlace next = rates_.step(guide, now, dt);
-    while (goes_too_far(now, next)) {
+    if (!(now->s + dt > now->s) || 2.0 * now->plain.v * now->around.quickness > now->around.P)
+      return {ChatterEnd::exits, now->s, now->plain};
+    dt = std::min(dt, bearable);
+    new (next) ChatterPlace(rates_.step(guide, *now, dt));
+    while (goes_too_far(*now, *next)) {
       dt *= 0.5;
-      if (!(now.s + dt > now.s)) return {ChatterEnd::exits, now.s, now.plain};
-      next = rates_.step(guide, now, dt);
+      if (!(now->s + dt > now->s)) return {ChatterEnd::exits, now->s, now->plain};
+      new (next) ChatterPlace(rates_.step(guide, *now, dt));
     }
-    if (exits && next.plain.n >= std::floor(now.plain.n) + 1.0) {
-      const double strained = strain(next.around, next.plain.v, true);
-      if (strained > 1.0) return whole_bounce(guide, now, next, strained);
+    bearable = until;
+    if (exits && next->plain.n >= std::floor(now->plain.n) + 1.0) {
+      const double strained = strain(next->around, next->plain.v, true);
+      if (strained <= 1.0) bearable = bearable_time(*next, strained);
+      if (strained > 1.0 || bearable < kFewBounces * duration(*next)) return whole_bounce(guide, *now, *next, strained);
     }
-    now = next;
+    std::swap(now, next);
   }
-  return {now.plain.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, now.s, now.plain};
+  return {now->plain.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, now->s, now->plain};
 }
 
 ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const {

@@ -141,7 +141,7 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guid
 }
 
 // Over so little that differences over dt of what is seen at its ends would be noise: by the mean of two rates.
-AFM_INLINED void ChatterRates::brief_step(const ChatterPlace& from, double dt, ChatterPlace& to) const {
+AFM_INLINED void ChatterRates::brief(const ChatterPlace& from, double dt, ChatterPlace& to) const {
   to.rate = rate(to.around, from.even + dt * from.rate);
   to.even = from.even + 0.5 * dt * (from.rate + to.rate);
 }
@@ -168,8 +168,16 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide
                                                  double dt) const {
   constexpr double kBrief = 1e-5;
   ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
-  const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
-  brief ? brief_step(from, dt, to) : long_step(from, dt, to);
+  const bool soon = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
+  soon ? brief(from, dt, to) : long_step(from, dt, to);
+  to.plain = plain(to.around, to.even);
+  return to;
+}
+
+AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>& guide, const ChatterPlace& from,
+                                                       double dt) const {
+  ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
+  brief(from, dt, to);
   to.plain = plain(to.around, to.even);
   return to;
 }

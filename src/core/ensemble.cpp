@@ -30,11 +30,15 @@ ModelTime time_in(const LaneTip& row, lanes::Field tau, lanes::Field phase) {
   return {whole_of(row.row[tau]), row.row[phase]};
 }
 
+AFM_MULTIVERSION bool ends_soon(const Flight<double>& flight) {
+  return search_detail::root_from_launch(flight).certain;
+}
+
 // Off the surface, and for longer than a bounce among many: lanes know no other.
 bool ordinary(const Tip& tip) {
   const Flight<double>& flight = tip.flight();
   return tip.in_flight() && flight.launch().g == 0.0 && flight.launch().g1 > lanes::kSlowestLaunch &&
-         !search_detail::is_brief(flight, search_detail::parabola_length(flight));
+         !ends_soon(flight);
 }
 
 AFM_MULTIVERSION void begin_search(const Flight<double>& flight, double* row) {

@@ -47,12 +47,12 @@ AFM_LANE_INLINE Ways bounce(Live& live) {
   const Pack zero(0.0);
   look.count = zero;
   const Mask ordinary = o.g1 > Pack(kSlowestLaunch) && !(o.g2 < zero && o.g1 <= live.burst_gap_rate);
-  const Pack length = search_detail::parabola_length(f);
-  const unsigned brief = bits(ordinary && search_detail::is_brief(f, length));
-  if (brief != 0) hold_root(live, o, zero, search_detail::brief_root(f, length));
+  const RootInterval<Pack> root = search_detail::root_from_launch(f);
+  const unsigned certain = bits(ordinary && root.certain);
+  if (certain != 0) hold_root(live, o, zero, root);
   Ways ways;
-  ways.lanes[kFinishFar] = brief;
-  split(bits(ordinary) & ~brief, f.is_small(look.s + look.ahead), kLookNear, kLookFar, ways);
+  ways.lanes[kFinishFar] = certain;
+  split(bits(ordinary) & ~certain, f.is_small(look.s + look.ahead), kLookNear, kLookFar, ways);
   ways.lanes[kAlone] = kAllLanes & ~bits(ordinary);
   return ways;
 }
