@@ -45,6 +45,7 @@ class ChatterLaw {
   double step_length(const ChatterPlace& at) const;
   double bearable_time(const ChatterPlace& at, double strained) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
+  ChatterRun exit_at(double n, const ChatterPlace& at) const;
   ChatterRun whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
                           double last_strain) const;
 

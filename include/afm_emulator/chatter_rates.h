@@ -26,9 +26,11 @@ struct Chatter {
 // The same in variables that change evenly, so that an integrator can take long steps: with a cutoff v falls and n
 // grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; without one v falls evenly,
 // x = v, and n goes like its logarithm.
-struct EvenChatter {
-  double x, rest, sigma, p, drift, lift;
+template <class T>
+struct EvenChatterOf {
+  T x, rest, sigma, p, drift, lift;
 };
+using EvenChatter = EvenChatterOf<double>;
 
 inline EvenChatter operator+(const EvenChatter& a, const EvenChatter& b) {
   return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift, a.lift + b.lift};
@@ -47,6 +49,18 @@ struct ChatterPlace {
 
 // How long a bounce lasts there [tau].
 inline double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.per_P; }
+
+// What the rates ask of a model.
+struct ChatterFlow {
+  bool geometric, held;  // without regard to the cutoff; along x
+  double gamma;
+  double loss;      // (1 - gamma) / v_c
+  double even;      // n's part in v: 1 / loss, or 1 / -log(gamma)
+  double per_mean;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first
+};
+
+// A step from one place to another, of which the surroundings are known.
+using NodeStep = void (*)(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to);
 
 class ChatterRates {
  public:
@@ -69,7 +83,7 @@ class ChatterRates {
   double fall_time(const ChatterSurroundings& at, double v) const;
   double x_of(double v) const;  // where nothing is off the guide
 
-  double loss(double v) const { return loss_ * v; }  // w
+  double loss(double v) const { return flow_.loss * v; }  // w
 
  private:
   EvenChatter even(const ChatterSurroundings& at, const Chatter& c) const;
@@ -78,16 +92,11 @@ class ChatterRates {
   EvenChatter rate(const ChatterSurroundings& at, const EvenChatter& c) const;
   // What `to` changes to, and how fast it goes on: what is around it is known.
   void brief(const ChatterPlace& from, double dt, ChatterPlace& to) const;
-  void long_step(const ChatterPlace& from, double dt, ChatterPlace& to) const;
-  double speed(double x) const;
   double bounces_at(double v) const;
 
   ChatterView view_;
-  bool geometric_;
-  double gamma_;
-  double loss_;      // (1 - gamma) / v_c
-  double even_;      // n's part in v: 1 / loss, or 1 / -log(gamma)
-  double per_mean_;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first
+  ChatterFlow flow_;
+  NodeStep node_step_;  // in lanes, where the machine has them
 };
 
 // The guide with what the chatter has moved it by.

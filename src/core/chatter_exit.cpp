@@ -55,11 +55,19 @@ double ChatterLaw::bearable_time(const ChatterPlace& at, double strained) const 
   return soon + (nothing - soon) * (1.0 - std::sqrt(then));
 }
 
-// The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows.
+// At a whole n, next to nothing from where it is known: there it is gone to evenly.
+ChatterRun ChatterLaw::exit_at(double n, const ChatterPlace& at) const {
+  const double rest = (n - at.plain.n) * duration(at);
+  const Chatter c = rates_.after(at, rest);
+  return {ChatterEnd::exits, at.s + rest, {c.v, n, c.sigma, c.p, c.drift, c.lift}};
+}
+
+// The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows. Half a bounce
+// either way is not worth a step.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
                                     double last_strain) const {
-  constexpr double kBearable = 1.05, kNearlyWhole = 1e-2, kLeastRest = 1e-6;  // the rest is done evenly, to its square
-  constexpr double kLittleLoss = 0.03;  // of v in a bounce: over so little the mean of two rates is enough
+  constexpr double kBearable = 1.05, kNearlyWhole = 1e-2, kLeastRest = 1e-6;
+  constexpr double kLittleLoss = 0.03;  // of v in a bounce: over half of one the mean of two rates is enough
   constexpr int kMostTries = 5, kMostSteps = 40;
   const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
   const double least = std::min(dt, (first_n - from.plain.n) * duration(from));
@@ -70,23 +78,24 @@ ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const Chatt
     at = rates_.step(guide, from, std::max(least, bearable_part(first_strain, last_strain) * (at.s - from.s)));
     last_strain = strain(at.around, at.plain.v, true);
   }
-  const double n = std::max(first_n, std::floor(at.plain.n));
   // of a bounce, and of what is left to the whole one
-  const double nearly = kNearlyWhole * std::clamp(n - from.plain.n, kLeastRest, 1.0);
-  double low = 0.0, high = dt, next = time_at(n, from, at);
-  if (std::abs(n - at.plain.n) <= 1.0 && duration(at) < kLittleLoss * rates_.fall_time(at.around, at.plain.v)) {
-    const ChatterPlace beside = rates_.brief_step(guide, at, (n - at.plain.n) * duration(at));
-    if (std::abs(n - beside.plain.n) <= nearly) at = beside;
+  const auto nearly = [&](double n) { return kNearlyWhole * std::clamp(n - from.plain.n, kLeastRest, 1.0); };
+  const double nearest = std::max(first_n, std::floor(at.plain.n + 0.5)), half = nearest - at.plain.n;
+  if (std::abs(half) <= 0.5 && duration(at) < kLittleLoss * rates_.fall_time(at.around, at.plain.v)) {
+    const ChatterPlace beside = rates_.brief_step(guide, at, half * duration(at));
+    if (std::abs(nearest - beside.plain.n) <= nearly(nearest)) return exit_at(nearest, beside);
   }
-  for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= nearly); ++i) {
+  const double n = std::max(first_n, std::floor(at.plain.n));
+  double low = 0.0, high = dt, next = time_at(n, from, at);
+  for (int i = 0; i < kMostSteps && !(std::abs(n - at.plain.n) <= nearly(n)); ++i) {
     const double now = at.s - from.s;
     (n > at.plain.n ? low : high) = now;
     at = rates_.step(guide, from, next > low && next < high ? next : 0.5 * (low + high));
     next = at.s - from.s + (n - at.plain.n) * duration(at);
   }
-  const double rest = (n - at.plain.n) * duration(at);
-  const Chatter c = rates_.after(at, rest);
-  return {ChatterEnd::exits, std::max(from.s, at.s + rest), {c.v, n, c.sigma, c.p, c.drift, c.lift}};
+  ChatterRun run = exit_at(n, at);
+  run.s = std::max(from.s, run.s);
+  return run;
 }
 
 }  // namespace afm

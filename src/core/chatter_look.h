@@ -7,26 +7,11 @@
 
 #include "afm_emulator/chatter_view.h"
 #include "afm_emulator/multiversion.h"
-#include "collocation.h"
+#include "chatter_flow.h"
 
 namespace afm {
 
-constexpr double kThird = 1.0 / 3.0;
-
 AFM_INLINED double square(double x) { return x * x; }
-
-// What follows from the reaction, its derivatives and K.
-AFM_INLINED void set_reaction_terms(ChatterSurroundings& at) {
-  const double per_P = 1.0 / at.P, per_P2 = square(per_P), K = at.bend;
-  const double p1 = at.P1 * per_P, p2 = at.P2 * per_P, p3 = at.P3 * per_P, p1_2 = square(p1);
-  at.per_P = per_P;
-  at.squeeze = kThird * p1;
-  at.stretch = std::fma(3.0 / 27, p2, std::fma(-4.0 / 27, p1_2, -kThird * K)) * per_P2;
-  at.twist =
-      std::fma(-3.0 / 135, p3, std::fma(20.0 / 135 * p1, p2 - p1_2, std::fma(-0.2 * K, p1, at.bend1 * (1.0 / 15)))) *
-      per_P2;
-  at.lag = std::fma(-2.0, p1_2, p2) * (per_P * (1.0 / 18));
-}
 
 AFM_INLINED ChatterSurroundings ChatterView::look(const SlidePiece<double>& guide, double time) const {
   const SlideState<double> q = guide.at(time);
@@ -94,22 +79,6 @@ AFM_INLINED bool ChatterView::outlasts(const Flight<double>& bounce, double part
   const double slope = free_ * start.h1, N2 = 1.0 + slope * start.h1, a = -start.g2;
   const double change = slope * square(kTwoPi) * start.h * bounce.launch().u * a - start.g3 * N2;
   return 2.0 * start.g1 * std::abs(change) > part * (a * a * N2);
-}
-
-AFM_INLINED ChatterSurroundings ChatterView::between(const ChatterSurroundings& first, const ChatterSurroundings& last,
-                                                     double dt, std::size_t node) const {
-  const auto P = hermite(node, dt, {first.P, first.P1, first.P2, first.P3}, {last.P, last.P1, last.P2, last.P3});
-  const double c = kNodes[node];
-  const auto even = [c](double a, double b) { return std::fma(c, b, (1.0 - c) * a); };
-  ChatterSurroundings at{};
-  at.P = P[0], at.P1 = P[1], at.P2 = P[2];
-  at.P3 = even(first.P3, last.P3);
-  at.bend = even(first.bend, last.bend), at.bend1 = even(first.bend1, last.bend1);
-  set_reaction_terms(at);
-  at.turn = even(first.turn, last.turn);
-  at.lean = even(first.lean, last.lean), at.stiffness = even(first.stiffness, last.stiffness);
-  at.along = even(first.along, last.along), at.up = even(first.up, last.up);
-  return at;
 }
 
 }  // namespace afm

@@ -1,5 +1,6 @@
 // What the compiler could make and the machine can run. For any machine: compiled like the rest.
 #include "lane_tip.h"
+#include "node_step.h"
 #include "sample_row.h"
 
 namespace afm {
@@ -31,9 +32,11 @@ Sampler sampler_in(int width) { return chosen(width, sample_avx2, sample_avx512)
 Advance advance_in(int width) { return chosen(width, advance_avx2, advance_avx2); }
 Sampler sampler_in(int width) { return chosen(width, sample_avx2, sample_avx2); }
 #endif
+NodeStep node_step() { return widest(4) == 4 ? node_step_avx2 : nullptr; }
 #else
 Advance advance_in(int) { return nullptr; }
 Sampler sampler_in(int) { return nullptr; }
+NodeStep node_step() { return nullptr; }
 #endif
 
 }  // namespace lanes

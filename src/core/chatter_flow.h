@@ -1,0 +1,149 @@
+// The rates of chatter_rates.h, written once for a number and for four side by side (`Four`, or a register of lanes): one
+// for each node of a step of their integrator. All give the same bits.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "afm_emulator/chatter_rates.h"
+#include "afm_emulator/multiversion.h"
+#include "afm_emulator/select.h"
+#include "collocation.h"
+#include "portable_exp.h"
+
+namespace afm {
+
+constexpr double kThird = 1.0 / 3.0;
+
+// What follows from the reaction, its derivatives and K.
+template <class T>
+AFM_INLINED void set_reaction_terms(ChatterSurroundingsOf<T>& at) {
+  const T per_P = T(1.0) / at.P, per_P2 = per_P * per_P, K = at.bend;
+  const T p1 = at.P1 * per_P, p2 = at.P2 * per_P, p3 = at.P3 * per_P, p1_2 = p1 * p1;
+  at.per_P = per_P;
+  at.squeeze = T(kThird) * p1;
+  at.stretch = mul_add(T(3.0 / 27), p2, mul_add(T(-4.0 / 27), p1_2, T(T(-kThird) * K))) * per_P2;
+  const T bent = mul_add(T(T(-0.2) * K), p1, T(at.bend1 * T(1.0 / 15)));
+  at.twist = mul_add(T(-3.0 / 135), p3, mul_add(T(T(20.0 / 135) * p1), T(p2 - p1_2), bent)) * per_P2;
+  at.lag = mul_add(T(-2.0), p1_2, p2) * (per_P * T(1.0 / 18));
+}
+
+// At every node of a step of which both ends are known, without quickness and speeds. The reaction is interpolated to
+// the order 8, what is only in terms of the second order evenly.
+template <class T>
+AFM_INLINED ChatterSurroundingsOf<T> between(const ChatterSurroundings& first, const ChatterSurroundings& last,
+                                             double dt) {
+  const auto at_nodes = [](double a, double b) {
+    return mul_add(at_every_node<T>(kNodes), T(b), T(at_every_node<T>(kRest) * T(a)));
+  };
+  const HermiteOf<T> P = hermite<T>(dt, {first.P, first.P1, first.P2, first.P3}, {last.P, last.P1, last.P2, last.P3});
+  ChatterSurroundingsOf<T> at;
+  at.P = P.value, at.P1 = P.slope, at.P2 = P.bend;
+  at.P3 = at_nodes(first.P3, last.P3);
+  at.bend = at_nodes(first.bend, last.bend), at.bend1 = at_nodes(first.bend1, last.bend1);
+  set_reaction_terms(at);
+  at.turn = at_nodes(first.turn, last.turn);
+  at.lean = at_nodes(first.lean, last.lean), at.stiffness = at_nodes(first.stiffness, last.stiffness);
+  at.along = at_nodes(first.along, last.along), at.up = at_nodes(first.up, last.up);
+  return at;
+}
+
+// The reaction off the guide over that on it, less 1. The action keeps v^3/P.
+template <class T>
+AFM_INLINED T disturbance(const ChatterSurroundingsOf<T>& at, const T& sigma, const T& p) {
+  return mul_add(T(T(2.0) * at.turn), p, T(-at.lean * sigma)) * at.per_P;
+}
+
+// The interpolation of w -> w (1 - w): R = G/T and 1/T. Terms are paired, to shorten the chain of dependencies.
+template <class T>
+AFM_INLINED T series_R(const T& w) {
+  const T w2 = w * w;
+  const T low = mul_add(w2, mul_add(w, T(7.0 / 8), T(7.0 / 12)), mul_add(w, T(0.5), T(1.0)));
+  return mul_add(T(w2 * w2), mul_add(w2, T(264917.0 / 60480), mul_add(w, T(727.0 / 288), T(1049.0 / 720))), low);
+}
+template <class T>
+AFM_INLINED T series_1_over_T(const T& w) {
+  const T w2 = w * w;
+  const T low = mul_add(T(-w2), mul_add(w, T(5.0 / 8), T(5.0 / 12)), mul_add(T(-w), T(0.5), T(1.0)));
+  return mul_add(T(-w2 * w2), mul_add(w2, T(261679.0 / 60480), mul_add(w, T(629.0 / 288), T(811.0 / 720))), low);
+}
+
+constexpr double kLeastSpeed = std::numeric_limits<double>::min();
+
+template <class T>
+AFM_INLINED T chatter_speed(const ChatterFlow& flow, const T& x) {
+  using std::max;
+  return flow.geometric ? T(max(x, T(kLeastSpeed))) : portable_exp(x);
+}
+
+// d/dt. In `c` v stands for what it would be on the guide itself. Products of two terms of the second order are left
+// out: what is kept is no better.
+template <class T>
+AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at,
+                                          const EvenChatterOf<T>& c) {
+  const T one(1.0), third(kThird), half(0.5), on_guide = chatter_speed(flow, c.x), per_v = one / on_guide;
+  const T more = disturbance(at, c.sigma, c.p), v = mul_add(on_guide, T(third * more), on_guide), v2 = v * v;
+  const T height = v2 * (third * at.per_P), longer = at.stretch * v2,
+          shorter = mul_add(T(-longer), T(one - longer), one);
+  const T even = half * at.P * shorter, bounces = per_v * mul_add(even, T(T(2.0 * kThird) * more), even);
+  const T adiabatic = mul_add(at.squeeze, shorter, T(at.twist * v2));  // of ln v, as are those below
+  const T sigma = mul_add(T(T(2.0) * at.turn), height, c.p), p = mul_add(at.lean, height, T(-at.stiffness * c.sigma));
+  const T drift = mul_add(at.along, c.sigma, T(at.up * height));
+  // the mean height of a bounce times P'; v is that of its beginning, of which the flow is less later on
+  const T lift = (flow.held ? at.squeeze : T(0.0)) * v2;
+  if (flow.geometric) {
+    const double g = flow.gamma;
+    const T change = mul_add(T(g - 1.0), bounces, adiabatic);
+    return {on_guide * change,
+            mul_add(bounces, T(flow.per_mean), T(T(flow.even) * change)),
+            sigma,
+            p,
+            drift,
+            lift * T(3.0 / (1.0 + g + g * g))};
+  }
+  const T w = T(flow.loss) * v, delay = at.squeeze * at.per_P * v * w * mul_add(w, half, third);
+  const T per_T = series_1_over_T(w);
+  const T change = mul_add(T(adiabatic * per_T), mul_add(T(-half * w), w, one),
+                           T(-w * mul_add(bounces, series_R(w), T(v * at.lag))));
+  return {change, mul_add(T(bounces * per_T), T(one - delay), T(T(flow.even) * per_v * change)),
+          sigma,  p,
+          drift,  mul_add(lift, w, lift)};
+}
+
+// start and the integrals over dt to each node: of the rates at the beginning and at the nodes.
+template <class T>
+AFM_INLINED EvenChatterOf<T> collocated(double dt, const EvenChatter& start, const EvenChatter& first,
+                                        const EvenChatterOf<T>& rates) {
+  const auto sum = [&](double EvenChatter::*of, const T& rate) {
+    const auto weight = [&](std::size_t k) { return T(T(dt) * at_every_node<T>(kLobatto[k])); };
+    T x = mul_add(weight(0), T(first.*of), T(start.*of));
+    x = mul_add(weight(1), first_of(rate), x);
+    x = mul_add(weight(2), second_of(rate), x);
+    x = mul_add(weight(3), third_of(rate), x);
+    return mul_add(weight(4), last_of(rate), x);
+  };
+  return {sum(&EvenChatter::x, rates.x), sum(&EvenChatter::rest, rates.rest),   sum(&EvenChatter::sigma, rates.sigma),
+          sum(&EvenChatter::p, rates.p), sum(&EvenChatter::drift, rates.drift), sum(&EvenChatter::lift, rates.lift)};
+}
+
+// What `to` changes to, and how fast it goes on: what is around it is known. From what the first rate foretells, twice:
+// it leaves a few parts in 1e6 of what a step changes. The rate at its end is that of the first time, near enough for
+// the next step, which gives it a twentieth of the weight.
+template <class T>
+AFM_INLINED void node_step(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to) {
+  const ChatterSurroundingsOf<T> at = between<T>(from.around, to.around, dt);
+  const T time = at_every_node<T>(kNodes) * T(dt);
+  const auto foretold = [&](double start, double rate) { return T(T(start) + time * T(rate)); };
+  const EvenChatter &e = from.even, &r = from.rate;
+  const EvenChatterOf<T> soon{foretold(e.x, r.x), foretold(e.rest, r.rest),   foretold(e.sigma, r.sigma),
+                              foretold(e.p, r.p), foretold(e.drift, r.drift), foretold(e.lift, r.lift)};
+  const EvenChatterOf<T> rates = chatter_rate(flow, at, collocated(dt, e, r, chatter_rate(flow, at, soon)));
+  const EvenChatterOf<T> end = collocated(dt, e, r, rates);
+  const auto last = [](const EvenChatterOf<T>& c) {
+    return EvenChatter{last_number(c.x), last_number(c.rest),  last_number(c.sigma),
+                       last_number(c.p), last_number(c.drift), last_number(c.lift)};
+  };
+  to.even = last(end), to.rate = last(rates);
+}
+
+}  // namespace afm
