@@ -71,8 +71,8 @@ class ChatterRates {
   bool outlasts(const Flight<double>& bounce, double part) const;  // as ChatterView
 
   ChatterPlace begin(const SlidePiece<double>& guide, double s, const Chatter& start) const;
-  // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may be
-  // none.
+  // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may
+  // be none.
   ChatterPlace step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;
   // The same over no more than a bounce or two, forwards or back, by the mean of two rates: good to the second order.
   ChatterPlace brief_step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;

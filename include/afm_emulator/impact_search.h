@@ -179,8 +179,8 @@ RootInterval<T> brief_root(const Flight<T>& f, const T& length) {
 }
 
 // Of one that is not as brief: g/t = g1 + g2 t/2 + g3 t^2/6, give or take M t^3/24, and where its slope is below -steep
-// up to `far` there is one root, within M t^3 / (24 steep) of that of the parabola. The gap falls there: its rate is g/t
-// and t times that slope.
+// up to `far` there is one root, within M t^3 / (24 steep) of that of the parabola. The gap falls there: its rate is
+// g/t and t times that slope.
 template <class T>
 RootInterval<T> soon_root(const Flight<T>& f) {
   using std::abs;

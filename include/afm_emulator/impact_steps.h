@@ -70,8 +70,8 @@ T leave_quickly(const Flight<T>& f) {
 }
 
 // The same where hardly a turn of the fastest is free by that: at the end of a dwell gap rate and acceleration are next
-// to nothing, and the third derivative takes the tip up. For as long as half of it is left, and at most a part of a turn,
-// if g1 s + g2 s^2/2 + g3 s^3/12 has no root; otherwise 0.
+// to nothing, and the third derivative takes the tip up. For as long as half of it is left, and at most a part of a
+// turn, if g1 s + g2 s^2/2 + g3 s^3/12 has no root; otherwise 0.
 template <class T>
 T leave_slowly(const Flight<T>& f) {
   using std::abs;

@@ -36,8 +36,8 @@ struct Mechanics {
 
 // A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the
 // reaction is nothing for ever, would be let go and caught again at every rounding. It moves a release by 1e-11 tau
-// [a/tau^2]. Where the terms whose sum the pull is are above 1e4, as under mica's springs from 50 a/tau, it is a part of
-// them.
+// [a/tau^2]. Where the terms whose sum the pull is are above 1e4, as under mica's springs from 50 a/tau, it is a part
+// of them.
 constexpr double kReleaseNoise = 1e-9;
 
 template <class T>

@@ -1,5 +1,5 @@
-// The complete state of a run in 64-bit words: what is restored from it goes on to the same bits. Doubles by their bits,
-// whole numbers as they are, so that it is the same on every machine.
+// The complete state of a run in 64-bit words: what is restored from it goes on to the same bits. Doubles by their
+// bits, whole numbers as they are, so that it is the same on every machine.
 #pragma once
 
 #include <array>

@@ -56,8 +56,8 @@ constexpr double kC14 = -1.714390711088672, kC16 = 0.28200596845579123;
 
 using std::fma;  // of packs of lanes their own
 
-// (sin(2 pi x) - 2 pi x) / x^3 less kS3, and ((cos(2 pi x) - 1) / x^2 - kC2) / x^2, z = x^2; paired to shorten the chain
-// of dependencies
+// (sin(2 pi x) - 2 pi x) / x^3 less kS3, and ((cos(2 pi x) - 1) / x^2 - kC2) / x^2, z = x^2; paired to shorten the
+// chain of dependencies
 template <class T>
 AFM_INLINED T sine_rest(T z) {
   const T z2 = z * z, z4 = z2 * z2;

@@ -23,19 +23,19 @@ constexpr double kRinging = 1.5;         // [a/tau] at most
 constexpr double kFullSpeed = 2e3;       // thresholds: bounces of a ringing tip slower than this may last longer
 constexpr double kMostLongerSlow = 2.5;  // times at most
 
-// A step, in parts of the times in which v falls (evenly to nothing: where there is no cutoff), the reaction changes, and
-// it swings with the horizontal spring.
+// A step, in parts of the times in which v falls (evenly to nothing: where there is no cutoff), the reaction changes,
+// and it swings with the horizontal spring.
 constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.8, kSwingPerStep = 2.4;
-// The pressure is to lose no more than this part of itself in a step, and must not fall below that; v may rise to so many
-// times itself; and where a step ends, it may be so many times as long as the pressure takes to change, and a bounce so many
-// times as long as it lasts.
+// The pressure is to lose no more than this part of itself in a step, and must not fall below that; v may rise to so
+// many times itself; and where a step ends, it may be so many times as long as the pressure takes to change, and a
+// bounce so many times as long as it lasts.
 constexpr double kLossPerStep = 0.55, kMostFall = 0.45, kMostChange = 1.2, kMostRise = 2.0, kMostOutlasting = 4.0;
 constexpr double kMostFallOfX = 10.0;  // of ln v: far more than any step is to take
 
 double square(double x) { return x * x; }
 
-// Past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder that
-// has just been made fast.
+// Past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder
+// that has just been made fast.
 bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
   const double P = to.around.P;
   return !(P > kMostFall * from.around.P) || (to.s - from.s) * to.around.quickness > kMostChange ||
@@ -79,8 +79,8 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
 double ChatterLaw::step_length(const ChatterPlace& at) const {
   const double v = at.plain.v, quickness = at.around.quickness;
-  // the error of a step is that of a pressure which swings with the horizontal spring and at twice its rate: the less it
-  // changes by, the longer
+  // the error of a step is that of a pressure which swings with the horizontal spring and at twice its rate: the less
+  // it changes by, the longer
   const double fastest = std::max(quickness, 2.0 * kTwoPi * at.around.slow_rate);
   const double swing = std::sqrt(fastest * std::sqrt(quickness * fastest));
   // with a cutoff, the less a bounce loses the more evenly ln v falls
@@ -93,8 +93,8 @@ double ChatterLaw::step_length(const ChatterPlace& at) const {
   return at.rate.x < 0.0 ? std::min(dt, 1.02 * (threshold_x_ - at.even.x) / at.rate.x) : dt;
 }
 
-// A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the middle
-// of a burst, it is not asked.
+// A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the
+// middle of a burst, it is not asked.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
                                                const Chatter& start, bool exits) const {
   constexpr double kFewBounces = 2.0;  // are not worth a step

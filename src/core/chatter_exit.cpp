@@ -33,8 +33,8 @@ double time_to_nothing(const ChatterSurroundings& at) {
   return bend >= 0.0 && twice_per > 0.0 ? 2.0 / twice_per : std::numeric_limits<double>::infinity();
 }
 
-// The part of a step until its bounces last too long: where the pressure falls to nothing they do like its square, upside
-// down.
+// The part of a step until its bounces last too long: where the pressure falls to nothing they do like its square,
+// upside down.
 double bearable_part(double first_strain, double last_strain) {
   constexpr double kLeast = 1e-9;
   const double first = 1.0 / std::sqrt(std::max(first_strain, kLeast)), last = 1.0 / std::sqrt(last_strain);
@@ -44,7 +44,8 @@ double bearable_part(double first_strain, double last_strain) {
 }  // namespace
 
 // How long until the bounces of a falling pressure last too long, about; 0 or less where they do already. Their strain
-// grows like the square of the time to nothing, upside down, and where that is far off more slowly: it is foretold there.
+// grows like the square of the time to nothing, upside down, and where that is far off more slowly: it is foretold
+// there.
 double ChatterLaw::bearable_time(const ChatterPlace& at, double strained) const {
   constexpr double kFar = 0.009;  // no step goes as far as from there
   if (!(-3.0 * at.around.squeeze * duration(at) > kFar)) return std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
-// The rates of chatter_rates.h, written once for a number and for four side by side (`Four`, or a register of lanes): one
-// for each node of a step of their integrator. All give the same bits.
+// The rates of chatter_rates.h, written once for a number and for four side by side (`Four`, or a register of lanes):
+// one for each node of a step of their integrator. All give the same bits.
 #pragma once
 
 #include <cmath>

@@ -24,8 +24,8 @@ AFM_INLINED ChatterSurroundings ChatterView::look(const SlidePiece<double>& guid
   const double s = h.h1, s1 = h.h2 * u, x2 = -wh2_ * q.X - s * a[0];
   const double x3 = -wh2_ * (u - guide.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
   const double s3 = u * (3.0 * h.h3 * x2 - square(kTwoPi) * h.h2 * u2) + h.h2 * x3;
-  // the rate at which the surface turns under the tip and its derivatives; from them those of ln N, and from these P'/P,
-  // ... with P = N a
+  // the rate at which the surface turns under the tip and its derivatives; from them those of ln N, and from these
+  // P'/P, ... with P = N a
   const double turn = s1 * per_N2, turn1 = s2 * per_N2 - 2.0 * s * square(turn);
   const double turn2 = s3 * per_N2 - 2.0 * turn * (s * s2 * per_N2 + s1 * turn + 2.0 * s * turn1);
   const double L1 = s * turn, L2 = s1 * turn + s * turn1, L3 = s2 * turn + 2.0 * s1 * turn1 + s * turn2;

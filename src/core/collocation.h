@@ -1,5 +1,5 @@
-// One step of an integrator through Lobatto's five points, of order 8, and Hermite's interpolation to them of a function
-// of which the value and three derivatives are known at both ends. At four points at once: all but the first.
+// One step of an integrator through Lobatto's five points, of order 8, and Hermite's interpolation to them of a
+// function of which the value and three derivatives are known at both ends. At four points at once: all but the first.
 #pragma once
 
 #include <cmath>

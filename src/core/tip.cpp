@@ -29,8 +29,8 @@ double entry_gap_rate(double contact_tolerance) {
   return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
 
-// A burst's guide need be no better than a ten-thousandth of the tolerance, and its pieces are 2.7 times as long for it.
-// What it gains of energy by that is in the books.
+// A burst's guide need be no better than a ten-thousandth of the tolerance, and its pieces are 2.7 times as long for
+// it. What it gains of energy by that is in the books.
 int guide_bits(double contact_tolerance) {
   constexpr double kPart = 1e-4, kLeast = 1e-15;
   return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
@@ -97,8 +97,8 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
-// To where the chatter has moved the tip, which has been on the guide for s. What it stores more, the drag has worked or
-// the bounces have given; a tip that is held its holder has moved along the guide.
+// To where the chatter has moved the tip, which has been on the guide for s. What it stores more, the drag has worked
+// or the bounces have given; a tip that is held its holder has moved along the guide.
 SlideState<double> Tip::leave_guide(double s, const Chatter& chatter) {
   const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
   const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;

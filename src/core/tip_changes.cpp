@@ -1,5 +1,5 @@
-// What is changed in the middle of a run: drag velocity, restitution and springs, the level of the model. Whatever the tip
-// is in, flight, burst or contact, is split at the present time, and only there.
+// What is changed in the middle of a run: drag velocity, restitution and springs, the level of the model. Whatever the
+// tip is in, flight, burst or contact, is split at the present time, and only there.
 #include "afm_emulator/tip.h"
 
 namespace afm {

@@ -38,8 +38,8 @@ void handle_signals() {
 }
 
 // One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
-// stepping thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts, never
-// come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
+// stepping thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts,
+// never come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
 void keep_memory_flat() {
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, kLargeBuffer);

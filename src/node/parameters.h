@@ -77,8 +77,8 @@ std::uint64_t samples_per_batch(const Parameters& parameters);
 std::chrono::nanoseconds batch_period(const Parameters& parameters);  // of wall time
 std::chrono::nanoseconds checkpoint_interval(const Parameters& parameters);  // likewise
 EmulatorSettings emulator_settings(const Parameters& parameters);
-// Empty, with room for the largest there may be at any sample rate. Room for impacts is touched: no burst of a later hour
-// takes memory, or a page fault, that the first did not.
+// Empty, with room for the largest there may be at any sample rate. Room for impacts is touched: no burst of a later
+// hour takes memory, or a page fault, that the first did not.
 Batch roomy_batch(const Parameters& parameters);
 
 // The level that runs at a drag velocity [a/tau]: of auto the cheapest that its tolerance allows, and where the table

@@ -1,5 +1,5 @@
-// What a bag must be told first, so that a run under way can be simulated again: the configuration, the last checkpoint,
-// and every drag command and change of parameters since then, with those in force there.
+// What a bag must be told first, so that a run under way can be simulated again: the configuration, the last
+// checkpoint, and every drag command and change of parameters since then, with those in force there.
 #pragma once
 
 #include <afm_emulator/AppliedDrag.h>

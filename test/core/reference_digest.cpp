@@ -67,8 +67,8 @@ bool wanted(const std::string& line) {
 
 void print_run(double eta, double cutoff, double contact_tolerance, ModelKind kind = ModelKind::oscillator) {
   char name[100];
-  std::snprintf(name, sizeof name, "%seta %g cutoff %g contact_tolerance %g", kind == ModelKind::hammer ? "hammer, " : "",
-                eta, cutoff, contact_tolerance);
+  std::snprintf(name, sizeof name, "%seta %g cutoff %g contact_tolerance %g",
+                kind == ModelKind::hammer ? "hammer, " : "", eta, cutoff, contact_tolerance);
   if (!wanted(name)) return;
   EmulatorSettings settings;
   settings.model.kind = kind;
@@ -83,8 +83,8 @@ void print_run(double eta, double cutoff, double contact_tolerance, ModelKind ki
   std::printf("%s: %s\n", name, to_text(digest).c_str());
 }
 
-// Every impact of tips that are as different as can be, flown together. What lanes there are, the line does not tell: it
-// is the same without any.
+// Every impact of tips that are as different as can be, flown together. What lanes there are, the line does not tell:
+// it is the same without any.
 void print_together(const std::string& name, afm::LaneUse use) {
   if (!wanted(name)) return;
   constexpr std::uint32_t kTips = 96, kEvents = 60;

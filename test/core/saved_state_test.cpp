@@ -1,5 +1,5 @@
-// What is restored from a saved state goes on as the run did, to the last bit, wherever the run was; two ways to the same
-// point save the same words; what no run can have saved is refused, or ends.
+// What is restored from a saved state goes on as the run did, to the last bit, wherever the run was; two ways to the
+// same point save the same words; what no run can have saved is refused, or ends.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -59,7 +59,8 @@ namespace {
 constexpr int kBatches = 400;
 const double kCommands[] = {3.4, 0.0, 1.0, -3.4, 2.0, 3.0, 1e-4, 0.34, -30.0, 5.0};
 
-// What the stepping thread does between two deadlines: obey, step, hand over, now and then its whole state. A reader on its own side takes all away.
+// What the stepping thread does between two deadlines: obey, step, hand over, now and then its whole state. A reader on
+// its own side takes all away.
 class SteppingPath {
  public:
   explicit SteppingPath(ModelKind kind, double cutoff)

@@ -55,10 +55,11 @@ void check_change(const afm_emulator::AppliedParameters& change, node::Parameter
 // A state to begin with; throws Problem where it is none for this program and this epoch.
 Emulator restore(const afm_emulator::Checkpoint& checkpoint, const afm_emulator::Configuration& configuration) {
   if (checkpoint.layout != state_layout()) {
-    throw Problem(Verdict::foreign, "epoch " + std::to_string(checkpoint.epoch) + ": begins with a checkpoint of layout " +
-                                        std::to_string(checkpoint.layout) + ", and this program reads layout " +
-                                        std::to_string(state_layout()) + ": check it with version " +
-                                        configuration.version + " of the emulator, which recorded it");
+    throw Problem(Verdict::foreign, "epoch " + std::to_string(checkpoint.epoch) +
+                                        ": begins with a checkpoint of layout " + std::to_string(checkpoint.layout) +
+                                        ", and this program reads layout " + std::to_string(state_layout()) +
+                                        ": check it with version " + configuration.version +
+                                        " of the emulator, which recorded it");
   }
   const auto emulator = node::restored(checkpoint);
   const std::uint64_t told = checkpoint.digest.configuration_digest;
@@ -126,12 +127,12 @@ bool EpochLog::reaches_back() const {
          changes.front().header.seq == first_change;
 }
 
-// The last checkpoint before the first batch of the recording, as then the least is to be simulated. Later epochs are in
-// it from their beginnings on.
+// The last checkpoint before the first batch of the recording, as then the least is to be simulated. Later epochs are
+// in it from their beginnings on.
 void EpochLog::choose_start(const FirstBatch& first) {
   for (const auto& c : checkpoints) {
-    const bool before = c.samples <= first.sample && c.impacts <= first.impact &&
-                        node::from_message(c.time) < first.end;
+    const bool before =
+        c.samples <= first.sample && c.impacts <= first.impact && node::from_message(c.time) < first.end;
     if (configuration.epoch < first.epoch || (configuration.epoch == first.epoch && before)) start_ = c;
   }
   if (start_ && node::from_message(start_->time) == ModelTime{} && reaches_back()) start_.reset();
@@ -145,7 +146,8 @@ void EpochLog::choose_start(const FirstBatch& first) {
 // What remains must follow on.
 void EpochLog::drop_before_start() {
   const auto drop = [this](auto& messages, std::uint32_t next, const char* what) {
-    const auto after = std::find_if(messages.begin(), messages.end(), [&](const auto& m) { return m.header.seq >= next; });
+    const auto after =
+        std::find_if(messages.begin(), messages.end(), [&](const auto& m) { return m.header.seq >= next; });
     messages.erase(messages.begin(), after);
     if (!messages.empty() && messages.front().header.seq != next) {
       missing(configuration.epoch, std::string(what) + " after the checkpoint that it begins with are missing");
@@ -202,15 +204,17 @@ void EpochLog::check_drags() const {
 void EpochLog::check_levels() const {
   const Level configured = node::full_level(node::to_parameters(configuration));
   for (const Applied& command : commands) {
-    std::visit([&](const auto& applied) {
-      Level level;
-      const bool known = parse(applied.model, level.kind);
-      level.contact_tolerance = applied.contact_tolerance;
-      const bool possible = known && has_sound_tolerance(level);
-      if (!possible || (configuration.model != node::kAuto && !(level == configured))) {
-        nonsense(configuration.epoch, "a command brings a level of the model that the configuration has not");
-      }
-    }, command);
+    std::visit(
+        [&](const auto& applied) {
+          Level level;
+          const bool known = parse(applied.model, level.kind);
+          level.contact_tolerance = applied.contact_tolerance;
+          const bool possible = known && has_sound_tolerance(level);
+          if (!possible || (configuration.model != node::kAuto && !(level == configured))) {
+            nonsense(configuration.epoch, "a command brings a level of the model that the configuration has not");
+          }
+        },
+        command);
   }
 }
 
