@@ -1,0 +1,135 @@
+# The core: physics without ROS.
+
+# core/NAME_test.cpp: one executable each, with the core and nothing else (and quad floats to compare with)
+function(afm_add_core_test name)
+  catkin_add_gtest(${name}_test core/${name}_test.cpp)
+  target_link_libraries(${name}_test afm_emulator_core quadmath ${gtest_main} ${ARGN})
+  target_compile_definitions(${name}_test PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
+  set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
+endfunction()
+
+set(core_tests
+  attractor
+  batch_means
+  chatter
+  chatter_end
+  contact
+  contact_energy
+  contact_jacobian
+  continuation
+  corners
+  cycle_expansion
+  deflection
+  double_double
+  emulator
+  emulator_limits
+  energy
+  ensemble
+  first_fall
+  flight
+  friction
+  grazing
+  hammer
+  hammer_jacobian
+  hammer_orbits
+  hard_starts
+  impact_search
+  jacobian
+  known_orbits
+  level_table
+  live_changes
+  lyapunov
+  model
+  pacer
+  periodic_orbit
+  poincare_map
+  reference_flights
+  reflection
+  relevel
+  retune
+  saved_state
+  short_bounce
+  slide
+  slide_release
+  slow_departure
+  split
+  state
+  surface
+  sweep
+  symbolic_dynamics
+  tip
+  turns
+  units)
+foreach(name IN LISTS core_tests)
+  afm_add_core_test(${name})
+endforeach()
+target_link_libraries(sweep_test afm_emulator_sweep)
+target_include_directories(deflection_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
+
+# The bits of a run depend on no compiler and no option: reference runs as shipped and without any optimisation, against
+# digests that are written down. scripts/compare_builds does it for every compiler there is.
+get_target_property(core_sources afm_emulator_core SOURCES)
+list(FILTER core_sources EXCLUDE REGEX "^\\$<")  # objects of lanes
+list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/)
+add_executable(reference_digest EXCLUDE_FROM_ALL core/reference_digest.cpp)
+target_link_libraries(reference_digest afm_emulator_core)
+add_executable(reference_digest_O0 EXCLUDE_FROM_ALL core/reference_digest.cpp ${core_sources})
+target_compile_options(reference_digest_O0 PRIVATE -O0)
+target_compile_definitions(reference_digest_O0 PRIVATE AFM_SINGLE_VERSION)
+target_include_directories(reference_digest_O0 PRIVATE ${PROJECT_SOURCE_DIR}/include)
+target_link_libraries(reference_digest_O0 afm_options Eigen3::Eigen Threads::Threads)
+foreach(program reference_digest reference_digest_O0)
+  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  add_dependencies(tests ${program})
+endforeach()
+add_test(NAME reference_digest
+  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/reference_digest_test.sh ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
+    $<TARGET_FILE:reference_digest> $<TARGET_FILE:reference_digest_O0>)
+set_tests_properties(reference_digest PROPERTIES TIMEOUT 120)
+
+if(TARGET friction_curve AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT AFM_SANITIZE)
+  add_test(NAME older_machines
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/older_machines_test.sh ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
+      $<TARGET_FILE:reference_digest> $<TARGET_FILE:next_impact> $<TARGET_FILE:friction_curve>
+      ${CMAKE_CURRENT_SOURCE_DIR}/data/next_impact.csv)
+  set_tests_properties(older_machines PROPERTIES TIMEOUT 180 SKIP_RETURN_CODE 77)
+endif()
+
+# what is compiled for lanes must not be linked into the rest: without optimization nothing is inlined away
+set(lane_objects)
+foreach(lanes IN LISTS afm_lanes)
+  get_target_property(sources afm_lanes_${lanes} SOURCES)
+  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/)
+  set_source_files_properties(${sources} core/lane_probe_${lanes}.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+  add_library(lanes_${lanes}_unoptimized OBJECT ${sources})
+  target_include_directories(lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include)
+  target_compile_options(lanes_${lanes}_unoptimized PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options} -O0)
+  target_link_libraries(lanes_${lanes}_unoptimized PRIVATE afm_options)
+  list(APPEND lane_objects $<TARGET_OBJECTS:afm_lanes_${lanes}> $<TARGET_OBJECTS:lanes_${lanes}_unoptimized>)
+endforeach()
+if(lane_objects)
+  afm_add_core_test(lanes)
+  foreach(lanes IN LISTS afm_lanes)
+    set(probe lane_probe_${lanes})
+    add_library(${probe} OBJECT core/${probe}.cpp)
+    target_include_directories(${probe} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src core)
+    target_compile_options(${probe} PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options})
+    target_link_libraries(${probe} PRIVATE afm_options)
+    target_sources(lanes_test PRIVATE $<TARGET_OBJECTS:${probe}>)
+  endforeach()
+  if("avx512" IN_LIST afm_lanes)
+    target_compile_definitions(lanes_test PRIVATE AFM_WIDE_LANES)
+  endif()
+  add_test(NAME lane_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/lane_symbols_test.sh ${lane_objects}
+    COMMAND_EXPAND_LISTS)
+  set_tests_properties(lane_symbols PROPERTIES TIMEOUT 30)
+endif()
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT AFM_SANITIZE AND
+   CMAKE_BUILD_TYPE STREQUAL "Release")
+  add_test(NAME hot_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/hot_symbols_test.sh $<TARGET_FILE:afm_emulator_core>)
+  set_tests_properties(hot_symbols PROPERTIES TIMEOUT 30)
+endif()
+
+add_test(NAME no_ros_in_core COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/no_ros_test.sh)
+set_tests_properties(no_ros_in_core PROPERTIES TIMEOUT 30)

@@ -1,0 +1,107 @@
+# The node, run as a user runs it, and those of its parts that need no master.
+
+# node/NAME.test: a launch file run by rostest, with a master of its own
+function(afm_add_rostest name)
+  add_rostest(node/${name}.test DEPENDENCIES ${ARGN})
+  set_tests_properties(${rostest_prefix}${name}.test PROPERTIES TIMEOUT 180)
+endfunction()
+
+set(node_tests
+  bad_parameters
+  diagnostics
+  drag_speeds
+  full_disk
+  loopback
+  obeys_commands
+  publishes
+  recording
+  refuses_junk
+  replay
+  reset_pause_step
+  scenes
+  shipped_files
+  shutdown
+  standstill)
+foreach(name IN LISTS node_tests)
+  afm_add_rostest(${name} emulator_node)
+endforeach()
+
+# of the picture
+set(view_tests pair view)
+foreach(name IN LISTS view_tests)
+  afm_add_rostest(${name} emulator_node view_node)
+endforeach()
+
+# of the tools that check recordings
+set(recording_tests
+  broken_bags
+  checkpoints
+  faults
+  levels
+  listening
+  load
+  recording_faults
+  repeats
+  spoiled_bags
+  steering)
+foreach(name IN LISTS recording_tests)
+  if(TARGET replay_check)
+    afm_add_rostest(${name} emulator_node replay_check bag_check)
+  endif()
+endforeach()
+if(TARGET replay_check)  # keeps every core busy: what ran beside it would starve
+  set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
+endif()
+
+# an independent reader, only where someone has installed it: no test fetches anything
+find_program(NODE_PROGRAM NAMES node nodejs)
+set(node_modules ${CMAKE_BINARY_DIR}/node_modules)
+if(NODE_PROGRAM AND EXISTS ${node_modules}/@foxglove/rosbag)
+  afm_add_rostest(javascript_reader emulator_node)
+  set_property(TEST ${rostest_prefix}javascript_reader.test APPEND PROPERTY ENVIRONMENT NODE_PATH=${node_modules})
+else()
+  message(STATUS "The test by a reader in JavaScript is left out; for it you need Node.js 16, and: "
+    "npm install --prefix ${CMAKE_BINARY_DIR} @foxglove/rosbag@0.4.1 tslib@2")
+endif()
+
+# node/NAME_test.cpp: parts of the node that need no master
+foreach(name diagnosis run_history)
+  catkin_add_gtest(${name}_test node/${name}_test.cpp)
+  target_include_directories(${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(${name}_test afm_emulator_ros ${gtest_main})
+  set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
+endforeach()
+
+# preloaded by the faults' test
+add_library(afm_clock_jump SHARED EXCLUDE_FROM_ALL node/clock_jump.c)
+add_dependencies(tests afm_clock_jump)
+
+# rostest starts what is executable: in a clone that is what git says, whatever it is in this tree
+file(GLOB scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} node/*_test.py)
+execute_process(COMMAND git ls-files --stage -- ${scripts} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+  OUTPUT_VARIABLE staged ERROR_QUIET)
+foreach(script IN LISTS scripts)
+  execute_process(COMMAND test -x ${script} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} RESULT_VARIABLE not_executable)
+  if(not_executable OR staged MATCHES "100644 [0-9a-f]+ [0-9]\t${script}\n")
+    message(FATAL_ERROR "test/${script} is not executable, so rostest cannot start it: "
+      "chmod +x test/${script} && git update-index --chmod=+x test/${script}")
+  endif()
+endforeach()
+
+if(TARGET replay_check)
+  # a short form; scripts/soak alone runs for an hour
+  set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 12 --part 6 --rate 50)
+  if(AFM_SANITIZE)
+    list(APPEND soak --any-memory)
+  endif()
+  add_test(NAME soak COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${soak})
+  set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOSTNAME=localhost")
+endif()
+
+if(NOT AFM_SANITIZE)
+  # it stands between the program and its allocator itself
+  catkin_add_gtest(stepping_path_test node/stepping_path_test.cpp)
+  target_include_directories(stepping_path_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(stepping_path_test afm_emulator_ros ${gtest_main} ${CMAKE_DL_LIBS})
+  set_tests_properties(${gtest_prefix}stepping_path_test PROPERTIES TIMEOUT 60)
+endif()
