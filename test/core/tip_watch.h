@@ -88,7 +88,10 @@ class TipWatch {
     if (!std::isfinite(d.vertical) || !std::isfinite(d.lateral) || !std::isfinite(d.gap)) return violated("not finite");
     // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the extension
     const double place = std::max(0.25, std::abs(d.lateral));
-    const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * place});
+    // and what the tip falls by over the rounding of the time, from 9 a/tau on
+    const double rate = tip_.in_flight() ? std::abs(tip_.flight().gap(t - tip_.flight_start()).g1) : 0.0;
+    const double fall = rate * 0x1p-53 / kMostDepth;
+    const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * place, fall});
     count_.deepest = std::max(count_.deepest, -d.gap / rounded);
     return -d.gap <= kMostDepth * rounded || violated("the gap is " + std::to_string(d.gap * 1e15) + "e-15");
   }
