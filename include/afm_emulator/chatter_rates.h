@@ -88,10 +88,6 @@ class ChatterRates {
  private:
   EvenChatter even(const ChatterSurroundings& at, const Chatter& c) const;
   Chatter plain(const ChatterSurroundings& at, const EvenChatter& c) const;
-  // d/dt. In `c` v stands for what it would be on the guide itself.
-  EvenChatter rate(const ChatterSurroundings& at, const EvenChatter& c) const;
-  // What `to` changes to, and how fast it goes on: what is around it is known.
-  void brief(const ChatterPlace& from, double dt, ChatterPlace& to) const;
   double bounces_at(double v) const;
 
   ChatterView view_;

@@ -69,10 +69,6 @@ double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
   return 2.0 * at.per_P * (flow_.geometric ? v / (1.0 - flow_.gamma) : 1.0 / flow_.loss);
 }
 
-AFM_INLINED EvenChatter ChatterRates::rate(const ChatterSurroundings& at, const EvenChatter& c) const {
-  return chatter_rate(flow_, at, c);
-}
-
 AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
   return view_.look(bounce);
 }
@@ -85,22 +81,16 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guid
                                                   const Chatter& start) const {
   ChatterPlace at{s, view_.look(guide, s), {}, {}, start};
   at.even = even(at.around, start);
-  at.rate = rate(at.around, at.even);
+  at.rate = chatter_rate(flow_, at.around, at.even);
   return at;
-}
-
-// Over so little that differences over dt of what is seen at its ends would be noise: by the mean of two rates.
-AFM_INLINED void ChatterRates::brief(const ChatterPlace& from, double dt, ChatterPlace& to) const {
-  to.rate = rate(to.around, from.even + dt * from.rate);
-  to.even = from.even + 0.5 * dt * (from.rate + to.rate);
 }
 
 AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide, const ChatterPlace& from,
                                                  double dt) const {
-  constexpr double kBrief = 1e-5;
+  constexpr double kBrief = 1e-5;  // differences over dt of what is seen at its ends would be noise
+  if (dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief) return brief_step(guide, from, dt);
   ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
-  const bool soon = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
-  soon ? brief(from, dt, to) : node_step_(flow_, from, dt, to);
+  node_step_(flow_, from, dt, to);
   to.plain = plain(to.around, to.even);
   return to;
 }
@@ -108,7 +98,8 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide
 AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>& guide, const ChatterPlace& from,
                                                        double dt) const {
   ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
-  brief(from, dt, to);
+  to.rate = chatter_rate(flow_, to.around, from.even + dt * from.rate);
+  to.even = from.even + 0.5 * dt * (from.rate + to.rate);
   to.plain = plain(to.around, to.even);
   return to;
 }

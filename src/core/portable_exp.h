@@ -7,6 +7,7 @@
 
 #include "afm_emulator/multiversion.h"
 #include "afm_emulator/select.h"
+#include "afm_emulator/turns.h"
 
 namespace afm {
 
@@ -27,14 +28,11 @@ AFM_INLINED double portable_log(double x) {
 
 namespace exp_detail {
 
-// 1.5 * 2^52: adding and taking it away rounds to a whole number, which is in the last bits of the sum
-constexpr double kRounder = 6755399441055744.0;
-
 // e^r 2^k, where power(k + kRounder) is 2^k. Terms in pairs, pairs in pairs: little waits for what is before it.
 template <class T, class Power>
 AFM_INLINED T exp_of(const T& x, const Power& power) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
-  const T shifted = x * T(1.4426950408889634) + T(kRounder), k = shifted - T(kRounder);
+  const T shifted = x * T(1.4426950408889634) + T(turns_detail::kRounder), k = shifted - T(turns_detail::kRounder);
   const T r = mul_add(T(-k), T(kLog2Low), mul_add(T(-k), T(kLog2High), x));
   const T r2 = r * r, r4 = r2 * r2;
   const auto pair = [&](double c0, double c1) { return mul_add(r, T(c1), T(c0)); };

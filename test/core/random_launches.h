@@ -14,9 +14,11 @@ class RandomLaunches {
 
   // a gap rate of 10^decades(from, to)
   TipState next(double eta, double from = -6.0, double to = 1.0) {
-    const double g1 = std::pow(10.0, within(from, to));
+    const double g1 = power(from, to);
     return {within(0.0, 1.0), within(-0.1, 0.1), eta + within(-1.0, 1.0) * (1.0 + 0.5 * std::abs(eta)), 0.0, g1};
   }
+  double power(double from, double to) { return std::pow(10.0, within(from, to)); }
+  double sign() { return within(0.0, 1.0) < 0.5 ? -1.0 : 1.0; }
   double within(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
 
  private:

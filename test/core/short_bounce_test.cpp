@@ -26,7 +26,7 @@ class ShortBounces {
 
   ShortBounce next() {
     for (;;) {
-      const double eta = (launches_.within(0.0, 1.0) < 0.5 ? -1.0 : 1.0) * std::pow(10.0, launches_.within(-2.0, 1.2));
+      const double eta = launches_.sign() * launches_.power(-2.0, 1.2);
       const TipState start = launches_.next(eta, -4.0, 0.5);
       const Flight<double> flight(kMechanics, eta, start);
       if (search_detail::is_brief(flight, search_detail::parabola_length(flight))) continue;

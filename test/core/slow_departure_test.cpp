@@ -25,26 +25,25 @@ struct Departure {
 // A gap rate of 1e-9 to 1e-1 a/tau, and what is left of the balance 1e-6 to 10 a/tau^2 either way.
 class Departures {
  public:
-  explicit Departures(unsigned seed) : launches_(seed) {}
+  explicit Departures(unsigned seed) : random_(seed) {}
 
   Departure next() {
     for (;;) {
-      const double eta = sign() * power(-1.0, 1.3), u = sign() * power(-1.0, 2.0), phase = launches_.within(0.0, 1.0);
-      TipState start{phase, 0.0, u, 0.0, power(-9.0, -1.0)};
+      const double eta = random_.sign() * random_.power(-1.0, 1.3), u = random_.sign() * random_.power(-1.0, 2.0);
+      const double phase = random_.within(0.0, 1.0);
+      TipState start{phase, 0.0, u, 0.0, random_.power(-9.0, -1.0)};
       const double at_rest = pull(eta, start);
       start.X = 1.0;
       const double per_a = pull(eta, start) - at_rest;  // the pull is linear in the extension
-      start.X = (sign() * power(-6.0, 1.0) - at_rest) / per_a;
+      start.X = (random_.sign() * random_.power(-6.0, 1.0) - at_rest) / per_a;
       if (std::abs(start.X) < 100.0) return {eta, start};
     }
   }
 
  private:
   static double pull(double eta, const TipState& start) { return Flight<double>(kMechanics, eta, start).start().g2; }
-  double sign() { return launches_.within(0.0, 1.0) < 0.5 ? -1.0 : 1.0; }
-  double power(double low, double high) { return std::pow(10.0, launches_.within(low, high)); }
 
-  RandomLaunches launches_;
+  RandomLaunches random_;
 };
 
 // In 113 bits, from a millionth of the flight to all but a millionth of it.

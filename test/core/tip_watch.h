@@ -86,6 +86,7 @@ class TipWatch {
   bool check_depth(const ModelTime& t) {
     const Deflection d = tip_.deflection(t);
     if (!std::isfinite(d.vertical) || !std::isfinite(d.lateral) || !std::isfinite(d.gap)) return violated("not finite");
+    if (!(d.gap < 0.0)) return true;
     // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the extension
     const double place = std::max(0.25, std::abs(d.lateral));
     // and what the tip falls by over the rounding of the time, from 9 a/tau on
