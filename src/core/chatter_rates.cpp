@@ -88,11 +88,15 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guid
 AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide, const ChatterPlace& from,
                                                  double dt) const {
   constexpr double kBrief = 1e-5;  // differences over dt of what is seen at its ends would be noise
-  if (dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief) return brief_step(guide, from, dt);
-  ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
-  node_step_(flow_, from, dt, to);
-  to.plain = plain(to.around, to.even);
-  return to;
+  // two functions, as one that returns either would copy what it has just written
+  const auto by_nodes = [&] {
+    ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
+    node_step_(flow_, from, dt, to);
+    to.plain = plain(to.around, to.even);
+    return to;
+  };
+  const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
+  return brief ? brief_step(guide, from, dt) : by_nodes();
 }
 
 AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>& guide, const ChatterPlace& from,
