@@ -43,6 +43,7 @@ class ChatterLaw {
  private:
   double strain(const ChatterSurroundings& at, double v, bool within) const;
   double step_length(const ChatterPlace& at) const;
+  double step_towards_end(const ChatterPlace& at, double dt) const;
   double bearable_time(const ChatterPlace& at, double strained) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
   ChatterRun exit_at(double n, const ChatterPlace& at) const;
@@ -51,7 +52,7 @@ class ChatterLaw {
 
   double v_c_, threshold_;
   ChatterRates rates_;
-  double threshold_x_;
+  double end_x_;     // x there, or a little below it
   double fineness_;  // of the steps
 };
 

@@ -4,10 +4,10 @@
 // that it would make instead (its guide). A bounce of normal speed v lasts 2 v/P and keeps the action
 // v^3/P (1 - K v^2 / 5 P^2); it ends in v -> v (1 - w), w = (1 - gamma) v / v_c, at and above the cutoff in
 // v -> gamma v. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P T(w), so
-//   dv/dt = -(P/2) w R(w) + v P'/(3 P T(w)),   R = G/T.
+//   dv/dt = -(P/2) w R(w) + v P'/(3 P T(w)) (1 - w^2 S(w)),   R = G/T.
 // While it bounces the tip is off its guide by sigma, as the forces differ at its mean height v^2/(3 P), and this
-// changes P. Kept are all terms of the second order of a bounce's duration against every change, for any w; what is
-// left out is of the third.
+// changes P. Kept are all terms of the third order of w and of a bounce's duration against every change, by computer
+// algebra (docs/derive_chatter_law.py); of what moves it off the guide, and without a cutoff, those of the second.
 #pragma once
 
 #include "afm_emulator/chatter_view.h"
@@ -24,8 +24,8 @@ struct Chatter {
 };
 
 // The same in variables that change evenly, so that an integrator can take long steps: with a cutoff v falls and n
-// grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; without one v falls evenly,
-// x = v, and n goes like its logarithm.
+// grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; where v hardly falls in a step
+// but with the pressure, n = rest. Without a cutoff v falls evenly, x = v, and n goes like its logarithm.
 template <class T>
 struct EvenChatterOf {
   T x, rest, sigma, p, drift, lift;
@@ -45,6 +45,7 @@ struct ChatterPlace {
   ChatterSurroundings around;
   EvenChatter even, rate;
   Chatter plain;
+  double part;  // times 1/v, of n: what `even` and `rate` are without
 };
 
 // How long a bounce lasts there [tau].
@@ -59,7 +60,7 @@ struct ChatterFlow {
   double per_mean;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first
 };
 
-// A step from one place to another, of which the surroundings are known.
+// A step from one place to another, of which the surroundings are known, and what it begins with at the first.
 using NodeStep = void (*)(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to);
 
 class ChatterRates {
@@ -86,9 +87,10 @@ class ChatterRates {
   double loss(double v) const { return flow_.loss * v; }  // w
 
  private:
-  EvenChatter even(const ChatterSurroundings& at, const Chatter& c) const;
-  Chatter plain(const ChatterSurroundings& at, const EvenChatter& c) const;
-  double bounces_at(double v) const;
+  EvenChatter even(const ChatterSurroundings& at, double part, const Chatter& c) const;
+  Chatter plain(const ChatterSurroundings& at, double part, const EvenChatter& c) const;
+  double bounces_at(double part, double v) const;
+  void take_part(double more, EvenChatter& even, EvenChatter& rate) const;
 
   ChatterView view_;
   ChatterFlow flow_;

@@ -1,6 +1,10 @@
 // What quick bounces see of the surface that presses on them, at one time of the slide that they follow.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "afm_emulator/flight.h"
 #include "afm_emulator/model.h"
 #include "afm_emulator/slide.h"
@@ -15,7 +19,7 @@ struct ChatterSurroundingsOf {
   T squeeze;      // of v by itself: P'/3P
   T stretch;      // times v^2: of the duration of a bounce, by what the reaction does in it
   T twist;        // times v^3: of dv/dt, likewise
-  T lag;          // times w v^2: of dv/dt, as a loss is at the end of its bounce
+  T lag, late;    // times v^2, and w v^2: of what a bounce loses, over w, as it loses it at its end
   T turn;         // of the surface under the tip: curvature times speed
   T lean;         // times rho: of the acceleration along the surface by height; minus dP/ds
   T stiffness;    // times -sigma: of it by place
@@ -25,6 +29,14 @@ struct ChatterSurroundingsOf {
   T slow_rate;    // of the changes of the slope and of the springs [turns/tau]
 };
 using ChatterSurroundings = ChatterSurroundingsOf<double>;
+
+// The time in which the pressure falls by a part of itself, from its value and first two derivatives; infinite where it
+// does not.
+inline double time_to_fall(const ChatterSurroundings& at, double part) {
+  const double rate = -3.0 * at.squeeze, bend = rate * rate - 2.0 * part * at.P2 * at.per_P;
+  const double twice_per = rate + std::sqrt(std::max(0.0, bend));
+  return bend >= 0.0 && twice_per > 0.0 ? 2.0 * part / twice_per : std::numeric_limits<double>::infinity();
+}
 
 class ChatterView {
  public:

@@ -70,19 +70,21 @@ T leave_quickly(const Flight<T>& f) {
 }
 
 // The same where hardly a turn of the fastest is free by that: at the end of a dwell gap rate and acceleration are next
-// to nothing, and the third derivative takes the tip up. For as long as half of it is left, and at most a part of a
-// turn, if g1 s + g2 s^2/2 + g3 s^3/12 has no root; otherwise 0.
+// to nothing, and the third derivative takes the tip up. For as long as a part of it is left, half or what it takes for
+// g1 s + g2 s^2/2 + part g3 s^3/6 to have no root, and at most a part of a turn; otherwise 0.
 template <class T>
 T leave_slowly(const Flight<T>& f) {
   using std::abs;
+  using std::max;
   using std::min;
-  constexpr double kSoon = 0x1p-3;
+  constexpr double kSoon = 0x1p-3, kMostPart = 0.9, kAmple = 1.65;  // 3/2 is the least
   const GapJet<T>& o = f.start();
   const T b = o.g2 / T(2.0), soon = T(kSoon) / (abs(f.eta() + o.state.U) + f.mechanics().ratio + T(1.0));
-  const T S = min(soon, T(T(2.0) * o.g3 / f.fourth_derivative_bound(soon)));
+  const T part = max(T(0.5), T(T(kAmple) * b * b / (o.g1 * o.g3)));
   const Truth<T> noise = !(o.g1 > T(0.0)) && !(b < T(-kReleaseNoise));
-  const Truth<T> up = o.g3 > T(0.0) && (!(b < T(0.0)) || b * b * T(3.0) < o.g1 * o.g3 || noise);
-  return select(up, S, T(0.0));
+  const Truth<T> free = !(b < T(0.0)) || noise, up = o.g3 > T(0.0) && (free || part <= T(kMostPart));
+  const T left = T(4.0) - T(4.0) * select(free, T(0.5), part);
+  return select(up, min(soon, T(left * o.g3 / f.fourth_derivative_bound(soon))), T(0.0));
 }
 template <class T>
 T leave_slowly(const Flight<T>& f, const T& quickly) {

@@ -95,7 +95,8 @@ class Tip {
   void tolerate(double contact_tolerance);
   void adopt(const Model& model);
   void fly(const TipState& start);
-  void slide(const SlideState<double>& start, int bits = kSlideBits);
+  void slide(const SlideState<double>& start);
+  void slide(const SlideState<double>& start, int bits);
   void burst(const SlideState<double>& guide, const Chatter& chatter);
   SlideState<double> leave_guide(double s, const Chatter& chatter);
   void begin_flight();

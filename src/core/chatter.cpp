@@ -10,26 +10,28 @@
 namespace afm {
 namespace {
 
-// |w| up to which the series below are good to 3e-4
-constexpr double kMostLoss = 0.2;
+// |w| up to which the series of chatter_flow.h are good to 5e-4
+constexpr double kMostLoss = 0.25;
 // The duration of a bounce against the time in which the pressure changes by itself, at most, where a burst begins.
 // What the averages leave out there it carries along; at its end only the last bounces do, and they may last longer.
-constexpr double kMostShortness = 0.045;
-constexpr double kLongerWithin = 1.5;
+constexpr double kMostShortness = 0.06;
+constexpr double kLongerWithin = 2.5;
 // A tip that rings over a crest, where none rides faster than about 1 a/tau, bounces thousands of times a tau for
 // hundreds of tau, and more than three hundred of them last longer than that. What it costs to average them is a part
 // of the normal speed: slower ones may last longer, from the first.
 constexpr double kRinging = 1.5;         // [a/tau] at most
 constexpr double kFullSpeed = 2e3;       // thresholds: bounces of a ringing tip slower than this may last longer
-constexpr double kMostLongerSlow = 2.5;  // times at most
+constexpr double kMostLongerSlow = 1.9;  // times at most
 
 // A step, in parts of the times in which v falls (evenly to nothing: where there is no cutoff), the reaction changes,
 // and it swings with the horizontal spring.
-constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.8, kSwingPerStep = 2.4;
+constexpr double kFallPerStep = 2.0, kEvenFallPerStep = 0.7, kChangePerStep = 0.9, kSwingPerStep = 2.4;
 // The pressure is to lose no more than this part of itself in a step, and must not fall below that; v may rise to so
 // many times itself; and where a step ends, it may be so many times as long as the pressure takes to change, and a
 // bounce so many times as long as it lasts.
-constexpr double kLossPerStep = 0.55, kMostFall = 0.45, kMostChange = 1.2, kMostRise = 2.0, kMostOutlasting = 4.0;
+constexpr double kLossPerStep = 0.6, kMostFall = 0.33, kMostChange = 1.6, kMostRise = 2.0, kMostOutlasting = 4.0;
+// A burst ends a little below the threshold; the step to there may be a little longer.
+constexpr double kEnd = 0.9, kLast = 1.25;
 constexpr double kMostFallOfX = 10.0;  // of ln v: far more than any step is to take
 
 double square(double x) { return x * x; }
@@ -49,7 +51,7 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : v_c_(model.v_c),
       threshold_(threshold),
       rates_(model, !(model.v_c > threshold)),
-      threshold_x_(rates_.x_of(std::max(threshold, 1e-300))) {
+      end_x_(rates_.x_of(std::max(v_c_ > threshold ? kEnd * threshold : threshold, 1e-300))) {
   constexpr double kUsualThreshold = 1e-5;
   fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
 }
@@ -60,7 +62,7 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
 double ChatterLaw::strain(const ChatterSurroundings& at, double v, bool within) const {
   double longer = within ? kLongerWithin : 1.0;
   if (at.speed <= kRinging && (within || at.squeeze >= 0.0))
-    longer = std::clamp(std::sqrt(kFullSpeed * threshold_ / v), longer, kMostLongerSlow);
+    longer = std::clamp(std::sqrt(kFullSpeed * threshold_ / v), 1.0, kMostLongerSlow);
   return 2.0 * v * at.per_P * std::max(at.quickness, at.slow_rate) / (kMostShortness * fineness_ * longer);
 }
 
@@ -86,11 +88,19 @@ double ChatterLaw::step_length(const ChatterPlace& at) const {
   // with a cutoff, the less a bounce loses the more evenly ln v falls
   const double falls =
       v_c_ > threshold_ ? kFallPerStep / (0.5 + 2.5 * std::min(kMostLoss, rates_.loss(v))) : kEvenFallPerStep;
-  const double escape = kLossPerStep / std::max(0.0, -3.0 * at.around.squeeze);
+  const double escape = time_to_fall(at.around, kLossPerStep);
   const double dt = fineness_ * std::min(std::min(falls * rates_.fall_time(at.around, v), escape),
                                          std::min(kChangePerStep / quickness, kSwingPerStep / swing));
-  // and not far beyond the threshold, so that n counts the bounces down to it
-  return at.rate.x < 0.0 ? std::min(dt, 1.02 * (threshold_x_ - at.even.x) / at.rate.x) : dt;
+  return at.rate.x < 0.0 ? step_towards_end(at, dt) : dt;
+}
+
+// And not far beyond the threshold, so that n counts the bounces down to it: by x, and as the losses go with the
+// pressure, x + x' (t + P'/P t^2 / 2); without a cutoff v falls too far in a thousandth of the way.
+double ChatterLaw::step_towards_end(const ChatterPlace& at, double dt) const {
+  const double even = (end_x_ - at.even.x) / at.rate.x;
+  if (!(v_c_ > threshold_)) return std::min(dt, 1.02 * even);
+  const double end = 2.0 * even / (1.0 + std::sqrt(std::max(0.0, 1.0 + 6.0 * at.around.squeeze * even)));
+  return end < kLast * dt ? end : end < 2.0 * dt ? 0.5 * end : dt;
 }
 
 // A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the
@@ -104,7 +114,9 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
   double bearable = until;
   while (now->s < until && now->plain.v > threshold_) {
     const double rest = until - now->s, longest = step_length(*now);
-    double dt = rest <= longest ? rest : rest < 2.0 * longest ? 0.5 * rest : longest;  // the last two alike
+    const bool lets_go = -3.0 * now->around.squeeze * rest > kLossPerStep;
+    // the last two alike, but where there is nothing left at the end
+    double dt = rest <= longest ? rest : rest < 2.0 * longest && !lets_go ? 0.5 * rest : longest;
     // the last bounce of all lasts beyond the pressure: it is left where it is
     if (!(now->s + dt > now->s) || 2.0 * now->plain.v * now->around.quickness > now->around.P)
       return {ChatterEnd::exits, now->s, now->plain};

@@ -25,14 +25,6 @@ ChatterSurroundings foretold(const ChatterSurroundings& now, double dt) {
   return at;
 }
 
-// The time in which a falling pressure comes to nothing, from its value and first two derivatives; infinite where it
-// does not.
-double time_to_nothing(const ChatterSurroundings& at) {
-  const double rate = -3.0 * at.squeeze, bend = square(rate) - 2.0 * at.P2 * at.per_P;
-  const double twice_per = rate + std::sqrt(std::max(0.0, bend));
-  return bend >= 0.0 && twice_per > 0.0 ? 2.0 / twice_per : std::numeric_limits<double>::infinity();
-}
-
 // The part of a step until its bounces last too long: where the pressure falls to nothing they do like its square,
 // upside down.
 double bearable_part(double first_strain, double last_strain) {
@@ -49,7 +41,7 @@ double bearable_part(double first_strain, double last_strain) {
 double ChatterLaw::bearable_time(const ChatterPlace& at, double strained) const {
   constexpr double kFar = 0.009;  // no step goes as far as from there
   if (!(-3.0 * at.around.squeeze * duration(at) > kFar)) return std::numeric_limits<double>::infinity();
-  const double nothing = time_to_nothing(at.around), soon = nothing * (1.0 - std::sqrt(strained));
+  const double nothing = time_to_fall(at.around, 1.0), soon = nothing * (1.0 - std::sqrt(strained));
   if (!(soon > 0.0 && soon < nothing)) return soon;
   const double fall = std::max(0.0, -at.rate.x * (v_c_ > threshold_ ? 1.0 : 1.0 / at.plain.v));
   const double then = strain(foretold(at.around, soon), at.plain.v / (1.0 + fall * soon), true);

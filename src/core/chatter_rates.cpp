@@ -50,19 +50,30 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
 
 double ChatterRates::x_of(double v) const { return even_speed(flow_.geometric, v); }
 
-AFM_INLINED double ChatterRates::bounces_at(double v) const {
-  return flow_.geometric ? -flow_.even * portable_log(v) : flow_.even / v;
+AFM_INLINED double ChatterRates::bounces_at(double part, double v) const {
+  return flow_.geometric ? -flow_.even * portable_log(v) : part / v;
 }
 
-AFM_INLINED EvenChatter ChatterRates::even(const ChatterSurroundings& at, const Chatter& c) const {
+AFM_INLINED EvenChatter ChatterRates::even(const ChatterSurroundings& at, double part, const Chatter& c) const {
   const double v = c.v * std::fma(-kThird, disturbance(at, c.sigma, c.p), 1.0);
-  return {even_speed(flow_.geometric, v), c.n - bounces_at(v), c.sigma, c.p, c.drift, c.lift};
+  return {even_speed(flow_.geometric, v), c.n - bounces_at(part, v), c.sigma, c.p, c.drift, c.lift};
 }
 
-AFM_INLINED Chatter ChatterRates::plain(const ChatterSurroundings& at, const EvenChatter& c) const {
+AFM_INLINED Chatter ChatterRates::plain(const ChatterSurroundings& at, double part, const EvenChatter& c) const {
   const double v = chatter_speed(flow_, c.x);
-  return {
-      v * std::fma(kThird, disturbance(at, c.sigma, c.p), 1.0), c.rest + bounces_at(v), c.sigma, c.p, c.drift, c.lift};
+  return {v * std::fma(kThird, disturbance(at, c.sigma, c.p), 1.0),
+          c.rest + bounces_at(part, v),
+          c.sigma,
+          c.p,
+          c.drift,
+          c.lift};
+}
+
+// n without that much more of its part in 1/v.
+AFM_INLINED void ChatterRates::take_part(double more, EvenChatter& even, EvenChatter& rate) const {
+  if (flow_.geometric || more == 0.0) return;
+  const double bounces = more / chatter_speed(flow_, even.x);
+  even.rest -= bounces, rate.rest += bounces * rate.x;
 }
 
 double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
@@ -79,20 +90,23 @@ AFM_MULTIVERSION bool ChatterRates::outlasts(const Flight<double>& bounce, doubl
 
 AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guide, double s,
                                                   const Chatter& start) const {
-  ChatterPlace at{s, view_.look(guide, s), {}, {}, start};
-  at.even = even(at.around, start);
-  at.rate = chatter_rate(flow_, at.around, at.even);
+  ChatterPlace at{s, view_.look(guide, s), {}, {}, start, flow_.even};
+  at.even = even(at.around, at.part, start);
+  at.rate = chatter_rate(flow_, at.around, at.part, at.even);
   return at;
 }
 
 AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide, const ChatterPlace& from,
                                                  double dt) const {
-  constexpr double kBrief = 1e-5;  // differences over dt of what is seen at its ends would be noise
+  constexpr double kMuchFall = 1.5;  // of ln v, over which n grows too unevenly
+  constexpr double kBrief = 1e-5;    // differences over dt of what is seen at its ends would be noise
   // two functions, as one that returns either would copy what it has just written
   const auto by_nodes = [&] {
-    ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
+    const double part = dt > kMuchFall * fall_time(from.around, from.plain.v) ? flow_.even : 0.0;
+    ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), from.even, from.rate, {}, part};
+    take_part(part - from.part, to.even, to.rate);
     node_step_(flow_, from, dt, to);
-    to.plain = plain(to.around, to.even);
+    to.plain = plain(to.around, to.part, to.even);
     return to;
   };
   const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
@@ -101,15 +115,15 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide
 
 AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>& guide, const ChatterPlace& from,
                                                        double dt) const {
-  ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}};
-  to.rate = chatter_rate(flow_, to.around, from.even + dt * from.rate);
+  ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}, from.part};
+  to.rate = chatter_rate(flow_, to.around, to.part, from.even + dt * from.rate);
   to.even = from.even + 0.5 * dt * (from.rate + to.rate);
-  to.plain = plain(to.around, to.even);
+  to.plain = plain(to.around, to.part, to.even);
   return to;
 }
 
 AFM_MULTIVERSION Chatter ChatterRates::after(const ChatterPlace& from, double dt) const {
-  return plain(from.around, from.even + dt * from.rate);
+  return plain(from.around, from.part, from.even + dt * from.rate);
 }
 
 AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide,

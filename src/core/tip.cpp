@@ -23,18 +23,21 @@ const TipState& checked(const TipState& start) {
 // The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
 constexpr double kGrowth = 100.0;
 // Bounces slower than this may become a burst [a/tau]: what the averages leave out of the first of them is the most of
-// a burst's error. 0.014 at the default, where they rise by 2e-5 a. By square roots, which every machine rounds alike.
+// a burst's error. 0.027 at the default. By square roots, which every machine rounds alike.
 double entry_gap_rate(double contact_tolerance) {
-  constexpr double kEntry = 1.05;
+  constexpr double kEntry = 2.0;
   return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
 
-// A burst's guide need be no better than a ten-thousandth of the tolerance, and its pieces are 2.7 times as long for
-// it. What it gains of energy by that is in the books.
+// A burst's guide need be no better than a 2500th of the tolerance, and its pieces are 2.7 times as long for it. What
+// it gains of energy by that is in the books.
 int guide_bits(double contact_tolerance) {
-  constexpr double kPart = 1e-4, kLeast = 1e-15;
+  constexpr double kPart = 4e-4, kLeast = 1e-15;
   return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
 }
+
+// In contact the velocity is good to 1e-14 of itself, or of 1 a/tau.
+int contact_bits(double u) { return kSlideBits - std::ilogb(std::fmin(std::fmax(std::fabs(u), 1.0), 0x1p24)); }
 
 std::uint32_t whole_count(double n) {
   constexpr double kMost = 4294967295.0;
@@ -80,6 +83,8 @@ void Tip::begin_flight() {
   start_ = now_;
   landing_known_ = false;
 }
+
+void Tip::slide(const SlideState<double>& start) { slide(start, contact_bits(start.u)); }
 
 void Tip::slide(const SlideState<double>& start, int bits) {
   slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits, slide_);

@@ -11,8 +11,8 @@
 
 namespace afm {
 
-// Impacts slower than this are part of chatter: more than twice the fastest bounce that a burst holds [a/tau].
-inline double slowest_real_impact(double tolerance) { return std::sqrt(tolerance); }
+// Impacts slower than this are part of chatter: about twice the fastest bounce that a burst holds [a/tau].
+inline double slowest_real_impact(double tolerance) { return 2.0 * std::sqrt(tolerance); }
 
 struct BurstTrial {
   double bounces;              // one by one, up to the next real impact
