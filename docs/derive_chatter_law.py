@@ -30,6 +30,14 @@ def cut(e, n=N):
     return sum(c * w**k * A**a for (k, a), c in terms if k <= n and a <= most_A)
 
 
+def powers(s, most):
+    """Of s from 0 on, each cut: the whole power would have thousands of terms more."""
+    found = [sp.Integer(1)]
+    while len(found) <= most:
+        found.append(cut(found[-1] * s))
+    return found
+
+
 def bounce():
     """How long it lasts and the speed after it, of the speed w before."""
     p, k = [1, A, B / 2, C / 6, D / 24, E / 120], [K, K1, K2 / 2, K3 / 6]
@@ -39,8 +47,10 @@ def bounce():
         rho.append(sp.expand((-2 * (p[j] if j < len(p) else 0) - lift) / ((j + 1) * (j + 2))))
     s = w
     for _ in range(N):  # rho/s = 0, in which w - s is the most
-        s = cut(w + sum(rho[j + 1] * cut(s**j) for j in range(2, len(rho) - 1)))
-    fall = cut(-sum(j * rho[j] * cut(s ** (j - 1)) for j in range(1, len(rho))))
+        s_to = powers(s, N)
+        s = cut(w + sum(cut(rho[j + 1] * s_to[j]) for j in range(2, N + 1)))
+    s_to = powers(s, N)
+    fall = cut(-sum(cut(j * rho[j] * s_to[j - 1]) for j in range(1, N + 2)))
     return s, cut(fall - fall**2)
 
 
@@ -49,7 +59,7 @@ def along(f, F, T):
     units = [(A, B - 2 * A**2), (B, C - 3 * A * B), (C, D - 4 * A * C), (D, E - 5 * A * D),
              (K, K1 - 2 * A * K), (K1, K2 - 3 * A * K1), (K2, K3 - 4 * A * K2)]
     drift = 0 if linear else sum(sp.diff(f, x) * rate for x, rate in units)
-    return cut(sp.diff(f, w) * F + drift * T)
+    return cut(sp.diff(f, w) * F) + cut(sp.expand(drift) * T)
 
 
 def flow(F, T):
