@@ -39,7 +39,7 @@ def powers(s, most):
 
 
 def bounce():
-    """How long it lasts and the speed after it, of the speed w before."""
+    """How long it lasts and at what speed it ends, of the speed w at which it begins."""
     p, k = [1, A, B / 2, C / 6, D / 24, E / 120], [K, K1, K2 / 2, K3 / 6]
     rho = [sp.Integer(0), w]  # coefficients of powers of s
     for j in range(N + 3):
@@ -51,7 +51,7 @@ def bounce():
         s = cut(w + sum(cut(rho[j + 1] * s_to[j]) for j in range(2, N + 1)))
     s_to = powers(s, N)
     fall = cut(-sum(cut(j * rho[j] * s_to[j - 1]) for j in range(1, N + 2)))
-    return s, cut(fall - fall**2)
+    return s, fall
 
 
 def along(f, F, T):
@@ -74,7 +74,8 @@ def flow(F, T):
     return cut(speed), cut(time)
 
 
-s_end, w_end = bounce()
+s_end, w_incident = bounce()
+w_end = cut(w_incident - w_incident**2)
 F, T = sp.Integer(0), w
 for n in range(2, N + 1):
     F += sp.expand(w_end - flow(F, T)[0]).coeff(w, n) * w**n
@@ -101,5 +102,7 @@ if linear:
     show("S", S, N - 3)
     show("D", sp.series(-6 * per_T.coeff(A, 1) / (w**2 * even_T), w, 0, N - 3).removeO(), N - 3)
 else:
+    show("a bounce by itself, duration / w", s_end / w, 4)
+    show("a bounce by itself, w at its end / w", w_incident / w, 4)
     show("d ln w / dt", sp.expand(change / w), N - 1)
     show("w dn / dt", per_T, N - 1)

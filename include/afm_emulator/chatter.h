@@ -30,8 +30,8 @@ class ChatterLaw {
   // threshold: normal speeds up to it are contact [a/tau].
   ChatterLaw(const Model& model, double threshold);
 
-  // Can a burst begin with the bounce that begins this flight? The bounces must be short against every change, and
-  // below the cutoff lose so little each that the series of the interpolation hold.
+  // Can a burst begin with the bounce that begins this flight? The bounces must be short against every change; those
+  // that lose too much each for the series of the interpolation are made one by one along the guide.
   bool holds(const Flight<double>& bounce) const;
 
   // From one time of the guide to another, `until`, or to the end of the chatter.
@@ -41,16 +41,23 @@ class ChatterLaw {
   Chatter at(const SlidePiece<double>& guide, double s, const Chatter& start) const;
 
  private:
+  bool steep(double v) const;
+  bool descends(double v) const { return most_loss_ >= kLeastDescent && steep(v); }
   double strain(const ChatterSurroundings& at, double v, bool within) const;
   double step_length(const ChatterPlace& at) const;
   double step_towards_end(const ChatterPlace& at, double dt) const;
   double bearable_time(const ChatterPlace& at, double strained) const;
+  ChatterRun descend(const SlidePiece<double>& guide, double from, double until, const Chatter& start,
+                     bool exits) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
   ChatterRun exit_at(double n, const ChatterPlace& at) const;
   ChatterRun whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
                           double last_strain) const;
 
-  double v_c_, threshold_;
+  // Where bounces above the cutoff lose less than this part of v there are too many to be made one by one.
+  static constexpr double kLeastDescent = 0.05;
+
+  double v_c_, threshold_, most_loss_;
   ChatterRates rates_;
   double end_x_;     // x there, or a little below it
   double fineness_;  // of the steps

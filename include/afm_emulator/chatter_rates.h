@@ -69,6 +69,7 @@ class ChatterRates {
   ChatterRates(const Model& model, bool geometric);
 
   ChatterSurroundings surroundings(const Flight<double>& bounce) const;
+  ChatterSurroundings surroundings(const SlidePiece<double>& guide, double s) const;
   bool outlasts(const Flight<double>& bounce, double part) const;  // as ChatterView
 
   ChatterPlace begin(const SlidePiece<double>& guide, double s, const Chatter& start) const;
@@ -85,6 +86,7 @@ class ChatterRates {
   double x_of(double v) const;  // where nothing is off the guide
 
   double loss(double v) const { return flow_.loss * v; }  // w
+  bool held() const { return view_.held(); }
 
  private:
   EvenChatter even(const ChatterSurroundings& at, double part, const Chatter& c) const;

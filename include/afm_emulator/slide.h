@@ -18,7 +18,15 @@ template <class T>
 class SlidePiece {
  public:
   // At length() the last terms are at most about three times 2^-bits: at 48 the velocity is good to 1e-14 up to there.
-  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits);
+  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
+      : SlidePiece(mechanics, eta, start, bits, write_slide_orders<T>) {}
+
+  template <class Write>
+  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits, const Write& write)
+      : m_(mechanics), eta_(eta), start_(start) {
+    write(slide_beginning(mechanics, eta, start), series_.d.data(), series_.u.data(), series_.lambda.data());
+    length_ = choose_length(bits);
+  }
 
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(series_.lambda, s); }  // reaction along y [a/tau^2]
@@ -45,10 +53,6 @@ class SlidePiece {
   SlideSeries<T> series_;
   T length_;
 };
-
-template <class T>
-SlidePiece<T>::SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits)
-    : m_(mechanics), eta_(eta), start_(start), series_(mechanics, eta, start), length_(choose_length(bits)) {}
 
 // So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits, or
 // three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they

@@ -37,7 +37,7 @@ inline double epsilon<double>() {
 template <class T>
 T two_pi();
 template <>
-inline double two_pi<double>() {
+AFM_INLINED double two_pi<double>() {
   return 6.283185307179586476925286766559;
 }
 

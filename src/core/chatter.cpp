@@ -50,11 +50,15 @@ bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : v_c_(model.v_c),
       threshold_(threshold),
+      most_loss_(1.0 - model.gamma),
       rates_(model, !(model.v_c > threshold)),
       end_x_(rates_.x_of(std::max(v_c_ > threshold ? kEnd * threshold : threshold, 1e-300))) {
   constexpr double kUsualThreshold = 1e-5;
   fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
 }
+
+// For the averages.
+bool ChatterLaw::steep(double v) const { return v_c_ > threshold_ && (v > v_c_ || rates_.loss(v) > kMostLoss); }
 
 // How long a bounce lasts, over how long it may. What the averages leave out is of the third and fourth order of its
 // duration against all changes. `within` a burst, or at the entry to one: there bounces of a falling pressure, which
@@ -70,8 +74,7 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const double v = bounce.start().g1;
   if (v <= threshold_) return true;
   if (!(bounce.start().g2 < 0.0)) return false;
-  const bool below = v_c_ > threshold_;
-  if (below && (v > v_c_ || rates_.loss(v) > kMostLoss)) return false;
+  if (steep(v) && !descends(v)) return false;
   // most that are asked for are refused
   const double longest = std::abs(bounce.launch().u) <= kRinging ? kMostLongerSlow : 1.0;
   if (rates_.outlasts(bounce, kMostShortness * fineness_ * longest)) return false;
@@ -108,8 +111,11 @@ double ChatterLaw::step_towards_end(const ChatterPlace& at, double dt) const {
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
                                                const Chatter& start, bool exits) const {
   constexpr double kFewBounces = 2.0;  // are not worth a step
+  ChatterRun first{ChatterEnd::time, from, start};
+  if (descends(start.v)) first = descend(guide, from, until, start, exits);
+  if (first.end != ChatterEnd::time || descends(first.chatter.v)) return first;
   // made in place, in turn: a copy of what has just been written would wait until it is in memory
-  ChatterPlace places[2] = {rates_.begin(guide, from, start), {}};
+  ChatterPlace places[2] = {rates_.begin(guide, first.s, first.chatter), {}};
   ChatterPlace *now = &places[0], *next = &places[1];
   double bearable = until;
   while (now->s < until && now->plain.v > threshold_) {

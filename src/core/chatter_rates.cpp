@@ -84,6 +84,10 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<dou
   return view_.look(bounce);
 }
 
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
+  return view_.look(guide, s);
+}
+
 AFM_MULTIVERSION bool ChatterRates::outlasts(const Flight<double>& bounce, double part) const {
   return view_.outlasts(bounce, part);
 }

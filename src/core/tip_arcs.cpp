@@ -6,9 +6,12 @@
 #include "afm_emulator/multiversion.h"
 #include "afm_emulator/reflection.h"
 #include "lanes/lane_tip.h"
+#include "lanes/slide_orders.h"
 
 namespace afm {
 namespace {
+
+const lanes::WriteSlideOrders orders_in_lanes = lanes::slide_orders();
 
 // A flight of next to no time, for the fastest turn, under next to no force is none either: its end is rounding, and a
 // drag of 1e-18 a/tau that would bring pressure moves no phase.
@@ -57,7 +60,11 @@ AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { ret
 
 AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
                                  int bits, SlidePiece<double>& slide) {
-  new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
+  if (orders_in_lanes != nullptr) {
+    new (&slide) SlidePiece<double>(mechanics, eta, start, bits, orders_in_lanes);
+  } else {
+    new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
+  }
 }
 
 AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {

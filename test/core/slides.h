@@ -2,6 +2,7 @@
 #pragma once
 
 #include "afm_emulator/slide.h"
+#include "afm_emulator/surface.h"
 #include "random_launches.h"
 
 namespace afm {

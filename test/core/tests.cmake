@@ -12,6 +12,7 @@ set(core_tests
   attractor
   batch_means
   chatter
+  chatter_descent
   chatter_end
   contact
   contact_energy
