@@ -16,6 +16,8 @@ constexpr double kMostLoss = 0.25;
 // What the averages leave out there it carries along; at its end only the last bounces do, and they may last longer.
 constexpr double kMostShortness = 0.06;
 constexpr double kLongerWithin = 2.5;
+// Bounces that are made one by one along the guide see the pressure as a cubic of the time.
+constexpr double kMostSteepStrain = 0.5;
 // A tip that rings over a crest, where none rides faster than about 1 a/tau, bounces thousands of times a tau for
 // hundreds of tau, and more than three hundred of them last longer than that. What it costs to average them is a part
 // of the normal speed: slower ones may last longer, from the first.
@@ -78,7 +80,7 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   // most that are asked for are refused
   const double longest = std::abs(bounce.launch().u) <= kRinging ? kMostLongerSlow : 1.0;
   if (rates_.outlasts(bounce, kMostShortness * fineness_ * longest)) return false;
-  return strain(rates_.surroundings(bounce), v, false) <= 1.0;
+  return strain(rates_.surroundings(bounce), v, false) <= (steep(v) ? kMostSteepStrain : 1.0);
 }
 
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.

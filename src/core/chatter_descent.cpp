@@ -58,11 +58,14 @@ AFM_INLINED Chatter moved(const ChatterSurroundings& at, const Reaction& r, doub
 // then, to where the flow through them has come.
 AFM_MULTIVERSION ChatterRun ChatterLaw::descend(const SlidePiece<double>& guide, double from, double until,
                                                 const Chatter& start, bool exits) const {
-  constexpr double kFar = 0.1;  // of the time in which the pressure changes: then it is looked at again
+  // Parts of the time in which the pressure changes, or swings at twice the rate of the horizontal spring: then it is
+  // looked at again.
+  constexpr double kFar = 0.15;
   Chatter c = start;
   double s = from;
   while (descends(c.v) && c.v > threshold_) {
     const ChatterSurroundings at = rates_.surroundings(guide, s);
+    const double far = kFar / std::max(at.quickness, 2.0 * kTwoPi * at.slow_rate);
     double t = 0.0;
     do {
       const Reaction r = later(at, t);
@@ -79,7 +82,7 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::descend(const SlidePiece<double>& guide,
       c = moved(at, r, arc.duration, rates_.held(), c);
       c.v = after, c.n += 1.0;
       t += arc.duration;
-    } while (descends(c.v) && c.v > threshold_ && t * at.quickness < kFar);
+    } while (descends(c.v) && c.v > threshold_ && t < far);
     s += t;
   }
   return {c.v > threshold_ ? ChatterEnd::time : ChatterEnd::died, s, c};
