@@ -76,6 +76,9 @@ TipState Tip::held(const TipState& state) const {
 void Tip::fly(const TipState& start) {
   launch(mechanics_, eta_, held(start), flight_);
   begin_flight();
+  const GapJet<double>& gap = flight_.start();
+  // a hammer that one command throws off and the next, at the same time, does not
+  if (gap.g == 0.0 && gap.g1 == 0.0 && gap.g2 < 0.0) mode_ = Mode::touching;
 }
 
 void Tip::begin_flight() {

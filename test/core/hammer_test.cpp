@@ -5,6 +5,7 @@
 
 #include "afm_emulator/tip.h"
 #include "random_launches.h"
+#include "tip_watch.h"
 
 namespace afm {
 namespace {
@@ -97,7 +98,6 @@ TEST(Hammer, AnImpactTakesWhatTheGapRateLosesAndTheHolderGivesTheRest) {
   }
 }
 
-
 TEST(Hammer, IsDraggedOverAtRestAndWakesUp) {
   Tip tip(hammer(), 0.0, FreeState{0.1, 0.0, 0.09, 0.0, 0.0});
   while (!tip.in_contact()) ASSERT_NE(tip.advance({1000, 0.0}), Outcome::time_limit);
@@ -126,6 +126,29 @@ TEST(Hammer, NoCommandThrowsItOffBeforeItCame) {
     tip.drag(i % 2 == 0 ? 0.3 : 0.0);
   }
   EXPECT_GT(thrown, 300);
+}
+
+// The second takes back what the first has done, before any time has passed; a blow alone is not taken back.
+TEST(Hammer, OfTwoCommandsAtOneTimeTheLastCounts) {
+  RandomLaunches random(4);
+  int commands = 0;
+  for (int i = 0; i < 2000; ++i) {
+    TipWatch watch(hammer(), 9.0, FreeState{random.within(0.0, 1.0), 0.0, 0.2, 9.0, 0.0}, kDefaultContactTolerance);
+    const ModelTime command{2, random.within(0.0, 1.0)};
+    ASSERT_TRUE(watch.advance(command)) << watch.violation();
+    if (!watch.tip().in_contact()) continue;
+    const bool happens = i % 2 == 0, hits = surface_jet(hammer().H, watch.tip().tip_state().phase).h1 < 0.0;
+    watch.drag(-20.0);
+    if (happens) {
+      ASSERT_TRUE(watch.advance(command)) << watch.violation();
+    }
+    watch.drag(9.0);
+    ASSERT_TRUE(watch.advance(command)) << watch.violation();
+    EXPECT_EQ(watch.tip().in_contact(), !(happens && hits)) << watch.violation();
+    ASSERT_TRUE(watch.advance(command + 1.0)) << watch.violation();
+    ++commands;
+  }
+  EXPECT_GT(commands, 80);
 }
 
 // What a stretch of chatter in one valley loses, from its first bounce to the end of the pressure, and in how many
