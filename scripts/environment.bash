@@ -3,6 +3,8 @@
 
 afm_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 afm_build=${AFM_BUILD_DIR:-$afm_root/build}
+# rosrun finds no executable below PACKAGE/build
+afm_install=${AFM_BUILD_DIR:-$afm_root}/install
 
 # another python3 may be first on PATH (pyenv, conda); ROS's modules belong to the system's
 export PATH=/usr/bin:/bin:$PATH

@@ -6,14 +6,14 @@
 namespace afm::node {
 namespace {
 
-using Level = diagnostic_msgs::DiagnosticStatus;
+using Severity = diagnostic_msgs::DiagnosticStatus;
 
 // All that is wrong is told, the level is that of the worst.
 class Troubles {
  public:
-  Troubles(Diagnosis& out, const std::string& if_none) : out_(out) { out_.summary(Level::OK, if_none); }
+  Troubles(Diagnosis& out, const std::string& if_none) : out_(out) { out_.summary(Severity::OK, if_none); }
 
-  void add(bool found, Level::_level_type level, const std::string& text) {
+  void add(bool found, Severity::_level_type level, const std::string& text) {
     if (found) out_.mergeSummary(level, text);
   }
 
@@ -33,12 +33,12 @@ std::string format(const char* pattern, Values... values) {
 void diagnose_pace(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
   Troubles troubles(out, status.paused ? "paused" : "running");
-  troubles.add(status.lag > kHopelessLag, Level::ERROR,
+  troubles.add(status.lag > kHopelessLag, Severity::ERROR,
                format("%.1f s behind the wall clock: the machine is too slow for this run", status.lag));
-  troubles.add(status.lag > kTroublingLag && !(status.lag > kHopelessLag), Level::WARN,
+  troubles.add(status.lag > kTroublingLag && !(status.lag > kHopelessLag), Severity::WARN,
                format("%.1f s behind the wall clock", status.lag));
-  troubles.add(health.lost_batch, Level::ERROR, "batches were lost: publishing does not keep up");
-  troubles.add(health.late_share > kTroublingLateShare, Level::WARN,
+  troubles.add(health.lost_batch, Severity::ERROR, "batches were lost: publishing does not keep up");
+  troubles.add(health.late_share > kTroublingLateShare, Severity::WARN,
                format("%.0f %% of the batches are late (scheduler: %s)", 100.0 * health.late_share,
                       status.scheduler.c_str()));
   out.add("real-time factor", status.real_time_factor);
@@ -52,8 +52,8 @@ void diagnose_pace(const Health& health, Diagnosis& out) {
 
 void diagnose_commands(const Health& health, Diagnosis& out) {
   Troubles troubles(out, "nothing was refused of late");
-  troubles.add(!health.refusal.empty(), health.overload ? Level::ERROR : Level::WARN, "refused: " + health.refusal);
-  troubles.add(health.timed_out, Level::WARN,
+  troubles.add(!health.refusal.empty(), health.overload ? Severity::ERROR : Severity::WARN, "refused: " + health.refusal);
+  troubles.add(health.timed_out, Severity::WARN,
                format("the drag was stopped: no command for %g s (command_timeout_s)", health.command_timeout_s));
   out.add("refused drag commands", health.status.refused_commands);
   out.add("refused changes of parameters", health.refused_changes);
@@ -63,11 +63,11 @@ void diagnose_commands(const Health& health, Diagnosis& out) {
 void diagnose_numerics(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
   Troubles troubles(out, "exact");
-  troubles.add(status.search_failures > 0, Level::ERROR,
+  troubles.add(status.search_failures > 0, Severity::ERROR,
                "searches for the next impact have given up: this epoch is not exact");
-  troubles.add(status.worst_penetration > kPenetration * health.lattice_spacing_m, Level::ERROR,
+  troubles.add(status.worst_penetration > kPenetration * health.lattice_spacing_m, Severity::ERROR,
                "the tip was below the surface: this epoch is not exact");
-  troubles.add(health.budget_spent, Level::WARN,
+  troubles.add(health.budget_spent, Severity::WARN,
                "batches are cut short by the impact budget: too many impacts for real time");
   out.add("failed impact searches", status.search_failures);
   out.add("worst penetration [m]", status.worst_penetration);
@@ -79,10 +79,10 @@ void diagnose_recording(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
   const bool recording = !status.recording.empty();
   Troubles troubles(out, recording ? "recording" : "not recording");
-  troubles.add(!status.recorder_error.empty(), Level::ERROR, "ended early: " + status.recorder_error);
-  troubles.add(recording && health.dropped_from_recording > 0, Level::ERROR,
+  troubles.add(!status.recorder_error.empty(), Severity::ERROR, "ended early: " + status.recorder_error);
+  troubles.add(recording && health.dropped_from_recording > 0, Severity::ERROR,
                "messages are missing in the recording: the disk is too slow");
-  troubles.add(health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb, Level::WARN,
+  troubles.add(health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb, Severity::WARN,
                format("%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)", health.free_mb,
                       health.reserve_mb));
   out.add("bag", status.recording);

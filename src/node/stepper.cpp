@@ -13,8 +13,6 @@ constexpr std::size_t kMaxWaitingRequests = 1024;
 // While paused: how soon a stop is noticed without a request.
 constexpr std::chrono::milliseconds kPausedLook{100};
 
-// Publishing takes a batch in well under this.
-constexpr std::chrono::milliseconds kRoomLook{1};
 // A publishing thread that takes nothing up for so long is stuck.
 constexpr std::chrono::seconds kPublishingPatience{1};
 

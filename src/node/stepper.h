@@ -35,6 +35,9 @@ class Stepper {
   const std::string& scheduler() const { return scheduler_; }  // after start(): "fifo", or "normal" with the reason
 
  private:
+  // How soon room for another batch is noticed. Publishing takes a batch in well under this.
+  static constexpr std::chrono::milliseconds kRoomLook{1};
+
   void run();
   void wait_for_work();
   void serve_requests();

@@ -6,9 +6,6 @@
 namespace afm::node {
 namespace {
 
-// Publishing takes a batch in well under this.
-constexpr std::chrono::milliseconds kRoomLook{1};
-
 // A step that cannot end (an impact that never comes, a chattering tip) is given up after this; who asked for it waits
 // longer (control.cpp), and so hears how far it came.
 constexpr std::chrono::seconds kPatience{8};

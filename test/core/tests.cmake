@@ -9,17 +9,13 @@ function(afm_add_core_test name)
 endfunction()
 
 set(core_tests
-  attractor
   batch_means
   chatter
   chatter_descent
   chatter_end
   contact
   contact_energy
-  contact_jacobian
-  continuation
   corners
-  cycle_expansion
   deflection
   double_double
   emulator
@@ -31,19 +27,13 @@ set(core_tests
   friction
   grazing
   hammer
-  hammer_jacobian
-  hammer_orbits
   hard_starts
   impact_search
-  jacobian
   known_orbits
   level_table
   live_changes
-  lyapunov
   model
   pacer
-  periodic_orbit
-  poincare_map
   reference_flights
   reflection
   relevel
@@ -56,13 +46,27 @@ set(core_tests
   split
   state
   surface
-  sweep
-  symbolic_dynamics
   tip
   turns
   units)
+set(dynamics_tests
+  attractor
+  contact_jacobian
+  continuation
+  cycle_expansion
+  hammer_jacobian
+  hammer_orbits
+  jacobian
+  lyapunov
+  periodic_orbit
+  poincare_map
+  sweep
+  symbolic_dynamics)
 foreach(name IN LISTS core_tests)
   afm_add_core_test(${name})
+endforeach()
+foreach(name IN LISTS dynamics_tests)
+  afm_add_core_test(${name} afm_emulator_dynamics)
 endforeach()
 target_link_libraries(sweep_test afm_emulator_sweep)
 target_include_directories(deflection_test PRIVATE ${PROJECT_SOURCE_DIR}/src)

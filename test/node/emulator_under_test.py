@@ -23,11 +23,12 @@ FRICTION_UNIT = 408e-12 / TAU_S  # kg/s for a K_f of 1 m/tau
 
 
 class Process:
-    """A child whose output is kept."""
+    """A child whose output is kept, line by line as it is written."""
 
-    def __init__(self, command, **options):
-        self.log = tempfile.TemporaryFile('w+')
-        self.child = subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT, **options)
+    def __init__(self, command, env=None, **options):
+        self.log = tempfile.TemporaryFile('a+')  # appended to, wherever output() has read to
+        self.child = subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT,
+                                      env=dict(env or os.environ, PYTHONUNBUFFERED='1'), **options)
 
     def output(self):
         self.log.seek(0)

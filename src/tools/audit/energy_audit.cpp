@@ -7,6 +7,7 @@
 #include "flight_pair.h"
 #include "node/message_conversion.h"
 #include "node/parameters.h"
+#include "worst.h"
 
 namespace afm::audit {
 namespace {
@@ -18,10 +19,6 @@ constexpr double kRoundings = 64.0 * std::numeric_limits<double>::epsilon();
 constexpr double kMostSamples = 1e15;  // of a run: at a million a second thirty years
 
 double square(double x) { return x * x; }
-
-void note(double& worst, double error) {
-  if (!(std::abs(error) <= worst)) worst = std::abs(error);  // NaN is noted too
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "node/message_conversion.h"
+#include "worst.h"
 
 namespace afm::audit {
 namespace {
@@ -15,8 +16,6 @@ double mismatch(double a, double b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b) ? 0.0 : HUGE_VAL;
   return a == b ? 0.0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
 }
-
-void note(double& worst, double error) { worst = std::max(worst, error); }
 
 }  // namespace
 

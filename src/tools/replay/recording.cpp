@@ -25,25 +25,23 @@ namespace {
 const std::string kMagic = "#ROSBAG V2.0\n";
 
 template <class Message>
-std::string datatype() {
-  return ros::message_traits::datatype<Message>();
+void add_md5sum(std::map<std::string, std::string>& sums) {
+  sums[ros::message_traits::datatype<Message>()] = ros::message_traits::md5sum<Message>();
 }
 
 // Those of the messages a check reads, by type.
 std::map<std::string, std::string> expected_md5sums() {
-  using namespace afm_emulator;
   std::map<std::string, std::string> sums;
-  const auto add = [&](const std::string& type, const char* md5sum) { sums[type] = md5sum; };
-  add(datatype<Configuration>(), ros::message_traits::md5sum<Configuration>());
-  add(datatype<Checkpoint>(), ros::message_traits::md5sum<Checkpoint>());
-  add(datatype<AppliedDrag>(), ros::message_traits::md5sum<AppliedDrag>());
-  add(datatype<AppliedParameters>(), ros::message_traits::md5sum<AppliedParameters>());
-  add(datatype<Deflection>(), ros::message_traits::md5sum<Deflection>());
-  add(datatype<ImpactArray>(), ros::message_traits::md5sum<ImpactArray>());
-  add(datatype<Friction>(), ros::message_traits::md5sum<Friction>());
-  add(datatype<Digest>(), ros::message_traits::md5sum<Digest>());
-  add(datatype<EmulatorStatus>(), ros::message_traits::md5sum<EmulatorStatus>());
-  add(datatype<afm_emulator::Recording>(), ros::message_traits::md5sum<afm_emulator::Recording>());
+  add_md5sum<afm_emulator::Configuration>(sums);
+  add_md5sum<afm_emulator::Checkpoint>(sums);
+  add_md5sum<afm_emulator::AppliedDrag>(sums);
+  add_md5sum<afm_emulator::AppliedParameters>(sums);
+  add_md5sum<afm_emulator::Deflection>(sums);
+  add_md5sum<afm_emulator::ImpactArray>(sums);
+  add_md5sum<afm_emulator::Friction>(sums);
+  add_md5sum<afm_emulator::Digest>(sums);
+  add_md5sum<afm_emulator::EmulatorStatus>(sums);
+  add_md5sum<afm_emulator::Recording>(sums);
   return sums;
 }
 
@@ -64,7 +62,7 @@ std::string find_node(const rosbag::Bag& bag, const std::string& path) {
   rosbag::View view(bag);
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     const std::string& topic = connection->topic;
-    if (connection->datatype != datatype<afm_emulator::Configuration>() || topic.size() < ending.size()) continue;
+    if (connection->datatype != ros::message_traits::datatype<afm_emulator::Configuration>() || topic.size() < ending.size()) continue;
     if (topic.substr(topic.size() - ending.size()) == ending)
       nodes.insert(topic.substr(0, topic.size() - ending.size()));
   }
