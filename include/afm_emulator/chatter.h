@@ -40,9 +40,13 @@ class ChatterLaw {
   // From the start of the guide to a time before that end.
   Chatter at(const SlidePiece<double>& guide, double s, const Chatter& start) const;
 
+  // Whether bounces at v lose too large a part of it for the averages, and are made one by one.
+  bool descends(double v) const { return most_loss_ >= kLeastDescent && steep(v); }
+  double most_loss() const { return most_loss_; }  // 1 - gamma
+  const ChatterRates& rates() const { return rates_; }
+
  private:
   bool steep(double v) const;
-  bool descends(double v) const { return most_loss_ >= kLeastDescent && steep(v); }
   double strain(const ChatterSurroundings& at, double v, bool within) const;
   double step_length(const ChatterPlace& at) const;
   double step_towards_end(const ChatterPlace& at, double dt) const;

@@ -14,14 +14,16 @@
 
 namespace afm {
 
-struct Chatter {
-  double v;            // normal speed after a bounce [a/tau]
-  double n;            // bounces since the burst began; whole at a bounce
-  double sigma = 0.0;  // at a bounce: from the guide, along the surface [a]
-  double p = 0.0;      // and faster along it [a/tau]
-  double drift = 0.0;  // time integral of how far x is from the guide's, bounces and all [a tau]
-  double lift = 0.0;   // energy that the holder of a held tip has given the bounces: of the gap times P' [m a^2/tau^2]
+template <class T>
+struct ChatterOf {
+  T v;                // normal speed after a bounce [a/tau]
+  T n;                // bounces since the burst began; whole at a bounce
+  T sigma = T(0.0);   // at a bounce: from the guide, along the surface [a]
+  T p = T(0.0);       // and faster along it [a/tau]
+  T drift = T(0.0);   // time integral of how far x is from the guide's, bounces and all [a tau]
+  T lift = T(0.0);    // energy that the holder of a held tip has given the bounces: of the gap times P' [m a^2/tau^2]
 };
+using Chatter = ChatterOf<double>;
 
 // The same in variables that change evenly, so that an integrator can take long steps: with a cutoff v falls and n
 // grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; where v hardly falls in a step
@@ -32,10 +34,12 @@ struct EvenChatterOf {
 };
 using EvenChatter = EvenChatterOf<double>;
 
-inline EvenChatter operator+(const EvenChatter& a, const EvenChatter& b) {
+template <class T>
+EvenChatterOf<T> operator+(const EvenChatterOf<T>& a, const EvenChatterOf<T>& b) {
   return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift, a.lift + b.lift};
 }
-inline EvenChatter operator*(double k, const EvenChatter& c) {
+template <class T>
+EvenChatterOf<T> operator*(const T& k, const EvenChatterOf<T>& c) {
   return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift, k * c.lift};
 }
 
@@ -86,12 +90,11 @@ class ChatterRates {
   double x_of(double v) const;  // where nothing is off the guide
 
   double loss(double v) const { return flow_.loss * v; }  // w
+  const ChatterFlow& flow() const { return flow_; }
+  const ChatterView& view() const { return view_; }
   bool held() const { return view_.held(); }
 
  private:
-  EvenChatter even(const ChatterSurroundings& at, double part, const Chatter& c) const;
-  Chatter plain(const ChatterSurroundings& at, double part, const EvenChatter& c) const;
-  double bounces_at(double part, double v) const;
   void take_part(double more, EvenChatter& even, EvenChatter& rate) const;
 
   ChatterView view_;

@@ -43,7 +43,8 @@ class ChatterView {
   explicit ChatterView(const Model& model);
 
   // Internal, inlined where they are used: src/core/chatter_look.h.
-  ChatterSurroundings look(const SlidePiece<double>& guide, double s) const;
+  template <class T>
+  ChatterSurroundingsOf<T> look(const SlidePiece<T>& guide, const T& time) const;
   // P, squeeze, quickness, speed and slow_rate alone, at the start of a bounce that is no chatter yet.
   ChatterSurroundings look(const Flight<double>& bounce) const;
   // Whether such a bounce certainly lasts longer than `part` of the time in which P changes, by P' alone: sooner told.

@@ -25,10 +25,11 @@ Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<
 // The guide and the normal speed (settle() of chatter.h) by the state after a bounce: by dx, dX, du, dg1.
 Eigen::Matrix4d settle_jacobian(const Model& model, const TipState& bounce);
 
-// From after the first bounce of a burst, `start`, to after its last, `duration` later, which leaves a normal speed.
-// The bounces go by the averaged law of chatter to second order in the loss of one, and leave the guide where it is:
-// within 3e-4 of the product of the Jacobians of its bounces up to a gap rate of 0.01 a/tau.
-SectionJacobian<double> burst_jacobian(const Model& model, double eta, const TipState& start, double duration,
-                                       const TipState& end);
+// From after the first bounce of a burst, `start`, to after its last, `duration` later [tau], which leaves a normal
+// speed. The derivative of the law by which the tip makes the burst. Against the exact chain of
+// its bounces half of all bursts are good to 2e-4, and all that were tried, of up to 3000 bounces, to 8e-3: what the
+// law leaves out of each bounce adds up.
+SectionJacobian<double> burst_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
+                                       double duration);
 
 }  // namespace afm

@@ -61,6 +61,14 @@ Dual<N> operator/(const Dual<N>& a, const Dual<N>& b) {
   return chain(q, 1.0 / b.value, a, -q / b.value, b);
 }
 template <std::size_t N>
+Dual<N>& operator*=(Dual<N>& a, const Dual<N>& b) {
+  return a = a * b;
+}
+template <std::size_t N>
+bool operator<(const Dual<N>& a, const Dual<N>& b) {
+  return a.value < b.value;
+}
+template <std::size_t N>
 Dual<N> fma(const Dual<N>& a, const Dual<N>& b, const Dual<N>& c) {
   return a * b + c;
 }

@@ -22,7 +22,8 @@ enum class LyapunovOutcome : std::uint8_t {
   measured,
   budget_spent,  // most_events came first: measured up to there
   no_event,      // too few impacts or slides to measure anything: a tip at rest
-  search_failed  // the impact search gave up on the way; what is reported is up to there
+  search_failed,  // the impact search failed on the way; what is reported is up to there
+  no_number       // an exponent is no number, as a Jacobian on the way was none
 };
 
 // Largest first [1/tau]. In contact two directions normal to the surface collapse: once the orbit has slid, the last

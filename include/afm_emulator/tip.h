@@ -64,6 +64,7 @@ class Tip {
   ModelTime flight_start() const { return start_; }
   void resume(const TipState& launched, const ModelTime& start, const Impact& last);
   const Model& model() const { return model_; }
+  const ChatterLaw& chatter_law() const { return law_; }
   double burst_gap_rate() const { return burst_gap_rate_; }  // slower bounces may be the first of a burst [a/tau]
 
   ModelTime now() const { return now_; }

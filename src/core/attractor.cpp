@@ -66,7 +66,8 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
     const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
     if (single || outcome == Outcome::released) ++marks;
   }
-  s.outcome = LyapunovOutcome::measured;
+  s.outcome = J.allFinite() ? LyapunovOutcome::measured : LyapunovOutcome::no_number;
+  if (s.outcome != LyapunovOutcome::measured) return s;
   s.rank = tangents.rank();
   s.duration = duration;
   s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume / duration;

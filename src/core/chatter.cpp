@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "afm_emulator/multiversion.h"
+#include "projection.h"
 
 namespace afm {
 namespace {
@@ -35,8 +36,6 @@ constexpr double kLossPerStep = 0.6, kMostFall = 0.33, kMostChange = 1.6, kMostR
 // A burst ends a little below the threshold; the step to there may be a little longer.
 constexpr double kEnd = 0.9, kLast = 1.25;
 constexpr double kMostFallOfX = 10.0;  // of ln v: far more than any step is to take
-
-double square(double x) { return x * x; }
 
 // Past a maximum the pressure may fall faster than its rate foretells; at rest on a crest nothing tells of a holder
 // that has just been made fast.
@@ -155,15 +154,13 @@ Chatter ChatterLaw::at(const SlidePiece<double>& guide, double s, const Chatter&
 }
 
 AFM_MULTIVERSION Settled settle(const Model& model, const TipState& state) {
-  const double slope = mobility(model) * surface_jet(model.H, state.phase).h1;
-  const double N2 = 1.0 + square(slope), N = std::sqrt(N2);
-  const double u = state.u + slope * state.g1 / N2;
-  return {{state.phase, state.X, u}, state.g1 / N, u * N};
+  const auto p = projected<double>(mobility(model), model.H, {state.phase, state.X, state.u, state.g1});
+  return {p.guide, p.normal_speed, p.tangential_velocity};
 }
 
 AFM_MULTIVERSION TipState unsettle(const Model& model, const SlideState<double>& guide, double normal_speed) {
-  const double slope = mobility(model) * surface_jet(model.H, guide.phase).h1, N = std::sqrt(1.0 + square(slope));
-  return {wrap_phase(guide.phase), guide.X, guide.u - slope * normal_speed / N, 0.0, normal_speed * N};
+  const Bounce4<double> b = launched<double>(mobility(model), model.H, guide, normal_speed);
+  return {wrap_phase(b.phase), b.X, b.u, 0.0, b.g1};
 }
 
 }  // namespace afm

@@ -121,6 +121,36 @@ AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const Chatter
   return {change, mul_add(bounces, sooner, T(T(part) * per_v * change)), sigma, p, drift, mul_add(lift, w, lift)};
 }
 
+template <class T>
+AFM_INLINED T even_speed(const ChatterFlow& flow, const T& v) {
+  return flow.geometric ? v : portable_log(v);
+}
+
+// What of n is not in `rest`.
+template <class T>
+AFM_INLINED T bounces_at(const ChatterFlow& flow, double part, const T& v) {
+  return flow.geometric ? T(T(-flow.even) * portable_log(v)) : T(T(part) / v);
+}
+
+// The variables that change evenly, and back.
+template <class T>
+AFM_INLINED EvenChatterOf<T> even_of(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
+                                     const ChatterOf<T>& c) {
+  const T v = c.v * mul_add(T(-kThird), disturbance(at, c.sigma, c.p), T(1.0));
+  return {even_speed(flow, v), c.n - bounces_at(flow, part, v), c.sigma, c.p, c.drift, c.lift};
+}
+template <class T>
+AFM_INLINED ChatterOf<T> plain_of(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
+                                  const EvenChatterOf<T>& c) {
+  const T v = chatter_speed(flow, c.x);
+  return {v * mul_add(T(kThird), disturbance(at, c.sigma, c.p), T(1.0)),
+          c.rest + bounces_at(flow, part, v),
+          c.sigma,
+          c.p,
+          c.drift,
+          c.lift};
+}
+
 // start and the integrals over dt to each node: of the rates at the beginning and at the nodes.
 template <class T>
 AFM_INLINED EvenChatterOf<T> collocated(double dt, const EvenChatter& start, const EvenChatter& first,

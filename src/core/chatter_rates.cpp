@@ -10,11 +10,10 @@
 #include "four.h"
 #include "lanes/node_step.h"
 #include "portable_exp.h"
+#include "projection.h"
 
 namespace afm {
 namespace {
-
-AFM_INLINED double even_speed(bool geometric, double v) { return geometric ? v : portable_log(v); }
 
 double mean_over_first(double gamma) {
   const double loss = 1.0 - gamma;
@@ -48,26 +47,7 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
   if (node_step_ == nullptr) node_step_ = step_by_numbers;
 }
 
-double ChatterRates::x_of(double v) const { return even_speed(flow_.geometric, v); }
-
-AFM_INLINED double ChatterRates::bounces_at(double part, double v) const {
-  return flow_.geometric ? -flow_.even * portable_log(v) : part / v;
-}
-
-AFM_INLINED EvenChatter ChatterRates::even(const ChatterSurroundings& at, double part, const Chatter& c) const {
-  const double v = c.v * std::fma(-kThird, disturbance(at, c.sigma, c.p), 1.0);
-  return {even_speed(flow_.geometric, v), c.n - bounces_at(part, v), c.sigma, c.p, c.drift, c.lift};
-}
-
-AFM_INLINED Chatter ChatterRates::plain(const ChatterSurroundings& at, double part, const EvenChatter& c) const {
-  const double v = chatter_speed(flow_, c.x);
-  return {v * std::fma(kThird, disturbance(at, c.sigma, c.p), 1.0),
-          c.rest + bounces_at(part, v),
-          c.sigma,
-          c.p,
-          c.drift,
-          c.lift};
-}
+double ChatterRates::x_of(double v) const { return even_speed(flow_, v); }
 
 // n without that much more of its part in 1/v.
 AFM_INLINED void ChatterRates::take_part(double more, EvenChatter& even, EvenChatter& rate) const {
@@ -95,7 +75,7 @@ AFM_MULTIVERSION bool ChatterRates::outlasts(const Flight<double>& bounce, doubl
 AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guide, double s,
                                                   const Chatter& start) const {
   ChatterPlace at{s, view_.look(guide, s), {}, {}, start, flow_.even};
-  at.even = even(at.around, at.part, start);
+  at.even = even_of(flow_, at.around, at.part, start);
   at.rate = chatter_rate(flow_, at.around, at.part, at.even);
   return at;
 }
@@ -110,7 +90,7 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide
     ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), from.even, from.rate, {}, part};
     take_part(part - from.part, to.even, to.rate);
     node_step_(flow_, from, dt, to);
-    to.plain = plain(to.around, to.part, to.even);
+    to.plain = plain_of(flow_, to.around, to.part, to.even);
     return to;
   };
   const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
@@ -122,19 +102,17 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>&
   ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}, from.part};
   to.rate = chatter_rate(flow_, to.around, to.part, from.even + dt * from.rate);
   to.even = from.even + 0.5 * dt * (from.rate + to.rate);
-  to.plain = plain(to.around, to.part, to.even);
+  to.plain = plain_of(flow_, to.around, to.part, to.even);
   return to;
 }
 
 AFM_MULTIVERSION Chatter ChatterRates::after(const ChatterPlace& from, double dt) const {
-  return plain(from.around, from.part, from.even + dt * from.rate);
+  return plain_of(flow_, from.around, from.part, from.even + dt * from.rate);
 }
 
 AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide,
                                                 const Chatter& chatter) {
-  const auto N = [&](double phase) { return std::sqrt(1.0 + square(surface_jet(model.H, phase).h1)); };
-  const double here = N(guide.phase), dx = chatter.sigma / here;
-  return {guide.phase + dx, guide.X + dx, (guide.u * here + chatter.p) / N(guide.phase + dx)};
+  return moved_guide_of(model.H, guide, chatter);
 }
 
 }  // namespace afm

@@ -1,5 +1,6 @@
 #include "afm_emulator/lyapunov.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,6 +40,10 @@ class Growth {
   double volume_ = 0.0;
 };
 
+bool has_numbers(const LyapunovSpectrum& s) {
+  return std::none_of(s.exponents.begin(), s.exponents.end(), [](double x) { return std::isnan(x); });
+}
+
 // To the first event after `time` more.
 bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s) {
   const ModelTime end = tip.now() + time;
@@ -71,6 +76,7 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
   s.duration = tangents.carried_to() - begin;
   s.rank = tangents.rank();
   if (s.duration > 0.0) growth.finish(model, s);
+  if (s.outcome == LyapunovOutcome::measured && !has_numbers(s)) s.outcome = LyapunovOutcome::no_number;
   return s;
 }
 

@@ -95,7 +95,7 @@ void Tangents::carry_burst(double dt) {
   const TipState end = tip_.tip_state();
   stretch_.volume = std::numeric_limits<double>::quiet_NaN();
   if (end.g1 > 0.0) {
-    carry(burst_jacobian(model_, tip_.eta(), start_, dt, end));
+    carry(burst_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
   } else {
     SectionJacobian<double> J = settle_jacobian(model_, start_);
     J.topRows<3>() = slide_jacobian(model_, tip_.eta(), settle(model_, start_).guide, dt) * J.topRows<3>().eval();

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "afm_emulator/impact_search.h"
-#include "afm_emulator/reflection.h"
 #include "afm_emulator/tip.h"
 #include "quad_impacts.h"
 
@@ -144,33 +142,6 @@ TEST(SettleJacobian, IsTheDerivativeOfSettling) {
     const Eigen::Vector4d column(high.guide.phase - low.guide.phase, high.guide.X - low.guide.X,
                                  high.guide.u - low.guide.u, high.normal_speed - low.normal_speed);
     EXPECT_LE((column / (2.0 * kStep) - J.col(j)).norm(), 1e-8) << j;
-  }
-}
-
-// Against the exact chain of its bounces one by one.
-TEST(BurstJacobian, IsThatOfItsBounces) {
-  const Model model = model_with(0.3);
-  const Mechanics<double> mechanics(model);
-  const double eta = 3.0;
-  for (const double g1 : {0.002, 0.005, 0.01}) {
-    for (const int bounces : {5, 50}) {
-      const TipState start{0.4, 0.001, 3.1, 0.0, g1};
-      TipState now = start;
-      SectionJacobian<double> truth = SectionJacobian<double>::Identity();
-      double duration = 0.0;
-      for (int i = 0; i < bounces; ++i) {
-        const Flight<double> flight(mechanics, eta, now);
-        const Landing<double> landing = find_landing(model, flight, 8.0);
-        ASSERT_EQ(landing.outcome, SearchOutcome::impact);
-        truth = section_jacobian(model, flight, landing.s, landing.jet) * truth;
-        now = reflect(model, eta, landing.jet).after;
-        duration += landing.s;
-      }
-      const SectionJacobian<double> J = burst_jacobian(model, eta, start, duration, now);
-      EXPECT_LE(relative_distance(J, truth), 3e-4) << "gap rate " << g1 << ", bounces " << bounces;
-      // a product of four such numbers
-      EXPECT_NEAR(J.determinant(), truth.determinant(), 4.0 * 4e-4 * truth.determinant());
-    }
   }
 }
 

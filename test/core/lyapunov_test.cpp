@@ -109,6 +109,32 @@ TEST(Lyapunov, AcrossContactTwoDirectionsAreLost) {
   EXPECT_LT(s.exponents[0], 0.0);  // a periodic attractor
 }
 
+// A Jacobian that was no number once passed as measured here: its law lost a fixed part of v below the cutoff too.
+TEST(Lyapunov, IsANumberWhereBurstsBeginAboveTheCutoff) {
+  LyapunovSettings settings;
+  settings.duration = 1000.0;
+  for (const double v_c : {0.003, 0.01, 0.02}) {
+    for (const double eta : {2.95, 4.7, 5.0, 6.95, 9.0}) {
+      const LyapunovSpectrum s = lyapunov(model_with(v_c), eta, above_crest(eta), settings);
+      ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta << ", cutoff " << v_c;
+      EXPECT_FALSE(std::isnan(s.exponents[0])) << eta << ", cutoff " << v_c;
+    }
+  }
+}
+
+// A hundredth of the tolerance has other bursts, fewer of which begin above the cutoff.
+TEST(Lyapunov, DoesNotDependOnTheToleranceOfBursts) {
+  LyapunovSettings coarse, fine;
+  coarse.duration = fine.duration = 4000.0;
+  fine.contact_tolerance = 1e-5;
+  const LyapunovSpectrum a = lyapunov(model_with(0.01), 5.0, above_crest(5.0), coarse);
+  const LyapunovSpectrum b = lyapunov(model_with(0.01), 5.0, above_crest(5.0), fine);
+  ASSERT_EQ(a.outcome, LyapunovOutcome::measured);
+  ASSERT_EQ(b.outcome, LyapunovOutcome::measured);
+  EXPECT_NEAR(a.exponents[0], b.exponents[0], 4.0 * std::hypot(a.std_errors[0], b.std_errors[0]));
+  EXPECT_GT(a.exponents[0], 0.1);
+}
+
 TEST(Lyapunov, TellsWhenItsBudgetIsSpent) {
   LyapunovSettings settings;
   settings.most_events = 1000;

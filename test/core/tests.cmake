@@ -51,6 +51,7 @@ set(core_tests
   units)
 set(dynamics_tests
   attractor
+  burst_jacobian
   contact_jacobian
   continuation
   cycle_expansion
