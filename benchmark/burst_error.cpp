@@ -1,11 +1,11 @@
 // The error of bursts in the state at the next impact, against the bounces one by one: a table, a row for each drag
 // speed and cutoff. Times in tau, lengths in lattice spacings.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <vector>
 
 #include "burst_trials.h"
+#include "common/command_line.h"
 
 namespace {
 
@@ -50,19 +50,21 @@ void print_row(double eta, double share, const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{"Error of bursts against bounces one by one (natural units)."};
-  app.add_option("--eta", o.eta, "drag speeds [a/tau]");
-  app.add_option("--share", o.share, "cutoffs, in parts of eta");
-  app.add_option("--gamma", o.gamma, "restitution");
-  app.add_option("--tolerance", o.tolerance, "contact tolerance");
-  app.add_option("--bursts", o.bursts, "how many of each");
-  app.add_option("--most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
-  app.add_option("--seed", o.seed, "of the starts");
-  app.add_option("--show", o.show, "print every burst with an error above this");
-  app.add_flag("--fast", o.fast, "at the next impact that is no chatter, after all bounces and bursts in between");
-  CLI11_PARSE(app, argc, argv);
-  std::printf("eta,v_c,bursts,bounces,skipped,median,99_percent,max,99_percent_tempered,max_tempered\n");
-  for (const double share : o.share) {
-    for (const double eta : o.eta) print_row(eta, share, o);
-  }
+  afm::CommandLine app("burst_error", "Error of bursts against bounces one by one (natural units).");
+  app.option("eta", o.eta, "drag speeds [a/tau]");
+  app.option("share", o.share, "cutoffs, in parts of eta");
+  app.option("gamma", o.gamma, "restitution");
+  app.option("tolerance", o.tolerance, "contact tolerance");
+  app.option("bursts", o.bursts, "how many of each");
+  app.option("most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
+  app.option("seed", o.seed, "of the starts");
+  app.option("show", o.show, "print every burst with an error above this");
+  app.flag("fast", o.fast, "at the next impact that is no chatter, after all bounces and bursts in between");
+  return app.run(argc, argv, [&] {
+    std::printf("eta,v_c,bursts,bounces,skipped,median,99_percent,max,99_percent_tempered,max_tempered\n");
+    for (const double share : o.share) {
+      for (const double eta : o.eta) print_row(eta, share, o);
+    }
+    return 0;
+  });
 }

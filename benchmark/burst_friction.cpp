@@ -1,12 +1,12 @@
 // K_f with bursts and contact against K_f with every bounce by itself, where that can be done; CSV. What is left of
 // their difference should be 1e-3 of K_f, or chance: a few standard errors of the two.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "afm_emulator/friction.h"
 #include "afm_emulator/tip.h"
+#include "common/command_line.h"
 
 namespace {
 
@@ -62,17 +62,19 @@ void print_row(double eta, double cutoff, const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{"K_f with bursts and contact, and bounce by bounce (natural units)."};
-  app.add_option("--eta", o.eta, "drag speeds [a/tau]");
-  app.add_option("--cutoff", o.cutoff, "v_c [a/tau]");
-  app.add_option("--gamma", o.gamma, "restitution");
-  app.add_option("--tolerance", o.tolerance, "contact tolerance");
-  app.add_option("--tau", o.tau, "measured time of each");
-  app.add_option("--transient", o.transient, "time before that");
-  app.add_option("--most-events", o.most_events, "a run of more is given up");
-  CLI11_PARSE(app, argc, argv);
-  std::printf("eta,v_c,k_f,std_error,events,k_f_bounces,std_error_bounces,events_bounces,relative,in_std_errors\n");
-  for (const double eta : o.eta) {
-    for (const double cutoff : o.cutoff) print_row(eta, cutoff, o);
-  }
+  afm::CommandLine app("burst_friction", "K_f with bursts and contact, and bounce by bounce (natural units).");
+  app.option("eta", o.eta, "drag speeds [a/tau]");
+  app.option("cutoff", o.cutoff, "v_c [a/tau]");
+  app.option("gamma", o.gamma, "restitution");
+  app.option("tolerance", o.tolerance, "contact tolerance");
+  app.option("tau", o.tau, "measured time of each");
+  app.option("transient", o.transient, "time before that");
+  app.option("most-events", o.most_events, "a run of more is given up");
+  return app.run(argc, argv, [&] {
+    std::printf("eta,v_c,k_f,std_error,events,k_f_bounces,std_error_bounces,events_bounces,relative,in_std_errors\n");
+    for (const double eta : o.eta) {
+      for (const double cutoff : o.cutoff) print_row(eta, cutoff, o);
+    }
+    return 0;
+  });
 }

@@ -2,7 +2,6 @@
 // in grazes and in ordinary flights.
 #include "grazes.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "afm_emulator/reflection.h"
+#include "common/command_line.h"
 
 namespace {
 
@@ -42,9 +42,8 @@ void print_ordinary(double eta, const Options& o) {
     const afm::Flight<double> flight(mechanics, eta, start);
     const auto landing = afm::find_landing(model, flight, afm::kGrazeHorizon);
     if (afm::find_impact(flight, afm::kGrazeHorizon).outcome == afm::SearchOutcome::undecided) ++finer;
-    start = landing.outcome == afm::SearchOutcome::impact
-                ? afm::reflect(model, eta, landing.jet).after
-                : flight.tip_state(landing.s);
+    start = landing.outcome == afm::SearchOutcome::impact ? afm::reflect(model, eta, landing.jet).after
+                                                          : flight.tip_state(landing.s);
   }
   std::printf("ordinary at eta %g,,%ld,,,%ld,\n", eta, o.ordinary, finer);
 }
@@ -53,27 +52,29 @@ void print_ordinary(double eta, const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{"Grazes decided in double and double-double, against 113 bits (clearances in units of H)."};
-  app.add_option("--flights", o.flights, "built, of each kind and clearance");
-  app.add_option("--neighbours", o.neighbours, "starts next to each, to either side");
-  app.add_option("--ordinary", o.ordinary, "flights of ordinary runs, at each drag speed");
-  app.add_option("--seed", o.seed);
-  app.add_option("--kinds", o.kinds, "flight, start, tau: all by default");
-  CLI11_PARSE(app, argc, argv);
-  std::printf("graze,clearance,flights,touched,missed,in_twice_the_digits,wrong\n");
-  const std::pair<const char*, Build> kinds[] = {{"flight", &afm::Grazes::after_a_flight},
-                                                 {"start", &afm::Grazes::after_the_start},
-                                                 {"tau", &afm::Grazes::every_tau}};
-  long wrong = 0;
-  for (const auto& kind : kinds) {
-    if (!o.kinds.empty() && std::find(o.kinds.begin(), o.kinds.end(), kind.first) == o.kinds.end()) continue;
-    for (int digits = 3; digits <= 15; ++digits) {
-      const double clearance = std::pow(10.0, -digits) * afm::Model().H;
-      wrong += print_row(kind.first, kind.second, clearance, o) + print_row(kind.first, kind.second, -clearance, o);
+  afm::CommandLine app("grazes",
+                       "Grazes decided in double and double-double, against 113 bits (clearances in units of H).");
+  app.option("flights", o.flights, "built, of each kind and clearance");
+  app.option("neighbours", o.neighbours, "starts next to each, to either side");
+  app.option("ordinary", o.ordinary, "flights of ordinary runs, at each drag speed");
+  app.option("seed", o.seed, "");
+  app.option("kinds", o.kinds, "flight, start, tau: all by default");
+  return app.run(argc, argv, [&] {
+    std::printf("graze,clearance,flights,touched,missed,in_twice_the_digits,wrong\n");
+    const std::pair<const char*, Build> kinds[] = {{"flight", &afm::Grazes::after_a_flight},
+                                                   {"start", &afm::Grazes::after_the_start},
+                                                   {"tau", &afm::Grazes::every_tau}};
+    long wrong = 0;
+    for (const auto& kind : kinds) {
+      if (!o.kinds.empty() && std::find(o.kinds.begin(), o.kinds.end(), kind.first) == o.kinds.end()) continue;
+      for (int digits = 3; digits <= 15; ++digits) {
+        const double clearance = std::pow(10.0, -digits) * afm::Model().H;
+        wrong += print_row(kind.first, kind.second, clearance, o) + print_row(kind.first, kind.second, -clearance, o);
+      }
+      wrong += print_row(kind.first, kind.second, 0.0, o);
     }
-    wrong += print_row(kind.first, kind.second, 0.0, o);
-  }
-  for (const double eta : {0.5, 2.0, 2.75, 3.4, 5.0, 7.05, 8.0}) print_ordinary(eta, o);
-  std::printf("%ld wrong\n", wrong);
-  return wrong == 0 ? 0 : 1;
+    for (const double eta : {0.5, 2.0, 2.75, 3.4, 5.0, 7.05, 8.0}) print_ordinary(eta, o);
+    std::printf("%ld wrong\n", wrong);
+    return wrong == 0 ? 0 : 1;
+  });
 }

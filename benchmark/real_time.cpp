@@ -1,7 +1,6 @@
 // How much faster than real time one tip is, over drag speeds and cutoffs, and what K_f comes out: CSV on stdout, a
 // summary on stderr. A tau is 157 us with the paper's springs. In processor time; a tau that seems the slowest is made
 // again, as it may have been interrupted.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "afm_emulator/tip.h"
 #include "afm_emulator/units.h"
+#include "common/command_line.h"
 #include "cpu_clock.h"
 
 namespace {
@@ -97,33 +97,36 @@ Figures measure(double eta, double cutoff, const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{"Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units)."};
-  app.add_option("--eta", o.eta, "drag speeds [a/tau]; default: 0 to --highest in steps of --step");
-  app.add_option("--step", o.step);
-  app.add_option("--highest", o.highest);
-  app.add_option("--cutoff", o.cutoff, "v_c [a/tau]");
-  app.add_option("--tolerance", o.tolerance, "contact tolerance");
-  app.add_option("--tau", o.tau, "measured time each");
-  app.add_option("--transient", o.transient, "time before that");
-  CLI11_PARSE(app, argc, argv);
-  if (o.eta.empty()) {
-    for (int i = 0; i * o.step <= o.highest + 1e-9; ++i) o.eta.push_back(i * o.step);
-  }
-  std::printf("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures\n");
-  double worst = INFINITY, slowest = 0.0;
-  std::size_t below = 0, all = 0;
-  for (const double cutoff : o.cutoff) {
-    for (const double eta : o.eta) {
-      const Figures f = measure(eta, cutoff, o);
-      std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld\n", eta, cutoff, f.times_real_time, f.slowest_tau_us, f.K_f,
-                  f.impacts_per_tau, f.search_failures);
-      std::fflush(stdout);
-      worst = std::min(worst, f.times_real_time);
-      slowest = std::max(slowest, f.slowest_tau_us);
-      below += f.times_real_time < 20.0 ? 1 : 0;
-      ++all;
+  afm::CommandLine app(
+      "real_time", "Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units).");
+  app.option("eta", o.eta, "drag speeds [a/tau]; default: 0 to --highest in steps of --step");
+  app.option("step", o.step, "");
+  app.option("highest", o.highest, "");
+  app.option("cutoff", o.cutoff, "v_c [a/tau]");
+  app.option("tolerance", o.tolerance, "contact tolerance");
+  app.option("tau", o.tau, "measured time each");
+  app.option("transient", o.transient, "time before that");
+  return app.run(argc, argv, [&] {
+    if (o.eta.empty()) {
+      for (int i = 0; i * o.step <= o.highest + 1e-9; ++i) o.eta.push_back(i * o.step);
     }
-  }
-  std::fprintf(stderr, "%zu points, %zu below 20 times real time; slowest point %.3g times, slowest tau %.3g us\n", all,
-               below, worst, slowest);
+    std::printf("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures\n");
+    double worst = INFINITY, slowest = 0.0;
+    std::size_t below = 0, all = 0;
+    for (const double cutoff : o.cutoff) {
+      for (const double eta : o.eta) {
+        const Figures f = measure(eta, cutoff, o);
+        std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld\n", eta, cutoff, f.times_real_time, f.slowest_tau_us, f.K_f,
+                    f.impacts_per_tau, f.search_failures);
+        std::fflush(stdout);
+        worst = std::min(worst, f.times_real_time);
+        slowest = std::max(slowest, f.slowest_tau_us);
+        below += f.times_real_time < 20.0 ? 1 : 0;
+        ++all;
+      }
+    }
+    std::fprintf(stderr, "%zu points, %zu below 20 times real time; slowest point %.3g times, slowest tau %.3g us\n",
+                 all, below, worst, slowest);
+    return 0;
+  });
 }

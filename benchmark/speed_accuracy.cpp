@@ -3,13 +3,13 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
 
 #include "afm_emulator/tip.h"
+#include "common/command_line.h"
 
 namespace {
 
@@ -146,28 +146,29 @@ void run(const Options& o, std::FILE* out) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{kDescription, "speed_accuracy"};
-  app.add_flag("--quick", o.quick, "within 40 s; says what it leaves out");
-  app.add_option("--methods", o.methods, "only these")->delimiter(',');
-  app.add_option("--scenes", o.scenes, "only these")->delimiter(',');
-  app.add_option("--flights", o.flights, "flights a scene")->check(CLI::PositiveNumber);
-  app.add_option("--rounds", o.rounds, "times each is measured")->check(CLI::PositiveNumber);
-  app.add_option("--seconds", o.seconds, "no further round for a method that has used so much on a scene");
-  app.add_option("--tau", o.tau, "length of the runs for K_f")->check(CLI::PositiveNumber);
-  app.add_option("--run-seconds", o.run_seconds, "a run for K_f ends there, wherever it is");
-  app.add_option("--seed", o.seed, "of the choice of flights");
-  app.add_option("--output", o.output, "file for the table; default: standard output");
-  CLI11_PARSE(app, argc, argv);
-  if (!check_names(o)) return 1;
-  if (o.quick) shorten(o);
-  std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
-  if (out == nullptr) {
-    std::fprintf(stderr, "speed_accuracy: cannot write '%s'\n", o.output.c_str());
-    return 1;
-  }
-  run(o, out);
-  const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
-  if (out != stdout) std::fclose(out);
-  if (!written) std::fprintf(stderr, "speed_accuracy: cannot write the output\n");
-  return written ? 0 : 1;
+  afm::CommandLine app("speed_accuracy", kDescription);
+  app.flag("quick", o.quick, "within 40 s; says what it leaves out");
+  app.option("methods", o.methods, "only these");
+  app.option("scenes", o.scenes, "only these");
+  app.option("flights", o.flights, "flights a scene", afm::kPositive);
+  app.option("rounds", o.rounds, "times each is measured", afm::kPositive);
+  app.option("seconds", o.seconds, "no further round for a method that has used so much on a scene");
+  app.option("tau", o.tau, "length of the runs for K_f", afm::kPositive);
+  app.option("run-seconds", o.run_seconds, "a run for K_f ends there, wherever it is");
+  app.option("seed", o.seed, "of the choice of flights");
+  app.option("output", o.output, "file for the table; default: standard output");
+  return app.run(argc, argv, [&] {
+    if (!check_names(o)) return 1;
+    if (o.quick) shorten(o);
+    std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
+    if (out == nullptr) {
+      std::fprintf(stderr, "speed_accuracy: cannot write '%s'\n", o.output.c_str());
+      return 1;
+    }
+    run(o, out);
+    const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
+    if (out != stdout) std::fclose(out);
+    if (!written) std::fprintf(stderr, "speed_accuracy: cannot write the output\n");
+    return written ? 0 : 1;
+  });
 }

@@ -1,10 +1,10 @@
 // Methods against the scenes on which methods fail, each cell measured and judged. CSV.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 
+#include "common/command_line.h"
 #include "stability.h"
 
 namespace {
@@ -104,28 +104,29 @@ const char* name_of(Verdict verdict) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{kDescription, "stability_matrix"};
-  app.add_flag("--quick", o.effort.quick, "fewer flights, shorter runs");
-  app.add_option("--methods", o.methods, "only these")->delimiter(',');
-  app.add_option("--scenes", o.scenes, "only these")->delimiter(',');
-  app.add_option("--except", o.except, "but not these scenes")->delimiter(',');
-  app.add_option("--seconds", o.effort.seconds, "of processor time for a cell (hour and gamma_1: 10 times as much)");
-  app.add_option("--output", o.output, "file for the table; default: standard output");
-  CLI11_PARSE(app, argc, argv);
-  std::vector<StabilityScene> scenes = afm::run_scenes();
-  for (StabilityScene& scene : afm::flight_scenes(o.effort)) scenes.push_back(std::move(scene));
-  if (!known("--methods", o.methods, columns()) || !known("--scenes", o.scenes, scenes) ||
-      !known("--except", o.except, scenes)) {
-    return 2;
-  }
-  std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
-  if (out == nullptr) {
-    std::fprintf(stderr, "stability_matrix: cannot write '%s'\n", o.output.c_str());
-    return 2;
-  }
-  const bool ours_right = run(o, scenes, out);
-  const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
-  if (out != stdout) std::fclose(out);
-  if (!written) std::fprintf(stderr, "stability_matrix: cannot write the output\n");
-  return !written ? 2 : ours_right ? 0 : 1;
+  afm::CommandLine app("stability_matrix", kDescription);
+  app.flag("quick", o.effort.quick, "fewer flights, shorter runs");
+  app.option("methods", o.methods, "only these");
+  app.option("scenes", o.scenes, "only these");
+  app.option("except", o.except, "but not these scenes");
+  app.option("seconds", o.effort.seconds, "of processor time for a cell (hour and gamma_1: 10 times as much)");
+  app.option("output", o.output, "file for the table; default: standard output");
+  return app.run(argc, argv, [&] {
+    std::vector<StabilityScene> scenes = afm::run_scenes();
+    for (StabilityScene& scene : afm::flight_scenes(o.effort)) scenes.push_back(std::move(scene));
+    if (!known("--methods", o.methods, columns()) || !known("--scenes", o.scenes, scenes) ||
+        !known("--except", o.except, scenes)) {
+      return 2;
+    }
+    std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
+    if (out == nullptr) {
+      std::fprintf(stderr, "stability_matrix: cannot write '%s'\n", o.output.c_str());
+      return 2;
+    }
+    const bool ours_right = run(o, scenes, out);
+    const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
+    if (out != stdout) std::fclose(out);
+    if (!written) std::fprintf(stderr, "stability_matrix: cannot write the output\n");
+    return !written ? 2 : ours_right ? 0 : 1;
+  });
 }

@@ -1,9 +1,9 @@
 // Random models under random commands, every invariant checked after every arc: finite, never below the surface, energy
 // in balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 
+#include "common/command_line.h"
 #include "stress_scene.h"
 
 namespace {
@@ -44,42 +44,44 @@ void print(std::uint64_t scenes, std::int64_t tau, const afm::TipCount& c) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{"Random commands to random models, until the time is up or something is violated (natural units)."};
-  app.add_option("--seed", o.seed, "of the first scene; the next has the next");
-  app.add_option("--scenes", o.scenes, "how many; 0: as many as the time allows");
-  app.add_option("--tau", o.tau, "model time of each scene");
-  app.add_option("--seconds", o.seconds, "no new scene after this time");
-  app.add_option("--tolerance", o.tolerance, "contact tolerance");
-  app.add_flag("--go-on", o.go_on, "report violations and go on with the next scene");
-  app.add_flag("--mica", o.mica, "the paper's model at cutoffs of 0.001 to 0.1, dragged at up to 9 a/tau either way");
-  app.add_flag("--shipped", o.shipped,
-               "the node's defaults, commands as scripts/soak sends them; no batch may spend its budget of impacts");
-  CLI11_PARSE(app, argc, argv);
-  const auto start = std::chrono::steady_clock::now();
-  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  using Kind = afm::StressScene::Kind;
-  const Kind kind = o.shipped ? Kind::shipped : o.mica ? Kind::mica : Kind::any;
-  afm::TipCount sum;
-  std::uint64_t most_events = 0;
-  std::uint64_t scenes = 0, violations = 0;
-  double progress = 0.0;
-  for (; (o.scenes == 0 || scenes < o.scenes) && passed() < o.seconds; ++scenes) {
-    afm::StressScene scene(o.seed + scenes, o.tolerance, kind);
-    const bool kept = scene.run(o.tau);
-    add(sum, scene.count());
-    most_events = std::max(most_events, scene.most_events());
-    if (!kept) {
-      ++violations;
-      std::printf("VIOLATED: %s\n", scene.report().c_str());
-      if (!o.go_on) break;
+  afm::CommandLine app(
+      "stress", "Random commands to random models, until the time is up or something is violated (natural units).");
+  app.option("seed", o.seed, "of the first scene; the next has the next");
+  app.option("scenes", o.scenes, "how many; 0: as many as the time allows");
+  app.option("tau", o.tau, "model time of each scene");
+  app.option("seconds", o.seconds, "no new scene after this time");
+  app.option("tolerance", o.tolerance, "contact tolerance");
+  app.flag("go-on", o.go_on, "report violations and go on with the next scene");
+  app.flag("mica", o.mica, "the paper's model at cutoffs of 0.001 to 0.1, dragged at up to 9 a/tau either way");
+  app.flag("shipped", o.shipped,
+           "the node's defaults, commands as scripts/soak sends them; no batch may spend its budget of impacts");
+  return app.run(argc, argv, [&] {
+    const auto start = std::chrono::steady_clock::now();
+    const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    using Kind = afm::StressScene::Kind;
+    const Kind kind = o.shipped ? Kind::shipped : o.mica ? Kind::mica : Kind::any;
+    afm::TipCount sum;
+    std::uint64_t most_events = 0;
+    std::uint64_t scenes = 0, violations = 0;
+    double progress = 0.0;
+    for (; (o.scenes == 0 || scenes < o.scenes) && passed() < o.seconds; ++scenes) {
+      afm::StressScene scene(o.seed + scenes, o.tolerance, kind);
+      const bool kept = scene.run(o.tau);
+      add(sum, scene.count());
+      most_events = std::max(most_events, scene.most_events());
+      if (!kept) {
+        ++violations;
+        std::printf("VIOLATED: %s\n", scene.report().c_str());
+        if (!o.go_on) break;
+      }
+      if (passed() > progress) {
+        print(scenes + 1, o.tau, sum);
+        progress = passed() + 10.0;
+      }
     }
-    if (passed() > progress) {
-      print(scenes + 1, o.tau, sum);
-      progress = passed() + 10.0;
-    }
-  }
-  print(scenes, o.tau, sum);
-  std::printf("%llu violations; most events in a batch of the node %llu\n", static_cast<unsigned long long>(violations),
-              static_cast<unsigned long long>(most_events));
-  return violations == 0 ? 0 : 1;
+    print(scenes, o.tau, sum);
+    std::printf("%llu violations; most events in a batch of the node %llu\n",
+                static_cast<unsigned long long>(violations), static_cast<unsigned long long>(most_events));
+    return violations == 0 ? 0 : 1;
+  });
 }

@@ -1,6 +1,5 @@
 // Cost against work: time against impacts, tips (alone and in lanes) and threads, and memory against tips. CSV;
 // straight lines are expected.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -10,6 +9,7 @@
 
 #include "afm_emulator/ensemble.h"
 #include "afm_emulator/tip.h"
+#include "common/command_line.h"
 #include "cpu_clock.h"
 
 namespace {
@@ -137,19 +137,21 @@ void against_threads(const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  CLI::App app{
+  afm::CommandLine app(
+      "work_cost",
       "Cost against work: time against impacts, tips (one after another, and in lanes) and threads (wall time), "
-      "memory. CSV.",
-      "work_cost"};
-  app.add_option("--eta", o.eta, "drag velocity [a/tau]");
-  app.add_option("--impacts", o.most_impacts, "most impacts of one tip");
-  app.add_option("--tips", o.most_tips, "most tips");
-  app.add_option("--threads", o.most_threads, "most threads; default: twice the cores");
-  app.add_option("--rounds", o.rounds, "times each is measured")->check(CLI::PositiveNumber);
-  CLI11_PARSE(app, argc, argv);
-  std::printf("axis,n,seconds,ns_per_impact,resident_bytes\n");
-  against_impacts(o);
-  against_tips(o);
-  against_tips_in_lanes(o);
-  against_threads(o);
+      "memory. CSV.");
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("impacts", o.most_impacts, "most impacts of one tip");
+  app.option("tips", o.most_tips, "most tips");
+  app.option("threads", o.most_threads, "most threads; default: twice the cores");
+  app.option("rounds", o.rounds, "times each is measured", afm::kPositive);
+  return app.run(argc, argv, [&] {
+    std::printf("axis,n,seconds,ns_per_impact,resident_bytes\n");
+    against_impacts(o);
+    against_tips(o);
+    against_tips_in_lanes(o);
+    against_threads(o);
+    return 0;
+  });
 }

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "tools/csv.h"
+#include "common/csv.h"
 
 namespace afm {
 namespace {

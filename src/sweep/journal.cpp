@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tools/csv.h"
+#include "common/csv.h"
 
 namespace afm {
 namespace {

@@ -1,5 +1,4 @@
 // The attractors at given parameters, or over a grid of them.
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -11,7 +10,7 @@
 #include <vector>
 
 #include "afm_emulator/basins.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 #include "sweep/progress_bar.h"
 
@@ -38,28 +37,19 @@ struct Options {
   afm::BasinSettings basins;
 };
 
-void add_options(CLI::App& app, Options& o) {
-  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
-  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
-  app.add_option("--cutoff", o.dynamics.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
-  app.add_flag("--relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
-  app.add_option("--starts", o.basins.starts, "tips started at each point")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", o.basins.seed, "of the starts")->capture_default_str();
-  app.add_option("--transient", o.basins.attractor.transient, "before anything is looked at [tau]")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
-  app.add_option("--duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]")
-      ->capture_default_str()
-      ->check(CLI::Range(1.0, 1e9));
-  app.add_option("--friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]")
-      ->capture_default_str()
-      ->check(CLI::Range(1.0, 1e9));
+void add_options(afm::CommandLine& app, Options& o) {
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.dynamics.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  app.option("starts", o.basins.starts, "tips started at each point", {1, 1000000});
+  app.option("seed", o.basins.seed, "of the starts");
+  app.option("transient", o.basins.attractor.transient, "before anything is looked at [tau]", {0.0, 1e9});
+  app.option("duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]",
+             {1.0, 1e9});
+  app.option("friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]", {1.0, 1e9});
   afm::add_model_option(app, o.dynamics.model);
-  app.add_option("--threads", o.threads, "0: one for each processor")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  app.option("threads", o.threads, "0: one for each processor", {0, 1024});
 }
 
 std::vector<afm::SweepPoint> grid(Options options) {
@@ -128,8 +118,8 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "attractors"};
+  afm::CommandLine app("attractors", kDescription);
   Options options;
   add_options(app, options);
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(options); });
 }

@@ -1,11 +1,11 @@
 // Is a recording sound? What can be said without simulating the run again, on one page.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "audit/bag_audit.h"
+#include "common/command_line.h"
 #include "replay/damage_guard.h"
 #include "replay/recording.h"
 
@@ -53,28 +53,26 @@ bool is_sound(const Recording& recording) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "bag_check"};
+  afm::CommandLine app("bag_check", kDescription);
   app.footer(kExitCodes);
   std::vector<std::string> paths;
   std::string node;
-  app.add_option("bags", paths, "recordings; the bags of a split one in order")->required();
-  app.add_option("--node", node, "the emulator's name such as /afm, where a bag holds several");
+  app.arguments("bags", paths, "recordings; the bags of a split one in order");
+  app.require("bags");
+  app.option("node", node, "the emulator's name such as /afm, where a bag holds several");
   afm::replay::guard_against_damage();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(Verdict::usage);
-  }
-  try {
-    bool sound = true;
-    for (const Recording& recording : afm::replay::open_recordings(paths, node)) sound = is_sound(recording) && sound;
-    return sound ? 0 : 1;
-  } catch (const Problem& problem) {
-    std::fflush(stdout);
-    std::cerr << "bag_check: " << problem.what() << "\n";
-    return static_cast<int>(problem.verdict);
-  } catch (const std::exception& error) {
-    std::cerr << "bag_check: damaged or cut off: " << error.what() << "\n";
-    return static_cast<int>(Verdict::truncated);
-  }
+  return app.run(argc, argv, [&] {
+    try {
+      bool sound = true;
+      for (const Recording& recording : afm::replay::open_recordings(paths, node)) sound = is_sound(recording) && sound;
+      return sound ? 0 : 1;
+    } catch (const Problem& problem) {
+      std::fflush(stdout);
+      std::cerr << "bag_check: " << problem.what() << "\n";
+      return static_cast<int>(problem.verdict);
+    } catch (const std::exception& error) {
+      std::cerr << "bag_check: damaged or cut off: " << error.what() << "\n";
+      return static_cast<int>(Verdict::truncated);
+    }
+  });
 }

@@ -1,5 +1,4 @@
 // The section of the attractor along a parameter, followed up or down.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,7 +8,7 @@
 
 #include "afm_emulator/attractor.h"
 #include "afm_emulator/sweep.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 #include "sweep/progress_bar.h"
 
@@ -83,14 +82,14 @@ int run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "bifurcations"};
+  afm::CommandLine app("bifurcations", kDescription);
   Options o;
   add_options(app, o.dynamics);
-  app.add_option("--vary", o.vary, "eta, gamma or cutoff")->capture_default_str();
-  app.add_option("--range", o.range, "of it, FROM:TO:STEP")->capture_default_str();
-  app.add_option("--sweep", o.sweep, "up or down")->capture_default_str();
-  app.add_option("--impacts", o.impacts, "printed at each value")->capture_default_str()->check(CLI::Range(1, 1000000));
-  app.add_option("--transient", o.transient, "before them [tau]")->capture_default_str()->check(CLI::Range(0.0, 1e9));
-  app.add_flag("--relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
-  return afm::run_tool(app, argc, argv, [&] { return run(o); });
+  app.option("vary", o.vary, "eta, gamma or cutoff");
+  app.option("range", o.range, "of it, FROM:TO:STEP");
+  app.option("sweep", o.sweep, "up or down");
+  app.option("impacts", o.impacts, "printed at each value", {1, 1000000});
+  app.option("transient", o.transient, "before them [tau]", {0.0, 1e9});
+  app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  return app.run(argc, argv, [&] { return run(o); });
 }

@@ -1,12 +1,11 @@
 // Which level of the model `model: auto` takes, without running anything.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <string>
 
 #include "afm_emulator/level_table.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 
 namespace {
@@ -37,7 +36,7 @@ int run(const Options& o) {
   const afm::LevelTable table = read_table(o.table);
   const afm::Model model = afm::checked_model({0.0, o.gamma, o.cutoff, "oscillator", o.frequency_ratio});
   afm::ToleranceOf of = afm::ToleranceOf::friction;
-  parse(o.of, of);
+  if (!parse(o.of, of)) throw std::invalid_argument("of = " + o.of + ": must be friction or deflection");
   std::cout << "eta,gamma,cutoff,frequency_ratio,tolerance,tolerance_of,model,contact_tolerance,expected_error\n";
   for (const double eta : afm::range_option("eta", o.eta)) {
     const auto choice = table.choose(model, eta, o.tolerance, of, {afm::ModelKind::oscillator, o.contact_tolerance});
@@ -51,21 +50,17 @@ int run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "choose_level"};
+  afm::CommandLine app("choose_level", kDescription);
   Options o;
-  app.add_option("--table", o.table, "file")->required();
-  app.add_option("--eta", o.eta, "drag velocity [a/tau], or a range FROM:TO:STEP")->capture_default_str();
-  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
-  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
-  app.add_option("--frequency-ratio", o.frequency_ratio, "omega_h / omega_v")->capture_default_str();
-  app.add_option("--tolerance", o.tolerance, "error allowed, relative")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--of", o.of, "of what: friction or deflection")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"friction", "deflection"}));
-  app.add_option("--contact-tolerance", o.contact_tolerance, "where the table knows nothing")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, afm::kMaxContactTolerance));
-  return afm::run_tool(app, argc, argv, [&] { return run(o); });
+  app.option("table", o.table, "file");
+  app.require("table");
+  app.option("eta", o.eta, "drag velocity [a/tau], or a range FROM:TO:STEP");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v");
+  app.option("tolerance", o.tolerance, "error allowed, relative", afm::kPositive);
+  app.option("of", o.of, "of what: friction or deflection");
+  app.option("contact-tolerance", o.contact_tolerance, "where the table knows nothing",
+             {0.0, afm::kMaxContactTolerance});
+  return app.run(argc, argv, [&] { return run(o); });
 }

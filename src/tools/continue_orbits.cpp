@@ -1,5 +1,4 @@
 // Periodic orbits followed through a parameter.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
 #include <string>
@@ -7,7 +6,7 @@
 
 #include "afm_emulator/continuation.h"
 #include "afm_emulator/orbit_search.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 
 namespace {
@@ -40,19 +39,16 @@ struct Options {
   int length = 1;
 };
 
-void add_options(CLI::App& app, Options& o) {
+void add_options(afm::CommandLine& app, Options& o) {
   o.search.trajectory = 50000;
   o.search.guesses = 500;
   afm::add_options(app, o.dynamics);
-  app.add_option("--vary", o.vary, "eta, gamma or cutoff")->capture_default_str();
-  app.add_option("--to", o.to, "value to go to")->required();
-  app.add_option("--length", o.length, "of the orbits followed [impacts]")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 32));
-  app.add_option("--guesses", o.search.guesses, "of the search, of each kind")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", o.search.seed, "of what is random in the search")->capture_default_str();
+  app.option("vary", o.vary, "eta, gamma or cutoff");
+  app.option("to", o.to, "value to go to");
+  app.require("to");
+  app.option("length", o.length, "of the orbits followed [impacts]", {1, 32});
+  app.option("guesses", o.search.guesses, "of the search, of each kind", {1, 1000000});
+  app.option("seed", o.search.seed, "of what is random in the search");
 }
 
 void print_row(int number, const afm::BranchPoint& point, const std::string& event) {
@@ -95,8 +91,8 @@ int run(Options options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "continue_orbits"};
+  afm::CommandLine app("continue_orbits", kDescription);
   Options options;
   add_options(app, options);
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(options); });
 }

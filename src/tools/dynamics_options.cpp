@@ -1,10 +1,9 @@
 #include "dynamics_options.h"
 
 #include <cmath>
-#include <iostream>
 #include <stdexcept>
 
-#include "csv.h"
+#include "common/csv.h"
 #include "sweep/decimal_range.h"
 
 namespace afm {
@@ -47,9 +46,8 @@ std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::stri
   return grid;
 }
 
-void add_model_option(CLI::App& app, std::string& model) {
-  app.add_option("--model", model, "oscillator, or hammer: the horizontal spring infinitely stiff")
-      ->capture_default_str();
+void add_model_option(CommandLine& app, std::string& model) {
+  app.option("model", model, "oscillator, or hammer: the horizontal spring infinitely stiff");
 }
 
 ModelKind checked_kind(const std::string& name) {
@@ -58,10 +56,10 @@ ModelKind checked_kind(const std::string& name) {
   return kind;
 }
 
-void add_options(CLI::App& app, DynamicsOptions& o) {
-  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
-  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
-  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
+void add_options(CommandLine& app, DynamicsOptions& o) {
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
   add_model_option(app, o.model);
 }
 
@@ -79,25 +77,6 @@ Model checked_model(const DynamicsOptions& o) {
     faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
   return model;
-}
-
-int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& run) {
-  try {
-    app.parse(argc, argv);
-    const int code = run();
-    std::cout.flush();
-    if (std::cout) return code;
-    std::cerr << app.get_name() << ": cannot write the output\n";
-    return 1;
-  } catch (const CLI::ParseError& fault) {
-    return app.exit(fault) == 0 ? 0 : 2;
-  } catch (const std::invalid_argument& fault) {
-    std::cerr << app.get_name() << ": " << fault.what() << "\n";
-    return 2;
-  } catch (const std::exception& fault) {
-    std::cerr << app.get_name() << ": " << fault.what() << "\n";
-    return 1;
-  }
 }
 
 }  // namespace afm

@@ -1,12 +1,11 @@
 // What the tools for orbits and attractors are told on the command line: which model, at which drag velocity.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "afm_emulator/model.h"
+#include "common/command_line.h"
 
 namespace afm {
 
@@ -16,8 +15,8 @@ struct DynamicsOptions {
   double frequency_ratio = Model{}.frequency_ratio;
 };
 
-void add_options(CLI::App& app, DynamicsOptions& options);
-void add_model_option(CLI::App& app, std::string& model);
+void add_options(CommandLine& app, DynamicsOptions& options);
+void add_model_option(CommandLine& app, std::string& model);
 
 // Throws std::invalid_argument where there is no such model.
 ModelKind checked_kind(const std::string& name);
@@ -33,8 +32,5 @@ std::vector<double> ranges_option(const std::string& name, const std::string& te
 // Every combination of four such options, drag velocities changing fastest; of the oscillator.
 std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
                                          const std::string& frequency_ratio);
-
-// Parses, checks and runs; turns what goes wrong into a message and an exit code: 2 for bad input, 1 for the rest.
-int run_tool(CLI::App& app, int argc, char** argv, const std::function<int()>& run);
 
 }  // namespace afm

@@ -1,8 +1,5 @@
 // K_f against drag velocity, restitution and cutoff.
-#include <CLI/CLI.hpp>
 #include <cstdint>
-#include <exception>
-#include <iostream>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -33,24 +30,22 @@ struct Options {
 const std::map<std::string, afm::SweepDirection> kDirections{
     {"fresh", afm::SweepDirection::fresh}, {"up", afm::SweepDirection::up}, {"down", afm::SweepDirection::down}};
 
-// Bad input: told, and exit code 2.
+// Bad input: exit code 2.
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
-void parse(CLI::App& app, Options& o) {
+void parse(afm::CommandLine& app, Options& o) {
   afm::SweepSettings& sweep = o.settings.sweep;
-  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
-  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
-  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
-  app.add_option("--duration", sweep.duration, "measured at each point [tau]")->capture_default_str();
-  app.add_option("--transient", sweep.transient, "before it [tau]")->capture_default_str();
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.option("duration", sweep.duration, "measured at each point [tau]");
+  app.option("transient", sweep.transient, "before it [tau]");
   afm::add_model_option(app, o.model);
-  app.add_option("--sweep", o.sweep,
-                 "fresh: each point from a random start; up, down: each from where the eta before it ended")
-      ->capture_default_str();
-  app.add_option("--threads", o.threads, "0: one for each processor; under mpirun one for each rank")
-      ->capture_default_str();
-  app.add_option("--seed", o.seed, "of the random starts")->capture_default_str();
-  app.add_option("--output", o.output, "the table; - is standard output")->capture_default_str();
+  app.option("sweep", o.sweep,
+             "fresh: each point from a random start; up, down: each from where the eta before it ended");
+  app.option("threads", o.threads, "0: one for each processor; under mpirun one for each rank");
+  app.option("seed", o.seed, "of the random starts");
+  app.option("output", o.output, "the table; - is standard output");
 }
 
 void check(Options& o) {
@@ -73,20 +68,11 @@ void check(Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "friction_curve"};
+  afm::CommandLine app("friction_curve", kDescription);
   Options options;
   parse(app, options);
-  try {
-    app.parse(argc, argv);
+  return app.run(argc, argv, [&] {
     check(options);
     return afm::run_curve(options.settings, options.output, options.threads);
-  } catch (const CLI::ParseError& fault) {
-    return app.exit(fault) == 0 ? 0 : 2;
-  } catch (const std::invalid_argument& fault) {
-    std::cerr << "friction_curve: " << fault.what() << "\n";
-    return 2;
-  } catch (const std::exception& fault) {
-    std::cerr << "friction_curve: " << fault.what() << "\n";
-    return 1;
-  }
+  });
 }

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "csv.h"
+#include "common/csv.h"
 #include "single_flight.h"
 
 namespace afm {

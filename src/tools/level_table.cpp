@@ -1,5 +1,4 @@
 // Makes the table from which `model: auto` takes its levels.
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -10,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 #include "level_errors.h"
 #include "sweep/progress_bar.h"
@@ -35,19 +34,17 @@ struct Options {
   afm::LevelErrorSettings settings;
 };
 
-void add_options(CLI::App& app, Options& o) {
-  app.add_option("--eta", o.eta, "drag velocity [a/tau], above 0")->capture_default_str();
-  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
-  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
-  app.add_option("--frequency-ratio", o.frequency_ratio, "omega_h / omega_v")->capture_default_str();
-  app.add_option("--starts", o.settings.starts, "at each point")->capture_default_str()->check(CLI::Range(1, 1000));
-  app.add_option("--seed", o.settings.seed, "of the starts")->capture_default_str();
-  app.add_option("--duration", o.settings.run.duration,
-                 "of a measurement, where the orbit does not repeat itself [tau]")
-      ->capture_default_str()
-      ->check(CLI::Range(100.0, 1e7));
-  app.add_option("--threads", o.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
-  app.add_option("--output", o.output, "file; without it the table goes to the standard output");
+void add_options(afm::CommandLine& app, Options& o) {
+  app.option("eta", o.eta, "drag velocity [a/tau], above 0");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v");
+  app.option("starts", o.settings.starts, "at each point", {1, 1000});
+  app.option("seed", o.settings.seed, "of the starts");
+  app.option("duration", o.settings.run.duration, "of a measurement, where the orbit does not repeat itself [tau]",
+             {100.0, 1e7});
+  app.option("threads", o.threads, "0: as many as the machine has", {0, 1024});
+  app.option("output", o.output, "file; without it the table goes to the standard output");
 }
 
 struct Point {
@@ -119,7 +116,7 @@ int run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "level_table"};
+  afm::CommandLine app("level_table", kDescription);
   Options options;
   options.settings.run.transient = 300.0;
   options.settings.run.duration = 20000.0;
@@ -128,5 +125,5 @@ int main(int argc, char** argv) {
   options.settings.run.most_events = 1000000;
   options.settings.run.most_events_per_tau = 100.0;
   add_options(app, options);
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(options); });
 }

@@ -1,5 +1,6 @@
 // How far a simpler level of the model is from the full one, and what it saves.
-#include <CLI/CLI.hpp>
+#include "afm_emulator/model_error.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "afm_emulator/model_error.h"
 #include "afm_emulator/sweep.h"
+#include "common/csv.h"
 #include "cpu_clock.h"
-#include "csv.h"
 #include "dynamics_options.h"
 #include "sweep/progress_bar.h"
 
@@ -46,31 +46,22 @@ struct Options {
   afm::ErrorSettings settings;
 };
 
-void add_options(CLI::App& app, Options& o) {
-  const auto tolerance = CLI::Range(0.0, afm::kMaxContactTolerance);
-  app.add_option("--eta", o.eta, "drag velocity [a/tau]")->capture_default_str();
-  app.add_option("--gamma", o.gamma, "restitution at and above the cutoff")->capture_default_str();
-  app.add_option("--cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]")->capture_default_str();
-  app.add_flag("--relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
-  app.add_option("--frequency-ratio", o.frequency_ratio, "omega_h / omega_v, of the reference")->capture_default_str();
+void add_options(afm::CommandLine& app, Options& o) {
+  const afm::Within tolerance{0.0, afm::kMaxContactTolerance};
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v, of the reference");
   afm::add_model_option(app, o.model);
-  app.add_option("--contact-tolerance", o.level.contact_tolerance, "of the level; 0: every bounce")
-      ->capture_default_str()
-      ->check(tolerance);
-  app.add_option("--reference-tolerance", o.reference_tolerance, "of the reference; 0: every bounce")
-      ->capture_default_str()
-      ->check(tolerance);
-  app.add_option("--starts", o.starts, "at each point")->capture_default_str()->check(CLI::Range(1, 10000));
-  app.add_option("--seed", o.seed, "of the starts")->capture_default_str();
-  app.add_option("--duration", o.settings.duration, "of the measurement [tau]")
-      ->capture_default_str()
-      ->check(CLI::Range(10.0, 1e7));
-  app.add_option("--transient", o.settings.transient, "before it [tau]")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e7));
-  app.add_option("--most-events", o.settings.most_events, "a level that needs more is measured for a shorter time")
-      ->capture_default_str()
-      ->check(CLI::Range(1000, 1000000000));
+  app.option("contact-tolerance", o.level.contact_tolerance, "of the level; 0: every bounce", tolerance);
+  app.option("reference-tolerance", o.reference_tolerance, "of the reference; 0: every bounce", tolerance);
+  app.option("starts", o.starts, "at each point", {1, 10000});
+  app.option("seed", o.seed, "of the starts");
+  app.option("duration", o.settings.duration, "of the measurement [tau]", {10.0, 1e7});
+  app.option("transient", o.settings.transient, "before it [tau]", {0.0, 1e7});
+  app.option("most-events", o.settings.most_events, "a level that needs more is measured for a shorter time",
+             {1000, 1000000000});
 }
 
 struct Point {
@@ -160,8 +151,8 @@ int run(Options o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "model_error"};
+  afm::CommandLine app("model_error", kDescription);
   Options options;
   add_options(app, options);
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(options); });
 }

@@ -1,10 +1,11 @@
 // A filter: states after an impact in, the next impact out.
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "impact_filter.h"
 
 namespace {
@@ -28,24 +29,18 @@ bool filter_file(afm::ModelKind kind, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "next_impact"};
+  afm::CommandLine app("next_impact", kDescription);
   std::vector<std::string> paths;
-  app.add_option("files", paths, "tables to read; none, or -, is standard input");
+  app.arguments("files", paths, "tables to read; none, or -, is standard input");
   std::string model = "oscillator";
-  app.add_option("--model", model, "oscillator; or hammer, which has no extension, and eta for u")
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  afm::ModelKind kind = afm::ModelKind::oscillator;
-  if (!afm::parse(model, kind)) {
-    std::cerr << "next_impact: model = " << model << ": must be oscillator or hammer\n";
-    return 2;
-  }
-  if (paths.empty()) paths.emplace_back("-");
-
-  std::cout << afm::kImpactOutputHeader << "\n";
-  bool good = true;
-  for (const std::string& path : paths) good = filter_file(kind, path) && good;
-  std::cout.flush();
-  if (!std::cout) std::cerr << "next_impact: cannot write the output\n";
-  return good && std::cout ? 0 : 1;
+  app.option("model", model, "oscillator; or hammer, which has no extension, and eta for u");
+  return app.run(argc, argv, [&] {
+    afm::ModelKind kind = afm::ModelKind::oscillator;
+    if (!afm::parse(model, kind)) throw std::invalid_argument("model = " + model + ": must be oscillator or hammer");
+    if (paths.empty()) paths.emplace_back("-");
+    std::cout << afm::kImpactOutputHeader << "\n";
+    bool good = true;
+    for (const std::string& path : paths) good = filter_file(kind, path) && good;
+    return good ? 0 : 1;
+  });
 }

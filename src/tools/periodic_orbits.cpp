@@ -1,5 +1,4 @@
 // The periodic orbits at given parameters.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -10,7 +9,7 @@
 #include "afm_emulator/cycle_expansion.h"
 #include "afm_emulator/orbit_search.h"
 #include "afm_emulator/state.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 #include "sweep/progress_bar.h"
 
@@ -36,26 +35,20 @@ struct Options {
   double attractor_distance = 0.1;
 };
 
-void add_options(CLI::App& app, Options& o) {
+void add_options(afm::CommandLine& app, Options& o) {
   afm::add_options(app, o.dynamics);
-  app.add_option("--max-length", o.search.longest, "longest orbit looked for [impacts]")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 32));
-  app.add_option("--trajectory", o.search.trajectory, "impacts of the long run that guesses are taken from")
-      ->capture_default_str()
-      ->check(CLI::Range(1000, 10000000));
-  app.add_option("--guesses", o.search.guesses, "of each of three kinds, for each length")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", o.search.seed, "of what is random in the search")->capture_default_str();
-  app.add_option(
-      "--averages", o.averages,
+  app.option("max-length", o.search.longest, "longest orbit looked for [impacts]", {1, 32});
+  app.option("trajectory", o.search.trajectory, "impacts of the long run that guesses are taken from",
+             {1000, 10000000});
+  app.option("guesses", o.search.guesses, "of each of three kinds, for each length", {1, 1000000});
+  app.option("seed", o.search.seed, "of what is random in the search");
+  app.option(
+      "averages", o.averages,
       "file for K_f from these orbits by periodic orbit theory: method, order of truncation, terms, K_f, and by how\n"
       "much the expansion misses the conservation of flow");
-  app.add_option("--attractor-distance", o.attractor_distance,
-                 "orbits that the long run does not approach so far are not of the attractor: left out of the averages")
-      ->capture_default_str();
-  app.add_flag("--quiet", o.quiet, "no report of the search on stderr");
+  app.option("attractor-distance", o.attractor_distance,
+             "orbits that the long run does not approach so far are not of the attractor: left out of the averages");
+  app.flag("quiet", o.quiet, "no report of the search on stderr");
 }
 
 void print_row(double H, const afm::PeriodicOrbit& orbit) {
@@ -133,8 +126,8 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "periodic_orbits"};
+  afm::CommandLine app("periodic_orbits", kDescription);
   Options options;
   add_options(app, options);
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(options); });
 }

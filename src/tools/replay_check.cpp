@@ -1,13 +1,13 @@
 // Simulates a recorded run again and compares it with the recording, bit for bit.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "common/command_line.h"
 #include "node/arithmetic_digest.h"
 #include "node/version.h"
 #include "replay/damage_guard.h"
@@ -26,14 +26,16 @@ using afm::replay::Verdict;
 const char kDescription[] =
     "Simulates a recorded run again, from its configuration and applied commands, and compares every sample, impact,\n"
     "friction value and command with the recording, bit for bit. Needs no ROS master. Recordings begun in mid-run\n"
-    "(simulated from the checkpoint that they begin with), split ones (give their bags in order) and reindexed ones are\n"
+    "(simulated from the checkpoint that they begin with), split ones (give their bags in order) and reindexed ones "
+    "are\n"
     "checked too.";
 const char kExitCodes[] =
     "Exit codes:\n"
     "  0  identical, nothing is missing, and the recording was closed\n"
     "  1  it differs: recorded as it was published, but this program simulates other bits\n"
     "  2  wrong arguments\n"
-    "  3  foreign: no bag, no recording of the emulator, or one of another version of its messages, or of the state in\n"
+    "  3  foreign: no bag, no recording of the emulator, or one of another version of its messages, or of the state "
+    "in\n"
     "     the checkpoint that it begins with\n"
     "  4  truncated: no index or damaged (rosbag reindex helps), or identical as far as it goes but never closed\n"
     "     (killed, or its end cut off; --open-end makes this 0)\n"
@@ -181,28 +183,26 @@ Verdict run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "replay_check"};
+  afm::CommandLine app("replay_check", kDescription);
   app.footer(kExitCodes);
   Options options;
-  app.add_option("bags", options.paths, "recordings; the bags of a split one in order")->required();
-  app.add_option("--node", options.node, "the emulator's name such as /afm, where a bag holds several");
-  app.add_flag("--digests-only", options.digests_only,
-               "compare only the digests told every second: reads little, and finds the second of a difference");
-  app.add_flag("--open-end", options.open_end, "accept a recording that was never closed, as far as it goes");
+  app.arguments("bags", options.paths, "recordings; the bags of a split one in order");
+  app.require("bags");
+  app.option("node", options.node, "the emulator's name such as /afm, where a bag holds several");
+  app.flag("digests-only", options.digests_only,
+           "compare only the digests told every second: reads little, and finds the second of a difference");
+  app.flag("open-end", options.open_end, "accept a recording that was never closed, as far as it goes");
   afm::replay::guard_against_damage();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(Verdict::usage);
-  }
-  try {
-    return static_cast<int>(run(options));
-  } catch (const Problem& problem) {
-    std::cout << std::flush;
-    std::cerr << "replay_check: " << problem.what() << "\n";
-    return static_cast<int>(problem.verdict);
-  } catch (const std::exception& error) {
-    std::cerr << "replay_check: damaged or cut off: " << error.what() << "\n";
-    return static_cast<int>(Verdict::truncated);
-  }
+  return app.run(argc, argv, [&] {
+    try {
+      return static_cast<int>(run(options));
+    } catch (const Problem& problem) {
+      std::cout << std::flush;
+      std::cerr << "replay_check: " << problem.what() << "\n";
+      return static_cast<int>(problem.verdict);
+    } catch (const std::exception& error) {
+      std::cerr << "replay_check: damaged or cut off: " << error.what() << "\n";
+      return static_cast<int>(Verdict::truncated);
+    }
+  });
 }

@@ -1,5 +1,4 @@
 // How nearly each point of the section returns after some impacts: where periodic orbits may be (FIG. 4).
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +8,7 @@
 #include <vector>
 
 #include "afm_emulator/poincare_map.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 #include "sweep/progress_bar.h"
 
@@ -107,17 +106,11 @@ int run(Options o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "return_scan"};
+  afm::CommandLine app("return_scan", kDescription);
   Options options;
   add_options(app, options.dynamics);
-  app.add_option("--length", options.length, "impacts until the return")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 32));
-  app.add_option("--points", options.points, "of the grid over phase and over gap rate")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1000));
-  app.add_option("--depth", options.depth, "of the grid over extension and over velocity")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1000));
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  app.option("length", options.length, "impacts until the return", {1, 32});
+  app.option("points", options.points, "of the grid over phase and over gap rate", {2, 1000});
+  app.option("depth", options.depth, "of the grid over extension and over velocity", {2, 1000});
+  return app.run(argc, argv, [&] { return run(options); });
 }

@@ -1,5 +1,6 @@
 // The symbolic dynamics of the hammer: a partition of its section, the words that occur, and those of its orbits.
-#include <CLI/CLI.hpp>
+#include "afm_emulator/symbolic_dynamics.h"
+
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -9,8 +10,7 @@
 #include <vector>
 
 #include "afm_emulator/orbit_search.h"
-#include "afm_emulator/symbolic_dynamics.h"
-#include "csv.h"
+#include "common/csv.h"
 #include "dynamics_options.h"
 
 namespace {
@@ -36,25 +36,22 @@ struct Options {
   int section_points = 20000;
 };
 
-void add_options(CLI::App& app, Options& o) {
+void add_options(afm::CommandLine& app, Options& o) {
   o.dynamics.eta = 3.2;
   o.dynamics.model = "hammer";
   o.search.trajectory = 100000;
   o.search.guesses = 1500;
   afm::add_options(app, o.dynamics);
-  app.add_option("--max-length", o.longest, "of words and orbits")->capture_default_str()->check(CLI::Range(1, 16));
-  app.add_option("--impacts", o.impacts, "of the run")->capture_default_str()->check(CLI::Range(1000, 100000000));
-  app.add_option("--gap", o.gap, "of phase between two bands [a]")->capture_default_str()->check(CLI::Range(0.0, 1.0));
-  app.add_option("--guesses", o.search.guesses, "of the search for orbits, of each of three kinds, for each length")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", o.search.seed, "of the run and of the search")->capture_default_str();
-  app.add_option("--orbits", o.orbits, "file for the orbits: length, word, how many orbits have it, K_f, multipliers");
-  app.add_option("--section", o.section, "file for points: phase, gap_rate, phase_next, gap_rate_next, letter");
-  app.add_option("--section-points", o.section_points, "how many")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10000000));
-  app.add_option("--forbidden", o.forbidden, "file for the shortest words that do not occur: length, word");
+  app.option("max-length", o.longest, "of words and orbits", {1, 16});
+  app.option("impacts", o.impacts, "of the run", {1000, 100000000});
+  app.option("gap", o.gap, "of phase between two bands [a]", {0.0, 1.0});
+  app.option("guesses", o.search.guesses, "of the search for orbits, of each of three kinds, for each length",
+             {1, 1000000});
+  app.option("seed", o.search.seed, "of the run and of the search");
+  app.option("orbits", o.orbits, "file for the orbits: length, word, how many orbits have it, K_f, multipliers");
+  app.option("section", o.section, "file for points: phase, gap_rate, phase_next, gap_rate_next, letter");
+  app.option("section-points", o.section_points, "how many", {1, 10000000});
+  app.option("forbidden", o.forbidden, "file for the shortest words that do not occur: length, word");
 }
 
 std::ofstream open(const std::string& path) {
@@ -146,8 +143,8 @@ int run(const Options& o) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{kDescription, "symbolic_dynamics"};
+  afm::CommandLine app("symbolic_dynamics", kDescription);
   Options options;
   add_options(app, options);
-  return afm::run_tool(app, argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(options); });
 }

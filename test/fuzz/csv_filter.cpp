@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "target.h"
-#include "tools/csv.h"
+#include "common/csv.h"
 #include "tools/impact_filter.h"
 
 namespace {

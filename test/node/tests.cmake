@@ -45,13 +45,10 @@ set(recording_tests
   spoiled_bags
   steering)
 foreach(name IN LISTS recording_tests)
-  if(TARGET replay_check)
-    afm_add_rostest(${name} emulator_node replay_check bag_check)
-  endif()
+  afm_add_rostest(${name} emulator_node replay_check bag_check)
 endforeach()
-if(TARGET replay_check)  # keeps every core busy: what ran beside it would starve
-  set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
-endif()
+# keeps every core busy: what ran beside it would starve
+set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
 
 # an independent reader, only where someone has installed it: no test fetches anything
 find_program(NODE_PROGRAM NAMES node nodejs)
@@ -88,15 +85,13 @@ foreach(script IN LISTS scripts)
   endif()
 endforeach()
 
-if(TARGET replay_check)
-  # a short form; scripts/soak alone runs for an hour
-  set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 12 --part 6 --rate 50)
-  if(AFM_SANITIZE)
-    list(APPEND soak --any-memory)
-  endif()
-  add_test(NAME soak COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${soak})
-  set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOSTNAME=localhost")
+# a short form; scripts/soak alone runs for an hour
+set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 12 --part 6 --rate 50)
+if(AFM_SANITIZE)
+  list(APPEND soak --any-memory)
 endif()
+add_test(NAME soak COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${soak})
+set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOSTNAME=localhost")
 
 if(NOT AFM_SANITIZE)
   # it stands between the program and its allocator itself

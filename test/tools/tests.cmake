@@ -5,43 +5,48 @@ add_test(NAME plot_run
     ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
 set_tests_properties(plot_run PROPERTIES TIMEOUT 60)
 
-if(TARGET next_impact)
-  add_test(NAME next_impact
-    COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
-      $<TARGET_FILE:next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
-  set_tests_properties(next_impact PROPERTIES TIMEOUT 120)
-endif()
+add_test(NAME next_impact
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
+    $<TARGET_FILE:next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
+set_tests_properties(next_impact PROPERTIES TIMEOUT 120)
 
-if(TARGET friction_curve)
-  # with mpirun where the tool was built with MPI
-  add_test(NAME friction_curve
-    COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
-      $<TARGET_FILE:friction_curve> ${MPIEXEC_EXECUTABLE})
-  set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
-endif()
+# with mpirun where the tool was built with MPI
+add_test(NAME friction_curve
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
+    $<TARGET_FILE:friction_curve> ${MPIEXEC_EXECUTABLE})
+set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
 
-if(TARGET attractors)
-  add_test(NAME orbit_tools COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/orbit_tools_test.py
-    $<TARGET_FILE_DIR:continue_orbits>)
-  set_tests_properties(orbit_tools PROPERTIES TIMEOUT 120)
-  add_test(NAME scene_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/scene_levels_test.py
-    $<TARGET_FILE_DIR:choose_level> ${PROJECT_SOURCE_DIR}/scripts)
-  set_tests_properties(scene_levels PROPERTIES TIMEOUT 180)
-  foreach(tool attractors model_error periodic_orbits symbolic_dynamics)
-    add_test(NAME ${tool} COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/${tool}_test.py $<TARGET_FILE:${tool}>)
-    set_tests_properties(${tool} PROPERTIES TIMEOUT 120)
-  endforeach()
-endif()
+add_test(NAME orbit_tools COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/orbit_tools_test.py
+  $<TARGET_FILE_DIR:continue_orbits>)
+set_tests_properties(orbit_tools PROPERTIES TIMEOUT 120)
+add_test(NAME scene_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/scene_levels_test.py
+  $<TARGET_FILE_DIR:choose_level> ${PROJECT_SOURCE_DIR}/scripts)
+set_tests_properties(scene_levels PROPERTIES TIMEOUT 180)
+foreach(tool attractors model_error periodic_orbits symbolic_dynamics)
+  add_test(NAME ${tool} COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/${tool}_test.py $<TARGET_FILE:${tool}>)
+  set_tests_properties(${tool} PROPERTIES TIMEOUT 120)
+endforeach()
 
-if(TARGET stress)
-  # a short form; for longer ones give the program more --seconds
-  add_test(NAME stress COMMAND stress --seconds 15)
-  add_test(NAME stress_shipped COMMAND stress --shipped --tau 100000 --scenes 3)
-  set_tests_properties(stress stress_shipped PROPERTIES TIMEOUT 120)
-endif()
+# a short form; for longer ones give the program more --seconds
+add_test(NAME stress COMMAND stress --seconds 15)
+add_test(NAME stress_shipped COMMAND stress --shipped --tau 100000 --scenes 3)
+set_tests_properties(stress stress_shipped PROPERTIES TIMEOUT 120)
 
 if(TARGET stability_matrix)
   # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first instant
   add_test(NAME stability COMMAND stability_matrix --quick --methods exact)
   set_tests_properties(stability PROPERTIES TIMEOUT 120)
 endif()
+
+# every program answers --help, and refuses an option that it does not have
+get_property(tools GLOBAL PROPERTY AFM_COMMAND_LINES)
+list(TRANSFORM tools REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+add_test(NAME help COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/help_test.py ${tools})
+set_tests_properties(help PROPERTIES TIMEOUT 60)
+
+# common/NAME_test.cpp: what tools share
+foreach(name command_line)
+  catkin_add_gtest(${name}_test common/${name}_test.cpp)
+  target_link_libraries(${name}_test afm_common ${gtest_main})
+  set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
+endforeach()
