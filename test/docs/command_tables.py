@@ -19,7 +19,8 @@ SUBSTITUTIONS = [
     (r'--eta 0\.1:9:0\.1$', '--eta 2:2.5:0.5'),
     (r'--starts 100\b', '--starts 4'),
     (r'seq 200', 'seq 3'),
-    (r'mpirun -n 8', 'mpirun -n 2'),
+    # a table of its own: that of the command before is done
+    (r'mpirun -n 8 (.*)map\.csv', r'mpirun -n 2 \1map_by_ranks.csv'),
     (r'--max-length (?:8|10)\b', '--max-length 3'),
     (r'(periodic_orbits --eta 3\.4 --gamma 0\.7)', r'\1 --max-length 2'),
     (r'(periodic_orbits .*)', r'\1 --trajectory 5000 --guesses 50'),

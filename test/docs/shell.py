@@ -66,8 +66,17 @@ class Shell:
         try:
             return process.communicate(timeout=DEADLINE_S)[0], process.returncode
         except subprocess.TimeoutExpired:
+            return self.stop(process) + '\n(not within %g s)' % DEADLINE_S, -1
+
+    @staticmethod
+    def stop(process):
+        """What it has printed until then. SIGTERM first: scripts/run stops what it started."""
+        os.killpg(process.pid, signal.SIGTERM)
+        try:
+            return process.communicate(timeout=30)[0]
+        except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
-            return process.communicate()[0] + '\n(not within %g s)' % DEADLINE_S, -1
+            return process.communicate()[0]
 
     def start_emulator(self):
         port = self.environment['ROS_MASTER_URI'].rsplit(':', 1)[1]
