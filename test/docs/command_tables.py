@@ -1,0 +1,69 @@
+"""What the test of the documented commands runs otherwise than it stands there, and what it does not run."""
+
+# (pattern, replacement), applied to every command in turn; each must be used. They make long runs short.
+SUBSTITUTIONS = [
+    # the build directory belongs to the tree itself, not to the copy in which commands run
+    (r'^scripts/(run|build)\b', r'"$AFM_ROOT/scripts/\1"'),
+    (r'(scripts/run")(?: --duration \S+)?', r'\1 --duration 3'),
+    # these go on until Ctrl-C
+    (r'^rostopic echo', 'rostopic echo -n 1'),
+    (r'^(roslaunch afm_emulator (?:emulator|pair|view)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),
+    # a bag as a killed emulator leaves it
+    (r'^rosbag reindex (\S+)\.active', r'cp \1 \1.active && rosbag reindex \1.active'),
+    # fewer points, starts, guesses, rounds
+    (r'--eta 0\.02:9:0\.01', '--eta 2:3:0.5'),
+    (r'--eta 0\.2:9:0\.01 --gamma 0\.3:0\.95:0\.05', '--eta 2:3:0.5 --gamma 0.5:0.7:0.1 --duration 100 --transient 100'),
+    (r'--eta 0\.03:9:0\.03 --gamma 0\.3:0\.95:0\.01', '--eta 2:3:0.5 --gamma 0.5:0.7:0.1'),
+    (r'--eta 1\.6:7:0\.02', '--eta 2.4:2.6:0.02'),
+    (r'--eta 0\.1:9:0\.1 --frequency', '--eta 2:3:1 --starts 1 --duration 200 --frequency'),
+    (r'--eta 0\.1:9:0\.1$', '--eta 2:2.5:0.5'),
+    (r'--starts 100\b', '--starts 4'),
+    (r'seq 200', 'seq 3'),
+    # a table of its own: that of the command before is done
+    (r'mpirun -n 8 (.*)map\.csv', r'mpirun -n 2 \1map_by_ranks.csv'),
+    (r'--max-length (?:8|10)\b', '--max-length 3'),
+    (r'(periodic_orbits --eta 3\.4 --gamma 0\.7)', r'\1 --max-length 2'),
+    (r'(periodic_orbits .*)', r'\1 --trajectory 5000 --guesses 50'),
+    (r'(symbolic_dynamics )', r'\1--impacts 20000 --guesses 50 '),
+    (r'(level_table) --', r'\1 --starts 1 --duration 100 --'),
+    (r'(level_table .*)--output config', r'\1--eta 2 --gamma 0.7 --cutoff 0.1 --output config'),
+    (r'--gamma 0\.6:0\.8:0\.05 --cutoff 0\.02,0\.1', '--eta 2 --gamma 0.6:0.7:0.1 --cutoff 0.1'),
+    (r'--eta 0\.25:8\.95:0\.3', '--eta 2.05 --gamma 0.7 --cutoff 0.1'),
+    (r'(scripts/figures)$', r'\1 --quick --only fig1_friction'),
+    (r'(scripts/figures --only) hammer_friction.*', r'\1 hammer_friction --quick'),
+    (r'(scripts/plot_friction_curve)', r'\1 --eta 2:3:0.5 --duration 100 --data curves'),
+    (r'(scripts/plot_scenes)', r'\1 glide'),
+    (r'(scripts/scene_levels)', r'\1 --duration 500'),
+    (r'(record_throughput\.py \S+) 600', r'\1 3'),
+    (r'(listener_cost\.py)', r'\1 1'),
+    (r'--flights 200 --seconds 0\.7 --run-seconds 3', '--methods exact rk4 --flights 20 --seconds 0.01 --run-seconds 0.05'),
+    (r'(lib/afm_emulator/work_cost)', r'\1 --impacts 1000 --tips 10000 --rounds 1'),
+    (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
+    (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
+    (r'--bursts \d+', '--bursts 20'),
+    (r'(burst_friction.*) --tau \d+ (.*)--most-events 2e\d', r'\1 --tau 20 \2--most-events 2e4'),
+    (r'--tau (?:20000|100000) +--transient \d+', '--tau 10 --transient 10'),
+    (r'--seconds 110', '--seconds 0.5'),
+    (r'--shipped --tau 100000 --scenes 100', '--shipped --tau 1000 --scenes 1'),
+    (r'(grazes .*)--flights \d+', r'\1--flights 1 --ordinary 100'),
+    (r'(stability_matrix) --seconds 2', r'\1 --seconds 0.05 --methods exact rk4 --scenes even rest'),
+    (r'--mutated 1000000', '--mutated 100'),
+]
+
+# (pattern, why the command is not run); each must be used. The tools of these commands must know the options used.
+NOT_RUN = [
+    (r'^scripts/test', 'this test is a part of it'),
+    (r'^scripts/run --view', 'installs rviz'),
+    (r'^scripts/sanitize', 'builds and tests for a quarter of an hour'),
+    (r'^scripts/fuzz', 'builds with clang for minutes'),
+    (r'^scripts/soak', 'the test soak runs it in short'),
+    (r'^scripts/compare_builds', 'builds with every compiler for minutes'),
+    (r'right_address:=', 'needs a second machine'),
+    (r'^(rqt_plot|rosrun rqt_\w+) ', 'opens a window'),
+    (r'^npm install', 'fetches a package'),
+    (r'running_digests\.js', 'needs a package that no test fetches; the test javascript_reader runs it where it is installed'),
+]
+
+# programs that are built only where the machine has what they need
+OPTIONAL = {'verbs': 'Google Benchmark', 'grazes': '128-bit floats', 'speed_accuracy': '128-bit floats',
+            'stability_matrix': '128-bit floats'}

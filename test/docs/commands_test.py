@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""Every command in README.md and docs/*.md runs as it stands there, but for what command_tables.py shortens or leaves out.
+
+Usage: commands_test.py ROOT BUILD PREFIX [MPIRUN]     (BUILD: of ROOT; PREFIX: where it is installed; MPIRUN: if built with MPI)
+"""
+import re
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from command_tables import NOT_RUN, SUBSTITUTIONS
+from reader import Reader
+
+SKIPPED = 77
+DOCUMENTS_AT_A_TIME = 3  # on two cores: much of the time is spent waiting for roslaunch
+
+
+class Tables:
+    """What is substituted and left out, and which entries were used."""
+
+    def __init__(self):
+        self.lock, self.used = threading.Lock(), set()
+
+    def reason_not_to_run(self, text):
+        return next((self.note(pattern, reason) for pattern, reason in NOT_RUN if re.search(pattern, text)), None)
+
+    def shortened(self, text):
+        for pattern, replacement in SUBSTITUTIONS:
+            text, count = re.subn(pattern, replacement, text)
+            if count:
+                self.note(pattern)
+        return text
+
+    def note(self, pattern, result=None):
+        with self.lock:
+            self.used.add(pattern)
+        return result
+
+    def unused(self):
+        return ['command_tables.py: no document uses %s' % pattern for pattern, _ in SUBSTITUTIONS + NOT_RUN
+                if pattern not in self.used]
+
+
+def main(root, build, prefix, mpirun=''):
+    root, build, prefix = (Path(path).resolve() for path in (root, build, prefix))
+    if not (prefix / 'lib/afm_emulator/friction_curve').exists():
+        print('nothing is installed in %s: run scripts/build or scripts/test' % prefix)
+        return SKIPPED
+    if (build, prefix) != (root / 'build', root / 'install') and prefix != build / 'install':
+        print('%s is not where scripts/build installs: its commands would build once more' % prefix)
+        return SKIPPED
+    reader = Reader(root, build, prefix, mpirun, Tables())
+    with ThreadPoolExecutor(DOCUMENTS_AT_A_TIME) as pool:
+        list(pool.map(reader.read, [root / 'README.md'] + sorted((root / 'docs').glob('*.md'))))
+    faults = reader.faults + reader.tables.unused()
+    for fault in faults:
+        print('FAULT: ' + fault)
+    print('%d faults' % len(faults))
+    return 1 if faults else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(*sys.argv[1:]))

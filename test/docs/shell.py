@@ -1,0 +1,100 @@
+"""A shell in which a user would paste commands: a copy of the tree, an empty home, install/setup.bash sourced, a ROS master."""
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
+DEADLINE_S = 120 * PATIENCE
+STAYS_S = 6  # longer than roslaunch takes to start the nodes
+COPIED = ('README.md', 'benchmark', 'config', 'docs', 'scripts', 'test/data', 'test/node')  # what commands read, and some write
+# until_interrupted: of a command that goes on until Ctrl-C, and fails where it ends earlier
+PRELUDE = '''source "$0/setup.bash" || exit
+until_interrupted() {
+  local code=0
+  timeout --signal=INT --kill-after=30 %d "$@" || code=$?
+  [[ $code -eq 124 ]]
+}
+set -eo pipefail
+''' % STAYS_S
+
+
+def free_port():
+    with socket.socket() as free:
+        free.bind(('localhost', 0))
+        return free.getsockname()[1]
+
+
+def clean_environment(home, **more):
+    """Nothing of the machine's own, no display among it."""
+    return dict({'HOME': str(home), 'PATH': '/usr/bin:/bin:/usr/sbin:/sbin', 'LC_ALL': 'C.UTF-8', 'ROS_HOSTNAME': 'localhost',
+                 'PYTHONUNBUFFERED': '1', 'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
+                 'OMPI_MCA_rmaps_base_oversubscribe': '1'}, **more)
+
+
+class Shell:
+    def __init__(self, root, build, prefix):
+        self.prefix, self.emulator = prefix, None
+        self.directory = Path(tempfile.mkdtemp(prefix='afm_documents_'))
+        self.tree, self.home = self.directory / 'tree', self.directory / 'home'
+        self.home.mkdir()
+        for name in COPIED:
+            copy = shutil.copytree if (root / name).is_dir() else shutil.copy
+            (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
+            copy(str(root / name), str(self.tree / name))
+        (self.tree / 'build').mkdir()
+        (self.tree / 'build' / 'devel').symlink_to(build / 'devel')
+        (self.tree / 'install').symlink_to(prefix)
+        # a master of its own for what starts an emulator of its own
+        self.environment = clean_environment(self.home, AFM_ROOT=str(root), ROS_MASTER_URI='http://localhost:%d' % free_port())
+        if prefix == build / 'install':
+            self.environment['AFM_BUILD_DIR'] = str(build)
+
+    def start(self, text, **environment):
+        return subprocess.Popen(['bash', '-c', PRELUDE + text, str(self.prefix)], cwd=str(self.tree),
+                                env=dict(self.environment, **environment), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, universal_newlines=True, start_new_session=True)
+
+    def run(self, text, own_master=False):
+        """The exit code and everything that was printed."""
+        own = {'ROS_MASTER_URI': 'http://localhost:%d' % free_port()} if own_master else {}
+        process = self.start(text, **own)
+        try:
+            return process.communicate(timeout=DEADLINE_S)[0], process.returncode
+        except subprocess.TimeoutExpired:
+            return self.stop(process) + '\n(not within %g s)' % DEADLINE_S, -1
+
+    @staticmethod
+    def stop(process):
+        """What it has printed until then. SIGTERM first: scripts/run stops what it started."""
+        os.killpg(process.pid, signal.SIGTERM)
+        try:
+            return process.communicate(timeout=30)[0]
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            return process.communicate()[0]
+
+    def start_emulator(self):
+        port = self.environment['ROS_MASTER_URI'].rsplit(':', 1)[1]
+        log = (self.directory / 'emulator.log').open('w')
+        with log:
+            self.emulator = subprocess.Popen(
+                ['bash', '-c', PRELUDE + 'exec roslaunch -p %s afm_emulator emulator.launch record:=false' % port,
+                 str(self.prefix)], env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+                start_new_session=True)
+        end = time.monotonic() + DEADLINE_S
+        while time.monotonic() < end and not self.is_emulator_alive():
+            pass  # each attempt waits for a message
+
+    def is_emulator_alive(self):
+        return self.emulator.poll() is None and self.run('timeout 10 rostopic echo -n 1 /afm/status')[1] == 0
+
+    def close(self):
+        if self.emulator and self.emulator.poll() is None:
+            self.emulator.send_signal(signal.SIGINT)
+            self.emulator.wait(timeout=DEADLINE_S)
+        shutil.rmtree(str(self.directory))
