@@ -3,8 +3,9 @@
 
 afm_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 afm_build=${AFM_BUILD_DIR:-$afm_root/build}
-# rosrun finds no executable below PACKAGE/build
-afm_install=${AFM_BUILD_DIR:-$afm_root}/install
+# what is sourced: rosrun finds no executable below PACKAGE/build, and roslaunch finds files of an install space below the
+# package twice
+afm_devel=${AFM_BUILD_DIR:-$afm_root}/devel
 
 # another python3 may be first on PATH (pyenv, conda); ROS's modules belong to the system's
 export PATH=/usr/bin:/bin:$PATH
@@ -34,7 +35,7 @@ fused_multiply_add_flag() {
 # from here on, unless the user has said otherwise: roscpp binds every node's slave API to all interfaces
 listen_on_loopback_only() {
   if [[ -z ${ROS_IP:-} && $ROS_HOSTNAME == localhost ]]; then
-    export LD_PRELOAD=$afm_build/devel/lib/libafm_loopback.so${LD_PRELOAD:+:$LD_PRELOAD}
+    export LD_PRELOAD=$afm_devel/lib/libafm_loopback.so${LD_PRELOAD:+:$LD_PRELOAD}
   fi
 }
 

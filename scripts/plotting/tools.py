@@ -5,8 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-BUILD = Path(os.environ.get("AFM_BUILD_DIR", Path(__file__).resolve().parent.parent.parent / "build"))
-TOOLS = BUILD / "devel/lib/afm_emulator"
+TOOLS = Path(os.environ.get("AFM_BUILD_DIR", Path(__file__).resolve().parent.parent.parent)) / "devel/lib/afm_emulator"
 
 
 def numbers(row):

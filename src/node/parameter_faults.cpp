@@ -95,11 +95,14 @@ void check_recording(const Parameters& p, Check& check) {
 
 void check_drag(const Parameters& p, Check& check) {
   const double most = kMaxEta * Units(p.si).velocity();
-  check.require(p.max_drag_velocity > 0.0 && p.max_drag_velocity <= most, "max_drag_velocity", p.max_drag_velocity,
+  const bool limited = p.max_drag_velocity > 0.0 && p.max_drag_velocity <= most;
+  check.require(limited, "max_drag_velocity", p.max_drag_velocity,
                 "must be above 0 and at most " + text_of(most) + " m/s, a thousand lattice spacings per tau");
   check.require(std::isfinite(p.drag_velocity), "drag_velocity", p.drag_velocity, "must be finite");
-  check.require(!(std::abs(p.drag_velocity) > p.max_drag_velocity), "drag_velocity", p.drag_velocity,
-                "is beyond max_drag_velocity");
+  if (limited && std::isfinite(p.drag_velocity)) {
+    check.require(!(std::abs(p.drag_velocity) > p.max_drag_velocity), "max_drag_velocity", p.max_drag_velocity,
+                  "is below the drag velocity at start, drag_velocity = " + text_of(p.drag_velocity));
+  }
   const double batch = std::chrono::duration<double>(batch_period(p)).count();
   check.require(p.command_timeout_s == 0.0 || (p.command_timeout_s >= batch && p.command_timeout_s <= kMaxTimeout),
                 "command_timeout_s", p.command_timeout_s,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every command in README.md and docs/*.md runs as it stands there, but for what command_tables.py shortens or leaves out.
 
-Usage: commands_test.py ROOT BUILD PREFIX [MPIRUN]     (BUILD: of ROOT; PREFIX: where it is installed; MPIRUN: if built with MPI)
+Usage: commands_test.py ROOT BUILD PREFIX [MPIRUN]     (BUILD: of ROOT; PREFIX: its devel space; MPIRUN: if built with MPI)
 """
 import re
 import sys
@@ -45,10 +45,10 @@ class Tables:
 def main(root, build, prefix, mpirun=''):
     root, build, prefix = (Path(path).resolve() for path in (root, build, prefix))
     if not (prefix / 'lib/afm_emulator/friction_curve').exists():
-        print('nothing is installed in %s: run scripts/build or scripts/test' % prefix)
+        print('nothing is built in %s: run scripts/build' % prefix)
         return SKIPPED
-    if (build, prefix) != (root / 'build', root / 'install') and prefix != build / 'install':
-        print('%s is not where scripts/build installs: its commands would build once more' % prefix)
+    if (build, prefix) != (root / 'build', root / 'devel') and prefix != build / 'devel':
+        print('%s is not where scripts/build builds: its commands would build once more' % prefix)
         return SKIPPED
     reader = Reader(root, build, prefix, mpirun, Tables())
     with ThreadPoolExecutor(DOCUMENTS_AT_A_TIME) as pool:

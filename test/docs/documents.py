@@ -75,8 +75,8 @@ class Document:
             if BEGINNING.match(line.strip()) or re.match(r'(%s) -' % '|'.join(tools), line.strip()):
                 yield '%s: a command outside a bash block: %s' % (self.place(number), line.strip())
         for number, line in enumerate(self.text.splitlines(), 1):
-            if 'build/devel/setup.bash' in line:
-                yield '%s: build/devel/setup.bash instead of install/setup.bash' % self.place(number)
+            if 'build/devel' in line or 'install/setup.bash' in line:
+                yield '%s: build/devel or install/setup.bash: what is sourced is devel/setup.bash' % self.place(number)
         for command in self.commands():
             for name in bare.findall(without_comments(command.text)):
                 yield '%s: %s by its bare name: %s' % (command.place, name, command.text)

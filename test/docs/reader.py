@@ -12,7 +12,7 @@ OWN_MASTER = re.compile(r'\broslaunch afm_emulator (?!view)|scripts/(run|plot_sc
 BUILDS = re.compile(r'scripts/(run|build)')
 # for ROS's scripts end with 0 where they have not found something
 BAD_NEWS = re.compile(r"\bERROR\b|^(\S+: )?[Ee]rror:|[Cc]ouldn't find|command not found|No such file|Traceback|process has died", re.M)
-PROGRAM = re.compile(r'(rosrun afm_emulator |build/devel/lib/afm_emulator/|(?=scripts/|benchmark/))([a-z][\w./]+)')
+PROGRAM = re.compile(r'(rosrun afm_emulator |build/test/|(?=scripts/|benchmark/))([a-z][\w./]+)')
 
 
 class Reader:
@@ -21,7 +21,7 @@ class Reader:
 
     def __init__(self, root, build, prefix, mpirun, tables):
         self.root, self.build, self.prefix, self.mpirun, self.tables, self.faults = root, build, prefix, mpirun, tables, []
-        programs = [p.name for d in (prefix, build / 'devel') for p in (d / 'lib/afm_emulator').iterdir()]
+        programs = [p.name for p in (prefix / 'lib/afm_emulator').iterdir()]
         self.tools = sorted({name for name in programs if re.fullmatch(r'\w+', name)})
 
     def read(self, path):
@@ -81,7 +81,7 @@ class Reader:
         program = PROGRAM.search(text)
         if text.startswith('mpirun') and not self.mpirun:
             return 'MPI'
-        if program and not (self.build / 'devel/lib/afm_emulator' / program.group(2)).exists():
+        if program and not (self.prefix / 'lib/afm_emulator' / program.group(2)).exists():
             return OPTIONAL.get(program.group(2))
         return None
 

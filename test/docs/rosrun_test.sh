@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# rosrun completes and finds the tools in a shell that has nothing but install/setup.bash.
+# rosrun completes and finds the tools in a shell that has nothing but devel/setup.bash.
 #
 # usage: rosrun_test.sh PREFIX [TOOL...]
 set -euo pipefail
 prefix=$1
 shift
 if [[ ! -x $prefix/lib/afm_emulator/emulator_node ]]; then
-  echo "nothing is installed in $prefix: run scripts/build or scripts/test"
+  echo "nothing is built in $prefix"
   exit 77
 fi
 home=$(mktemp -d)

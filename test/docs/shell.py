@@ -1,4 +1,4 @@
-"""A shell in which a user would paste commands: a copy of the tree, an empty home, install/setup.bash sourced, a ROS master."""
+"""A shell in which a user would paste commands: a copy of the tree, an empty home, devel/setup.bash sourced, a ROS master."""
 import os
 import shutil
 import signal
@@ -47,11 +47,11 @@ class Shell:
             (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
             copy(str(root / name), str(self.tree / name))
         (self.tree / 'build').mkdir()
-        (self.tree / 'build' / 'devel').symlink_to(build / 'devel')
-        (self.tree / 'install').symlink_to(prefix)
+        (self.tree / 'build' / 'test').symlink_to(build / 'test')
+        (self.tree / 'devel').symlink_to(prefix)
         # a master of its own for what starts an emulator of its own
         self.environment = clean_environment(self.home, AFM_ROOT=str(root), ROS_MASTER_URI='http://localhost:%d' % free_port())
-        if prefix == build / 'install':
+        if prefix == build / 'devel':
             self.environment['AFM_BUILD_DIR'] = str(build)
 
     def start(self, text, **environment):

@@ -1,4 +1,4 @@
-# What the documents tell users to paste, against the install space: scripts/build and scripts/test install, catkin's run_tests does not.
+# What the documents tell users to paste.
 
 if(NOT AFM_SANITIZE)  # what these run, other tests run under sanitizers
   set(mpirun)
@@ -7,11 +7,11 @@ if(NOT AFM_SANITIZE)  # what these run, other tests run under sanitizers
   endif()
   add_test(NAME documented_commands
     COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/commands_test.py
-      ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_INSTALL_PREFIX} ${mpirun})
-  # three documents at a time, and with scripts/build it installs again
+      ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX} ${mpirun})
+  # three documents at a time
   set_tests_properties(documented_commands PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77 RUN_SERIAL TRUE)
 
-  add_test(NAME rosrun COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/docs/rosrun_test.sh ${CMAKE_INSTALL_PREFIX}
+  add_test(NAME rosrun COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/docs/rosrun_test.sh ${CATKIN_DEVEL_PREFIX}
     friction_curve next_impact replay_check)
   set_tests_properties(rosrun PROPERTIES TIMEOUT 60 SKIP_RETURN_CODE 77)
 endif()

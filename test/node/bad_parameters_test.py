@@ -75,7 +75,18 @@ class BadParameters(NodeTest):
         self.assert_refused({'drag_speed': 1e-5}, 'drag_speed', 'drag_velocity')
 
     def test_drag_velocity_beyond_its_limit(self):
-        self.assert_refused({'drag_velocity': -2e-5, 'max_drag_velocity': 1e-5}, 'drag_velocity = ', '-2')
+        self.assert_refused({'drag_velocity': -2e-5, 'max_drag_velocity': 1e-5}, 'max_drag_velocity = ', 'drag_velocity = -2')
+
+    def test_a_limit_that_cannot_be_blames_nothing_else(self):
+        for limit in (-1.0, math.nan):
+            emulator = self.assert_refused({'max_drag_velocity': limit})
+            self.assertNotIn(' drag_velocity', emulator.output())
+            self.assertNotIn('\ndrag_velocity', emulator.output())
+
+    def test_a_limit_below_the_default_speed_is_one_fault(self):
+        emulator = self.assert_refused({'max_drag_velocity': 1e-6}, 'max_drag_velocity = ')
+        self.assertEqual(emulator.output().count(' = 9.9999999999999995e-07'), 1)
+        self.assertNotIn('\ndrag_velocity = ', emulator.output())
 
     def test_tip_that_hovers(self):
         self.assert_refused({'rest_height_m': 0.06e-9}, 'rest_height_m')

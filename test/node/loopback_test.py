@@ -56,9 +56,9 @@ def addresses_of_family(root):
 class Loopback(NodeTest):
     def test_run_listens_on_loopback_only(self):
         package = Path(roslib.packages.get_pkg_dir(PACKAGE))
-        build = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[3]
+        devel = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[2]
         environment = {name: value for name, value in os.environ.items() if name not in ('ROS_IP', 'ROS_HOSTNAME')}
-        environment.update(AFM_BUILD_DIR=str(build), ROS_MASTER_URI='http://localhost:%d' % free_port())
+        environment.update(AFM_BUILD_DIR=str(devel.parent), ROS_MASTER_URI='http://localhost:%d' % free_port())
         command = 'source "$0/scripts/environment.bash"; listen_on_loopback_only; exec roslaunch afm_emulator emulator.launch'
         launch = self.start(Process(['bash', '-c', command, str(package)], env=environment, start_new_session=True))
         self.addCleanup(launch.stop, signal.SIGINT)
