@@ -37,7 +37,7 @@ SUBSTITUTIONS = [
     (r'(record_throughput\.py \S+) 600', r'\1 3'),
     (r'(listener_cost\.py)', r'\1 1'),
     (r'--flights 200 --seconds 0\.7 --run-seconds 3', '--methods exact rk4 --flights 20 --seconds 0.01 --run-seconds 0.05'),
-    (r'(work_cost)', r'\1 --impacts 1000 --tips 10000 --rounds 1'),
+    (r'(rosrun afm_emulator work_cost)', r'\1 --impacts 1000 --tips 10000 --rounds 1'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
     (r'--bursts \d+', '--bursts 20'),
