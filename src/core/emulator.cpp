@@ -106,9 +106,12 @@ void Emulator::reserve(Batch& batch) const {
 }
 
 ModelTime Emulator::next_boundary() const {
-  // a boundary is the time of every samples_per_batch-th sample; the one just reached is behind us
+  // A boundary is the time of every samples_per_batch-th sample. The sample may be the next one although its time has not
+  // come: an advance to an impact stops wherever that is.
   const std::uint64_t n = settings_.samples_per_batch;
-  return grid_.time(grid_.first + ((next_sample_ - grid_.first) / n + 1) * n);
+  const std::uint64_t last = grid_.first + (next_sample_ - grid_.first) / n * n;
+  const ModelTime boundary = grid_.time(last);
+  return now_ < boundary ? boundary : grid_.time(last + n);
 }
 
 Outcome Emulator::run_batch(Batch& batch) { return run_until(next_boundary(), batch); }

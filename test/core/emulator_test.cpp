@@ -142,6 +142,27 @@ TEST(Emulator, RunsToTheNthNextImpactOrTheBoundary) {
   EXPECT_TRUE(batch.end == multiply(1000, 0.03));
 }
 
+// Stopped at an impact after the last sample of a batch and before the batch's end, which once was passed over.
+TEST(Emulator, EndsABatchAlsoWhereAllItsSamplesAreTaken) {
+  EmulatorSettings settings = settings_at(0.5, 2000);
+  settings.model.v_c = 0.01;
+  Emulator emulator(settings);
+  Batch batch;
+  int between = 0;
+  while (emulator.now() < ModelTime{20000, 0.0}) {
+    while (emulator.run_impacts(1, batch) == Outcome::impact) {
+      const std::uint64_t n = emulator.samples() / 2000 * 2000;
+      if (emulator.samples() != n || !(emulator.now() < multiply(n, 0.03))) continue;
+      ++between;
+      ASSERT_EQ(emulator.run_batch(batch), Outcome::time_limit);
+      ASSERT_TRUE(batch.end == multiply(n, 0.03));
+      ASSERT_TRUE(batch.vertical.empty());
+    }
+    ASSERT_TRUE(emulator.now() == multiply(emulator.samples(), 0.03));
+  }
+  EXPECT_GT(between, 3);
+}
+
 TEST(Emulator, TheSameCommandsGiveTheSameBits) {
   const double drags[] = {3.4, -2.0, 2.0, 2.0, 7.0, 3.4};
   RecordedRun runs[2];
