@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "burst_trials.h"
+#include "trials/burst_trials.h"
 #include "common/command_line.h"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "afm_emulator/friction.h"
-#include "afm_emulator/tip.h"
+#include "afm/friction.h"
+#include "afm/tip.h"
 #include "common/command_line.h"
 
 namespace {

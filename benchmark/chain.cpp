@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "afm_emulator/tip.h"
-#include "cpu_clock.h"
+#include "afm/tip.h"
+#include "common/cpu_clock.h"
 
 namespace afm {
 namespace {

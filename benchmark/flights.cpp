@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "afm_emulator/tip.h"
+#include "afm/tip.h"
 
 namespace afm {
 namespace {

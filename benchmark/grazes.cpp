@@ -1,6 +1,6 @@
 // Built grazes against 113 bits: is each touch a touch and each miss a miss? And how often twice the digits are needed,
 // in grazes and in ordinary flights.
-#include "grazes.h"
+#include "trials/grazes.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "afm_emulator/reflection.h"
+#include "afm/reflection.h"
 #include "common/command_line.h"
 
 namespace {

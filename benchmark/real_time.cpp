@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "afm_emulator/tip.h"
-#include "afm_emulator/units.h"
+#include "afm/tip.h"
+#include "afm/units.h"
 #include "common/command_line.h"
-#include "cpu_clock.h"
+#include "common/cpu_clock.h"
 
 namespace {
 

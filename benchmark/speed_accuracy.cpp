@@ -8,7 +8,7 @@
 #include <map>
 #include <memory>
 
-#include "afm_emulator/tip.h"
+#include "afm/tip.h"
 #include "common/command_line.h"
 
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cpu_clock.h"
+#include "common/cpu_clock.h"
 #include "speed_accuracy.h"
 
 namespace afm {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "afm_emulator/tip.h"
+#include "afm/tip.h"
 #include "chain.h"
 #include "speed_accuracy.h"
 

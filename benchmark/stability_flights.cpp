@@ -2,8 +2,8 @@
 #include <memory>
 #include <random>
 
-#include "afm_emulator/tip.h"
-#include "cpu_clock.h"
+#include "afm/tip.h"
+#include "common/cpu_clock.h"
 #include "flights.h"
 #include "stability.h"
 

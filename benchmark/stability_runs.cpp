@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "afm_emulator/tip.h"
-#include "afm_emulator/units.h"
+#include "afm/tip.h"
+#include "afm/units.h"
 #include "chain.h"
 #include "stability.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm_emulator/emulator.h"
+#include "afm/emulator.h"
 
 namespace afm {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "tip_watch.h"
+#include "trials/tip_watch.h"
 
 namespace afm {
 

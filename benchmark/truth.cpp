@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm_emulator/flight.h"
-#include "afm_emulator/impact_search.h"
+#include "afm/flight.h"
+#include "afm/impact_search.h"
 
 namespace afm {
 namespace {

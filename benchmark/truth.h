@@ -1,9 +1,9 @@
 // The next impact in 113 bits: what every method's answer is set against.
 #pragma once
 
-#include "afm_emulator/model.h"
-#include "afm_emulator/state.h"
-#include "quad.h"  // before the templates that find its functions
+#include "afm/model.h"
+#include "afm/state.h"
+#include "trials/quad.h"  // before the templates that find its functions
 #include "rivals/method.h"
 
 namespace afm {

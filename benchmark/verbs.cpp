@@ -4,13 +4,13 @@
 #include <cmath>
 #include <vector>
 
-#include "afm_emulator/emulator.h"
-#include "afm_emulator/ensemble.h"
-#include "afm_emulator/impact_search.h"
-#include "afm_emulator/multiversion.h"
-#include "afm_emulator/reflection.h"
-#include "afm_emulator/tip.h"
-#include "core/tip_arcs.h"
+#include "afm/emulator.h"
+#include "afm/ensemble.h"
+#include "afm/impact_search.h"
+#include "afm/detail/multiversion.h"
+#include "afm/reflection.h"
+#include "afm/tip.h"
+#include "core/tip/tip_arcs.h"
 
 namespace {
 

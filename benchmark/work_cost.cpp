@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "afm_emulator/ensemble.h"
-#include "afm_emulator/tip.h"
+#include "afm/ensemble.h"
+#include "afm/tip.h"
 #include "common/command_line.h"
-#include "cpu_clock.h"
+#include "common/cpu_clock.h"
 
 namespace {
 

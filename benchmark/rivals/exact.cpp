@@ -1,8 +1,8 @@
 // Ours, one flight: exact flow, guaranteed search, reflection.
-#include "afm_emulator/flight.h"
-#include "afm_emulator/impact_search.h"
-#include "afm_emulator/multiversion.h"
-#include "afm_emulator/reflection.h"
+#include "afm/flight.h"
+#include "afm/impact_search.h"
+#include "afm/detail/multiversion.h"
+#include "afm/reflection.h"
 #include "method.h"
 
 namespace afm {

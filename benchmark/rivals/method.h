@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "afm_emulator/model.h"
-#include "afm_emulator/state.h"
+#include "afm/model.h"
+#include "afm/state.h"
 
 namespace afm {
 namespace rivals {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "afm_emulator/model.h"
-#include "afm_emulator/state.h"
+#include "afm/model.h"
+#include "afm/state.h"
 
 namespace afm {
 namespace rivals {

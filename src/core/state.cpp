@@ -1,6 +1,6 @@
-#include "afm_emulator/state.h"
+#include "afm/state.h"
 
-#include "afm_emulator/surface.h"
+#include "afm/surface.h"
 
 namespace afm {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "step_limits.h"
+#include "node/stepping/step_limits.h"
 
 namespace afm::node {
 namespace {

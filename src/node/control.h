@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "events.h"
-#include "stepper.h"
+#include "node/stepping/events.h"
+#include "node/stepping/stepper.h"
 
 namespace afm::node {
 

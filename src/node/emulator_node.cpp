@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "topics.h"
+#include "node/wire/topics.h"
 
 namespace afm::node {
 namespace {

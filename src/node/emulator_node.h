@@ -12,17 +12,17 @@
 #include <optional>
 #include <vector>
 
-#include "broadcaster.h"
+#include "node/wire/broadcaster.h"
 #include "control.h"
-#include "disk_space.h"
-#include "hand_over.h"
-#include "master_watch.h"
-#include "parameters.h"
-#include "reconfigure_server.h"
-#include "recorder.h"
+#include "node/recording/disk_space.h"
+#include "node/stepping/hand_over.h"
+#include "node/wire/master_watch.h"
+#include "node/parameters/parameters.h"
+#include "node/parameters/reconfigure_server.h"
+#include "node/recording/recorder.h"
 #include "refusals.h"
-#include "sample_demand.h"
-#include "stepper.h"
+#include "node/stepping/sample_demand.h"
+#include "node/stepping/stepper.h"
 
 namespace afm::node {
 

@@ -9,7 +9,7 @@
 #include <exception>
 
 #include "emulator_node.h"
-#include "semaphore.h"
+#include "node/stepping/semaphore.h"
 
 namespace {
 

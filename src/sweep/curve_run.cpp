@@ -1,4 +1,4 @@
-#include "sweep/curve_run.h"
+#include "curve_run.h"
 
 #include <sys/stat.h>
 
@@ -10,11 +10,11 @@
 #include <thread>
 #include <vector>
 
-#include "sweep/curve_table.h"
-#include "sweep/journal.h"
-#include "sweep/progress_bar.h"
-#include "sweep/ranks.h"
-#include "sweep/task_board.h"
+#include "curve_table.h"
+#include "journal.h"
+#include "common/progress_bar.h"
+#include "ranks.h"
+#include "task_board.h"
 
 namespace afm {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sweep/grid.h"
+#include "grid.h"
 
 namespace afm {
 

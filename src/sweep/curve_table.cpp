@@ -1,4 +1,4 @@
-#include "sweep/curve_table.h"
+#include "curve_table.h"
 
 #include <unistd.h>
 

@@ -7,8 +7,8 @@
 #include <ostream>
 #include <string>
 
-#include "sweep/grid.h"
-#include "sweep/packed.h"
+#include "grid.h"
+#include "packed.h"
 
 namespace afm {
 

@@ -1,4 +1,4 @@
-#include "sweep/grid.h"
+#include "grid.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "afm_emulator/sweep.h"
+#include "afm/dynamics/sweep.h"
 
 namespace afm {
 

@@ -1,4 +1,4 @@
-#include "sweep/journal.h"
+#include "journal.h"
 
 #include <sys/file.h>
 #include <unistd.h>

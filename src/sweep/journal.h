@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "sweep/packed.h"
+#include "packed.h"
 
 namespace afm {
 

@@ -1,4 +1,4 @@
-#include "sweep/packed.h"
+#include "packed.h"
 
 #include <algorithm>
 

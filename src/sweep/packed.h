@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "afm_emulator/sweep.h"
+#include "afm/dynamics/sweep.h"
 
 namespace afm {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "sweep/task_board.h"
+#include "task_board.h"
 
 namespace afm {
 

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "sweep/packed.h"
-#include "sweep/ranks.h"
+#include "packed.h"
+#include "ranks.h"
 
 namespace afm {
 namespace {

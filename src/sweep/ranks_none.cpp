@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sweep/ranks.h"
+#include "ranks.h"
 
 namespace afm {
 

@@ -1,4 +1,4 @@
-#include "sweep/task_board.h"
+#include "task_board.h"
 
 #include <algorithm>
 #include <utility>

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include "sweep/grid.h"
+#include "grid.h"
 
 namespace afm {
 

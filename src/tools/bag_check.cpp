@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "audit/bag_audit.h"
+#include "tools/audit/bag_audit.h"
 #include "common/command_line.h"
-#include "replay/damage_guard.h"
-#include "replay/recording.h"
+#include "tools/replay/damage_guard.h"
+#include "tools/replay/recording.h"
 
 namespace {
 

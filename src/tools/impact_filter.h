@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "afm_emulator/model.h"
+#include "afm/model.h"
 
 namespace afm {
 

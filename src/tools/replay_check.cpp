@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/command_line.h"
-#include "node/arithmetic_digest.h"
-#include "node/version.h"
-#include "replay/damage_guard.h"
-#include "replay/digest_check.h"
-#include "replay/run_check.h"
+#include "node/wire/arithmetic_digest.h"
+#include "node/wire/version.h"
+#include "tools/replay/damage_guard.h"
+#include "tools/replay/digest_check.h"
+#include "tools/replay/run_check.h"
 
 namespace {
 

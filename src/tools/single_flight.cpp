@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "afm_emulator/double_double.h"
-#include "afm_emulator/emulator.h"
-#include "afm_emulator/flight.h"
-#include "afm_emulator/impact_search.h"
-#include "afm_emulator/reflection.h"
-#include "afm_emulator/surface.h"
+#include "afm/detail/double_double.h"
+#include "afm/emulator.h"
+#include "afm/flight.h"
+#include "afm/impact_search.h"
+#include "afm/reflection.h"
+#include "afm/surface.h"
 
 namespace afm {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "afm_emulator/model.h"
+#include "afm/model.h"
 
 namespace afm {
 

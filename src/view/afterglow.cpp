@@ -1,4 +1,4 @@
-#include "view/afterglow.h"
+#include "afterglow.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-#include "view/strobe.h"
+#include "strobe.h"
 
 namespace afm::view {
 

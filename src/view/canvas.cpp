@@ -1,6 +1,6 @@
-#include "view/canvas.h"
+#include "canvas.h"
 
-#include "view/palette.h"
+#include "palette.h"
 
 namespace afm::view {
 namespace {

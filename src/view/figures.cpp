@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "view/scenery.h"
-#include "view/text.h"
+#include "scenery.h"
+#include "text.h"
 
 namespace afm::view {
 namespace {

@@ -1,8 +1,8 @@
-#include "view/heard.h"
+#include "heard.h"
 
 #include <algorithm>
 
-#include "node/message_conversion.h"
+#include "node/wire/message_conversion.h"
 
 namespace afm::view {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "view/trace.h"
+#include "trace.h"
 
 namespace afm::view {
 

@@ -1,9 +1,9 @@
-#include "view/holder.h"
+#include "holder.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "node/message_conversion.h"
+#include "node/wire/message_conversion.h"
 
 namespace afm::view {
 namespace {

@@ -10,7 +10,7 @@
 #include <deque>
 #include <optional>
 
-#include "afm_emulator/state.h"
+#include "afm/state.h"
 
 namespace afm::view {
 

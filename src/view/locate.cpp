@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "afm_emulator/turns.h"
-#include "view/trace.h"
+#include "afm/detail/turns.h"
+#include "trace.h"
 
 namespace afm::view {
 namespace {

@@ -1,4 +1,4 @@
-#include "view/palette.h"
+#include "palette.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
-#include "view/picture.h"
+#include "picture.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "afm_emulator/surface.h"
-#include "view/palette.h"
-#include "view/scenery.h"
-#include "view/tip_markers.h"
+#include "afm/surface.h"
+#include "palette.h"
+#include "scenery.h"
+#include "tip_markers.h"
 
 namespace afm::view {
 namespace {

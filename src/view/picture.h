@@ -1,8 +1,8 @@
 // One picture after another, as markers, of what was heard of a run.
 #pragma once
 
-#include "view/afterglow.h"
-#include "view/canvas.h"
+#include "afterglow.h"
+#include "canvas.h"
 
 namespace afm::view {
 

@@ -1,10 +1,10 @@
-#include "view/scenery.h"
+#include "scenery.h"
 
 #include <cmath>
 
-#include "afm_emulator/surface.h"
-#include "view/palette.h"
-#include "view/text.h"
+#include "afm/surface.h"
+#include "palette.h"
+#include "text.h"
 
 namespace afm::view {
 namespace {

@@ -1,9 +1,9 @@
 // What the tip moves before: the surface, a scale of lengths, the key to the colours, and the figures as text.
 #pragma once
 
-#include "view/canvas.h"
-#include "view/heard.h"
-#include "view/strobe.h"
+#include "canvas.h"
+#include "heard.h"
+#include "strobe.h"
 
 namespace afm::view {
 

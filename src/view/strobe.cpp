@@ -1,4 +1,4 @@
-#include "view/strobe.h"
+#include "strobe.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 // last over a crest: the surface stands still, a periodic orbit does too, and a chaotic one is a cloud.
 #pragma once
 
-#include "view/heard.h"
+#include "heard.h"
 
 namespace afm::view {
 

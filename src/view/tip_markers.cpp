@@ -1,9 +1,9 @@
-#include "view/tip_markers.h"
+#include "tip_markers.h"
 
 #include <cmath>
 
-#include "afm_emulator/turns.h"
-#include "view/palette.h"
+#include "afm/detail/turns.h"
+#include "palette.h"
 
 namespace afm::view {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "view/canvas.h"
-#include "view/trace.h"
+#include "canvas.h"
+#include "trace.h"
 
 namespace afm::view {
 

@@ -1,10 +1,10 @@
-#include "view/trace.h"
+#include "trace.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "afm_emulator/surface.h"
-#include "node/message_conversion.h"
+#include "afm/surface.h"
+#include "node/wire/message_conversion.h"
 
 namespace afm::view {
 namespace {

@@ -8,10 +8,10 @@
 #include <deque>
 #include <vector>
 
-#include "afm_emulator/model.h"
-#include "afm_emulator/state.h"
-#include "afm_emulator/units.h"
-#include "view/holder.h"
+#include "afm/model.h"
+#include "afm/state.h"
+#include "afm/units.h"
+#include "holder.h"
 
 namespace afm::view {
 

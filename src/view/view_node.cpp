@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "node/topics.h"
-#include "view/picture.h"
+#include "node/wire/topics.h"
+#include "picture.h"
 
 namespace {
 

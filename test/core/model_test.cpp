@@ -1,4 +1,4 @@
-#include "afm_emulator/model.h"
+#include "afm/model.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@ fi
 
 # grep: 0 found, 1 not found, 2 could not look
 found=0
-grep -rnE "$ros_include" include src/core test/core --include='*.h' --include='*.cpp' || found=$?
+grep -rnE "$ros_include" include src/core test/core test/support --include='*.h' --include='*.cpp' || found=$?
 case $found in
   0) echo "ROS includes in the core (listed above)"; exit 1 ;;
   1) echo "no ROS include in include/, src/core, test/core" ;;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "afm_emulator/emulator.h"
-#include "afm_emulator/ensemble.h"
-#include "node/digest.h"
+#include "afm/emulator.h"
+#include "afm/ensemble.h"
+#include "node/wire/digest.h"
 
 namespace {
 

@@ -1,12 +1,12 @@
-#include "afm_emulator/state.h"
+#include "afm/state.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "afm_emulator/model.h"
-#include "quad.h"
+#include "afm/model.h"
+#include "trials/quad.h"
 
 namespace afm {
 namespace {

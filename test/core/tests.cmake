@@ -1,68 +1,70 @@
 # The core: physics without ROS.
 
-# core/NAME_test.cpp: one executable each, with the core and nothing else (and quad floats to compare with)
-function(afm_add_core_test name)
-  catkin_add_gtest(${name}_test core/${name}_test.cpp)
+# core/FOLDER/NAME_test.cpp: one executable each, with the core and nothing else (and quad floats to compare with)
+function(afm_add_core_test path)
+  get_filename_component(name ${path} NAME)
+  catkin_add_gtest(${name}_test core/${path}_test.cpp)
+  target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${name}_test afm_emulator_core quadmath ${gtest_main} ${ARGN})
   target_compile_definitions(${name}_test PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
 endfunction()
 
 set(core_tests
-  batch_means
-  chatter
-  chatter_descent
-  chatter_end
-  contact
-  contact_energy
-  corners
-  deflection
-  double_double
-  emulator
-  emulator_limits
-  energy
-  ensemble
-  first_fall
-  flight
-  friction
-  grazing
-  hammer
-  hard_starts
-  impact_search
-  known_orbits
-  level_table
-  live_changes
+  contact/chatter
+  contact/chatter_descent
+  contact/chatter_end
+  contact/contact
+  contact/contact_energy
+  contact/slide
+  contact/slide_release
+  emulator/batch_means
+  emulator/emulator
+  emulator/emulator_limits
+  emulator/ensemble
+  emulator/friction
+  emulator/live_changes
+  emulator/pacer
+  emulator/saved_state
+  levels/level_table
   model
-  pacer
-  reference_flights
-  reflection
-  relevel
-  retune
-  saved_state
-  short_bounce
-  slide
-  slide_release
-  slow_departure
-  split
+  search/double_double
+  search/first_fall
+  search/flight
+  search/grazing
+  search/hard_starts
+  search/impact_search
+  search/reference_flights
+  search/reflection
+  search/short_bounce
+  search/slow_departure
+  search/surface
+  search/turns
   state
-  surface
-  tip
-  turns
+  tip/corners
+  tip/deflection
+  tip/energy
+  tip/hammer
+  tip/known_orbits
+  tip/relevel
+  tip/retune
+  tip/split
+  tip/tip
   units)
 set(dynamics_tests
-  attractor
-  burst_jacobian
-  contact_jacobian
-  continuation
-  cycle_expansion
-  hammer_jacobian
-  hammer_orbits
-  jacobian
-  lyapunov
-  periodic_orbit
-  poincare_map
-  sweep
-  symbolic_dynamics)
+  dynamics/attractor
+  dynamics/burst_jacobian
+  dynamics/contact_jacobian
+  dynamics/continuation
+  dynamics/cycle_expansion
+  dynamics/hammer_jacobian
+  dynamics/hammer_orbits
+  dynamics/jacobian
+  dynamics/lyapunov
+  dynamics/periodic_orbit
+  dynamics/poincare_map
+  dynamics/sweep
+  dynamics/symbolic_dynamics)
 foreach(name IN LISTS core_tests)
   afm_add_core_test(${name})
 endforeach()
@@ -70,13 +72,12 @@ foreach(name IN LISTS dynamics_tests)
   afm_add_core_test(${name} afm_emulator_dynamics)
 endforeach()
 target_link_libraries(sweep_test afm_emulator_sweep)
-target_include_directories(deflection_test PRIVATE ${PROJECT_SOURCE_DIR}/src)
 
 # The bits of a run depend on no compiler and no option: reference runs as shipped and without any optimisation, against
 # digests that are written down. scripts/compare_builds does it for every compiler there is.
 get_target_property(core_sources afm_emulator_core SOURCES)
 list(FILTER core_sources EXCLUDE REGEX "^\\$<")  # objects of lanes
-list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/)
+list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
 add_executable(reference_digest EXCLUDE_FROM_ALL core/reference_digest.cpp)
 target_link_libraries(reference_digest afm_emulator_core)
 add_executable(reference_digest_O0 EXCLUDE_FROM_ALL core/reference_digest.cpp ${core_sources})
@@ -85,7 +86,7 @@ target_compile_definitions(reference_digest_O0 PRIVATE AFM_SINGLE_VERSION)
 target_include_directories(reference_digest_O0 PRIVATE ${PROJECT_SOURCE_DIR}/include)
 target_link_libraries(reference_digest_O0 afm_options Eigen3::Eigen Threads::Threads)
 foreach(program reference_digest reference_digest_O0)
-  target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(${program} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
   add_dependencies(tests ${program})
 endforeach()
 add_test(NAME reference_digest
@@ -105,20 +106,20 @@ endif()
 set(lane_objects)
 foreach(lanes IN LISTS afm_lanes)
   get_target_property(sources afm_lanes_${lanes} SOURCES)
-  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/)
-  set_source_files_properties(${sources} core/lane_probe_${lanes}.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+  list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
+  set_source_files_properties(${sources} core/lanes/lane_probe_${lanes}.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
   add_library(lanes_${lanes}_unoptimized OBJECT ${sources})
-  target_include_directories(lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include)
+  target_include_directories(lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(lanes_${lanes}_unoptimized PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options} -O0)
   target_link_libraries(lanes_${lanes}_unoptimized PRIVATE afm_options)
   list(APPEND lane_objects $<TARGET_OBJECTS:afm_lanes_${lanes}> $<TARGET_OBJECTS:lanes_${lanes}_unoptimized>)
 endforeach()
 if(lane_objects)
-  afm_add_core_test(lanes)
+  afm_add_core_test(lanes/lanes)
   foreach(lanes IN LISTS afm_lanes)
     set(probe lane_probe_${lanes})
-    add_library(${probe} OBJECT core/${probe}.cpp)
-    target_include_directories(${probe} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src core)
+    add_library(${probe} OBJECT core/lanes/${probe}.cpp)
+    target_include_directories(${probe} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
     target_compile_options(${probe} PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options})
     target_link_libraries(${probe} PRIVATE afm_options)
     target_sources(lanes_test PRIVATE $<TARGET_OBJECTS:${probe}>)

@@ -1,4 +1,4 @@
-#include "afm_emulator/units.h"
+#include "afm/units.h"
 
 #include <gtest/gtest.h>
 

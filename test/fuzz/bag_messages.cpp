@@ -3,13 +3,13 @@
 #include <topic_tools/shape_shifter.h>
 #include <unistd.h>
 
-#include "audit/bag_audit.h"
+#include "tools/audit/bag_audit.h"
 #include "bytes.h"
-#include "node/arithmetic_digest.h"
-#include "node/checkpoint_message.h"
-#include "node/message_conversion.h"
-#include "node/run_digest.h"
-#include "replay/run_check.h"
+#include "node/wire/arithmetic_digest.h"
+#include "node/wire/checkpoint_message.h"
+#include "node/wire/message_conversion.h"
+#include "node/wire/run_digest.h"
+#include "tools/replay/run_check.h"
 #include "target.h"
 
 #include <sys/mman.h>

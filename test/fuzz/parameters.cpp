@@ -1,7 +1,7 @@
 // Any tree of values on the parameter server: every fault is told, and what has none can be run.
-#include "afm_emulator/emulator.h"
+#include "afm/emulator.h"
 #include "bytes.h"
-#include "node/parameters.h"
+#include "node/parameters/parameters.h"
 #include "target.h"
 
 namespace {

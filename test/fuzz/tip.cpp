@@ -1,10 +1,10 @@
 // Any model that may be run, from any start in the air, under any commands: the tip stays finite, above the surface, in
 // balance with its energy, and moves on.
-#include "afm_emulator/surface.h"
-#include "afm_emulator/tip.h"
+#include "afm/surface.h"
+#include "afm/tip.h"
 #include "bytes.h"
 #include "target.h"
-#include "tip_watch.h"
+#include "trials/tip_watch.h"
 
 namespace {
 

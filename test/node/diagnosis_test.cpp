@@ -1,9 +1,9 @@
 // Every level of every diagnosis, with its reason, from the state that leads to it.
-#include "node/diagnosis.h"
+#include "node/wire/diagnosis.h"
 
 #include <gtest/gtest.h>
 
-#include "afm_emulator/units.h"
+#include "afm/units.h"
 
 namespace afm::node {
 namespace {

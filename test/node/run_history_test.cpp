@@ -5,10 +5,10 @@
 #include <chrono>
 #include <thread>
 
-#include "node/checkpoint_message.h"
-#include "node/message_conversion.h"
-#include "node/run_history.h"
-#include "node/stepper.h"
+#include "node/wire/checkpoint_message.h"
+#include "node/wire/message_conversion.h"
+#include "node/recording/run_history.h"
+#include "node/stepping/stepper.h"
 
 namespace afm::node {
 namespace {

@@ -13,8 +13,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "afm_emulator/emulator.h"
-#include "node/hand_over.h"
+#include "afm/emulator.h"
+#include "node/stepping/hand_over.h"
 
 namespace {
 thread_local long t_allocations = 0, t_locks = 0;

@@ -38,6 +38,9 @@ if(TARGET stability_matrix)
   set_tests_properties(stability PROPERTIES TIMEOUT 120)
 endif()
 
+add_test(NAME arrows COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
+set_tests_properties(arrows PROPERTIES TIMEOUT 30)
+
 add_test(NAME package COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(package PROPERTIES TIMEOUT 30)
 

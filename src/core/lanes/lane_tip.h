@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "afm_emulator/state.h"
+#include "afm/state.h"
 
 namespace afm {
 namespace lanes {
@@ -83,8 +83,6 @@ enum Field : int {
 
 // Slower launches are the tip's own affair: powers of them have no digits left [a/tau].
 constexpr double kSlowestLaunch = 1e-60;
-// So are flights of next to no time [tau]: it may find that they are none.
-constexpr double kLeastFlight = 1e-12;
 
 // What is to be done next, where a tip is not at work.
 enum class Stage : std::uint8_t {

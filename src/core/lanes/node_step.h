@@ -2,7 +2,7 @@
 // compiled for different machines.
 #pragma once
 
-#include "afm_emulator/chatter_rates.h"
+#include "afm/detail/chatter_rates.h"
 
 namespace afm {
 namespace lanes {

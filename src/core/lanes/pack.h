@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "afm_emulator/impact_search.h"
-#include "afm_emulator/reflection.h"
+#include "afm/impact_search.h"
+#include "afm/reflection.h"
 #include "register_bits.h"
 
 namespace afm {

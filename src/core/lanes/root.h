@@ -1,6 +1,7 @@
 // The way from a look that has certified a root to the root itself.
 #pragma once
 
+#include "core/tip/tip_arcs.h"
 #include "live.h"
 
 namespace afm {

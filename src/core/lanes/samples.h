@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "../deflection.h"
+#include "core/tip/deflection.h"
 #include "pack_turns.h"
 #include "sample_row.h"
 

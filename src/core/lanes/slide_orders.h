@@ -2,7 +2,7 @@
 // shared by files that are compiled for different machines.
 #pragma once
 
-#include "afm_emulator/slide_orders.h"
+#include "afm/detail/slide_orders.h"
 
 namespace afm {
 namespace lanes {

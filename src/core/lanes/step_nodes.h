@@ -1,7 +1,7 @@
 // A pack of the nodes of a burst's step. Include a register of four first; internal, as that is.
 #pragma once
 
-#include "../chatter_flow.h"
+#include "core/contact/chatter_flow.h"
 #include "pack.h"
 
 namespace afm {

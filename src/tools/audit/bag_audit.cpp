@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "node/message_conversion.h"
-#include "node/topics.h"
+#include "node/wire/message_conversion.h"
+#include "node/wire/topics.h"
 
 namespace afm::audit {
 

@@ -11,10 +11,10 @@
 
 #include "energy_audit.h"
 #include "friction_audit.h"
-#include "replay/batches.h"
-#include "replay/recorded_digest.h"
-#include "replay/recording.h"
-#include "replay/run_log.h"
+#include "tools/replay/batches.h"
+#include "tools/replay/recorded_digest.h"
+#include "tools/replay/recording.h"
+#include "tools/replay/run_log.h"
 
 namespace afm::audit {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "bag_audit.h"
-#include "node/diagnosis.h"
+#include "node/wire/diagnosis.h"
 
 namespace afm::audit {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "flight_pair.h"
-#include "node/message_conversion.h"
-#include "node/parameters.h"
+#include "node/wire/message_conversion.h"
+#include "node/parameters/parameters.h"
 #include "worst.h"
 
 namespace afm::audit {

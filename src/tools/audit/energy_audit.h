@@ -11,10 +11,10 @@
 #include <deque>
 #include <optional>
 
-#include "afm_emulator/model.h"
-#include "afm_emulator/sample_grid.h"
-#include "afm_emulator/state.h"
-#include "afm_emulator/units.h"
+#include "afm/model.h"
+#include "afm/detail/sample_grid.h"
+#include "afm/state.h"
+#include "afm/units.h"
 
 namespace afm::audit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "node/message_conversion.h"
+#include "node/wire/message_conversion.h"
 #include "worst.h"
 
 namespace afm::audit {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "afm_emulator/state.h"
-#include "afm_emulator/units.h"
+#include "afm/state.h"
+#include "afm/units.h"
 
 namespace afm::audit {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <variant>
 
-#include "node/message_conversion.h"
+#include "node/wire/message_conversion.h"
 
 namespace afm::replay {
 

@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "afm_emulator/sample_grid.h"
-#include "node/topics.h"
+#include "afm/detail/sample_grid.h"
+#include "node/wire/topics.h"
 
 namespace afm::replay {
 namespace {

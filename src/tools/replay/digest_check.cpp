@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "node/message_conversion.h"
-#include "node/topics.h"
+#include "node/wire/message_conversion.h"
+#include "node/wire/topics.h"
 
 namespace afm::replay {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "message_difference.h"
-#include "node/checkpoint_message.h"
+#include "node/wire/checkpoint_message.h"
 #include "verdict.h"
 
 namespace afm::replay {

@@ -9,10 +9,10 @@
 #include <set>
 #include <vector>
 
-#include "afm_emulator/emulator.h"
-#include "afm_emulator/sample_grid.h"
+#include "afm/emulator.h"
+#include "afm/detail/sample_grid.h"
 #include "applied.h"
-#include "node/run_digest.h"
+#include "node/wire/run_digest.h"
 
 namespace afm::replay {
 

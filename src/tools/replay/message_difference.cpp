@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "node/live_parameters.h"
-#include "node/message_conversion.h"
+#include "node/parameters/live_parameters.h"
+#include "node/wire/message_conversion.h"
 
 namespace afm::replay {
 namespace {

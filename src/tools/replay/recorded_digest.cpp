@@ -1,7 +1,7 @@
 #include "recorded_digest.h"
 
-#include "node/message_conversion.h"
-#include "node/topics.h"
+#include "node/wire/message_conversion.h"
+#include "node/wire/topics.h"
 
 namespace afm::replay {
 

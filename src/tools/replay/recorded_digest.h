@@ -9,7 +9,7 @@
 
 #include "batches.h"
 #include "message_difference.h"
-#include "node/run_digest.h"
+#include "node/wire/run_digest.h"
 #include "run_log.h"
 
 namespace afm::replay {

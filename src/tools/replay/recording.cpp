@@ -17,7 +17,7 @@
 
 #include "bag_end.h"
 #include "message_stream.h"
-#include "node/topics.h"
+#include "node/wire/topics.h"
 
 namespace afm::replay {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "node/checkpoint_message.h"
-#include "node/message_conversion.h"
-#include "node/parameters.h"
+#include "node/wire/checkpoint_message.h"
+#include "node/wire/message_conversion.h"
+#include "node/parameters/parameters.h"
 
 namespace afm::replay {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "afm_emulator/emulator.h"
-#include "afm_emulator/units.h"
-#include "node/run_digest.h"
+#include "afm/emulator.h"
+#include "afm/units.h"
+#include "node/wire/run_digest.h"
 #include "run_log.h"
 
 namespace afm::replay {

@@ -9,9 +9,9 @@
 
 #include "message_difference.h"
 #include "message_stream.h"
-#include "node/checkpoint_message.h"
-#include "node/message_conversion.h"
-#include "node/topics.h"
+#include "node/wire/checkpoint_message.h"
+#include "node/wire/message_conversion.h"
+#include "node/wire/topics.h"
 
 namespace afm::replay {
 namespace {

@@ -1,0 +1,146 @@
+// Bursts as tips make them, each set against its bounces one by one: how far off is the state at the next impact?
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "afm/reflection.h"
+#include "afm/tip.h"
+#include "random_launches.h"
+
+namespace afm {
+
+// Impacts slower than this are part of chatter: about twice the fastest bounce that a burst holds [a/tau].
+inline double slowest_real_impact(double tolerance) { return 2.0 * std::sqrt(tolerance); }
+
+struct BurstTrial {
+  double bounces;              // one by one, up to the next real impact
+  double normal_speed;         // of that
+  double dt, phase, X, u, g1;  // errors there, absolute
+
+  double state() const { return std::max({phase, X, u, g1}); }
+  // A graze is a state hard to reach in time whatever led to it: times the normal speed its error is one of position.
+  double worst() const { return std::max(dt, state()); }
+  double tempered() const { return std::min(1.0, normal_speed) * worst(); }
+};
+
+class BurstTrials {
+ public:
+  // fast: compare at the next impact that is no chatter, after all its remaining bounces and bursts, instead of at the
+  // next impact
+  BurstTrials(const Model& model, double eta, double tolerance, unsigned seed, std::int64_t most_bounces, bool fast)
+      : model_(model),
+        eta_(eta),
+        tolerance_(tolerance),
+        random_(seed),
+        most_bounces_(most_bounces),
+        fast_(fast),
+        tip_(fresh()) {}
+
+  // The next burst of which brute force reaches the end.
+  BurstTrial next() {
+    for (;;) {
+      const TipState bounce = next_burst();
+      Tip burst = tip_, bounces(model_, eta_, bounce, 0.0);
+      double before = ModelTime{} - tip_.now();
+      std::int64_t count = 0;
+      if (to_next_impact(burst, bounces, before, count)) return compare(burst, before, bounces, count);
+      ++skipped_;
+    }
+  }
+  long skipped() const { return skipped_; }
+
+ private:
+  // A bounce under pressure: most lead to chatter, which orbits of their own accord seldom do.
+  Tip fresh() {
+    for (;;) {
+      const TipState start{random_.within(0.0, 1.0), random_.within(-0.02, 0.02), eta_ * random_.within(0.7, 1.3), 0.0,
+                           std::pow(10.0, random_.within(-2.0, 0.0))};
+      const Flight<double> flight(Mechanics<double>(model_), eta_, start);
+      end_ = {kRun, 0.0};
+      if (flight.start().g2 < 0.0) return {model_, eta_, start, tolerance_};
+    }
+  }
+
+  // Runs to where a burst has just begun; the state is that of its first bounce.
+  TipState next_burst() {
+    for (;;) {
+      if (tip_.advance(end_) == Outcome::time_limit) tip_ = fresh();
+      const Impact& impact = tip_.last_impact();
+      const TipState guide = tip_.tip_state();
+      if (impact.kind != ImpactKind::impact || guide.g != 0.0 || guide.g1 != 0.0) continue;
+      const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
+      if (!(after > 0.0)) continue;
+      return unsettle(model_, {guide.phase, guide.X, guide.u}, after);
+    }
+  }
+
+  // Where the burst lets go, its next bounce; where it has died into contact, the impact after the release.
+  bool to_next_impact(Tip& burst, Tip& bounces, double& before, std::int64_t& count) const {
+    const ModelTime begin = burst.now();
+    if (burst.advance(begin + 1000.0) != Outcome::impact) return false;
+    const bool burst_ended = burst.last_impact().kind == ImpactKind::burst;
+    if (!fast_ && burst_ended && burst.tip_state().g1 > 0.0) {
+      const std::int64_t all = std::int64_t{burst.last_impact().count} + 1;
+      const double ended = burst.now() - begin;
+      burst =
+          Tip(model_, eta_, burst.tip_state(), 0.0);  // its next bounce by itself, even if that begins another burst
+      before = ended;
+      std::int64_t one = 0;
+      return all < most_bounces_ && bounce(burst, 1, one) && bounce(bounces, all, count);
+    }
+    // the same impact of both, also where it is a little slower with the burst and would not count by itself
+    const double slowest = slowest_real_impact(tolerance_);
+    std::int64_t few = 0;
+    return to_fast_impact(bounces, ModelTime{}, slowest, count) &&
+           to_fast_impact(burst, begin + ((bounces.now() - ModelTime{}) - kNear), 0.7 * slowest, few);
+  }
+
+  bool bounce(Tip& tip, std::int64_t times, std::int64_t& count) const {
+    for (; count < times; ++count) {
+      if (tip.advance(tip.now() + 1000.0) != Outcome::impact) return false;
+    }
+    return true;
+  }
+
+  bool to_fast_impact(Tip& tip, const ModelTime& earliest, double slowest, std::int64_t& count) const {
+    while (count < most_bounces_) {
+      const Outcome outcome = tip.advance(tip.now() + 1000.0);
+      if (outcome == Outcome::time_limit) return false;
+      ++count;
+      if (outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact &&
+          tip.last_impact().normal_speed > slowest && earliest < tip.now()) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // before: from the start of the burst to time 0 of the tip that ended it
+  BurstTrial compare(const Tip& burst, double before, const Tip& bounces, std::int64_t count) const {
+    const TipState a = burst.tip_state(), b = bounces.tip_state();
+    const double cells = a.phase - b.phase;
+    return {static_cast<double>(count),
+            bounces.last_impact().normal_speed,
+            std::abs(before + (burst.now() - bounces.now())),
+            std::abs(cells - std::round(cells)),
+            std::abs(a.X - b.X),
+            std::abs(a.u - b.u),
+            std::abs(a.g1 - b.g1)};
+  }
+
+  static constexpr int kRun = 5;         // [tau] between fresh starts
+  static constexpr double kNear = 1e-3;  // [tau]
+
+  Model model_;
+  double eta_, tolerance_;
+  RandomLaunches random_;
+  std::int64_t most_bounces_;
+  bool fast_;
+  ModelTime end_;
+  Tip tip_;
+  long skipped_ = 0;
+};
+
+}  // namespace afm

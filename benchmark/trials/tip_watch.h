@@ -1,0 +1,150 @@
+// A tip under watch: after every arc it must be finite, nowhere below the surface, its energy in balance, and further
+// in time.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "afm/tip.h"
+#include "energy_ledger.h"
+
+namespace afm {
+
+struct TipCount {
+  std::uint64_t arcs = 0, impacts = 0, bounces = 0, bursts = 0, contacts = 0, commands = 0;
+  std::uint64_t events = 0;  // what a batch tells and its budget counts
+  std::uint64_t most_arcs_in_a_tau = 0;
+  double deepest = 0.0;          // below the surface [a], or part of what places are rounded with if more than 1 a
+  double worst_imbalance = 0.0;  // of the energy turned over
+};
+
+class TipWatch {
+ public:
+  // `start` is in the air.
+  TipWatch(const Model& model, double eta, const FreeState& start, double contact_tolerance)
+      : model_(model), tip_(model, eta, start, contact_tolerance), ledger_(model, tip_) {}
+
+  // One arc, or to the limit. False: what violation() tells has happened.
+  bool advance_arc(const ModelTime& limit, Outcome& outcome) {
+    const ModelTime begin = tip_.now(), arc_end = tip_.arc_end(), end = arc_end < limit ? arc_end : limit;
+    if (arc_end < begin) return violated("an arc ends before it begins");
+    if (!check_depths(begin, end)) return false;
+    outcome = ledger_.advance_arc(tip_, limit);
+    enter(outcome);
+    if (outcome == Outcome::search_failed) return violated("the search failed");
+    if (tip_.now() < begin) return violated("time ran backwards");
+    const TipState s = tip_.tip_state();
+    if (!std::isfinite(s.phase + s.X + s.u + s.g + s.g1)) return violated("not finite");
+    return check_energy() && check_rate();
+  }
+
+  bool advance(const ModelTime& limit) {
+    Outcome outcome = Outcome::flying;
+    while (outcome != Outcome::time_limit) {
+      if (!advance_arc(limit, outcome)) return false;
+    }
+    return true;
+  }
+
+  void drag(double eta) {
+    tip_.drag(eta);
+    ++count_.commands;
+  }
+
+  const Tip& tip() const { return tip_; }
+  const TipCount& count() const { return count_; }
+
+  std::string violation() const {
+    const TipState s = tip_.tip_state();
+    std::ostringstream text;
+    text.precision(17);
+    text << violation_ << "\n  at " << tip_.now().tau << " + " << tip_.now().phase << "\n  gamma " << model_.gamma
+         << " v_c " << model_.v_c << " H " << model_.H << " y0 " << model_.y0 << " ratio " << model_.frequency_ratio
+         << " eta " << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 "
+         << s.g1
+         << (tip_.in_contact()    ? " in contact"
+             : ledger_.bursting() ? " in a burst"
+                                  : "");
+    return text.str();
+  }
+
+ private:
+  static constexpr double kMostImbalance = 1e-9;
+  static constexpr double kLeastTurnover =
+      1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
+  static constexpr double kMostDepth = 1e-15;  // [a], times what places are rounded with if that is more than 1 a
+  static constexpr std::uint64_t kMostArcsInATau = 1000000;  // far more than any tau needs: a stall
+
+  bool violated(const std::string& what) {
+    violation_ = what;
+    return false;
+  }
+
+  bool check_depth(const ModelTime& t) {
+    const Deflection d = tip_.deflection(t);
+    if (!std::isfinite(d.vertical) || !std::isfinite(d.lateral) || !std::isfinite(d.gap)) return violated("not finite");
+    if (!(d.gap < 0.0)) return true;
+    // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the extension
+    const double place = std::max(0.25, std::abs(d.lateral));
+    // and what the tip falls by over the rounding of the time, from 9 a/tau on
+    const double rate = tip_.in_flight() ? std::abs(tip_.flight().gap(t - tip_.flight_start()).g1) : 0.0;
+    const double fall = rate * 0x1p-53 / kMostDepth;
+    const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * place, fall});
+    count_.deepest = std::max(count_.deepest, -d.gap / rounded);
+    return -d.gap <= kMostDepth * rounded || violated("the gap is " + std::to_string(d.gap * 1e15) + "e-15");
+  }
+
+  bool check_depths(const ModelTime& begin, const ModelTime& end) {
+    constexpr int kSamples = 6;
+    constexpr double kGoldenSection = 0.6180339887498949;  // its multiples fall evenly and never twice on the same part
+    for (int i = 0; i < kSamples; ++i) {
+      sample_ = std::fmod(sample_ + kGoldenSection, 1.0);
+      const ModelTime t = begin + sample_ * (end - begin);
+      if (t < end && !check_depth(t)) return false;
+    }
+    return true;
+  }
+
+  // Against the most that was ever turned over, in the holder's frame too: what the drag takes back, and what a slow
+  // tip has over a fast holder, leaves its rounding behind. A burst enters the books when it ends. The hammer's holder
+  // keeps books of its own.
+  bool check_energy() {
+    if (ledger_.bursting() || model_.kind == ModelKind::hammer) return true;
+    turnover_ = std::max({turnover_, ledger_.turnover(tip_), 0.5 * tip_.eta() * tip_.eta()});
+    const double part = std::abs(ledger_.imbalance(tip_)) / turnover_;
+    count_.worst_imbalance = std::max(count_.worst_imbalance, part);
+    return part <= kMostImbalance ||
+           violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
+  }
+
+  bool check_rate() {
+    if (tip_.now().tau != tau_) arcs_this_tau_ = 0;
+    tau_ = tip_.now().tau;
+    count_.most_arcs_in_a_tau = std::max(count_.most_arcs_in_a_tau, ++arcs_this_tau_);
+    return arcs_this_tau_ <= kMostArcsInATau || violated("it stalls");
+  }
+
+  void enter(Outcome outcome) {
+    ++count_.arcs;
+    if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) ++count_.events;
+    if (outcome == Outcome::contact) ++count_.contacts;
+    if (outcome != Outcome::impact) return;
+    ++count_.impacts;
+    count_.bounces += tip_.last_impact().count;
+    if (tip_.last_impact().kind == ImpactKind::burst) ++count_.bursts;
+  }
+
+  Model model_;
+  Tip tip_;
+  EnergyLedger ledger_;
+  TipCount count_;
+  std::uint64_t arcs_this_tau_ = 0;
+  std::int64_t tau_ = 0;
+  double sample_ = 0.0, turnover_ = kLeastTurnover;
+  std::string violation_;
+};
+
+}  // namespace afm

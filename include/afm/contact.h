@@ -1,0 +1,131 @@
+// Frictionless contact: the tip slides on y = h(x) while the surface presses, and leaves exactly when the reaction
+// would have to pull. One piece is a Taylor series about its start; pieces follow each other.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "afm/detail/first_fall.h"
+#include "afm/detail/slide_series.h"
+
+namespace afm {
+
+constexpr int kSlideBits = 48;
+
+template <class T>
+class SlidePiece {
+ public:
+  // At length() the last terms are at most about three times 2^-bits: at 48 the velocity is good to 1e-14 up to there.
+  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
+      : SlidePiece(mechanics, eta, start, bits, write_slide_orders<T>) {}
+
+  template <class Write>
+  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits, const Write& write)
+      : m_(mechanics), eta_(eta), start_(start) {
+    write(slide_beginning(mechanics, eta, start), series_.d.data(), series_.u.data(), series_.lambda.data());
+    length_ = choose_length(bits);
+  }
+
+  SlideState<T> at(const T& s) const;
+  T pressure(const T& s) const { return horner(series_.lambda, s); }  // reaction along y [a/tau^2]
+  T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
+  std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
+  T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
+
+  T length() const { return length_; }  // [tau]
+  const SlideState<T>& start() const { return start_; }
+  const Series<T>& displacement() const { return series_.d; }  // x - x(start)
+  const T& eta() const { return eta_; }
+  const Mechanics<T>& mechanics() const { return m_; }
+
+  // First time in [0, length()] at which the pressure has fallen to -release_noise() of the start, within a thousandth
+  // of that; a negative number where it does not.
+  T find_release() const;
+
+ private:
+  T choose_length(int bits) const;
+
+  Mechanics<T> m_;
+  T eta_;
+  SlideState<T> start_;
+  SlideSeries<T> series_;
+  T length_;
+};
+
+// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits, or
+// three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they
+// are divided as such, which is quick, and the same on every machine.
+template <class T>
+T SlidePiece<T>::choose_length(int bits) const {
+  constexpr std::int64_t kBit = std::int64_t{1} << 52, kOne = 1023 * kBit;
+  const Series<T>& c = static_cast<double>(m_.mobility) == 0.0 ? series_.lambda : series_.u;
+  double longest = 8.0;  // [tau]
+#pragma GCC unroll 2
+  for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
+    const double last = std::abs(static_cast<double>(c[n]));
+    if (!(last > 1e-290 && last < 1e290)) continue;  // nothing to choose by; beyond, of a state that was altered
+    std::int64_t logarithm;
+    std::memcpy(&logarithm, &last, sizeof last);
+    logarithm = (kOne - bits * kBit - logarithm) / static_cast<std::int64_t>(n) + kOne;
+    double length;
+    std::memcpy(&length, &logarithm, sizeof length);
+    longest = std::min(longest, length);
+  }
+  return T(longest);
+}
+
+template <class T>
+SlideState<T> SlidePiece<T>::at(const T& s) const {
+  const T d = horner(series_.d, s);
+  return {start_.phase + d, start_.X + (d - eta_ * s), horner(series_.u, s)};
+}
+
+template <class T>
+T SlidePiece<T>::displacement_integral(const T& s) const {
+  Series<T> mean = series_.d;
+#pragma GCC unroll 32
+  for (std::size_t k = 1; k <= kSlideOrder; ++k) mean[k] = series_.d[k] * T(1.0 / static_cast<double>(k + 1));
+  return s * horner(mean, s);
+}
+
+template <class T>
+std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
+  using std::fma;
+  std::array<T, 4> c{};  // Horner's scheme for the function and, over k!, its derivatives
+  for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
+#pragma GCC unroll 4
+    for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
+    c[0] = fma(c[0], s, series_.lambda[k]);
+  }
+  c[2] *= T(2.0), c[3] *= T(6.0);
+  return c;
+}
+
+// Of the sum of a series from its value at 0, up to s.
+template <class T>
+T largest_change(const Series<T>& series, const T& s) {
+  using std::abs;
+  using std::fma;
+  const T s2 = s * s;
+  T even(0.0), odd(0.0);
+  for (std::size_t k = kSlideOrder; k >= 2; k -= 2) {
+    even = fma(even, s2, abs(series[k]));
+    odd = fma(odd, s2, abs(series[k - 1]));
+  }
+  return s * fma(even, s, odd);
+}
+
+template <class T>
+T SlidePiece<T>::find_release() const {
+  constexpr double kPart = 1.0 / 1024.0;
+  const T noise = release_noise(m_, start_.u, start_.X), pressed = series_.lambda[0] + noise;
+  if (pressed > largest_change(series_.lambda, length_)) return T(-1.0);
+  if (pressed <= T(kPart) * noise) return T(0.0);
+  Series<T> pull = series_.lambda;
+  pull[0] = pressed;
+  return first_fall(pull, length_, T(kPart * noise));
+}
+
+}  // namespace afm

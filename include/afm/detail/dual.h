@@ -1,0 +1,102 @@
+// Numbers that carry their derivatives by N variables: the core's templates, run with them, give exact Jacobians.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "turns.h"
+
+namespace afm {
+
+template <std::size_t N>
+struct Dual {
+  double value = 0.0;
+  std::array<double, N> by{};  // derivatives
+
+  Dual() = default;
+  Dual(double v) : value(v) {}  // a constant; implicit, as numbers are
+  explicit operator double() const { return value; }
+
+  static Dual variable(double v, std::size_t i) {
+    Dual x(v);
+    x.by[i] = 1.0;
+    return x;
+  }
+};
+
+// f(a), given its value and derivative; f(a, b) likewise.
+template <std::size_t N>
+Dual<N> chain(double value, double slope, const Dual<N>& a) {
+  Dual<N> f(value);
+  for (std::size_t i = 0; i < N; ++i) f.by[i] = slope * a.by[i];
+  return f;
+}
+template <std::size_t N>
+Dual<N> chain(double value, double by_a, const Dual<N>& a, double by_b, const Dual<N>& b) {
+  Dual<N> f(value);
+  for (std::size_t i = 0; i < N; ++i) f.by[i] = by_a * a.by[i] + by_b * b.by[i];
+  return f;
+}
+
+template <std::size_t N>
+Dual<N> operator-(const Dual<N>& a) {
+  return chain(-a.value, -1.0, a);
+}
+template <std::size_t N>
+Dual<N> operator+(const Dual<N>& a, const Dual<N>& b) {
+  return chain(a.value + b.value, 1.0, a, 1.0, b);
+}
+template <std::size_t N>
+Dual<N> operator-(const Dual<N>& a, const Dual<N>& b) {
+  return chain(a.value - b.value, 1.0, a, -1.0, b);
+}
+template <std::size_t N>
+Dual<N> operator*(const Dual<N>& a, const Dual<N>& b) {
+  return chain(a.value * b.value, b.value, a, a.value, b);
+}
+template <std::size_t N>
+Dual<N> operator/(const Dual<N>& a, const Dual<N>& b) {
+  const double q = a.value / b.value;
+  return chain(q, 1.0 / b.value, a, -q / b.value, b);
+}
+template <std::size_t N>
+Dual<N>& operator*=(Dual<N>& a, const Dual<N>& b) {
+  return a = a * b;
+}
+template <std::size_t N>
+bool operator<(const Dual<N>& a, const Dual<N>& b) {
+  return a.value < b.value;
+}
+template <std::size_t N>
+Dual<N> fma(const Dual<N>& a, const Dual<N>& b, const Dual<N>& c) {
+  return a * b + c;
+}
+template <std::size_t N>
+Dual<N> sqrt(const Dual<N>& a) {
+  const double root = std::sqrt(a.value);
+  return chain(root, 0.5 / root, a);
+}
+template <std::size_t N>
+Dual<N> cbrt(const Dual<N>& a) {
+  const double root = std::cbrt(a.value);
+  return chain(root, root / (3.0 * a.value), a);
+}
+template <std::size_t N>
+SinCos<Dual<N>> sin_cos_turns(const Dual<N>& a) {
+  const SinCos<double> turn = sin_cos_turns(a.value);
+  return {chain(turn.sin, two_pi<double>() * turn.cos, a), chain(turn.cos, -two_pi<double>() * turn.sin, a)};
+}
+
+using Dual3 = Dual<3>;
+using Dual4 = Dual<4>;
+template <>
+inline Dual3 two_pi<Dual3>() {
+  return two_pi<double>();
+}
+template <>
+inline Dual4 two_pi<Dual4>() {
+  return two_pi<double>();
+}
+
+}  // namespace afm

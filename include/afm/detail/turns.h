@@ -1,0 +1,182 @@
+// Sine and cosine of angles counted in turns. Every angle of the model is one: the surface phase, the vertical spring
+// (1 turn per tau), the horizontal spring (omega_h/omega_v turns per tau). Range reduction is one exact subtraction,
+// and the same bits come out on every machine.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+#include "multiversion.h"
+
+namespace afm {
+
+template <class T>
+struct SinCos {
+  T sin, cos;
+};
+
+// A turn of at most 1/8, with the parts that cancel in small differences kept apart, each to a few ulp of itself.
+template <class T>
+struct SmallTurn {
+  T sin;
+  T sin_minus_angle;  // sin(2 pi x) - 2 pi x
+  T versine;          // 1 - cos(2 pi x)
+};
+
+// One unit in the last place of 1.
+template <class T>
+T epsilon();
+template <>
+inline double epsilon<double>() {
+  return 2.220446049250313e-16;
+}
+
+template <class T>
+T two_pi();
+template <>
+AFM_INLINED double two_pi<double>() {
+  return 6.283185307179586476925286766559;
+}
+
+namespace turns_detail {
+
+// (2 pi)^n / n! with alternating signs: at an eighth turn the first term left out is below 1e-18
+constexpr double kTwoPiHigh = 6.283185307179586, kTwoPiLow = 2.4492935982947064e-16;
+constexpr double kS3 = -41.34170224039976, kS3Low = 1.8132498260631558e-15;  // and its rounding
+constexpr double kS5 = 81.60524927607506, kS7 = -76.70585975306139;
+constexpr double kS9 = 42.058693944897655, kS11 = -15.09464257682299, kS13 = 3.819952584848282;
+constexpr double kS15 = -0.7181223017785006, kS17 = 0.10422916220813984;
+constexpr double kC2 = -19.739208802178716, kC2Low = -1.2530591017506564e-15;  // and its rounding
+constexpr double kC4 = 64.9393940226683, kC4Low = -4.256320131887783e-15, kC6 = -85.45681720669373;
+constexpr double kC8 = 60.24464137187666, kC10 = -26.4262567833744, kC12 = 7.903536371318469;
+constexpr double kC14 = -1.714390711088672, kC16 = 0.28200596845579123;
+
+using std::fma;  // of packs of lanes their own
+
+// (sin(2 pi x) - 2 pi x) / x^3 less kS3, and ((cos(2 pi x) - 1) / x^2 - kC2) / x^2, z = x^2; paired to shorten the
+// chain of dependencies
+template <class T>
+AFM_INLINED T sine_rest(T z) {
+  const T z2 = z * z, z4 = z2 * z2;
+  const T low = fma(fma(z, T(kS9), T(kS7)), z2, fma(z, T(kS5), T(kS3Low)));
+  const T high = fma(fma(z, T(kS17), T(kS15)), z2, fma(z, T(kS13), T(kS11)));
+  return fma(high, z4, low);
+}
+template <class T>
+AFM_INLINED T cosine_rest(T z) {
+  const T z2 = z * z;
+  const T low = fma(T(kC8), z2, fma(z, T(kC6), T(kC4)));
+  const T high = fma(T(kC16), z2, fma(z, T(kC14), T(kC12)));
+  return fma(fma(high, z, T(kC10)), z2 * z, low);
+}
+// 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from
+// nothing
+template <class T>
+AFM_INLINED T cosine(T x, T z) {
+  const T over_z = fma(-x, x, z);  // z less the square
+  const T head = fma(z, T(kC2), T(1.0)), head_low = fma(z, T(kC2), T(1.0) - head);
+  const T rest = head_low + fma(over_z, T(-kC2), z * fma(z, T(kC4Low), T(kC2Low)));
+  return head + fma(z * z, cosine_rest(z), rest);
+}
+template <class T>
+AFM_INLINED T sine(T x, T z) {
+  const T cube = x * z;
+  return fma(x, T(kTwoPiHigh), fma(cube, sine_rest(z), fma(cube, T(kS3), x * T(kTwoPiLow))));
+}
+
+// adding and taking away 1.5 * 2^52 rounds to the nearest whole number, a quarter of it to the nearest quarter
+constexpr double kRounder = 6755399441055744.0, kQuarterRounder = 1688849860263936.0;
+
+// The sine and cosine of an angle, from those of what is left of it less some quarters of a turn: as many as the last
+// digits of `quarters` say, that is, with kQuarterRounder.
+#if defined(__SSE2__)
+// without branches, which no one can foresee, and without leaving the registers of numbers
+AFM_INLINED SinCos<double> turn_quarters(double quarters, double s, double c) {
+  const __m128i k = _mm_castpd_si128(_mm_set_sd(quarters)), one = _mm_set_epi64x(0, 1);
+  const __m128i odd = _mm_sub_epi64(_mm_setzero_si128(), _mm_and_si128(k, one)), sign = _mm_set_epi64x(0, INT64_MIN);
+  const __m128d sin_sign = _mm_castsi128_pd(_mm_and_si128(_mm_slli_epi64(k, 62), sign));
+  const __m128d cos_sign = _mm_castsi128_pd(_mm_and_si128(_mm_slli_epi64(_mm_add_epi64(k, one), 62), sign));
+  const __m128d x = _mm_set_sd(s), y = _mm_set_sd(c), swap = _mm_and_pd(_mm_xor_pd(x, y), _mm_castsi128_pd(odd));
+  return {_mm_cvtsd_f64(_mm_xor_pd(_mm_xor_pd(x, sin_sign), swap)),
+          _mm_cvtsd_f64(_mm_xor_pd(_mm_xor_pd(y, cos_sign), swap))};
+}
+#else
+AFM_INLINED SinCos<double> turn_quarters(double quarters, double s, double c) {
+  const long long k = static_cast<long long>(4.0 * (quarters - kQuarterRounder));
+  const bool swap = (k & 1) != 0;
+  const double sin_value = swap ? c : s, cos_value = swap ? s : c;
+  return {(k & 2) != 0 ? -sin_value : sin_value, ((k + 1) & 2) != 0 ? -cos_value : cos_value};
+}
+#endif
+
+template <class T>
+AFM_INLINED T nearest_of(T x) {
+  return (x + T(kRounder)) - T(kRounder);
+}
+
+template <class T>
+AFM_INLINED SinCos<T> sin_cos_beside(T quarters, T r) {
+  const T z = r * r;
+  const T s = sine(r, z), c = cosine(r, z);
+  return turn_quarters(quarters, s, c);
+}
+template <class T>
+AFM_INLINED SinCos<T> sin_cos_of(T x) {
+  const T quarters = x + T(kQuarterRounder);
+  return sin_cos_beside(quarters, T(x - (quarters - T(kQuarterRounder))));
+}
+template <class T>
+AFM_INLINED SinCos<T> sin_cos_of_product(T a, T b) {
+  const T quarters = fma(a, b, T(kQuarterRounder));
+  return sin_cos_beside(quarters, T(fma(a, b, T(kQuarterRounder) - quarters)));
+}
+
+template <class T>
+AFM_INLINED SmallTurn<T> small_turn_of(T x) {
+  const T z = x * x, cube = x * z;
+  return {sine(x, z), fma(cube, sine_rest(z), cube * T(kS3)),
+          fma(-(z * z), cosine_rest(z), fma(z, T(-kC2), z * fma(z, T(-kC4Low), T(-kC2Low))))};
+}
+
+template <class T>
+AFM_INLINED SmallTurn<T> tiny_turn_of(T x) {
+  const T z = x * x, cube = x * z;
+  const T sine_rest = z * fma(z, T(kS7), T(kS5)), cosine_rest = fma(z, T(kC6), T(kC4));
+  return {fma(x, T(kTwoPiHigh), fma(cube, sine_rest, fma(cube, T(kS3), x * T(kTwoPiLow)))),
+          fma(cube, sine_rest, cube * T(kS3)), fma(-(z * z), cosine_rest, z * T(-kC2))};
+}
+
+}  // namespace turns_detail
+
+// Nearest whole number, |x| < 2^51.
+AFM_INLINED double nearest(double x) { return turns_detail::nearest_of(x); }
+
+// a * b less a whole number: the fraction keeps its bits however large the product, |a b| < 2^51.
+AFM_INLINED double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
+
+// Within 0.8 ulp, |x| < 2^49 turns.
+AFM_INLINED SinCos<double> sin_cos_turns(double x) { return turns_detail::sin_cos_of(x); }
+
+// Of a * b, to whose fraction the same applies as to that of turn_product. |a b| < 2^49.
+AFM_INLINED SinCos<double> sin_cos_turn_product(double a, double b) { return turns_detail::sin_cos_of_product(a, b); }
+template <class T>
+SinCos<T> sin_cos_turn_product(const T& a, const T& b) {
+  return sin_cos_turns(turn_product(a, b));
+}
+
+constexpr double kSmallTurn = 0.125, kTinyTurn = 0x1p-10;
+
+// Precondition: |x| <= 1/8.
+AFM_INLINED SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
+
+// The same in fewer terms. Precondition: |x| <= 2^-10.
+AFM_INLINED SmallTurn<double> tiny_turn(double x) { return turns_detail::tiny_turn_of(x); }
+template <class T>
+SmallTurn<T> tiny_turn(const T& x) {
+  return small_turn(x);
+}
+
+}  // namespace afm

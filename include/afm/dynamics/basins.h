@@ -1,0 +1,42 @@
+// Which attractors there are at given parameters, and how large a share of the starts each draws.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "attractor.h"
+#include "sweep.h"
+
+namespace afm {
+
+struct BasinSettings {
+  int starts = 200;  // random_start() of sweep.h: above the surface, velocities of the order of the drag's
+  std::uint64_t seed = 1;
+  double friction_duration = 1000.0;  // of the measurement of K_f at each start [tau]
+  AttractorSettings attractor;
+};
+
+// One start: where it led.
+struct Visit {
+  Attractor attractor;
+  double K_f = 0.0, K_f_std_error = 0.0;  // [m/tau]
+  TipState start;
+  TipState end;  // on the attractor
+};
+
+struct Basin {
+  Visit first;                                // of the starts that led here
+  int starts = 0;                             // that did
+  double share = 0.0, share_std_error = 0.0;  // of all starts; binomial
+};
+
+Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings);
+
+// Two visits are of one attractor when kind, impacts and cells agree, and K_f within its errors (five standard errors,
+// 1e-6).
+bool same_attractor(const Visit& a, const Visit& b);
+
+// Largest basin first. Precondition: no faults in the point.
+std::vector<Basin> find_basins(const SweepPoint& point, const BasinSettings& settings);
+
+}  // namespace afm

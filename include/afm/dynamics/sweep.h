@@ -1,0 +1,52 @@
+// One point of a friction curve: the attractor that a start leads to, and the friction on it. Natural units.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "attractor.h"
+#include "afm/model.h"
+#include "afm/state.h"
+#include "time_average.h"
+
+namespace afm {
+
+struct SweepPoint {
+  double eta, gamma, v_c;
+  ModelKind kind = ModelKind::oscillator;
+};
+
+struct SweepSettings {
+  double duration = 10000.0;  // of the measurement [tau]
+  double transient = 1000.0;  // before it [tau]
+  std::uint64_t seed = 1;     // of the starts drawn at random
+};
+
+struct SweepResult {
+  FrictionAverage friction;
+  Attractor attractor;
+  TipState end;  // of the orbit, for the next point to begin with
+};
+
+// Every fault of the set.
+std::vector<ParameterError> find_faults(const SweepPoint& point);
+std::vector<ParameterError> find_faults(const SweepSettings& settings);
+
+Model model_of(const SweepPoint& point);
+
+// The start of the index-th point: above the surface, at a random phase, with a velocity of the order of the drag's. A
+// function of seed and index alone, so that points can be computed in any order.
+TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index);
+
+// A function of its arguments alone, to the last bit. Precondition: no faults.
+SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start);
+
+// The same for each of many points, to the same bits, and sooner where the machine has lanes (ensemble.h): of each
+// point all but the search for its attractor is flown in them.
+struct SweepTrip {
+  SweepPoint point;
+  TipState start;
+};
+std::vector<SweepResult> sweep_points(const std::vector<SweepTrip>& trips, const SweepSettings& settings);
+
+}  // namespace afm

@@ -1,0 +1,137 @@
+// The hybrid automaton: flight, impact, burst, contact, release. Knows where the tip is at any time up to its next
+// event.
+#pragma once
+
+#include "chatter.h"
+#include "flight.h"
+#include "impact_search.h"
+#include "model.h"
+#include "afm/detail/sample_grid.h"
+#include "contact.h"
+#include "state.h"
+
+namespace afm {
+
+template <class T>
+struct DeflectionOf {
+  T vertical;  // y - y0 [a]
+  T lateral;   // x - xc [a]
+  T gap;       // y - h(x) [a]
+};
+using Deflection = DeflectionOf<double>;
+
+// Error allowed in the state at the next impact when chatter is replaced by a burst and a slide [a, a/tau]. At the
+// default half of all bursts are good to 4e-6 and 99 in 100 to 2e-4 (docs/stability.md).
+constexpr double kDefaultContactTolerance = 1e-3;
+constexpr double kMaxContactTolerance = 1e-2;
+constexpr double kMinContactTolerance = 1e-9;  // or 0; below it bursts are followed for longer than bounces would take
+
+class Tip {
+ public:
+  // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate, or one below
+  // 1e-140 a/tau. Throws the model's first ParameterError, or one about a start below the surface.
+  Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
+  Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
+
+  // To the next event or to `limit`, whichever is first; an event at the limit itself still happens. Nothing is split
+  // at a limit: any sequence of limits gives the same bits as one.
+  Outcome advance(const ModelTime& limit);
+
+  // The same, in arcs: it also stops (Outcome::flying) where the search of a long flight has come to.
+  Outcome advance_arc(const ModelTime& limit);
+  ModelTime arc_end();  // up to here, exclusive, deflection() holds
+
+  // A new drag velocity from now() on: the flight, burst or slide under way is split here, and only here. The present
+  // one again changes no bit.
+  void drag(double eta);
+
+  // Another restitution, cutoff or height of the harmonic centre from now() on: where the tip is and how fast stays.
+  // Lifting the centre works on the spring; a burst ends with the bounce it is at; contact goes on if the surface still
+  // presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
+  void retune(const Model& model);
+
+  // Another level of the model from now() on. The tip keeps its place over the surface, height and vertical velocity.
+  // To the hammer the holder is put above the tip: the extension and what the horizontal velocity has beyond the
+  // holder's are dropped, and the energy in them is returned [m a^2/tau^2] (0 otherwise). To the oscillator nothing
+  // changes: the spring is relaxed, and the tip as fast as its holder. A burst ends with the bounce it is at; contact
+  // ends where the hammer's gap rate differs from the oscillator's; both are told as events at now().
+  double relevel(ModelKind kind, double contact_tolerance);
+
+  // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip
+  // as it is after an impact at that time, which was `last` and from which it launches so.
+  bool in_flight() const { return mode_ == Mode::flying; }
+  const Flight<double>& flight() const { return flight_; }
+  ModelTime flight_start() const { return start_; }
+  void resume(const TipState& launched, const ModelTime& start, const Impact& last);
+  const Model& model() const { return model_; }
+  const ChatterLaw& chatter_law() const { return law_; }
+  double burst_gap_rate() const { return burst_gap_rate_; }  // slower bounces may be the first of a burst [a/tau]
+
+  ModelTime now() const { return now_; }
+  double eta() const { return eta_; }
+  bool in_contact() const { return mode_ == Mode::sliding; }
+  bool in_burst() const { return mode_ == Mode::bursting; }
+  const Impact& last_impact() const { return last_impact_; }
+  TipState tip_state() const;  // at now()
+  FreeState state() const { return to_free_state(model_.H, tip_state()); }
+  // The work of the drag is -omega_h^2 eta times the time integral of the lateral deflection; in bursts that of the
+  // deflection below, which is the guide's, and this much more, up to their last event [m a^2/tau^2].
+  double work_off_guide() const { return work_off_guide_; }
+  Deflection deflection(const ModelTime& t) const;  // from the last event to arc_end()
+  // The same at n times of a grid, the first-th and those after it, bit for bit and several in one instruction where
+  // the machine can. Returns the lowest gap [a].
+  double deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
+                     double* lateral) const;
+
+ private:
+  friend class StateFields;  // saved_state.cpp
+
+  enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
+
+  TipState held(const TipState& state) const;
+  Chatter chatter_now() const;
+  void jolt(double eta);
+  void end_guide_now();
+  void leave_now();
+  void tolerate(double contact_tolerance);
+  void adopt(const Model& model);
+  void fly(const TipState& start);
+  void slide(const SlideState<double>& start);
+  void slide(const SlideState<double>& start, int bits);
+  void burst(const SlideState<double>& guide, const Chatter& chatter);
+  SlideState<double> leave_guide(double s, const Chatter& chatter);
+  void begin_flight();
+  void leave_or_press();
+  bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
+  void find_landing();
+  Outcome land();
+  Outcome touch();
+  Outcome end_flight();
+  Outcome end_burst();
+  Outcome end_slide();
+
+  Model model_;
+  Mechanics<double> mechanics_;
+  double eta_;
+  double slowest_chatter_;  // [a/tau] below it, contact
+  ChatterLaw law_;
+  double burst_gap_rate_;  // slower chatter moves the tip along the surface by less than the tolerance
+  Flight<double> flight_;
+  SlidePiece<double> slide_;
+  Mode mode_ = Mode::flying;
+  ModelTime start_, now_;  // of the present arc; the present
+  Landing<double> landing_{};
+  bool landing_known_ = false;
+  double slide_end_ = 0.0;
+  bool slide_releases_ = false;
+  Chatter chatter_{};                // at the start of the present piece of a burst
+  ChatterRun chatter_run_{};         // over it
+  double burst_normal_speed_ = 0.0;  // with which it began
+  double burst_gain_ = 0.0;          // of energy since then, for leaving guides
+  double work_off_guide_ = 0.0;
+  Impact last_impact_;
+  bool untold_ = false;  // an event at now() that the next advance tells
+  Impact untold_impact_;
+};
+
+}  // namespace afm

@@ -1,0 +1,41 @@
+// SI <-> natural units (a, tau, m): the only place that knows the size of a lattice cell.
+#pragma once
+
+#include "model.h"
+
+namespace afm {
+
+// The model as users give it. Defaults are the paper's values (section V).
+struct SiModel {
+  double omega_v_rad_per_s = 40e3;
+  double omega_h_rad_per_s = 250e3;
+  double tip_mass_kg = 408e-12;
+  double lattice_spacing_m = 0.52e-9;
+  double surface_amplitude_m = 0.05e-9;
+  double rest_height_m = 0.0;  // y0, from mid-surface
+  double restitution_gamma = 0.7;
+  double cutoff_speed = 0.166e-6;  // v_c [m/s]
+};
+
+// Every fault, named as in SiModel and in SI.
+std::vector<ParameterError> find_faults(const SiModel& si);
+
+// Factors from natural units to SI: value_si = value * factor.
+class Units {
+ public:
+  explicit Units(const SiModel& si);
+
+  double length() const { return a_; }                            // m
+  double time() const { return tau_; }                            // s
+  double velocity() const { return a_ / tau_; }                   // m/s
+  double energy() const { return m_ * velocity() * velocity(); }  // J
+  double force() const { return energy() / a_; }                  // N
+  double friction() const { return m_ / tau_; }                   // kg/s, of K_f
+
+  Model to_natural(const SiModel& si) const;
+
+ private:
+  double a_, tau_, m_;
+};
+
+}  // namespace afm

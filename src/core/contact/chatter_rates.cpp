@@ -1,0 +1,118 @@
+#include "afm/detail/chatter_rates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "afm/detail/multiversion.h"
+#include "chatter_flow.h"
+#include "chatter_look.h"
+#include "four.h"
+#include "core/lanes/node_step.h"
+#include "portable_exp.h"
+#include "projection.h"
+
+namespace afm {
+namespace {
+
+double mean_over_first(double gamma) {
+  const double loss = 1.0 - gamma;
+  if (loss < 1e-8) return 1.0;
+  return gamma > 0.0 ? -portable_log(gamma) / loss : std::numeric_limits<double>::infinity();
+}
+
+AFM_MULTIVERSION void step_by_numbers(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to) {
+  node_step<Four>(flow, from, dt, to);
+}
+
+}  // namespace
+
+ChatterView::ChatterView(const Model& model)
+    : H_(model.H),
+      wv2_(square(kTwoPi)),
+      free_(mobility(model)),
+      wh2_(free_ * square(kTwoPi * model.frequency_ratio)),
+      slow_rate_(std::max(1.0, free_ * model.frequency_ratio)) {}
+
+ChatterRates::ChatterRates(const Model& model, bool geometric)
+    : view_(model),
+      flow_{geometric,   view_.held(),
+            model.gamma, geometric ? 0.0 : (1.0 - model.gamma) / model.v_c,
+            0.0,         1.0 / mean_over_first(model.gamma)},
+      node_step_(lanes::node_step()) {
+  // no more than rounding allows where the loss is next to nothing: then n alone changes evenly
+  constexpr double kLeastLoss = 1e-4;
+  const double loss = geometric ? 1.0 - model.gamma : flow_.loss;
+  flow_.even = loss > kLeastLoss ? (geometric ? flow_.per_mean : 1.0) / loss : 0.0;
+  if (node_step_ == nullptr) node_step_ = step_by_numbers;
+}
+
+double ChatterRates::x_of(double v) const { return even_speed(flow_, v); }
+
+// n without that much more of its part in 1/v.
+AFM_INLINED void ChatterRates::take_part(double more, EvenChatter& even, EvenChatter& rate) const {
+  if (flow_.geometric || more == 0.0) return;
+  const double bounces = more / chatter_speed(flow_, even.x);
+  even.rest -= bounces, rate.rest += bounces * rate.x;
+}
+
+double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
+  return 2.0 * at.per_P * (flow_.geometric ? v / (1.0 - flow_.gamma) : 1.0 / flow_.loss);
+}
+
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
+  return view_.look(bounce);
+}
+
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
+  return view_.look(guide, s);
+}
+
+AFM_MULTIVERSION bool ChatterRates::outlasts(const Flight<double>& bounce, double part) const {
+  return view_.outlasts(bounce, part);
+}
+
+AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guide, double s,
+                                                  const Chatter& start) const {
+  ChatterPlace at{s, view_.look(guide, s), {}, {}, start, flow_.even};
+  at.even = even_of(flow_, at.around, at.part, start);
+  at.rate = chatter_rate(flow_, at.around, at.part, at.even);
+  return at;
+}
+
+AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide, const ChatterPlace& from,
+                                                 double dt) const {
+  constexpr double kMuchFall = 1.5;  // of ln v, over which n grows too unevenly
+  constexpr double kBrief = 1e-5;    // differences over dt of what is seen at its ends would be noise
+  // two functions, as one that returns either would copy what it has just written
+  const auto by_nodes = [&] {
+    const double part = dt > kMuchFall * fall_time(from.around, from.plain.v) ? flow_.even : 0.0;
+    ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), from.even, from.rate, {}, part};
+    take_part(part - from.part, to.even, to.rate);
+    node_step_(flow_, from, dt, to);
+    to.plain = plain_of(flow_, to.around, to.part, to.even);
+    return to;
+  };
+  const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
+  return brief ? brief_step(guide, from, dt) : by_nodes();
+}
+
+AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>& guide, const ChatterPlace& from,
+                                                       double dt) const {
+  ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}, from.part};
+  to.rate = chatter_rate(flow_, to.around, to.part, from.even + dt * from.rate);
+  to.even = from.even + 0.5 * dt * (from.rate + to.rate);
+  to.plain = plain_of(flow_, to.around, to.part, to.even);
+  return to;
+}
+
+AFM_MULTIVERSION Chatter ChatterRates::after(const ChatterPlace& from, double dt) const {
+  return plain_of(flow_, from.around, from.part, from.even + dt * from.rate);
+}
+
+AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide,
+                                                const Chatter& chatter) {
+  return moved_guide_of(model.H, guide, chatter);
+}
+
+}  // namespace afm

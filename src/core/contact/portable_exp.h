@@ -1,0 +1,60 @@
+// Exponential and logarithm with the same bits on every machine, which those of the C library do not have.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "afm/detail/multiversion.h"
+#include "afm/detail/select.h"
+#include "afm/detail/turns.h"
+
+namespace afm {
+
+// Natural logarithm to 1e-15 of 0 < x.
+AFM_INLINED double portable_log(double x) {
+  constexpr double kLog2 = 0.6931471805599453;
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);
+  if (m < 0.7071067811865476) {
+    m *= 2.0;
+    --exponent;
+  }
+  const double z = (m - 1.0) / (m + 1.0), z2 = z * z;
+  double sum = 0.0;
+  for (int k = 23; k >= 1; k -= 2) sum = sum * z2 + 1.0 / k;
+  return 2.0 * z * sum + exponent * kLog2;
+}
+
+namespace exp_detail {
+
+// e^r 2^k, where power(k + kRounder) is 2^k. Terms in pairs, pairs in pairs: little waits for what is before it.
+template <class T, class Power>
+AFM_INLINED T exp_of(const T& x, const Power& power) {
+  constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
+  const T shifted = x * T(1.4426950408889634) + T(turns_detail::kRounder), k = shifted - T(turns_detail::kRounder);
+  const T r = mul_add(T(-k), T(kLog2Low), mul_add(T(-k), T(kLog2High), x));
+  const T r2 = r * r, r4 = r2 * r2;
+  const auto pair = [&](double c0, double c1) { return mul_add(r, T(c1), T(c0)); };
+  const T p0 = mul_add(r2, pair(1.0 / 2, 1.0 / 6), T(T(1.0) + r));
+  const T p4 = mul_add(r2, pair(1.0 / 720, 1.0 / 5040), pair(1.0 / 24, 1.0 / 120));
+  const T p8 = mul_add(r2, pair(1.0 / 3628800, 1.0 / 39916800), pair(1.0 / 40320, 1.0 / 362880));
+  const T p12 = pair(1.0 / 479001600, 1.0 / 6227020800.0);
+  return mul_add(T(r4 * r4), mul_add(r4, p12, p8), mul_add(r4, p4, p0)) * power(shifted);
+}
+
+}  // namespace exp_detail
+
+// e^x to 1e-15 of |x| < 700; beyond it some number or none, the same everywhere.
+AFM_INLINED double portable_exp(double x) {
+  return exp_detail::exp_of(x, [](double shifted) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &shifted, sizeof bits);
+    bits = (bits + 1023) << 52;
+    double power;
+    std::memcpy(&power, &bits, sizeof power);
+    return power;
+  });
+}
+
+}  // namespace afm

@@ -1,0 +1,55 @@
+// From a bouncing tip to the slide that it would make without bouncing (the reference slide), and back: written once for
+// numbers and for numbers that carry derivatives. `free`: 1, or 0 for a tip that is held along x.
+#pragma once
+
+#include <cmath>
+
+#include "afm/detail/chatter_rates.h"
+#include "afm/detail/multiversion.h"
+#include "afm/contact.h"
+#include "afm/surface.h"
+
+namespace afm {
+
+// The state after a bounce: phase [a], extension [a], lab velocity and gap rate [a/tau].
+template <class T>
+struct Bounce4 {
+  T phase, X, u, g1;
+};
+
+template <class T>
+struct ProjectedOf {
+  SlideState<T> guide;
+  T normal_speed, tangential_velocity;  // [a/tau]
+};
+
+// Takes the normal velocity out; the tangential velocity stays.
+template <class T>
+AFM_INLINED ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>& state) {
+  using std::sqrt;
+  const T slope = free * surface_jet(H, state.phase).h1, N2 = T(1.0) + slope * slope, N = sqrt(N2);
+  const T u = state.u + slope * state.g1 / N2;
+  return {{state.phase, state.X, u}, state.g1 / N, u * N};
+}
+
+// Puts a normal velocity back.
+template <class T>
+AFM_INLINED Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& guide, const T& normal_speed) {
+  using std::sqrt;
+  const T slope = free * surface_jet(H, guide.phase).h1, N = sqrt(T(1.0) + slope * slope);
+  return {guide.phase, guide.X, guide.u - slope * normal_speed / N, normal_speed * N};
+}
+
+// The reference slide with what the chatter has moved it by: sigma along the surface, and p faster along it.
+template <class T>
+AFM_INLINED SlideState<T> moved_guide_of(const T& H, const SlideState<T>& guide, const ChatterOf<T>& chatter) {
+  using std::sqrt;
+  const auto N = [&](const T& phase) {
+    const T slope = surface_jet(H, phase).h1;
+    return T(sqrt(T(1.0) + slope * slope));
+  };
+  const T here = N(guide.phase), dx = chatter.sigma / here, phase = guide.phase + dx;
+  return {phase, guide.X + dx, (guide.u * here + chatter.p) / N(phase)};
+}
+
+}  // namespace afm

@@ -1,0 +1,51 @@
+// Steps along a branch of periodic orbits: all points of an orbit and the varied parameter together.
+#pragma once
+
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "afm/dynamics/continuation.h"
+
+namespace afm {
+
+struct Place {
+  std::vector<TipState> points;
+  double parameter;
+};
+
+class Arclength {
+ public:
+  Arclength(const Model& model, double eta, Parameter vary)
+      : model_(model),
+        eta_(eta),
+        vary_(vary),
+        weight_(1.0, 1.0, 1.0 / (1.0 + std::abs(eta)), 1.0 / (1.0 + std::abs(eta))) {}
+
+  PoincareMap map(double parameter) const { return map_at(model_, eta_, vary_, parameter); }
+
+  // As one vector, in which velocities count less.
+  Eigen::VectorXd difference(const Place& b, const Place& a) const;
+  Place moved(const Place& a, const Eigen::VectorXd& d) const;
+
+  // Along the branch, the parameter towards its target.
+  Eigen::VectorXd tangent(const Place& at, double target) const;
+
+  // Newton's method for the orbit at the distance `step` from `from` along `direction`. False where there is none.
+  bool advance(const Place& from, const Eigen::VectorXd& direction, double step, Place& to) const;
+
+ private:
+  static Eigen::Index size(const Place& p) { return static_cast<Eigen::Index>(4 * p.points.size()); }
+  bool residual(const Place& p, Eigen::VectorXd& error, std::vector<MapStep>* steps) const;
+  bool valid(double parameter) const;
+  bool same_branch(const Place& to, const Place& from, double step) const;
+  bool derivative(const Place& at, const std::vector<MapStep>& steps, const Eigen::VectorXd& direction,
+                  Eigen::MatrixXd& A) const;
+
+  const Model model_;
+  const double eta_;
+  const Parameter vary_;
+  const Eigen::Vector4d weight_;
+};
+
+}  // namespace afm

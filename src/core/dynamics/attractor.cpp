@@ -1,0 +1,241 @@
+#include "afm/dynamics/attractor.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "afm/dynamics/periodic_orbit.h"
+#include "afm/dynamics/poincare_map.h"
+#include "afm/dynamics/tangents.h"
+#include "orbit_observer.h"
+
+namespace afm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The marks of one period, the first of them at both ends; empty where the orbit does not come back.
+struct Period {
+  int marks = 0, impacts = 0, cells = 0;
+};
+
+// Where the tip comes to the orbit slowly a multiple of the period may be the first to be within the tolerance.
+int smallest_period(const std::vector<Mark>& marks, int n, double tolerance) {
+  for (int d = 1; d < n; ++d) {
+    if (n % d == 0 && distance(marks[static_cast<std::size_t>(d)].state, marks[0].state) < 100.0 * tolerance) return d;
+  }
+  return n;
+}
+
+// Comes back to where it was, and once more.
+Period find_period(Observer& observer, double eta, const ModelTime& limit, const AttractorSettings& settings) {
+  if (!observer.next(limit)) return {};
+  std::vector<Mark> marks{observer.mark()};
+  int found = 0;
+  while (static_cast<int>(marks.size()) <= 2 * settings.longest && observer.next(limit)) {
+    marks.push_back(observer.mark());
+    const int n = static_cast<int>(marks.size()) - 1;
+    if (distance(marks.back().state, marks[0].state) > settings.tolerance) continue;
+    if (found == 0) found = n;
+    if (n < 2 * found) continue;
+    const int period = smallest_period(marks, found, settings.tolerance);
+    const Mark& end = marks[static_cast<std::size_t>(period)];
+    const double cells = std::abs(eta) * (end.time - marks[0].time);
+    return {period, end.impacts - marks[0].impacts, static_cast<int>(std::lround(cells))};
+  }
+  return {};
+}
+
+// The exponents of a periodic orbit are its multipliers': no limit has to be waited for.
+LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period) {
+  LyapunovSpectrum s;
+  Tangents tangents(model, tip);
+  const double duration = period.cells / std::abs(tip.eta());
+  if (!tangents.start(2.0 * duration)) return s;
+  const ModelTime begin = tip.now(), end = begin + 1.5 * duration;
+  Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
+  double volume = 0.0;
+  for (int marks = 0; marks < period.marks && tip.now() < end; ++s.events) {
+    const Outcome outcome = tangents.advance(end);
+    if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
+    J = tangents.jacobian() * J;
+    volume += tangents.stretch().volume;
+    const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
+    if (single || outcome == Outcome::released) ++marks;
+  }
+  s.outcome = J.allFinite() ? LyapunovOutcome::measured : LyapunovOutcome::no_number;
+  if (s.outcome != LyapunovOutcome::measured) return s;
+  s.rank = tangents.rank();
+  s.duration = duration;
+  s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume / duration;
+  Eigen::Vector4d sizes = J.eigenvalues().cwiseAbs();
+  std::sort(sizes.data(), sizes.data() + 4, std::greater<double>());
+  for (int i = 0; i < 4; ++i) {
+    s.exponents[static_cast<std::size_t>(i)] = i < s.rank ? std::log(sizes[i]) / duration : -kInfinity;
+  }
+  return s;
+}
+
+bool draws(const PeriodicOrbit& orbit, const TipState& from) {
+  constexpr double kNear = 0.2;  // [a, a/tau]
+  double nearest = kInfinity;
+  for (const TipState& point : orbit.points) nearest = std::min(nearest, distance(point, from));
+  return nearest < kNear && std::abs(orbit.multipliers[0]) < 1.0;
+}
+
+void describe(const PeriodicOrbit& orbit, Attractor& found) {
+  found.kind = AttractorKind::periodic;
+  found.impacts = static_cast<int>(orbit.length());
+  found.cells = std::abs(orbit.cells);
+  found.cells_per_impact = static_cast<double>(found.cells) / found.impacts;
+  for (std::size_t i = 0; i < 4; ++i)
+    found.lyapunov.exponents[i] = std::log(std::abs(orbit.multipliers[i])) / orbit.period;
+}
+
+// Comes back slowly: Newton's method finds where it goes, from its nearest return. Impacts one by one only.
+bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const ModelTime& limit, Attractor& found) {
+  constexpr std::size_t kLongestOrbit = 32;  // [impacts]: Newton's steps cost the cube
+  std::vector<TipState> run;
+  while (run.size() <= kLongestOrbit && observer.next(limit)) {
+    run.push_back(observer.mark().state);
+    if (tip.in_contact() || !(run.back().g1 > 0.0)) return false;
+  }
+  constexpr double kNearReturn = 0.05;  // [a, a/tau]
+  constexpr int kMostAttempts = 8;
+  int attempts = 0;
+  for (std::size_t n = 1; n <= kLongestOrbit && n < run.size() && attempts < kMostAttempts; ++n) {
+    if (distance(run[n], run[0]) > kNearReturn) continue;
+    ++attempts;
+    const OrbitResult r =
+        find_orbit(PoincareMap(model, tip.eta()), {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(n)});
+    if (r.outcome == OrbitOutcome::found && is_prime(r.orbit) && draws(r.orbit, run[0])) {
+      describe(r.orbit, found);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Turns by an impact about the middle of the section, in the plane of extension and gap rate; of the hammer, whose
+// extension is 0, of phase and gap rate.
+double rotation_number(const Model& model, Observer& observer, const ModelTime& limit) {
+  constexpr std::size_t kMost = 4000;
+  std::vector<TipState> run;
+  while (run.size() < kMost && observer.next(limit)) run.push_back(observer.mark().state);
+  if (run.size() < 2) return 0.0;
+  if (model.kind == ModelKind::hammer) {
+    for (TipState& s : run) s.X = section_difference(s, run.front())[0];
+  }
+  const double n = static_cast<double>(run.size());
+  double X = 0.0, g = 0.0, XX = 0.0, gg = 0.0, turns = 0.0;
+  for (const TipState& s : run) X += s.X / n, g += s.g1 / n;
+  for (const TipState& s : run) XX += (s.X - X) * (s.X - X), gg += (s.g1 - g) * (s.g1 - g);
+  const auto angle = [&](const TipState& s) {
+    return std::atan2((s.g1 - g) / std::sqrt(gg), (s.X - X) / std::sqrt(XX));
+  };
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const double step = (angle(run[i]) - angle(run[i - 1])) / kTwoPi;
+    turns += step - std::floor(step);
+  }
+  const double mean = turns / (n - 1.0);
+  return std::min(mean, 1.0 - mean);
+}
+
+// An exponent within this of 0 is that of a torus or of a bifurcation [1/tau]; and within so many standard errors.
+constexpr double kNoGrowth = 0.01, kStandardErrors = 4.0;
+
+AttractorKind kind_of(const LyapunovSpectrum& s) {
+  if (s.outcome != LyapunovOutcome::measured) return AttractorKind::undecided;
+  if (s.exponents[0] > std::max(kNoGrowth, kStandardErrors * s.std_errors[0])) return AttractorKind::chaotic;
+  return s.exponents[0] > -kNoGrowth ? AttractorKind::quasi_periodic : AttractorKind::undecided;
+}
+
+Period look_for_period(Observer& observer, const Tip& tip, const AttractorSettings& settings) {
+  const ModelTime end = tip.now() + settings.duration;
+  Period period;
+  while (tip.now() < end && !observer.stopped() && period.marks == 0) {
+    period = find_period(observer, tip.eta(), end, settings);
+  }
+  return period;
+}
+
+void describe(const Model& model, Tip& tip, const Period& period, Attractor& found) {
+  found.kind = AttractorKind::periodic;
+  found.impacts = period.impacts;
+  found.cells = period.cells;
+  if (period.impacts > 0) found.cells_per_impact = static_cast<double>(period.cells) / period.impacts;
+  found.lyapunov = exponents_of(model, tip, period);
+}
+
+// By its exponents; where they say that it draws its surroundings in, it repeats itself after all, only later.
+void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const AttractorSettings& settings,
+                         Attractor& found) {
+  found.lyapunov = lyapunov(model, tip, {0.0, settings.duration, observer.left(), 0.0});
+  found.kind = kind_of(found.lyapunov);
+  if (found.lyapunov.outcome != LyapunovOutcome::measured || found.kind == AttractorKind::chaotic) return;
+  if (find_slow_period(model, observer, tip, tip.now() + settings.duration, found)) return;
+  if (found.kind == AttractorKind::quasi_periodic) {
+    found.rotation_number = rotation_number(model, observer, tip.now() + settings.duration);
+    return;
+  }
+  constexpr double kFolds = 25.0;  // until a displacement is e^-25 of itself
+  if (!std::isfinite(found.lyapunov.exponents[0])) return;
+  observer.run_until(tip.now() + kFolds / -found.lyapunov.exponents[0]);
+  const Period period = look_for_period(observer, tip, settings);
+  if (period.marks > 0) describe(model, tip, period, found);
+}
+
+}  // namespace
+
+std::string Attractor::name() const {
+  switch (kind) {
+    case AttractorKind::periodic:
+      return "period-" + std::to_string(impacts);
+    case AttractorKind::quasi_periodic:
+      return "quasi-periodic";
+    case AttractorKind::chaotic:
+      return "chaotic";
+    case AttractorKind::contact:
+      return "contact";
+    case AttractorKind::rest:
+      return "rest";
+    default:
+      return "undecided";
+  }
+}
+
+Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& settings) {
+  Attractor found;
+  if (tip.eta() == 0.0) {
+    found.kind = AttractorKind::rest;
+    return found;
+  }
+  Observer observer(tip, settings.most_events);
+  observer.run_until(tip.now() + settings.transient);
+  observer.take_contact_time();
+  const ModelTime begin = tip.now();
+  const int impacts_before = observer.mark().impacts;
+  const Period period = look_for_period(observer, tip, settings);
+  const double seen = tip.now() - begin;
+  if (observer.stopped() || !(seen > 0.0)) return found;
+  found.contact_share = observer.take_contact_time() / seen;
+  const int impacts = observer.mark().impacts - impacts_before;
+  found.cells_per_impact = impacts > 0 ? std::abs(tip.eta()) * seen / impacts : 0.0;
+  if (period.marks > 0) {
+    describe(model, tip, period, found);
+  } else {
+    describe_unrepeated(model, observer, tip, settings, found);
+  }
+  if (found.contact_share > 0.5) found.kind = AttractorKind::contact;
+  return found;
+}
+
+Attractor find_attractor(const Model& model, double eta, const TipState& start, const AttractorSettings& settings) {
+  Tip tip(model, eta, start);
+  return find_attractor(model, tip, settings);
+}
+
+}  // namespace afm

@@ -1,0 +1,53 @@
+#include "afm/dynamics/basins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm/dynamics/time_average.h"
+
+namespace afm {
+
+Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings) {
+  Visit v;
+  v.start = random_start(point, settings.seed, index);
+  const Model model = model_of(point);
+  Tip tip(model, point.eta, v.start);
+  v.attractor = find_attractor(model, tip, settings.attractor);
+  const FrictionAverage friction = v.attractor.cells > 0
+                                       ? average_over_periods(tip, v.attractor.cells, settings.friction_duration)
+                                       : average_over_time(tip, settings.friction_duration);
+  v.K_f = friction.K_f;
+  v.K_f_std_error = friction.K_f_std_error;
+  v.end = tip.tip_state();
+  return v;
+}
+
+bool same_attractor(const Visit& a, const Visit& b) {
+  if (a.attractor.kind != b.attractor.kind || a.attractor.impacts != b.attractor.impacts) return false;
+  if (a.attractor.cells != b.attractor.cells) return false;
+  if (std::isnan(a.K_f) && std::isnan(b.K_f)) return true;
+  const double error = std::hypot(a.K_f_std_error, b.K_f_std_error);
+  return std::abs(a.K_f - b.K_f) <= std::max(1e-6, 5.0 * error);
+}
+
+std::vector<Basin> find_basins(const SweepPoint& point, const BasinSettings& settings) {
+  std::vector<Basin> basins;
+  for (int i = 0; i < settings.starts; ++i) {
+    const Visit v = visit(point, static_cast<std::uint64_t>(i), settings);
+    const auto known =
+        std::find_if(basins.begin(), basins.end(), [&](const Basin& basin) { return same_attractor(basin.first, v); });
+    if (known == basins.end()) {
+      basins.push_back({v, 1, 0.0, 0.0});
+    } else {
+      ++known->starts;
+    }
+  }
+  for (Basin& basin : basins) {
+    basin.share = static_cast<double>(basin.starts) / settings.starts;
+    basin.share_std_error = std::sqrt(basin.share * (1.0 - basin.share) / settings.starts);
+  }
+  std::stable_sort(basins.begin(), basins.end(), [](const Basin& a, const Basin& b) { return a.starts > b.starts; });
+  return basins;
+}
+
+}  // namespace afm

@@ -1,0 +1,154 @@
+#include "afm/dynamics/continuation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "arclength.h"
+#include "bifurcation_signs.h"
+
+namespace afm {
+namespace {
+
+constexpr double kTouch = 1e-9;    // a gap this small on the way is a graze [a]
+constexpr double kNoSpeed = 1e-3;  // an impact this slow, against the drag, is one
+constexpr double kSmallestStep = 1e-13;
+
+class Continuation {
+ public:
+  Continuation(const Model& model, double eta, Parameter vary, double target, const ContinuationSettings& settings)
+      : model_(model), eta_(eta), vary_(vary), target_(target), settings_(settings), line_(model, eta, vary) {}
+
+  Branch follow(const PeriodicOrbit& start) {
+    Place before{start.points, value_of(model_, eta_, vary_)};
+    branch_.points.push_back({before.parameter, start});
+    Eigen::VectorXd direction = line_.tangent(before, target_);
+    double step = settings_.first_step;
+    for (int i = 0; i < settings_.most_steps; ++i) {
+      Place now;
+      while (!line_.advance(before, direction, step, now)) {
+        step *= 0.5;
+        if (step < kSmallestStep) return end_at_loss();
+      }
+      if (!take(before, direction, step, now)) return branch_;
+      direction = line_.difference(now, before).normalized();
+      before = now;
+      step = std::min(1.5 * step, settings_.largest_step);
+    }
+    branch_.end = resonates(branch_.points.back()) ? BranchEnd::resonance : BranchEnd::steps_spent;
+    return branch_;
+  }
+
+ private:
+  // Without Newton's steps once more: at a fold they would lead to the other branch.
+  BranchPoint describe(const Place& p) const { return {p.parameter, orbit_at(line_.map(p.parameter), p.points)}; }
+
+  // What has happened between one point and the next; false where the branch is at its end.
+  bool take(const Place& before, const Eigen::VectorXd& direction, double step, const Place& now) {
+    const BranchPoint from = branch_.points.back();
+    BranchPoint to = describe(now);
+    if (to.orbit.points.empty()) {
+      branch_.end = BranchEnd::lost;
+      return false;
+    }
+    for (const BifurcationKind kind : {BifurcationKind::corner, BifurcationKind::saddle_node,
+                                       BifurcationKind::period_doubling, BifurcationKind::torus}) {
+      if (sign(kind, from) != sign(kind, to)) locate(kind, before, direction, step);
+    }
+    if ((to.parameter - target_) * (branch_.points.front().parameter - target_) <= 0.0) {
+      branch_.end = BranchEnd::target;
+      const double share = (target_ - from.parameter) / (to.parameter - from.parameter);
+      const OrbitResult last =
+          find_orbit(line_.map(target_), line_.moved(before, share * line_.difference(now, before)).points);
+      if (last.outcome == OrbitOutcome::found) to = {target_, last.orbit};
+      branch_.points.push_back(to);
+      return false;
+    }
+    branch_.points.push_back(to);
+    return true;
+  }
+
+  int sign(BifurcationKind kind, const BranchPoint& at) const {
+    return bifurcation_sign(kind, at.orbit, vary_ == Parameter::cutoff ? at.parameter : model_.v_c);
+  }
+
+  // By halves of the step.
+  void locate(BifurcationKind kind, const Place& before, const Eigen::VectorXd& direction, double step) {
+    double low = 0.0, high = step;
+    const int first = sign(kind, branch_.points.back());
+    BranchPoint at = branch_.points.back();
+    for (int i = 0; i < 60 && high - low > settings_.event_tolerance * 0.1; ++i) {
+      const double middle = 0.5 * (low + high);
+      Place there;
+      if (!line_.advance(before, direction, middle, there)) break;
+      const BranchPoint point = describe(there);
+      if (point.orbit.points.empty()) break;
+      if (sign(kind, point) == first) {
+        low = middle;
+        at = point;
+      } else {
+        high = middle;
+      }
+    }
+    if (confirms(kind, at.orbit))
+      branch_.events.push_back({kind, at, kind == BifurcationKind::torus ? turns_on_circle(at.orbit) : 0.0});
+  }
+
+  Branch end_at_loss() {
+    const BranchPoint& last = branch_.points.back();
+    branch_.end = resonates(last) ? BranchEnd::resonance : BranchEnd::lost;
+    if (last.orbit.clearance < 1e4 * kTouch || last.orbit.slowest_impact < kNoSpeed * (1.0 + std::abs(eta_))) {
+      branch_.end = BranchEnd::grazing;
+      branch_.events.push_back({BifurcationKind::grazing, last, 0.0});
+    }
+    return branch_;
+  }
+
+  bool resonates(const BranchPoint& at) const {
+    if (model_.kind == ModelKind::hammer) return false;
+    const double turns = at.orbit.period * model_.frequency_ratio;
+    return std::abs(turns - std::round(turns)) < 5e-3 && std::abs(at.orbit.multipliers[1] - 1.0) < 0.02;
+  }
+
+  const Model model_;
+  const double eta_;
+  const Parameter vary_;
+  const double target_;
+  const ContinuationSettings settings_;
+  const Arclength line_;
+  Branch branch_;
+};
+
+}  // namespace
+
+const char* name(BifurcationKind kind) {
+  switch (kind) {
+    case BifurcationKind::saddle_node:
+      return "saddle-node";
+    case BifurcationKind::period_doubling:
+      return "period doubling";
+    case BifurcationKind::torus:
+      return "torus";
+    case BifurcationKind::corner:
+      return "corner";
+    default:
+      return "grazing";
+  }
+}
+
+PoincareMap map_at(const Model& model, double eta, Parameter vary, double value) {
+  Model m = model;
+  if (vary == Parameter::gamma) m.gamma = value;
+  if (vary == Parameter::cutoff) m.v_c = value;
+  return PoincareMap(m, vary == Parameter::eta ? value : eta);
+}
+
+double value_of(const Model& model, double eta, Parameter parameter) {
+  return parameter == Parameter::eta ? eta : parameter == Parameter::gamma ? model.gamma : model.v_c;
+}
+
+Branch continue_orbit(const Model& model, double eta, const PeriodicOrbit& start, Parameter vary, double target,
+                      const ContinuationSettings& settings) {
+  return Continuation(model, eta, vary, target, settings).follow(start);
+}
+
+}  // namespace afm

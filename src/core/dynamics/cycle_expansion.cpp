@@ -1,0 +1,138 @@
+#include "afm/dynamics/cycle_expansion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace afm {
+namespace {
+
+// What one orbit, or a product of distinct ones, adds: weight (with its sign) times energy and time.
+struct Term {
+  double weight, energy, time, instability;
+  std::size_t length;
+};
+
+double instability(const PeriodicOrbit& orbit) {
+  double product = 1.0;
+  for (const auto& multiplier : orbit.multipliers) product *= std::max(1.0, std::abs(multiplier));
+  return product;
+}
+
+// Every product of distinct orbits within both bounds; the empty product first.
+std::vector<Term> combinations(const std::vector<PeriodicOrbit>& orbits, std::size_t longest, double largest) {
+  std::vector<Term> terms{{1.0, 0.0, 0.0, 1.0, 0}};
+  for (const PeriodicOrbit& orbit : orbits) {
+    const double stretch = instability(orbit);
+    const std::size_t count = terms.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Term t = terms[i];
+      if (t.length + orbit.length() > longest || t.instability * stretch > largest) continue;
+      terms.push_back({-t.weight / stretch, t.energy + orbit.energy_loss, t.time + orbit.period,
+                       t.instability * stretch, t.length + orbit.length()});
+    }
+  }
+  return terms;
+}
+
+class Sum {
+ public:
+  explicit Sum(double eta) : eta_(eta) {}
+
+  void add(const Term& t) {
+    ++terms_;
+    weight_ += t.weight;
+    energy_ += t.weight * t.energy;
+    time_ += t.weight * t.time;
+  }
+  CycleAverage average(double order) const { return {order, terms_ - 1, energy_ / time_ / (eta_ * eta_), weight_}; }
+
+ private:
+  double eta_;
+  int terms_ = 0;
+  double weight_ = 0.0, energy_ = 0.0, time_ = 0.0;
+};
+
+double determinant(const PeriodicOrbit& orbit, int repeats) {
+  std::complex<double> product = 1.0;
+  for (const auto& multiplier : orbit.multipliers) product *= 1.0 - std::pow(multiplier, repeats);
+  return std::abs(product);
+}
+
+// A power series in z with the derivatives by the fields that count energy and time.
+struct Series {
+  explicit Series(std::size_t n) : value(n + 1), energy(n + 1), time(n + 1) {}
+  std::vector<double> value, energy, time;
+};
+
+// Coefficients of sum over orbits and repeats of z^(nr) e^(r field) n / |det(1 - J^r)|: n c_n of the logarithm -sum c_n
+// z^n.
+Series traces(const std::vector<PeriodicOrbit>& orbits, std::size_t longest) {
+  Series c(longest);
+  for (const PeriodicOrbit& orbit : orbits) {
+    for (std::size_t r = 1; r * orbit.length() <= longest; ++r) {
+      const std::size_t n = r * orbit.length();
+      const double weight = static_cast<double>(orbit.length()) / determinant(orbit, static_cast<int>(r));
+      c.value[n] += weight;
+      c.energy[n] += weight * static_cast<double>(r) * orbit.energy_loss;
+      c.time[n] += weight * static_cast<double>(r) * orbit.period;
+    }
+  }
+  return c;
+}
+
+}  // namespace
+
+std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest) {
+  const std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(longest), INFINITY);
+  std::vector<CycleAverage> rows;
+  for (int n = 1; n <= longest; ++n) {
+    Sum sum(eta);
+    for (const Term& t : terms) {
+      if (t.length <= static_cast<std::size_t>(n)) sum.add(t);
+    }
+    rows.push_back(sum.average(n));
+  }
+  return rows;
+}
+
+std::vector<CycleAverage> stability_averages(const std::vector<PeriodicOrbit>& orbits, double eta, double largest) {
+  std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(-1), largest);
+  std::stable_sort(terms.begin(), terms.end(),
+                   [](const Term& a, const Term& b) { return a.instability < b.instability; });
+  Sum sum(eta);
+  std::vector<CycleAverage> rows;
+  for (const Term& t : terms) {
+    sum.add(t);
+    if (t.length > 0) rows.push_back(sum.average(t.instability));
+  }
+  return rows;
+}
+
+// D = exp(-L), L = sum c_n z^n: n D_n = -sum_k k c_k D_(n-k), and likewise for the derivatives.
+std::vector<CycleAverage> determinant_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest) {
+  const std::size_t N = static_cast<std::size_t>(longest);
+  const Series c = traces(orbits, N);
+  Series D(N);
+  D.value[0] = 1.0;
+  for (std::size_t n = 1; n <= N; ++n) {
+    for (std::size_t k = 1; k <= n; ++k) {
+      D.value[n] -= c.value[k] * D.value[n - k];
+      D.energy[n] -= c.energy[k] * D.value[n - k] + c.value[k] * D.energy[n - k];
+      D.time[n] -= c.time[k] * D.value[n - k] + c.value[k] * D.time[n - k];
+    }
+    D.value[n] /= static_cast<double>(n);
+    D.energy[n] /= static_cast<double>(n);
+    D.time[n] /= static_cast<double>(n);
+  }
+  std::vector<CycleAverage> rows;
+  double value = 1.0, energy = 0.0, time = 0.0;
+  for (std::size_t n = 1; n <= N; ++n) {
+    value += D.value[n];
+    energy += D.energy[n];
+    time += D.time[n];
+    rows.push_back({static_cast<double>(n), static_cast<int>(n), energy / time / (eta * eta), value});
+  }
+  return rows;
+}
+
+}  // namespace afm

@@ -1,0 +1,211 @@
+#include "afm/dynamics/periodic_orbit.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "afm/detail/double_double.h"
+#include "orbit_polish.h"
+
+namespace afm {
+namespace {
+
+using Points = std::vector<TipState>;
+
+// The map at every point, and how far each image is from the next point.
+struct Shot {
+  bool landed = true;
+  std::vector<MapStep> steps;
+  Eigen::VectorXd error;
+
+  double residual() const { return landed ? error.lpNorm<Eigen::Infinity>() : std::numeric_limits<double>::infinity(); }
+};
+
+Shot shoot(const PoincareMap& map, const Points& points) {
+  const std::size_t n = points.size();
+  Shot shot;
+  shot.error.resize(static_cast<Eigen::Index>(4 * n));
+  for (std::size_t i = 0; i < n; ++i) {
+    shot.steps.push_back(map(points[i]));
+    if (shot.steps.back().outcome != MapOutcome::impact) {
+      shot.landed = false;
+      return shot;
+    }
+    shot.error.segment<4>(static_cast<Eigen::Index>(4 * i)) =
+        section_difference(shot.steps.back().after, points[(i + 1) % n]);
+  }
+  return shot;
+}
+
+// J_i d_i - d_(i+1) = -error_i around the orbit.
+Eigen::VectorXd newton_step(const Shot& shot, const Eigen::VectorXd& error) {
+  const Eigen::Index n = static_cast<Eigen::Index>(shot.steps.size());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(4 * n, 4 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    A.block<4, 4>(4 * i, 4 * i) += shot.steps[static_cast<std::size_t>(i)].J;
+    A.block<4, 4>(4 * i, 4 * ((i + 1) % n)) -= Eigen::Matrix4d::Identity();
+  }
+  return A.partialPivLu().solve(-error);
+}
+
+Points moved(const Points& points, const Eigen::VectorXd& step, double share) {
+  Points result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    result.push_back(section_sum(points[i], share * step.segment<4>(static_cast<Eigen::Index>(4 * i))));
+  }
+  return result;
+}
+
+Multipliers eigenvalues(const SectionJacobian<double>& J) {
+  const Eigen::Vector4cd found = J.eigenvalues();
+  Multipliers sorted{found[0], found[1], found[2], found[3]};
+  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    const double difference = std::abs(a) - std::abs(b);
+    const bool equal = std::abs(difference) <= 1e-12 * std::abs(a);  // a pair, or +-1
+    return equal ? a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real() : difference > 0.0;
+  });
+  return sorted;
+}
+
+// The points of an orbit good to rounding, its energy, times and friction, all to the last digit.
+void refine(const PoincareMap& map, const Shot& shot, Points points, PeriodicOrbit& orbit) {
+  std::vector<double> times;
+  for (const MapStep& step : shot.steps) times.push_back(step.dt);
+  const FineOrbit fine =
+      polish(map, points, times, [&](const Eigen::VectorXd& error) { return newton_step(shot, error); });
+  DoubleDouble energy(0.0), period(0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const FinePoint& p = fine.points[i];
+    orbit.points.push_back({wrap_phase(static_cast<double>(p.phase)), static_cast<double>(p.X),
+                            static_cast<double>(p.u), 0.0, static_cast<double>(p.g1)});
+    orbit.times.push_back(static_cast<double>(fine.steps[i].dt));
+    energy = energy + fine.steps[i].energy_loss;
+    period = period + fine.steps[i].dt;
+  }
+  const DoubleDouble eta(map.eta());
+  orbit.energy_loss = static_cast<double>(energy);
+  orbit.period = static_cast<double>(period);
+  orbit.K_f = static_cast<double>(energy / (eta * eta * period));
+}
+
+// The point with the smallest phase first.
+void turn_to_first(PeriodicOrbit& orbit) {
+  const auto first = std::min_element(orbit.points.begin(), orbit.points.end(),
+                                      [](const TipState& a, const TipState& b) { return a.phase < b.phase; });
+  const auto shift = first - orbit.points.begin();
+  std::rotate(orbit.points.begin(), orbit.points.begin() + shift, orbit.points.end());
+  std::rotate(orbit.times.begin(), orbit.times.begin() + shift, orbit.times.end());
+}
+
+// All that does not need the last digit. Precondition: every point lands.
+void measure(const PoincareMap& map, PeriodicOrbit& orbit) {
+  const Shot shot = shoot(map, orbit.points);
+  orbit.residual = shot.residual();
+  orbit.cells = static_cast<int>(std::lround(map.eta() * orbit.period));
+  orbit.slowest_impact = orbit.clearance = std::numeric_limits<double>::infinity();
+  for (const MapStep& step : shot.steps) orbit.slowest_impact = std::min(orbit.slowest_impact, step.normal_speed);
+  for (std::size_t i = 0; i < orbit.points.size(); ++i) {
+    orbit.clearance = std::min(orbit.clearance, map.clearance(orbit.points[i], orbit.times[i]));
+  }
+  orbit.multipliers = eigenvalues(orbit_jacobian(map, orbit));
+}
+
+PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot& shot) {
+  PeriodicOrbit orbit;
+  refine(map, shot, points, orbit);
+  turn_to_first(orbit);
+  measure(map, orbit);
+  return orbit;
+}
+
+// Cuts the step until the error falls; 0 where no part of it makes it fall.
+double find_share(const PoincareMap& map, const Points& points, const Eigen::VectorXd& step, const Shot& now,
+                  double smallest, Shot& next) {
+  for (double share = 1.0; share >= smallest; share *= 0.5) {
+    next = shoot(map, moved(points, step, share));
+    if (next.landed && next.error.norm() < (1.0 - 0.1 * share) * now.error.norm()) return share;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess, const NewtonSettings& settings) {
+  Points points = guess;
+  Shot shot = shoot(map, points);
+  OrbitOutcome outcome = shot.landed && !points.empty() ? OrbitOutcome::slow : OrbitOutcome::singular;
+  for (int i = 0; i < settings.most_steps && outcome == OrbitOutcome::slow; ++i) {
+    const Eigen::VectorXd step = newton_step(shot, shot.error);
+    Shot next;
+    const double share = step.allFinite() ? find_share(map, points, step, shot, settings.smallest_share, next) : 0.0;
+    if (share > 0.0) {
+      points = moved(points, step, share);
+      shot = std::move(next);
+      continue;  // also below the residual asked for: one step more brings the last digits
+    }
+    outcome = shot.residual() <= settings.residual ? OrbitOutcome::found : OrbitOutcome::singular;
+  }
+  if (outcome == OrbitOutcome::slow && shot.residual() <= settings.residual) outcome = OrbitOutcome::found;
+  if (outcome != OrbitOutcome::found) return {outcome, {}};
+  PeriodicOrbit orbit = describe(map, points, shot);
+  // without speed the map is the identity nearly everywhere on the surface: a tip in contact, not an orbit
+  if (map.eta() != 0.0 && orbit.cells == 0) outcome = OrbitOutcome::contact;
+  return {outcome, std::move(orbit)};
+}
+
+PeriodicOrbit orbit_at(const PoincareMap& map, const std::vector<TipState>& points) {
+  PeriodicOrbit orbit;
+  const Shot shot = shoot(map, points);
+  if (!shot.landed) return orbit;
+  orbit.points = points;
+  for (const MapStep& step : shot.steps) {
+    orbit.times.push_back(step.dt);
+    orbit.period += step.dt;
+    orbit.energy_loss += step.energy_loss;
+  }
+  orbit.K_f = orbit.energy_loss / (map.eta() * map.eta() * orbit.period);
+  turn_to_first(orbit);
+  measure(map, orbit);
+  return orbit;
+}
+
+SectionJacobian<double> orbit_jacobian(const PoincareMap& map, const PeriodicOrbit& orbit) {
+  SectionJacobian<double> J = SectionJacobian<double>::Identity();
+  for (const TipState& point : orbit.points) J = map(point).J * J;
+  return J;
+}
+
+namespace {
+
+// Different orbits of one length are never so close, and one orbit found twice is closer [a, a/tau].
+constexpr double kSame = 1e-7;
+
+bool close(const TipState& a, const TipState& b) { return section_difference(a, b).lpNorm<Eigen::Infinity>() < kSame; }
+
+bool matches(const PeriodicOrbit& a, const PeriodicOrbit& b, std::size_t shift) {
+  for (std::size_t i = 0; i < a.length(); ++i) {
+    if (!close(a.points[i], b.points[(i + shift) % b.length()])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
+  if (a.length() != b.length() || a.cells != b.cells) return false;
+  for (std::size_t shift = 0; shift < a.length(); ++shift) {
+    if (matches(a, b, shift)) return true;
+  }
+  return false;
+}
+
+bool is_prime(const PeriodicOrbit& orbit) {
+  for (std::size_t shift = 1; shift < orbit.length(); ++shift) {
+    if (orbit.length() % shift == 0 && matches(orbit, orbit, shift)) return false;
+  }
+  return true;
+}
+
+}  // namespace afm

@@ -1,0 +1,63 @@
+#include "afm/dynamics/poincare_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "afm/impact_search.h"
+#include "afm/reflection.h"
+#include "core/tip/tip_arcs.h"
+
+namespace afm {
+
+TipState PoincareMap::held(const TipState& start) const {
+  return model_.kind == ModelKind::oscillator ? start : TipState{start.phase, 0.0, eta_, start.g, start.g1};
+}
+
+MapStep PoincareMap::operator()(const TipState& start) const {
+  MapStep step;
+  if (!(start.g1 >= kLeastGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
+  Flight<double> flight(mechanics_, eta_, held(start), BoundLater{});
+  const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
+  step.outcome = MapOutcome::no_impact;
+  if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
+  const Reflection bounce = reflect(model_, eta_, landing.jet);
+  step.outcome = MapOutcome::impact;
+  step.after = bounce.after;
+  step.dt = landing.s;
+  step.normal_speed = bounce.normal_speed;
+  step.tangential_velocity = bounce.tangential_velocity;
+  step.energy_loss = bounce.energy_loss;
+  step.J = section_jacobian(model_, flight, landing.s, landing.jet);
+  return step;
+}
+
+// Looked for on a grid, which the fastest term of the gap does not slip through, and then by halves.
+double PoincareMap::clearance(const TipState& start, double dt) const {
+  const Flight<double> flight(mechanics_, eta_, held(start));
+  const double turns = dt * (mechanics_.ratio + std::abs(eta_) + 1.0);
+  const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 1; i < points; ++i) {
+    double low = dt * (i - 1) / points, high = dt * i / points;
+    if (!(flight.gap(low).g1 <= 0.0 && flight.gap(high).g1 > 0.0)) continue;
+    constexpr int kHalves = 40;
+    for (int k = 0; k < kHalves; ++k) {
+      const double middle = 0.5 * (low + high);
+      (flight.gap(middle).g1 > 0.0 ? high : low) = middle;
+    }
+    smallest = std::min(smallest, flight.gap(low).g);
+  }
+  return smallest;
+}
+
+Eigen::Vector4d section_difference(const TipState& b, const TipState& a) {
+  const double phase = b.phase - a.phase;
+  return {phase - std::round(phase), b.X - a.X, b.u - a.u, b.g1 - a.g1};
+}
+
+TipState section_sum(const TipState& a, const Eigen::Vector4d& step) {
+  return {wrap_phase(a.phase + step[0]), a.X + step[1], a.u + step[2], 0.0, a.g1 + step[3]};
+}
+
+}  // namespace afm

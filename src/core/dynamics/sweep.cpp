@@ -1,0 +1,162 @@
+#include "afm/dynamics/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "afm/ensemble.h"
+#include "afm/surface.h"
+#include "afm/tip.h"
+
+namespace afm {
+namespace {
+
+// 64 random bits from a counter (SplitMix64): the same on every machine.
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+class Uniform {
+ public:
+  Uniform(std::uint64_t seed, std::uint64_t index) : state_(mix(mix(seed) ^ index)) {}
+  double operator()(double from, double to) {
+    state_ = mix(state_);
+    return from + (to - from) * (static_cast<double>(state_ >> 11) * 0x1p-53);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+constexpr double kLyapunovDuration = 2000.0;  // [tau] an exponent within a few per cent; dearer than the friction
+
+}  // namespace
+
+std::vector<ParameterError> find_faults(const SweepPoint& point) {
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(model_of(point))) {
+    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+  }
+  if (!(std::abs(point.eta) <= kMaxEta)) {
+    faults.emplace_back("eta", point.eta, "the drag velocity must be finite and at most 1000 lattice spacings per tau");
+  }
+  return faults;
+}
+
+std::vector<ParameterError> find_faults(const SweepSettings& settings) {
+  constexpr double kLongest = 1e12;  // [tau]
+  std::vector<ParameterError> faults;
+  if (!(settings.duration > 0.0 && settings.duration <= kLongest)) {
+    faults.emplace_back("duration", settings.duration, "must be above 0 and at most 1e12 tau");
+  }
+  if (!(settings.transient >= 0.0 && settings.transient <= kLongest)) {
+    faults.emplace_back("transient", settings.transient, "must be at least 0 and at most 1e12 tau");
+  }
+  return faults;
+}
+
+Model model_of(const SweepPoint& point) {
+  Model model;
+  model.gamma = point.gamma;
+  model.v_c = point.v_c;
+  model.kind = point.kind;
+  return model;
+}
+
+TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index) {
+  Uniform random(seed, index);
+  const double phase = random(0.0, 1.0), X = random(-0.1, 0.1), rise = random(0.0, 0.3);
+  const double u = point.eta * random(0.5, 1.5), w = point.eta * random(-1.0, 1.0);
+  const double H = model_of(point).H;
+  return to_tip_state(H, {phase, X, surface_jet(H, phase).h + rise, u, w});
+}
+
+namespace {
+
+AttractorSettings search_settings(const SweepSettings& settings) {
+  AttractorSettings search;
+  search.transient = settings.transient;
+  search.duration = std::min(settings.duration, kLyapunovDuration);
+  return search;
+}
+
+constexpr std::size_t kFewest = 3;  // in a pack that is all but empty a tip is slower than by itself
+
+// Brings the meters' tips on together, until few are left.
+void measure_together(std::vector<FrictionMeter>& meters, Ensemble& tips) {
+  constexpr std::uint32_t kEvents = 128;
+  std::vector<Impact> log(meters.size() * kEvents);
+  std::vector<ModelTime> limits;
+  for (const FrictionMeter& meter : meters) limits.push_back(meter.limit());
+  for (std::size_t left = meters.size(); left > kFewest;) {
+    tips.advance(kEvents, limits.data(), log.data());
+    for (std::size_t i = 0; i < meters.size(); ++i) {
+      if (meters[i].done()) continue;
+      const std::uint32_t events = tips.events(i), failures = tips.search_failures(i);
+      meters[i].add_search_failures(failures);
+      for (std::uint32_t k = 0; k < events - failures; ++k) meters[i].add(log[i * kEvents + k]);
+      if (events == kEvents) continue;
+      meters[i].reach_limit();
+      limits[i] = meters[i].limit();
+      left -= meters[i].done() ? 1 : 0;
+    }
+  }
+}
+
+}  // namespace
+
+SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start) {
+  const Model model = model_of(point);
+  Tip tip(model, point.eta, start);
+  SweepResult result;
+  result.attractor = find_attractor(model, tip, search_settings(settings));
+  FrictionMeter meter(tip, result.attractor.cells, settings.duration);
+  result.friction = measure(tip, meter);
+  result.end = tip.tip_state();
+  return result;
+}
+
+std::vector<SweepResult> sweep_points(const std::vector<SweepTrip>& trips, const SweepSettings& settings) {
+  std::vector<SweepResult> results;
+  if (trips.size() <= kFewest || Ensemble().lanes() == 1) {
+    for (const SweepTrip& trip : trips) results.push_back(sweep_point(trip.point, settings, trip.start));
+    return results;
+  }
+  const AttractorSettings search = search_settings(settings);
+  const ModelTime transient = ModelTime{} + settings.transient;
+  Ensemble tips;
+  for (const SweepTrip& trip : trips) tips.add(Tip(model_of(trip.point), trip.point.eta, trip.start));
+  tips.advance(static_cast<std::uint32_t>(search.most_events), transient);
+
+  results.resize(trips.size());
+  std::vector<FrictionMeter> meters;
+  Ensemble settled;
+  for (std::size_t i = 0; i < trips.size(); ++i) {
+    const SweepTrip& trip = trips[i];
+    const Model model = model_of(trip.point);
+    Tip tip = tips.tip(i);
+    AttractorSettings rest = search;
+    // one that has no drag or is in trouble is looked at from its start on, as it is alone
+    if (trip.point.eta == 0.0 || tips.search_failures(i) > 0 || tips.events(i) + 2 > search.most_events) {
+      tip = Tip(model, trip.point.eta, trip.start);
+    } else {
+      rest.transient = 0.0;
+      rest.most_events -= tips.events(i);
+    }
+    results[i].attractor = find_attractor(model, tip, rest);
+    meters.emplace_back(tip, results[i].attractor.cells, settings.duration);
+    settled.add(tip);
+  }
+  measure_together(meters, settled);
+  for (std::size_t i = 0; i < trips.size(); ++i) {
+    Tip tip = settled.tip(i);
+    results[i].friction = measure(tip, meters[i]);
+    results[i].end = tip.tip_state();
+  }
+  return results;
+}
+
+}  // namespace afm

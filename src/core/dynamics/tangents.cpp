@@ -1,0 +1,158 @@
+#include "afm/dynamics/tangents.h"
+
+#include <cmath>
+#include <limits>
+
+#include "afm/dynamics/contact_jacobian.h"
+#include "afm/flight.h"
+#include "afm/detail/multiversion.h"
+#include "afm/reflection.h"
+
+namespace afm {
+namespace {
+
+SlideState<double> guide_of(const TipState& s) { return {s.phase, s.X, s.u}; }
+
+// A flight from impact to impact again, to the last digits, and what it does to displacements.
+struct Bounced {
+  TipState after;
+  double normal_speed;
+  SectionJacobian<double> jacobian;
+};
+
+AFM_MULTIVERSION void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start,
+                             double dt, Bounced& bounced) {
+  const Flight<double> flight(mechanics, eta, start);
+  GapJet<double> landing = flight.gap(dt);
+  landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
+  const Reflection bounce = reflect(model, eta, landing);
+  bounced.after = bounce.after;
+  bounced.normal_speed = bounce.normal_speed;
+  bounced.jacobian = section_jacobian(model, flight, dt, landing);
+}
+
+}  // namespace
+
+// The hammer's displacements are its own two, of phase and gap rate.
+Tangents::Tangents(const Model& model, Tip& tip)
+    : model_(model), mechanics_(model), tip_(tip), rank_(section_dimension(model)) {
+  if (rank_ == 2) columns_.col(1).swap(columns_.col(3));
+}
+
+bool Tangents::start(double within) {
+  const ModelTime end = tip_.now() + within;
+  while (!tip_.in_contact()) {
+    const ModelTime before = tip_.now();
+    const TipState launch = tip_.tip_state();
+    const Outcome outcome = tip_.advance(end);
+    if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return false;
+    if (outcome != Outcome::impact || tip_.last_impact().kind != ImpactKind::impact) continue;
+    const GapJet<double> landing = Flight<double>(mechanics_, tip_.eta(), launch).gap(tip_.now() - before);
+    restart(reflect(model_, tip_.eta(), landing).after);
+    return true;
+  }
+  start_ = tip_.tip_state();
+  since_ = tip_.now();
+  begin_contact();
+  return true;
+}
+
+Outcome Tangents::advance(const ModelTime& limit) {
+  stretch_ = {};
+  const Outcome outcome = tip_.advance(limit);
+  const double dt = tip_.now() - since_;
+  if (outcome == Outcome::time_limit) {
+    if (tip_.in_contact()) carry_slide(dt);  // the other arcs are carried when they end
+  } else if (outcome == Outcome::impact) {
+    tip_.last_impact().kind == ImpactKind::burst ? carry_burst(dt) : carry_bounce(dt);
+  } else if (outcome == Outcome::contact) {
+    begin_contact();
+  } else if (outcome == Outcome::released) {
+    carry_slide(dt);
+  }
+  return outcome;
+}
+
+void Tangents::carry_bounce(double dt) {
+  Bounced bounced;
+  follow(model_, mechanics_, tip_.eta(), start_, dt, bounced);
+  carry(bounced.jacobian);
+  const RestitutionJet<double> law = restitution_jet(model_, bounced.normal_speed);
+  stretch_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounced.after.g1);
+  restart(bounced.after);
+}
+
+// From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A
+// tip that has begun a burst tells its guide alone; then the bounce is as good.
+void Tangents::restart(const TipState& bounce) {
+  start_ = tip_.tip_state();
+  if (!(start_.g1 > 0.0)) start_ = bounce;
+  since_ = tip_.now();
+}
+
+// A burst that dies has carried the guide, and leaves it to the contact that follows; its normal velocity is gone.
+void Tangents::carry_burst(double dt) {
+  const TipState end = tip_.tip_state();
+  stretch_.volume = std::numeric_limits<double>::quiet_NaN();
+  if (end.g1 > 0.0) {
+    carry(burst_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
+  } else {
+    SectionJacobian<double> J = settle_jacobian(model_, start_);
+    J.topRows<3>() = slide_jacobian(model_, tip_.eta(), settle(model_, start_).guide, dt) * J.topRows<3>().eval();
+    J.row(3).setZero();
+    J = held(mechanics_.mobility, J);
+    columns_ = J * columns_;
+    jacobian_ = J;
+  }
+  start_ = end;
+  since_ = tip_.now();
+}
+
+void Tangents::begin_contact() {
+  const SlideState<double> guide = settle(model_, start_).guide;
+  SectionJacobian<double> J = held(mechanics_.mobility, settle_jacobian(model_, start_));
+  J.row(3).setZero();
+  const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), guide).normalized();
+  columns_ = J * columns_;
+  columns_.topRows<3>() -= F * (F.transpose() * columns_.topRows<3>()).eval();
+  jacobian_ = J;
+  rank_ = std::min(rank_, section_dimension(model_) - 2);
+  orthonormalize();
+  start_ = tip_.tip_state();
+  since_ = tip_.now();
+}
+
+void Tangents::carry_slide(double dt) {
+  SectionJacobian<double> J = SectionJacobian<double>::Zero();
+  J.topLeftCorner<3, 3>() = slide_jacobian(model_, tip_.eta(), guide_of(start_), dt);
+  start_ = tip_.tip_state();
+  since_ = tip_.now();
+  columns_ = J * columns_;
+  const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), guide_of(start_)).normalized();
+  columns_.topRows<3>() -= F * (F.transpose() * columns_.topRows<3>()).eval();
+  jacobian_ = J;
+  orthonormalize();
+}
+
+void Tangents::carry(const SectionJacobian<double>& J) {
+  jacobian_ = J;
+  columns_ = J * columns_;
+  orthonormalize();
+}
+
+// Gram and Schmidt, twice: after a graze the columns are nearly parallel.
+void Tangents::orthonormalize() {
+  for (int j = 0; j < rank_; ++j) {
+    double length = 1.0;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (int k = 0; k < j; ++k) columns_.col(j) -= columns_.col(k).dot(columns_.col(j)) * columns_.col(k);
+      const double part = columns_.col(j).norm();
+      length *= part;
+      if (part > 0.0) columns_.col(j) /= part;
+    }
+    stretch_.logarithms[static_cast<std::size_t>(j)] += std::log(length);
+  }
+  columns_.rightCols(4 - rank_).setZero();
+}
+
+}  // namespace afm

@@ -1,0 +1,139 @@
+#include "afm/friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace afm {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kFewestBins = 8;  // below it the spread says nothing about the error
+
+// Standard error of the mean of n bins, of energy per tau.
+double standard_error(const double* energy, std::size_t n, double width) {
+  if (n < kFewestBins) return kNaN;
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < n; ++i) mean += energy[i];
+  mean /= static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) squares += (energy[i] - mean) * (energy[i] - mean);
+  return std::sqrt(squares / static_cast<double>(n * (n - 1))) / width;
+}
+
+}  // namespace
+
+void PowerBins::merge() {
+  for (std::size_t i = 0; i < kBins / 2; ++i) energy_[i] = energy_[2 * i] + energy_[2 * i + 1];
+  std::fill(energy_.begin() + kBins / 2, energy_.end(), 0.0);
+  width_ *= 2.0;
+}
+
+void PowerBins::add(double age, double energy) {
+  while (age >= width_ * static_cast<double>(kBins)) merge();
+  energy_[static_cast<std::size_t>(age / width_)] += energy;
+}
+
+double PowerBins::std_error(double age) const {
+  const double completed = std::min(age / width_, static_cast<double>(kBins));
+  return standard_error(energy_.data(), static_cast<std::size_t>(completed), width_);
+}
+
+void PowerWindow::roll_to(double age) {
+  const std::int64_t bin = static_cast<std::int64_t>(age / width_);
+  const std::int64_t ring = static_cast<std::int64_t>(energy_.size());
+  // after a long silence clearing the ring once is enough
+  current_ = std::max(current_, bin - ring);
+  while (current_ < bin) energy_[static_cast<std::size_t>(++current_ % ring)] = 0.0;
+}
+
+void PowerWindow::add(double age, double energy) {
+  roll_to(age);
+  energy_[static_cast<std::size_t>(current_) % energy_.size()] += energy;
+}
+
+std::size_t PowerWindow::completed() const {
+  return static_cast<std::size_t>(std::min<std::int64_t>(current_, static_cast<std::int64_t>(kBins)));
+}
+
+double PowerWindow::mean(double age) {
+  roll_to(age);
+  const std::size_t n = completed();
+  if (n == 0) return kNaN;
+  double sum = 0.0;
+  for (std::size_t i = 1; i <= n; ++i) sum += energy_[(static_cast<std::size_t>(current_) - i) % energy_.size()];
+  return sum / (static_cast<double>(n) * width_);
+}
+
+double PowerWindow::std_error(double age) {
+  roll_to(age);
+  std::array<double, kBins> bins{};
+  const std::size_t n = completed();
+  for (std::size_t i = 0; i < n; ++i) bins[i] = energy_[(static_cast<std::size_t>(current_) - i - 1) % energy_.size()];
+  return standard_error(bins.data(), n, width_);
+}
+
+namespace {
+constexpr double kFirstBinWidth = 1.0;  // [tau]: bins begin with a vertical period each and double from there
+}
+
+Friction::Friction(double window_tau) : window_tau_(window_tau), bins_(kFirstBinWidth), window_(window_tau) {}
+
+void Friction::restart(const ModelTime& now, double eta) {
+  start_ = now;
+  eta_ = eta;
+  energy_ = energy_rest_ = 0.0;
+  impact_count_ = 0;
+  bins_ = PowerBins(kFirstBinWidth);
+  set_window(now, window_tau_);
+}
+
+void Friction::set_window(const ModelTime& now, double window_tau) {
+  window_tau_ = window_tau;
+  window_start_ = now;
+  window_ = PowerWindow(window_tau);
+}
+
+void Friction::add(const Impact& impact) {
+  const double age = std::max(0.0, impact.time - start_);
+  const double term = impact.energy_loss - energy_rest_;
+  const double sum = energy_ + term;
+  energy_rest_ = (sum - energy_) - term;
+  energy_ = sum;
+  impact_count_ += impact.count;
+  bins_.add(age, impact.energy_loss);
+  window_.add(std::max(0.0, impact.time - window_start_), impact.energy_loss);
+}
+
+FrictionEstimate Friction::estimate(const ModelTime& now) {
+  const double age = now - start_;
+  FrictionEstimate e;
+  e.energy_loss = energy_;
+  e.impact_count = impact_count_;
+  const double power = age > 0.0 ? energy_ / age : kNaN;
+  const bool moving = eta_ != 0.0;
+  const auto to_force = [&](double p) { return moving ? p / eta_ : 0.0; };
+  const auto to_K_f = [&](double p) { return moving ? p / (eta_ * eta_) : kNaN; };
+  const double error = bins_.std_error(age);
+  e.force = to_force(power);
+  e.force_std_error = std::abs(to_force(error));
+  e.K_f = to_K_f(power);
+  e.K_f_std_error = to_K_f(error);
+  const double window_age = now - window_start_;
+  const double window_power = window_.mean(window_age);
+  e.window_force = to_force(window_power);
+  e.window_K_f = to_K_f(window_power);
+  e.window_K_f_std_error = to_K_f(window_.std_error(window_age));
+  return e;
+}
+
+bool Friction::is_possible(const ModelTime& now, double window_tau) const {
+  const auto is_phase = [](double phase) { return phase >= 0.0 && phase < 1.0; };
+  const bool in_time = is_phase(start_.phase) && is_phase(window_start_.phase) && ModelTime{} <= start_ &&
+                       start_ <= window_start_ && window_start_ <= now;
+  const double bins = (now - window_start_) / window_.width();
+  return in_time && window_tau_ == window_tau && bins_.width() >= kFirstBinWidth && std::isfinite(bins_.width()) &&
+         window_.width() == PowerWindow(window_tau).width() && window_.current() >= 0 &&
+         static_cast<double>(window_.current()) <= bins;
+}
+
+}  // namespace afm

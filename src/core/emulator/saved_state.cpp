@@ -1,0 +1,247 @@
+// One list of fields for writing and for reading, so that they cannot drift apart. What follows from the rest (the
+// landing of a flight, the constants of a model) and what is not of the run (counters, whether samples are taken) is
+// left out: two emulators that have come to the same point in batches of their own write the same words.
+#include "afm/saved_state.h"
+
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "afm/emulator.h"
+
+namespace afm {
+namespace {
+
+// Whether or not its search has begun.
+Flight<double> bounded(Flight<double> flight) {
+  flight.bound_derivatives();
+  return flight;
+}
+
+constexpr bool kLp64 = sizeof(void*) == 8;  // where the sizes below are known
+
+class Writer {
+ public:
+  explicit Writer(SavedState& out) : out_(out) { out_.size = 0; }
+  template <class T>
+  void number(const T& value) {
+    put(static_cast<std::uint64_t>(value));
+  }
+  template <class T>
+  void whole(const T& object) {
+    std::memcpy(out_.words.data() + out_.size, &object, sizeof object);
+    out_.size += sizeof object / sizeof(std::uint64_t);
+  }
+
+ private:
+  void put(std::uint64_t word) { out_.words[out_.size++] = word; }
+  SavedState& out_;
+};
+
+// Reads nothing beyond the end; what it was asked for there is left as it was.
+class Reader {
+ public:
+  explicit Reader(const SavedState& in) : in_(in) {}
+  template <class T>
+  void number(T& value) {
+    std::uint64_t word = 0;
+    whole(word);
+    value = static_cast<T>(word);
+    sound_ = sound_ && static_cast<std::uint64_t>(value) == word;
+  }
+  // of enumerations and booleans: no more than `most`
+  template <class T>
+  void choice(T& value, T most) {
+    std::uint64_t word = 0;
+    whole(word);
+    sound_ = sound_ && word <= static_cast<std::uint64_t>(most);
+    if (sound_) value = static_cast<T>(word);
+  }
+  template <class T>
+  void whole(T& object) {
+    constexpr std::size_t kWords = sizeof object / sizeof(std::uint64_t);
+    sound_ = sound_ && in_.size <= SavedState::kMostWords && kWords <= in_.size - at_;
+    if (!sound_) return;
+    std::memcpy(static_cast<void*>(&object), in_.words.data() + at_, sizeof object);
+    at_ += kWords;
+  }
+  bool sound() const { return sound_ && at_ == in_.size; }
+
+ private:
+  const SavedState& in_;
+  std::size_t at_ = 0;
+  bool sound_ = true;
+};
+
+}  // namespace
+
+// Self is const for a writer. A member more or less: put it into its list (or say there why not), raise kMeaning, and
+// then set the size.
+class StateFields {
+ public:
+  template <class Archive, class Self>
+  static void of_run(Archive& archive, Self& emulator);
+  template <class Archive, class Settings>
+  static void of_settings(Archive& archive, Settings& settings);
+  static bool is_possible(const Emulator& emulator);
+
+ private:
+  template <class Archive, class T>
+  static void whole(Archive& archive, T& object);
+  template <class Archive, class T>
+  static void choice(Archive& archive, T& value, std::remove_const_t<T> most);
+  template <class Archive, class Self>
+  static void of_model(Archive& archive, Self& model);
+  template <class Archive, class Self>
+  static void of_impact(Archive& archive, Self& impact);
+  template <class Archive, class Self>
+  static void of_tip(Archive& archive, Self& tip, double contact_tolerance);
+};
+
+// An object that is made of doubles and 64-bit numbers alone, and so has no padding: its members in their order.
+template <class Archive, class T>
+void StateFields::whole(Archive& archive, T& object) {
+  static_assert(std::is_trivially_copyable_v<std::remove_const_t<T>>);
+  static_assert(alignof(T) == alignof(std::uint64_t) && sizeof(T) % sizeof(std::uint64_t) == 0);
+  archive.whole(object);
+}
+
+template <class Archive, class T>
+void StateFields::choice(Archive& archive, T& value, std::remove_const_t<T> most) {
+  if constexpr (std::is_const_v<T>) {
+    archive.number(value);
+  } else {
+    archive.choice(value, most);
+  }
+}
+
+template <class Archive, class Self>
+void StateFields::of_model(Archive& archive, Self& m) {
+  static_assert(!kLp64 || sizeof m == 48);
+  for (auto* field : {&m.frequency_ratio, &m.H, &m.y0, &m.gamma, &m.v_c}) whole(archive, *field);
+  choice(archive, m.kind, ModelKind::hammer);
+}
+
+template <class Archive, class Self>
+void StateFields::of_impact(Archive& archive, Self& i) {
+  static_assert(!kLp64 || sizeof i == 56);
+  whole(archive, i.time);
+  for (auto* field : {&i.surface_phase, &i.normal_speed, &i.tangential_velocity, &i.energy_loss}) {
+    whole(archive, *field);
+  }
+  choice(archive, i.kind, ImpactKind::contact_ended);
+  archive.number(i.count);
+}
+
+// Not mechanics_ and law_, which follow from the model, nor what follows from the tolerance, nor the landing, which
+// follows from the flight.
+template <class Archive, class Self>
+void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
+  constexpr std::size_t kParts =
+      sizeof t.flight_ + sizeof t.slide_ + sizeof t.landing_ + sizeof t.law_ + sizeof t.mechanics_;
+  static_assert(!kLp64 || sizeof t - kParts == 392);
+  of_model(archive, t.model_);
+  whole(archive, t.eta_);
+  if constexpr (std::is_const_v<Self>) {
+    const Flight<double> flight = bounded(t.flight_);
+    whole(archive, flight);
+  } else {
+    whole(archive, t.flight_);
+  }
+  whole(archive, t.slide_);
+  choice(archive, t.mode_, Tip::Mode::sliding);
+  whole(archive, t.start_);
+  whole(archive, t.now_);
+  whole(archive, t.slide_end_);
+  choice(archive, t.slide_releases_, true);
+  whole(archive, t.chatter_);
+  choice(archive, t.chatter_run_.end, ChatterEnd::exits);
+  whole(archive, t.chatter_run_.s);
+  whole(archive, t.chatter_run_.chatter);
+  for (auto* field : {&t.burst_normal_speed_, &t.burst_gain_, &t.work_off_guide_}) whole(archive, *field);
+  of_impact(archive, t.last_impact_);
+  choice(archive, t.untold_, true);
+  of_impact(archive, t.untold_impact_);
+  if constexpr (!std::is_const_v<Self>) {
+    t.tolerate(contact_tolerance);
+    t.adopt(Model(t.model_));
+    t.landing_known_ = false;
+  }
+}
+
+template <class Archive, class Settings>
+void StateFields::of_settings(Archive& archive, Settings& s) {
+  static_assert(!kLp64 || sizeof s == 136);
+  of_model(archive, s.model);
+  whole(archive, s.eta);
+  whole(archive, s.initial);
+  for (auto* field : {&s.sample_period, &s.friction_window, &s.contact_tolerance}) whole(archive, *field);
+  archive.number(s.samples_per_batch);
+  archive.number(s.impact_budget);
+}
+
+template <class Archive, class Self>
+void StateFields::of_run(Archive& archive, Self& e) {
+  static_assert(!kLp64 || sizeof e - sizeof e.settings_ - sizeof e.tip_ - sizeof e.friction_ == 104);
+  of_settings(archive, e.settings_);
+  whole(archive, e.eta_);
+  of_tip(archive, e.tip_, e.settings_.contact_tolerance);
+  whole(archive, e.friction_);
+  whole(archive, e.now_);
+  whole(archive, e.grid_);
+  archive.number(e.next_sample_);
+  archive.number(e.impact_index_);
+}
+
+std::uint32_t state_layout() {
+  constexpr std::uint32_t kMeaning = 3;  // to be raised whenever the words mean something else
+  static const std::uint32_t layout = [] {
+    SavedState state;
+    Emulator(EmulatorSettings{}).save(state);
+    return kMeaning * 1000 + static_cast<std::uint32_t>(state.size);
+  }();
+  return layout;
+}
+
+namespace {
+
+bool is_time(const ModelTime& time) {
+  return time.tau >= 0 && time.tau <= kEndOfTime.tau && time.phase >= 0.0 && time.phase < 1.0;
+}
+
+}  // namespace
+
+// What would keep whoever goes on from it busy for ever, or send it out of its memory. The rest shows in the run.
+bool StateFields::is_possible(const Emulator& e) {
+  const Tip& tip = e.tip_;
+  const bool in_time = is_time(e.now_) && is_time(e.grid_.origin) && is_time(tip.start_) && tip.now_ == e.now_ &&
+                       tip.start_ <= e.now_ && e.grid_.origin <= e.now_;
+  const std::uint64_t next = e.next_sample_;
+  const bool on_grid = e.grid_.period == e.settings_.sample_period && e.grid_.first <= next &&
+                       e.now_ <= e.grid_.time_or_end(next) && e.grid_.time_or_end(next) < kEndOfTime &&
+                       (next == e.grid_.first || e.grid_.time(next - 1) < e.now_);
+  const bool ends = std::isfinite(tip.slide_end_) && std::isfinite(tip.chatter_run_.s);
+  const bool one_model = tip.model_.kind == e.settings_.model.kind && find_faults(tip.model_).empty();
+  return in_time && on_grid && ends && one_model && tip.eta_ == e.eta_ && std::abs(e.eta_) <= kMaxEta &&
+         e.friction_.is_possible(e.now_, e.settings_.friction_window);
+}
+
+void Emulator::save(SavedState& out) const {
+  // a word a member at most: none is shorter than a byte, and those shorter than a word are few
+  static_assert(sizeof(Emulator) / sizeof(std::uint64_t) + 64 <= SavedState::kMostWords);
+  Writer writer(out);
+  StateFields::of_run(writer, *this);
+}
+
+std::optional<Emulator> Emulator::restored(const SavedState& state) {
+  EmulatorSettings settings;
+  Reader beginning(state), reader(state);
+  StateFields::of_settings(beginning, settings);
+  if (!find_faults(settings).empty()) return {};
+  Emulator emulator(settings);
+  StateFields::of_run(reader, emulator);
+  if (!reader.sound() || !StateFields::is_possible(emulator)) return {};
+  return emulator;
+}
+
+}  // namespace afm

@@ -1,0 +1,43 @@
+// What a sample of the deflection is, for a number or for a pack of lanes.
+#pragma once
+
+#include "afm/contact.h"
+#include "afm/tip.h"
+#include "core/lanes/sample_row.h"
+
+namespace afm {
+
+// The state and gap of Flight::gap, without the derivatives.
+template <class T>
+DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
+  const auto near = [&] {
+    const GapJet<T> jet = flight.gap_by_small_turns(s);
+    return DeflectionOf<T>{jet.state.Y, jet.state.X, jet.g};
+  };
+  const auto far = [&] {
+    const FlightState<T> q = flight.at(s);
+    const Mechanics<T>& m = flight.mechanics();
+    return DeflectionOf<T>{q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
+  };
+  return either(flight.is_small(s), near, far);
+}
+
+// Along a piece of contact, or of the guide of a burst.
+template <class T>
+struct Guide {
+  T phase, X;  // at its start
+  T eta, H, y0;
+  const Series<T>& displacement;
+};
+
+template <class T>
+DeflectionOf<T> guide_deflection(const Guide<T>& guide, const T& s) {
+  const T d = horner(guide.displacement, s);
+  return {surface_jet(guide.H, T(guide.phase + d)).h - guide.y0, guide.X + (d - guide.eta * s), T(0.0)};
+}
+
+// What lanes must know of an arc, to be told which samples.
+lanes::SampleRow row_of(const Flight<double>& flight);
+lanes::SampleRow row_of(const SlidePiece<double>& slide);
+
+}  // namespace afm

@@ -1,0 +1,266 @@
+#include "afm/tip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "tip_arcs.h"
+
+namespace afm {
+namespace {
+
+const Model& checked(const Model& model) {
+  const auto faults = find_faults(model);
+  if (!faults.empty()) throw faults.front();
+  return model;
+}
+
+const TipState& checked(const TipState& start) {
+  if (!(start.g >= 0.0)) throw ParameterError("initial gap", start.g, "the tip would start below the surface");
+  return start;
+}
+
+// The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
+constexpr double kGrowth = 100.0;
+// Bounces slower than this may become a burst [a/tau]: what the averages leave out of the first of them is the most of
+// a burst's error. 0.027 at the default. By square roots, which every machine rounds alike.
+double entry_gap_rate(double contact_tolerance) {
+  constexpr double kEntry = 2.0;
+  return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
+}
+
+// A burst's guide need be no better than a 2500th of the tolerance, and its pieces are 2.7 times as long for it. What
+// it gains of energy by that is in the books.
+int guide_bits(double contact_tolerance) {
+  constexpr double kPart = 4e-4, kLeast = 1e-15;
+  return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
+}
+
+// In contact the velocity is good to 1e-14 of itself, or of 1 a/tau.
+int contact_bits(double u) { return kSlideBits - std::ilogb(std::fmin(std::fmax(std::fabs(u), 1.0), 0x1p24)); }
+
+std::uint32_t whole_count(double n) {
+  constexpr double kMost = 4294967295.0;
+  return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
+}
+
+}  // namespace
+
+Tip::Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance)
+    : Tip(model, eta, to_tip_state(model.H, start), contact_tolerance) {}
+
+Tip::Tip(const Model& model, double eta, const TipState& start, double contact_tolerance)
+    : model_(checked(model)),
+      mechanics_(model),
+      eta_(eta),
+      slowest_chatter_(contact_tolerance / kGrowth),
+      law_(model, slowest_chatter_),
+      burst_gap_rate_(entry_gap_rate(contact_tolerance)),
+      flight_(mechanics_, eta, held(checked(start))),
+      slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
+  const TipState& launched = flight_.launch();
+  if (launched.g == 0.0 && !(launched.g1 < 0.0)) leave_or_press();
+}
+
+// The hammer moves along x with its holder, whatever it did before; its height and vertical velocity are its own.
+TipState Tip::held(const TipState& state) const {
+  TipState s = state;
+  if (model_.kind == ModelKind::hammer) {
+    const double slope = surface_jet(model_.H, state.phase).h1;
+    s = {state.phase, 0.0, eta_, state.g, state.g1 + slope * (state.u - eta_)};
+  }
+  if (s.g == 0.0 && std::fabs(s.g1) < kLeastGapRate) s.g1 = 0.0;
+  return s;
+}
+
+void Tip::fly(const TipState& start) {
+  launch(mechanics_, eta_, held(start), flight_);
+  begin_flight();
+  const GapJet<double>& gap = flight_.start();
+  // a hammer that one command throws off and the next, at the same time, does not
+  if (gap.g == 0.0 && gap.g1 == 0.0 && gap.g2 < 0.0) mode_ = Mode::touching;
+}
+
+void Tip::begin_flight() {
+  mode_ = Mode::flying;
+  start_ = now_;
+  landing_known_ = false;
+}
+
+void Tip::slide(const SlideState<double>& start) { slide(start, contact_bits(start.u)); }
+
+void Tip::slide(const SlideState<double>& start, int bits) {
+  slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits, slide_);
+  mode_ = Mode::sliding;
+  start_ = now_;
+  const double release = release_of(slide_);
+  slide_releases_ = release >= 0.0;
+  slide_end_ = slide_releases_ ? release : slide_.length();
+}
+
+void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
+  slide(guide, guide_bits(kGrowth * slowest_chatter_));
+  mode_ = Mode::bursting;
+  chatter_ = chatter;
+  chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
+}
+
+// To where the chatter has moved the tip, which has been on the guide for s. What it stores more, the drag has worked
+// or the bounces have given; a tip that is held its holder has moved along the guide.
+SlideState<double> Tip::leave_guide(double s, const Chatter& chatter) {
+  const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
+  const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;
+  const bool held = mechanics_.mobility == 0.0;
+  const double before = slide_energy(mechanics_, held ? guide : slide_.start());
+  if (!held) burst_gain_ += force * stretch_integral(slide_, s);
+  burst_gain_ += work - (slide_energy(mechanics_, moved) - before) + chatter.lift;
+  work_off_guide_ += work;
+  return moved;
+}
+
+// The flight after a bounce has begun: does the surface press, and is it the first bounce of a burst?
+void Tip::leave_or_press() {
+  const TipState& start = flight_.launch();
+  const double g2 = flight_.start().g2;
+  if (!(start.g1 > 0.0)) {
+    // also where the surface does not press, but only rounding pulls: on the glide at eta = 1 for ever
+    if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
+  } else if (g2 < 0.0 && start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
+    const Settled settled = settle(model_, start);
+    burst_normal_speed_ = settled.normal_speed;
+    burst_gain_ = 0.0;
+    burst(settled.guide, {settled.normal_speed, 0.0});
+  }
+}
+
+void Tip::resume(const TipState& launched, const ModelTime& start, const Impact& last) {
+  last_impact_ = last;
+  now_ = start;
+  launch(mechanics_, eta_, launched, flight_);
+  begin_flight();
+  leave_or_press();
+}
+
+void Tip::tolerate(double contact_tolerance) {
+  slowest_chatter_ = contact_tolerance / kGrowth;
+  burst_gap_rate_ = entry_gap_rate(contact_tolerance);
+}
+
+TipState Tip::tip_state() const {
+  if (on_guide()) {
+    const SlideState<double> q = slide_at(slide_, now_ - start_);
+    return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
+  }
+  TipState state = state_of(flight_, now_ - start_);
+  state.g = std::fmax(state.g, 0.0);
+  return state;
+}
+
+void Tip::find_landing() {
+  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, kSearchHorizon));  // in place (tip_arcs.cpp)
+  landing_known_ = true;
+}
+
+Outcome Tip::land() {
+  Bounce b;
+  rebound(model_, mechanics_, eta_, landing_, flight_, b);
+  last_impact_ = {now_, b.phase, b.normal_speed, b.tangential_velocity, b.energy_loss, ImpactKind::impact, 1};
+  begin_flight();
+  leave_or_press();
+  return Outcome::impact;
+}
+
+// All that the bounces lost: what their normal speed was at first, less what it is now.
+Outcome Tip::end_burst() {
+  const ChatterRun run = chatter_run_;
+  if (run.end == ChatterEnd::time && !slide_releases_) {
+    burst(leave_guide(run.s, run.chatter), {run.chatter.v, run.chatter.n});
+    return Outcome::flying;
+  }
+  const SlideState<double> guide = leave_guide(run.s, run.chatter);
+  const bool died = run.end == ChatterEnd::died;
+  const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
+  const Settled settled = settle(model_, bounce);
+  const double before = burst_normal_speed_, after = died ? 0.0 : run.chatter.v;
+  last_impact_ = {now_,
+                  bounce.phase,
+                  before,
+                  settled.tangential_velocity,
+                  0.5 * (before - after) * (before + after) + burst_gain_,
+                  ImpactKind::burst,
+                  whole_count(run.chatter.n)};
+  fly(bounce);
+  if (died) mode_ = Mode::touching;
+  return Outcome::impact;
+}
+
+Outcome Tip::touch() {
+  const TipState state = flight_.launch();
+  const double tangential = settle(model_, state).tangential_velocity;
+  last_impact_ = {now_, state.phase, 0.0, tangential, 0.0, ImpactKind::contact_begun, 0};
+  slide({state.phase, state.X, state.u});
+  return Outcome::contact;
+}
+
+Outcome Tip::end_slide() {
+  const SlideState<double> q = slide_at(slide_, slide_end_);
+  if (!slide_releases_) {
+    slide(q);
+    return Outcome::flying;
+  }
+  const TipState state{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
+  last_impact_ = {now_, state.phase, 0.0, settle(model_, state).tangential_velocity, 0.0, ImpactKind::contact_ended, 0};
+  fly(state);
+  return Outcome::released;
+}
+
+Outcome Tip::end_flight() {
+  if (landing_.outcome == SearchOutcome::impact) return land();
+  const bool failed = landing_.outcome == SearchOutcome::cap;
+  fly(state_of(flight_, landing_.s));
+  return failed ? Outcome::search_failed : Outcome::flying;
+}
+
+ModelTime Tip::arc_end() {
+  if (untold_) return now_;
+  if (on_guide()) {
+    const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
+    return end < now_ ? now_ : end;  // a jolt ends it now, and not a rounding before the command
+  }
+  if (mode_ == Mode::touching) return start_;
+  if (!landing_known_) find_landing();
+  return start_ + landing_.s;
+}
+
+Outcome Tip::advance_arc(const ModelTime& limit) {
+  const ModelTime end = arc_end();
+  if (limit < end) {
+    now_ = now_ < limit ? limit : now_;
+    return Outcome::time_limit;
+  }
+  if (untold_) {
+    untold_ = false;
+    last_impact_ = untold_impact_;
+    return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
+  }
+  now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
+  switch (mode_) {
+    case Mode::bursting:
+      return end_burst();
+    case Mode::touching:
+      return touch();
+    case Mode::sliding:
+      return end_slide();
+    default:
+      return end_flight();
+  }
+}
+
+Outcome Tip::advance(const ModelTime& limit) {
+  for (;;) {
+    const Outcome outcome = advance_arc(limit);
+    if (outcome != Outcome::flying) return outcome;
+  }
+}
+
+}  // namespace afm

@@ -1,0 +1,84 @@
+#include "tip_arcs.h"
+
+#include <cmath>
+#include <new>
+
+#include "afm/detail/multiversion.h"
+#include "afm/reflection.h"
+#include "core/lanes/slide_orders.h"
+
+namespace afm {
+namespace {
+
+const lanes::WriteSlideOrders orders_in_lanes = lanes::slide_orders();
+
+// A flight of next to no time, for the fastest turn, under next to no force is none either: its end is rounding, and a
+// drag of 1e-18 a/tau that would bring pressure moves no phase.
+bool is_rounding(const Flight<double>& flight, double s) {
+  const TipState& start = flight.launch();
+  return s * flight.bounds().fastest < kLeastFlight && start.g1 > 0.0 &&
+         std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
+}
+
+// In one, as what is between them would wait for memory.
+AFM_MULTIVERSION void reflect_and_launch(const Model& model, const Mechanics<double>& mechanics, double eta,
+                                         const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
+  const Reflection r = reflect(model, eta, incident);
+  const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, r.after.g1};
+  new (&flight) Flight<double>(mechanics, eta, after, BoundLater{});
+  bounce.phase = r.after.phase;
+  bounce.normal_speed = r.normal_speed;
+  bounce.tangential_velocity = r.tangential_velocity;
+  bounce.energy_loss = r.energy_loss;
+}
+
+void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight, Bounce& bounce) {
+  TipState at_rest = flight.launch();
+  at_rest.g1 = 0.0;
+  launch(mechanics, eta, at_rest, flight);
+  bounce.energy_loss = 0.5 * bounce.normal_speed * bounce.normal_speed;
+}
+
+}  // namespace
+
+// Made anew in place: a copy of what has just been written would wait until it is in memory, a tenth of an impact's
+// time.
+AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
+                             Flight<double>& flight) {
+  new (&flight) Flight<double>(mechanics, eta, state, BoundLater{});
+}
+
+void rebound(const Model& model, const Mechanics<double>& mechanics, double eta, const Landing<double>& landing,
+             Flight<double>& flight, Bounce& bounce) {
+  const bool rounding = is_rounding(flight, landing.s);
+  reflect_and_launch(model, mechanics, eta, landing.jet, flight, bounce);
+  if (rounding || flight.launch().g1 < kLeastGapRate) stay(mechanics, eta, flight, bounce);
+}
+
+AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
+
+AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
+                                 int bits, SlidePiece<double>& slide) {
+  if (orders_in_lanes != nullptr) {
+    new (&slide) SlidePiece<double>(mechanics, eta, start, bits, orders_in_lanes);
+  } else {
+    new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
+  }
+}
+
+AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
+  const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
+  const double Y = surface.h - m.y0;
+  return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
+                m.omega_v * m.omega_v * Y * Y);
+}
+
+AFM_MULTIVERSION double stretch_integral(const SlidePiece<double>& slide, double s) {
+  return s * (slide.start().X - 0.5 * slide.eta() * s) + slide.displacement_integral(s);
+}
+
+AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
+
+AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
+
+}  // namespace afm

@@ -1,0 +1,38 @@
+// What a tip asks of its flights and slides, each in the version for the machine at hand (multiversion.h).
+#pragma once
+
+#include "afm/impact_search.h"
+#include "afm/contact.h"
+
+namespace afm {
+
+// Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
+constexpr double kLeastGapRate = 1e-140;
+
+// A flight shorter than this part of the fastest turn may be rounding: lanes leave it to the tip, which finds out.
+constexpr double kLeastFlight = 1e-12;
+
+// What of a reflection its record keeps.
+struct Bounce {
+  double phase, normal_speed, tangential_velocity, energy_loss;
+};
+
+// Begins a flight in the place of another.
+void launch(const Mechanics<double>& mechanics, double eta, const TipState& state, Flight<double>& flight);
+
+// The flight after the landing of this one, in its place. Of a bounce that is none all is lost that came in, and the
+// flight begins without a gap rate.
+void rebound(const Model& model, const Mechanics<double>& mechanics, double eta, const Landing<double>& landing,
+             Flight<double>& flight, Bounce& bounce);
+
+TipState state_of(const Flight<double>& flight, double s);
+
+// Begins a piece of a slide in the place of another.
+void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits,
+                SlidePiece<double>& slide);
+SlideState<double> slide_at(const SlidePiece<double>& slide, double s);
+double release_of(const SlidePiece<double>& slide);  // when the surface lets go; negative: not in it
+double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);  // kinetic and in the springs
+double stretch_integral(const SlidePiece<double>& slide, double s);            // of x - xc over the first s
+
+}  // namespace afm

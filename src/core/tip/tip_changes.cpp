@@ -1,0 +1,103 @@
+// What is changed in the middle of a run: drag velocity, restitution and springs, the level of the model. Whatever the
+// tip is in, flight, burst or contact, is split at the present time, and only there.
+#include "afm/tip.h"
+
+namespace afm {
+
+Chatter Tip::chatter_now() const { return law_.at(slide_, now_ - start_, chatter_); }
+
+void Tip::drag(double eta) {
+  if (eta == eta_) return;
+  if (model_.kind == ModelKind::hammer && on_guide()) return jolt(eta);
+  const TipState state = tip_state();
+  SlideState<double> guide{state.phase, state.X, state.u};
+  if (mode_ == Mode::bursting) {
+    const Chatter chatter = chatter_now();
+    guide = leave_guide(now_ - start_, chatter);
+    eta_ = eta;
+    return burst(guide, {chatter.v, chatter.n});
+  }
+  eta_ = eta;
+  if (mode_ == Mode::sliding) return slide(guide);
+  const bool due = mode_ == Mode::touching;
+  fly(state);
+  if (due && flight_.launch().g1 == 0.0) mode_ = Mode::touching;
+}
+
+// A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at
+// once.
+void Tip::jolt(double eta) {
+  end_guide_now();
+  eta_ = eta;
+}
+
+// What ends burst or contact at the next advance ends it here.
+void Tip::end_guide_now() {
+  const double s = now_ - start_;
+  if (mode_ == Mode::sliding) {
+    slide_end_ = s;
+    slide_releases_ = true;
+  } else {
+    chatter_run_ = {ChatterEnd::exits, s, chatter_now()};
+  }
+}
+
+void Tip::adopt(const Model& model) {
+  model_ = model;
+  mechanics_ = Mechanics<double>(model);
+  law_ = ChatterLaw(model, slowest_chatter_);
+}
+
+void Tip::retune(const Model& model) {
+  const TipState state = tip_state();
+  SlideState<double> guide{state.phase, state.X, state.u};
+  if (mode_ == Mode::bursting) {
+    const Chatter chatter = chatter_now();
+    guide = leave_guide(now_ - start_, chatter);
+    adopt(model);
+    slide(guide);
+    mode_ = Mode::bursting;
+    chatter_ = {chatter.v, chatter.n};
+    chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
+    return;
+  }
+  adopt(model);
+  if (mode_ == Mode::sliding) return slide(guide);
+  fly(state);
+  if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
+}
+
+// Ends burst or contact at once; the event is told by the next advance.
+void Tip::leave_now() {
+  end_guide_now();
+  mode_ == Mode::sliding ? end_slide() : end_burst();
+  untold_ = true;
+  untold_impact_ = last_impact_;
+}
+
+double Tip::relevel(ModelKind kind, double contact_tolerance) {
+  const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
+  const bool jolted = mode_ == Mode::sliding && slide_releases_ && start_ + slide_end_ <= now_;
+  if (mode_ == Mode::bursting || jolted || (mode_ == Mode::sliding && drops)) leave_now();
+  const TipState state = tip_state();
+  const double spring = mechanics_.omega_h * state.X;
+  Model model = model_;
+  model.kind = kind;
+  tolerate(contact_tolerance);
+  adopt(model);
+  if (mode_ == Mode::sliding) {
+    slide({state.phase, state.X, state.u});
+    return 0.0;
+  }
+  const bool due = mode_ == Mode::touching;
+  fly(state);
+  const TipState& launched = flight_.launch();
+  if (launched.g == 0.0 && launched.g1 == 0.0) {
+    leave_or_press();
+    if (due) mode_ = Mode::touching;
+  }
+  if (!drops) return 0.0;
+  return 0.5 * (spring * spring + (state.u - eta_) * (state.u + eta_));
+}
+
+}  // namespace afm

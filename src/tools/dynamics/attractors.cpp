@@ -1,0 +1,125 @@
+// The attractors at given parameters, or over a grid of them.
+#include <atomic>
+#include <cmath>
+#include <condition_variable>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "afm/dynamics/basins.h"
+#include "common/csv.h"
+#include "dynamics_options.h"
+#include "common/progress_bar.h"
+
+namespace {
+
+const char kDescription[] =
+    "Finds what attractors there are (units a, tau, tip mass): tips are started at random above the surface, and\n"
+    "each is followed until what it ends on is known. A row for each attractor: its kind, impacts and cells in a\n"
+    "period (0: it does not repeat), K_f with its standard error, Lyapunov exponents [1/tau], rotation number,\n"
+    "share of the time in contact, share of the starts that it draws with its standard error, and a start that\n"
+    "leads to it (surface phase, extension, height, lab velocity). --eta and --gamma may be ranges FROM:TO:STEP;\n"
+    "--cutoff is absolute, or a share of eta with --relative-cutoff.";
+
+const char kHeader[] =
+    "eta,gamma,cutoff,attractor,impacts,cells,k_f,k_f_std_error,lyapunov_1,lyapunov_2,lyapunov_3,lyapunov_4,rotation_"
+    "number,"
+    "contact_share,basin,basin_std_error,phase,extension,y,u,w";
+
+struct Options {
+  afm::DynamicsOptions dynamics;
+  std::string eta = "3.4", gamma = "0.7";
+  bool relative_cutoff = false;
+  int threads = 0;
+  afm::BasinSettings basins;
+};
+
+void add_options(afm::CommandLine& app, Options& o) {
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.dynamics.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  app.option("starts", o.basins.starts, "tips started at each point", {1, 1000000});
+  app.option("seed", o.basins.seed, "of the starts");
+  app.option("transient", o.basins.attractor.transient, "before anything is looked at [tau]", {0.0, 1e9});
+  app.option("duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]",
+             {1.0, 1e9});
+  app.option("friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]", {1.0, 1e9});
+  afm::add_model_option(app, o.dynamics.model);
+  app.option("threads", o.threads, "0: one for each processor", {0, 1024});
+}
+
+std::vector<afm::SweepPoint> grid(Options options) {
+  std::vector<afm::SweepPoint> points;
+  for (const double gamma : afm::range_option("gamma", options.gamma)) {
+    for (const double eta : afm::range_option("eta", options.eta)) {
+      afm::DynamicsOptions at = options.dynamics;
+      at.eta = eta;
+      at.gamma = gamma;
+      if (options.relative_cutoff) at.cutoff *= std::abs(eta);
+      points.push_back({eta, gamma, at.cutoff, checked_model(at).kind});
+    }
+  }
+  return points;
+}
+
+void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins) {
+  for (const afm::Basin& basin : basins) {
+    const afm::Attractor& a = basin.first.attractor;
+    const afm::FreeState start = to_free_state(model_of(point).H, basin.first.start);
+    std::cout << afm::join_numbers({point.eta, point.gamma, point.v_c}) << "," << a.name() << ","
+              << afm::join_numbers({static_cast<double>(a.impacts), static_cast<double>(a.cells), basin.first.K_f,
+                                    basin.first.K_f_std_error, a.lyapunov.exponents[0], a.lyapunov.exponents[1],
+                                    a.lyapunov.exponents[2], a.lyapunov.exponents[3], a.rotation_number,
+                                    a.contact_share, basin.share, basin.share_std_error, start.phase, start.X, start.y,
+                                    start.u, start.w})
+              << "\n";
+  }
+}
+
+// Rows in the order of the grid, whichever thread is first: the same table for any number of threads.
+void compute(const std::vector<afm::SweepPoint>& points, const afm::BasinSettings& settings, std::size_t threads) {
+  std::atomic<std::size_t> next{0};
+  std::map<std::size_t, std::vector<afm::Basin>> done;
+  std::mutex mutex;
+  std::condition_variable changed;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < points.size(); i = next++) {
+      auto basins = find_basins(points[i], settings);
+      const std::lock_guard<std::mutex> lock(mutex);
+      done[i] = std::move(basins);
+      changed.notify_one();
+    }
+  };
+  std::vector<std::thread> workers;
+  for (std::size_t i = 0; i < threads; ++i) workers.emplace_back(work);
+  afm::ProgressBar bar(points.size(), 0);
+  for (std::size_t printed = 0; printed < points.size(); ++printed) {
+    std::unique_lock<std::mutex> lock(mutex);
+    changed.wait(lock, [&] { return done.count(printed) != 0; });
+    print(points[printed], done[printed]);
+    done.erase(printed);
+    bar.show(printed + 1);
+  }
+  for (std::thread& worker : workers) worker.join();
+}
+
+int run(const Options& options) {
+  const std::vector<afm::SweepPoint> points = grid(options);
+  const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
+  std::cout << kHeader << "\n";
+  compute(points, options.basins, options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  afm::CommandLine app("attractors", kDescription);
+  Options options;
+  add_options(app, options);
+  return app.run(argc, argv, [&] { return run(options); });
+}

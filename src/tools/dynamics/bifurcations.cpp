@@ -1,0 +1,95 @@
+// The section of the attractor along a parameter, followed up or down.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "afm/dynamics/attractor.h"
+#include "afm/dynamics/sweep.h"
+#include "common/csv.h"
+#include "dynamics_options.h"
+#include "common/progress_bar.h"
+
+namespace {
+
+const char kDescription[] =
+    "A bifurcation diagram: one tip is carried along a parameter, each value from where the one before ended, and\n"
+    "after a transient its impacts are printed (units a, tau, tip mass): the value, surface phase, normal speed\n"
+    "before the impact, extension, and the kind of attractor.";
+
+struct Options {
+  afm::DynamicsOptions dynamics;
+  std::string vary = "eta", range = "2:3:0.01", sweep = "up";
+  int impacts = 100;
+  double transient = 500.0;
+  bool relative_cutoff = false;
+};
+
+afm::DynamicsOptions parameters_at(const Options& o, double value) {
+  afm::DynamicsOptions at = o.dynamics;
+  (o.vary == "eta" ? at.eta : o.vary == "gamma" ? at.gamma : at.cutoff) = value;
+  if (o.relative_cutoff) at.cutoff *= std::abs(at.eta);
+  return at;
+}
+
+std::vector<double> checked_values(const Options& o) {
+  if (o.vary != "eta" && o.vary != "gamma" && o.vary != "cutoff") {
+    throw std::invalid_argument("vary = " + o.vary + ": must be eta, gamma or cutoff");
+  }
+  if (o.sweep != "up" && o.sweep != "down") throw std::invalid_argument("sweep = " + o.sweep + ": must be up or down");
+  std::vector<double> values = afm::range_option("range", o.range);
+  for (const double value : values) checked_model(parameters_at(o, value));
+  if (o.sweep == "down") std::reverse(values.begin(), values.end());
+  return values;
+}
+
+void print_impacts(afm::Tip& tip, double value, int impacts, const std::string& kind) {
+  constexpr double kLongest = 1000.0;  // [tau]
+  const afm::ModelTime end = tip.now() + kLongest;
+  for (int i = 0; i < impacts;) {
+    if (tip.advance(end) == afm::Outcome::time_limit) return;
+    const afm::Impact& impact = tip.last_impact();
+    if (impact.kind != afm::ImpactKind::impact) continue;
+    ++i;
+    std::cout << afm::join_numbers({value, impact.surface_phase, impact.normal_speed, tip.tip_state().X}) << "," << kind
+              << "\n";
+  }
+}
+
+int run(const Options& o) {
+  const std::vector<double> values = checked_values(o);
+  afm::ProgressBar bar(values.size(), 0);
+  std::cout << o.vary << ",phase,normal_speed,extension,attractor\n";
+  const afm::DynamicsOptions first = parameters_at(o, values.front());
+  afm::TipState state = afm::random_start({first.eta, first.gamma, first.cutoff, checked_model(first).kind}, 1, 0);
+  std::size_t done = 0;
+  for (const double value : values) {
+    const afm::DynamicsOptions at = parameters_at(o, value);
+    const afm::Model model = checked_model(at);
+    afm::Tip tip(model, at.eta, state);
+    afm::AttractorSettings settings;
+    settings.transient = o.transient;
+    const afm::Attractor attractor = find_attractor(model, tip, settings);
+    print_impacts(tip, value, o.impacts, attractor.name());
+    state = tip.tip_state();
+    bar.show(++done);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  afm::CommandLine app("bifurcations", kDescription);
+  Options o;
+  add_options(app, o.dynamics);
+  app.option("vary", o.vary, "eta, gamma or cutoff");
+  app.option("range", o.range, "of it, FROM:TO:STEP");
+  app.option("sweep", o.sweep, "up or down");
+  app.option("impacts", o.impacts, "printed at each value", {1, 1000000});
+  app.option("transient", o.transient, "before them [tau]", {0.0, 1e9});
+  app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
+  return app.run(argc, argv, [&] { return run(o); });
+}

@@ -1,0 +1,98 @@
+// Periodic orbits followed through a parameter.
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "afm/dynamics/continuation.h"
+#include "afm/dynamics/orbit_search.h"
+#include "common/csv.h"
+#include "dynamics_options.h"
+
+namespace {
+
+const char kDescription[] =
+    "Finds the periodic orbits at given parameters and follows each through one of them, round folds, to a target\n"
+    "or to where it ends. Rows: number of the orbit, the value of the parameter, what happens there (empty, a\n"
+    "bifurcation, or how the branch ends), impacts and cells in a period, K_f, the slowest impact, the smallest\n"
+    "gap on the way (inf: none), and the multipliers.";
+
+const char kHeader[] =
+    "orbit,value,event,length,cells,k_f,slowest_impact,clearance,multiplier_1_re,multiplier_1_im,multiplier_2_re,"
+    "multiplier_2_im,multiplier_3_re,multiplier_3_im,multiplier_4_re,multiplier_4_im";
+
+const std::map<std::string, afm::Parameter> kParameters{
+    {"eta", afm::Parameter::eta}, {"gamma", afm::Parameter::gamma}, {"cutoff", afm::Parameter::cutoff}};
+
+const std::map<afm::BranchEnd, std::string> kEnds{
+    {afm::BranchEnd::target, "end: target"},
+    {afm::BranchEnd::grazing, "end: grazing"},
+    {afm::BranchEnd::resonance, "end: resonance of the horizontal spring"},
+    {afm::BranchEnd::lost, "end: lost"},
+    {afm::BranchEnd::steps_spent, "end: steps spent"}};
+
+struct Options {
+  afm::DynamicsOptions dynamics;
+  afm::OrbitSearchSettings search;
+  std::string vary = "eta";
+  double to = 0.0;
+  int length = 1;
+};
+
+void add_options(afm::CommandLine& app, Options& o) {
+  o.search.trajectory = 50000;
+  o.search.guesses = 500;
+  afm::add_options(app, o.dynamics);
+  app.option("vary", o.vary, "eta, gamma or cutoff");
+  app.option("to", o.to, "value to go to");
+  app.require("to");
+  app.option("length", o.length, "of the orbits followed [impacts]", {1, 32});
+  app.option("guesses", o.search.guesses, "of the search, of each kind", {1, 1000000});
+  app.option("seed", o.search.seed, "of what is random in the search");
+}
+
+void print_row(int number, const afm::BranchPoint& point, const std::string& event) {
+  const afm::PeriodicOrbit& orbit = point.orbit;
+  std::vector<double> numbers{static_cast<double>(orbit.length()), static_cast<double>(orbit.cells), orbit.K_f,
+                              orbit.slowest_impact, orbit.clearance};
+  for (const std::complex<double>& multiplier : orbit.multipliers) {
+    numbers.push_back(multiplier.real());
+    numbers.push_back(multiplier.imag());
+  }
+  std::cout << number << "," << afm::join_numbers({point.parameter}) << "," << event << ","
+            << afm::join_numbers(numbers) << "\n";
+}
+
+void print(int number, const afm::Branch& branch) {
+  for (const afm::BranchPoint& point : branch.points) print_row(number, point, "");
+  for (const afm::BranchEvent& event : branch.events) print_row(number, event.at, name(event.kind));
+  print_row(number, branch.points.back(), kEnds.at(branch.end));
+}
+
+int run(Options options) {
+  const afm::Model model = checked_model(options.dynamics);
+  const double eta = options.dynamics.eta;
+  const auto vary = kParameters.find(options.vary);
+  if (vary == kParameters.end())
+    throw std::invalid_argument("vary = " + options.vary + ": must be eta, gamma or cutoff");
+  if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
+  options.search.longest = options.length;
+  const auto found = search_orbits(afm::PoincareMap(model, eta), options.search);
+  std::cout << kHeader << "\n";
+  int number = 0;
+  for (const afm::FoundOrbit& f : found.orbits) {
+    if (f.orbit.length() != static_cast<std::size_t>(options.length)) continue;
+    print(++number, continue_orbit(model, eta, f.orbit, vary->second, options.to));
+  }
+  if (number == 0) std::cerr << "continue_orbits: no orbit of length " << options.length << " found\n";
+  return number > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  afm::CommandLine app("continue_orbits", kDescription);
+  Options options;
+  add_options(app, options);
+  return app.run(argc, argv, [&] { return run(options); });
+}

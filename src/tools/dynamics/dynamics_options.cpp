@@ -1,0 +1,82 @@
+#include "dynamics_options.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "common/csv.h"
+#include "common/decimal_range.h"
+
+namespace afm {
+namespace {
+
+std::vector<double> values_of(const std::string& name, const std::string& text, const std::vector<std::string>& parts) {
+  std::vector<double> values;
+  try {
+    for (const std::string& part : parts) {
+      for (const double value : parse_range(part)) values.push_back(value);
+    }
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(name + " = " + text + ": " + fault.what());
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> range_option(const std::string& name, const std::string& text) {
+  return values_of(name, text, {text});
+}
+
+std::vector<double> ranges_option(const std::string& name, const std::string& text) {
+  return values_of(name, text, split_fields(text));
+}
+
+std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
+                                         const std::string& frequency_ratio) {
+  std::vector<DynamicsOptions> grid;
+  const std::vector<double> gammas = ranges_option("gamma", gamma), etas = ranges_option("eta", eta);
+  const std::vector<double> ratios = ranges_option("frequency-ratio", frequency_ratio);
+  for (const double v_c : ranges_option("cutoff", cutoff)) {
+    for (const double g : gammas) {
+      for (const double ratio : ratios) {
+        for (const double e : etas) grid.push_back({e, g, v_c, "oscillator", ratio});
+      }
+    }
+  }
+  return grid;
+}
+
+void add_model_option(CommandLine& app, std::string& model) {
+  app.option("model", model, "oscillator, or hammer: the horizontal spring infinitely stiff");
+}
+
+ModelKind checked_kind(const std::string& name) {
+  ModelKind kind = ModelKind::oscillator;
+  if (!parse(name, kind)) throw std::invalid_argument("model = " + name + ": must be oscillator or hammer");
+  return kind;
+}
+
+void add_options(CommandLine& app, DynamicsOptions& o) {
+  app.option("eta", o.eta, "drag velocity [a/tau]");
+  app.option("gamma", o.gamma, "restitution at and above the cutoff");
+  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  add_model_option(app, o.model);
+}
+
+Model checked_model(const DynamicsOptions& o) {
+  Model model;
+  model.kind = checked_kind(o.model);
+  model.gamma = o.gamma;
+  model.v_c = o.cutoff;
+  model.frequency_ratio = o.frequency_ratio;
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(model)) {
+    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+  }
+  if (!(std::abs(o.eta) <= kMaxEta))
+    faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
+  if (!faults.empty()) throw std::invalid_argument(describe(faults));
+  return model;
+}
+
+}  // namespace afm

@@ -1,0 +1,36 @@
+// What the tools for orbits and attractors are told on the command line: which model, at which drag velocity.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "afm/model.h"
+#include "common/command_line.h"
+
+namespace afm {
+
+struct DynamicsOptions {
+  double eta = 3.4, gamma = 0.7, cutoff = 0.05;
+  std::string model = "oscillator";
+  double frequency_ratio = Model{}.frequency_ratio;
+};
+
+void add_options(CommandLine& app, DynamicsOptions& options);
+void add_model_option(CommandLine& app, std::string& model);
+
+// Throws std::invalid_argument where there is no such model.
+ModelKind checked_kind(const std::string& name);
+
+// Throws std::invalid_argument with every fault, by the names of the options.
+Model checked_model(const DynamicsOptions& options);
+
+// What an option holds: numbers as parse_range() knows them; or several such, with commas between. Throw
+// std::invalid_argument with name and text of the option, and the reason.
+std::vector<double> range_option(const std::string& name, const std::string& text);
+std::vector<double> ranges_option(const std::string& name, const std::string& text);
+
+// Every combination of four such options, drag velocities changing fastest; of the oscillator.
+std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
+                                         const std::string& frequency_ratio);
+
+}  // namespace afm

@@ -1,0 +1,139 @@
+#include "level_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "afm/dynamics/sweep.h"
+#include "common/cpu_clock.h"
+
+namespace afm {
+namespace {
+
+// Finest first; the full model is the oscillator at the default tolerance.
+const Level kLadder[] = {{ModelKind::oscillator, 0.0},
+                         {ModelKind::oscillator, 1e-5},
+                         {ModelKind::oscillator, 1e-4},
+                         {ModelKind::oscillator, kDefaultContactTolerance},
+                         {ModelKind::oscillator, 1e-2},
+                         {ModelKind::hammer, kDefaultContactTolerance}};
+constexpr std::size_t kLevels = std::size(kLadder), kFull = 3;
+constexpr double kTooDear = 1.2;    // times the full model
+constexpr double kWorst = 1e3;      // relative errors beyond it tell no more
+constexpr double kStandardErrors = 2.0;
+
+TipState start_of(const Model& model, double eta, const LevelErrorSettings& settings, int index) {
+  return random_start({eta, model.gamma, model.v_c}, settings.seed, static_cast<std::uint64_t>(index));
+}
+
+double nanoseconds_per_tau(Tip& tip) {
+  constexpr double kDuration = 40.0;  // [tau]
+  constexpr int kMostEvents = 20000;
+  const ModelTime begin = tip.now(), end = begin + kDuration;
+  const double from = thread_seconds();
+  for (int i = 0; i < kMostEvents && tip.advance(end) != Outcome::time_limit; ++i) {
+  }
+  const double passed = tip.now() - begin;
+  return passed > 0.0 ? 1e9 * (thread_seconds() - from) / passed : std::numeric_limits<double>::infinity();
+}
+
+// All by turns: what else the machine does meets them alike. The first rounds are the transient.
+std::vector<double> measure_costs(const Model& model, double eta, const TipState& start) {
+  constexpr int kRounds = 12, kTransientRounds = 3;
+  std::vector<Tip> tips;
+  for (const Level& level : kLadder) tips.emplace_back(at_level(model, level), eta, start, level.contact_tolerance);
+  std::vector<std::vector<double>> times(kLevels);
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < kLevels; ++i) {
+      const double time = nanoseconds_per_tau(tips[i]);
+      if (round >= kTransientRounds) times[i].push_back(time);
+    }
+  }
+  std::vector<double> costs;
+  for (std::vector<double>& t : times) {
+    std::nth_element(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2), t.end());
+    costs.push_back(t[t.size() / 2]);
+  }
+  const double full = costs[kFull];
+  for (double& cost : costs) cost /= full;
+  return costs;
+}
+
+// Never more events in a stretch than half of what the shipped impact budget allows a batch: the mean tells too little,
+// as one contact in ten thousand may hold millions of bounces.
+bool keeps_time(const Model& model, double eta, const Level& level, const TipState& start) {
+  constexpr double kStretch = 50.0;  // [tau]
+  constexpr int kStretches = 400, kMostEvents = 10000;
+  Tip tip(at_level(model, level), eta, start, level.contact_tolerance);
+  for (int i = 0; i < kStretches; ++i) {
+    const ModelTime end = tip.now() + kStretch;
+    int events = 0;
+    while (tip.advance(end) != Outcome::time_limit) {
+      if (++events > kMostEvents) return false;
+    }
+  }
+  return true;
+}
+
+using Runs = std::vector<LevelRun>;  // one for each start; none where the level cannot be afforded
+
+Runs run_all(const Model& model, double eta, const Level& level, const LevelErrorSettings& settings) {
+  Runs runs;
+  for (int i = 0; i < settings.starts; ++i) {
+    Tip tip(at_level(model, level), eta, start_of(model, eta, settings, i), level.contact_tolerance);
+    runs.push_back(run_level(at_level(model, level), tip, settings.run));
+    if (runs.back().share_measured == 0.0) return {};
+  }
+  return runs;
+}
+
+double friction_error(const LevelRun& run, const LevelRun& reference) {
+  const FrictionAverage &a = run.friction, &b = reference.friction;
+  if (a.K_f == b.K_f) return 0.0;
+  const double noise = kStandardErrors * std::hypot(a.K_f_std_error, b.K_f_std_error);
+  return (std::abs(a.K_f - b.K_f) + noise) / std::abs(b.K_f);
+}
+
+double deflection_error(const LevelRun& run, const LevelRun& reference) {
+  return quantile_distance(run.vertical, reference.vertical) / reference.vertical_rms;
+}
+
+template <class Distance>
+double distance(const Runs& runs, const Runs& references, Distance between) {
+  double farthest = 0.0;
+  for (const LevelRun& run : runs) {
+    double nearest = kWorst;
+    for (const LevelRun& reference : references) nearest = std::fmin(nearest, between(run, reference));
+    farthest = std::fmax(farthest, nearest);
+  }
+  return farthest;
+}
+
+}  // namespace
+
+std::vector<MeasuredLevel> measure_levels(const Model& model, double eta, const LevelErrorSettings& settings) {
+  const std::vector<double> costs = measure_costs(model, eta, start_of(model, eta, settings, 0));
+  std::vector<MeasuredLevel> measured;
+  Runs references;
+  bool exact = false;
+  for (std::size_t i = 0; i < kLevels; ++i) {
+    if (i > kFull && costs[i] > kTooDear) continue;
+    if (!keeps_time(model, eta, kLadder[i], start_of(model, eta, settings, 0))) continue;
+    const Runs runs = run_all(model, eta, kLadder[i], settings);
+    if (runs.empty()) continue;
+    if (references.empty()) {
+      references = runs;
+      exact = i == 0;
+    }
+    measured.push_back(
+        {kLadder[i],
+         {distance(runs, references, friction_error), distance(runs, references, deflection_error), costs[i]}});
+  }
+  if (!exact && measured.size() > 1) {
+    measured[0].error.friction = measured[1].error.friction;
+    measured[0].error.deflection = measured[1].error.deflection;
+  }
+  return measured;
+}
+
+}  // namespace afm

@@ -1,0 +1,30 @@
+// How far each level of the model is from the finest at one point of the parameters, and what it costs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "afm/level_table.h"
+#include "afm/dynamics/model_error.h"
+
+namespace afm {
+
+struct LevelErrorSettings {
+  ErrorSettings run;
+  int starts = 2;
+  std::uint64_t seed = 1;
+};
+
+struct MeasuredLevel {
+  Level level;
+  LevelError error;
+};
+
+// Finest first. Every bounce is the reference where it keeps time, and takes no more events a tau than are allowed;
+// elsewhere it is missing, and the finest bursts are, which are given the error of the next coarser ones. Levels that
+// cost more than a finer one are missing too. Where several attractors coexist a level is held against the nearest one
+// that the reference comes to. Errors of K_f include two standard errors, those of the deflection what two samples of
+// one attractor differ by; both are 0 where the level does to the bit what the reference does.
+std::vector<MeasuredLevel> measure_levels(const Model& model, double eta, const LevelErrorSettings& settings);
+
+}  // namespace afm

@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+"""Which way the arrows point: reads every include and fails on one that the plan of the tree forbids.
+
+Usage: arrows_test.py ROOT [--list]     --list prints all arrows between rooms, with how many includes each stands for
+"""
+import re
+import sys
+from collections import Counter
+from pathlib import Path
+
+# the longest beginning of a path names its room
+ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'include/afm/dynamics': 'dynamics',
+         'src/core': 'core', 'src/core/dynamics': 'dynamics', 'src/core/lanes': 'lanes',
+         'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
+         'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
+ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': set(), 'sweep': {'common', 'core', 'dynamics'},
+           'node': {'core'}, 'view': {'core', 'node'}, 'tools': {'common', 'core', 'dynamics', 'sweep', 'node'},
+           'trials': {'core', 'dynamics'}, 'benchmark': {'common', 'core', 'dynamics', 'trials'},
+           'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'view', 'trials'}}
+# where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
+DOORS = {('src/core/contact/chatter_rates.cpp', 'src/core/lanes/node_step.h'),
+         ('src/core/emulator/ensemble.cpp', 'src/core/lanes/lane_tip.h'),
+         ('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h'),
+         ('src/core/tip/tip_arcs.cpp', 'src/core/lanes/slide_orders.h')}
+SEARCHED = ('include', 'src', 'test', 'benchmark')  # after the folder of the file itself
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+
+
+def room(path):
+    text = path.as_posix()
+    return ROOMS[max((beginning for beginning in ROOMS if text.startswith(beginning + '/')), key=len)]
+
+
+def target(root, path, name):
+    for folder in [path.parent] + [Path(s) for s in SEARCHED]:
+        if (root / folder / name).is_file():
+            return Path(*(folder / name).parts)
+    return None
+
+
+def arrows(root):
+    """Of every include: the file, what it includes, and the rooms of both."""
+    for folder in ('include', 'src', 'benchmark', 'test'):
+        for path in sorted((root / folder).rglob('*')):
+            if path.suffix not in ('.h', '.cpp'):
+                continue
+            path = path.relative_to(root)
+            for name in INCLUDE.findall((root / path).read_text()):
+                to = target(root, path, name)
+                yield path, to or Path(name), room(path), room(to) if to else None
+
+
+def main(root, listing=False):
+    root, faults, seen, doors = Path(root), [], Counter(), set()
+    for path, to, a, b in arrows(root):
+        seen[a, b] += 1
+        if b is None:
+            faults.append('%s includes "%s", which is nowhere' % (path, to))
+        elif (path.as_posix(), to.as_posix()) in DOORS:
+            doors.add((path.as_posix(), to.as_posix()))
+        elif a != b and b not in ALLOWED[a]:
+            faults.append('%s includes %s: %s may not know %s' % (path, to, a, b))
+    faults += ['%s no longer includes %s' % door for door in sorted(DOORS - doors)]
+    if listing:
+        for (a, b), n in sorted(seen.items(), key=str):
+            print('%-10s -> %-10s %4d' % (a, b, n))
+    assert len(seen) > 10, 'hardly any include was found in %s' % root
+    for fault in faults:
+        print('FAULT: ' + fault)
+    print('%d includes, %d faults' % (sum(seen.values()), len(faults)))
+    return 1 if faults else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1], '--list' in sys.argv))

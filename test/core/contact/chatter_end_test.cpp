@@ -1,0 +1,110 @@
+// How chatter ends: let go at a bounce, died into contact, or, where the restitution knows no cutoff, at its
+// accumulation point.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/chatters.h"
+
+namespace afm {
+namespace {
+
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+constexpr double kThreshold = 1e-5;
+
+Model model_with(double gamma, double v_c) {
+  Model model;
+  model.gamma = gamma;
+  model.v_c = v_c;
+  return model;
+}
+
+class ChatterEnds : public testing::TestWithParam<double> {};
+
+TEST_P(ChatterEnds, ItLetsGoAtABounce) {
+  const Model model = model_with(GetParam(), 0.05);
+  const ChatterLaw law(model, kThreshold);
+  RandomLaunches random(4);
+  int exits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const RandomChatter chatter = random_chatter(model, law, random, -3.5, -2.0);
+    const ChatterRun run = law.run(chatter.guide, 0.0, chatter.guide.length(), {chatter.v, 0.0});
+    if (run.end != ChatterEnd::exits) continue;
+    ++exits;
+    ASSERT_EQ(run.chatter.n, std::floor(run.chatter.n));
+    ASSERT_GE(run.chatter.n, 1.0);
+    if (run.chatter.n > 100.0) continue;
+    Tip tip = chatter.every_bounce();
+    for (int n = 1; n <= static_cast<int>(run.chatter.n); ++n) tip.advance(kNever);
+    const double bounce = 2.0 * run.chatter.v / chatter.guide.pressure(run.s);
+    ASSERT_NEAR(tip.now() - ModelTime{}, run.s, 0.1 * bounce) << i;
+    ASSERT_NEAR(settle(model, tip.tip_state()).normal_speed, run.chatter.v, 2.0 * kThreshold) << i;
+  }
+  EXPECT_GT(exits, 20);
+}
+
+// The sum of the geometric series of all bounces from one of gap rate v on, at time s.
+double rest_of_zeno(const RandomChatter& chatter, double s, double v) {
+  return 2.0 * v / (chatter.guide.pressure(s) * (1.0 - chatter.model.gamma));
+}
+
+TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
+  const Model model = model_with(GetParam(), 0.0);
+  if (model.gamma == 1.0) return;  // then it never ends
+  const ChatterLaw law(model, kThreshold);
+  RandomLaunches random(5);
+  int compared = 0;
+  for (int i = 0; i < 300; ++i) {
+    const RandomChatter chatter = random_chatter(model, law, random, -4.0, -2.5);
+    Tip bounces = chatter.every_bounce(), tip(model, chatter.guide.eta(), bounces.tip_state());
+    if (tip.advance(kNever) != Outcome::impact || tip.tip_state().g1 > 0.0) continue;  // let go before
+    const Impact burst = tip.last_impact();
+    ASSERT_EQ(burst.kind, ImpactKind::burst);
+    ASSERT_EQ(tip.advance(kNever), Outcome::contact);
+    const double end = tip.now() - ModelTime{};
+    int count = 0;
+    const ModelTime late = tip.now() + 1.0;
+    while (settle(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(late) == Outcome::impact)
+      ++count;
+    ASSERT_NEAR(burst.count, count, 1.5 + 0.05 * count) << i;
+    while (bounces.tip_state().g1 > 1e-9 && bounces.advance(late) == Outcome::impact) continue;
+    if (bounces.now() == late) continue;  // let go after all, of less than the threshold
+    const double s = bounces.now() - ModelTime{};
+    // contact is made when the gap rate is below the threshold: by so much the end is early, and so well it is known
+    ASSERT_NEAR(s + rest_of_zeno(chatter, s, bounces.tip_state().g1), end,
+                kDefaultContactTolerance + 2.0 * rest_of_zeno(chatter, end, kThreshold))
+        << i;
+    if (tip.advance(bounces.now()) != Outcome::time_limit) continue;
+    ++compared;
+    ASSERT_NEAR(tip.tip_state().phase, bounces.tip_state().phase, kDefaultContactTolerance) << i;
+    ASSERT_NEAR(tip.tip_state().X, bounces.tip_state().X, kDefaultContactTolerance) << i;
+    ASSERT_NEAR(tip.tip_state().u, bounces.tip_state().u, kDefaultContactTolerance) << i;
+  }
+  EXPECT_GT(compared, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Restitutions, ChatterEnds, testing::Values(1.0, 0.99, 0.7, 0.3, 0.0));
+
+TEST(Settle, TakesOutTheNormalVelocityAndUnsettlePutsItBack) {
+  RandomLaunches random(6);
+  const Model model;
+  for (int i = 0; i < 10000; ++i) {
+    TipState state = random.next(random.within(-9.0, 9.0));
+    const Settled settled = settle(model, state);
+    const double slope = surface_jet(model.H, state.phase).h1, n = std::sqrt(1.0 + slope * slope);
+    const double w = state.g1 + slope * state.u;
+    ASSERT_NEAR(settled.normal_speed, (w - slope * state.u) / n, 1e-14 * (1.0 + std::abs(w)));
+    ASSERT_NEAR(settled.tangential_velocity, (state.u + slope * w) / n,
+                1e-14 * (1.0 + std::abs(state.u) + std::abs(w)));
+    ASSERT_NEAR(settled.guide.u * n, settled.tangential_velocity, 1e-14 * (1.0 + std::abs(state.u)));
+    const TipState back = unsettle(model, settled.guide, settled.normal_speed);
+    ASSERT_EQ(back.phase, state.phase);
+    ASSERT_EQ(back.X, state.X);
+    ASSERT_EQ(back.g, 0.0);
+    ASSERT_NEAR(back.g1, state.g1, 1e-15 * std::abs(state.g1));
+    ASSERT_NEAR(back.u, state.u, 1e-15 * (1.0 + std::abs(state.u) + state.g1));
+  }
+}
+
+}  // namespace
+}  // namespace afm

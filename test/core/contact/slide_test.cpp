@@ -1,0 +1,137 @@
+// The slide against its equation of motion integrated in 113 bits, and against what symmetry and energy say.
+#include "afm/contact.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <vector>
+
+#include "trials/quad.h"
+#include "support/slides.h"
+
+namespace afm {
+namespace {
+
+const Model kMica;
+const Mechanics<double> kMechanics(kMica);
+
+using Motion = std::array<Quad, 3>;  // phase, X, u
+
+// Lagrange's equation of a bead on the wire y = h(x).
+struct Bead {
+  Quad eta;
+
+  void operator()(const Motion& q, Motion& rate, const Quad& /*t*/) const {
+    static const Mechanics<Quad> m(kMica);
+    const SurfaceJet<Quad> h = surface_jet(m.H, q[0]);
+    const Quad force = -m.omega_h * m.omega_h * q[1] - m.omega_v * m.omega_v * (h.h - m.y0) * h.h1;
+    rate = {q[2], q[2] - eta, (force - h.h1 * h.h2 * q[2] * q[2]) / (1 + h.h1 * h.h1)};
+  }
+};
+
+class QuadSlide {
+ public:
+  QuadSlide(double eta, const SlideState<double>& start) : bead_{eta}, q_{start.phase, start.X, start.u} {}
+
+  // in steps that leave errors below 1e-16
+  void advance(double dt) {
+    const int steps = static_cast<int>(std::ceil(400.0 * (2.0 + std::abs(static_cast<double>(bead_.eta))) * dt));
+    for (int i = 0; i < steps; ++i) stepper_.do_step(bead_, q_, Quad(0), Quad(dt) / steps);
+  }
+  SlideState<Quad> state() const { return {q_[0], q_[1], q_[2]}; }
+
+ private:
+  Bead bead_;
+  Motion q_;
+  boost::numeric::odeint::runge_kutta_fehlberg78<Motion, Quad> stepper_;
+};
+
+// Along the surface and in the springs.
+double energy_of(const SlideState<double>& s) {
+  const SurfaceJet<double> h = surface_jet(kMechanics.H, s.phase);
+  const double Y = kMechanics.omega_v * (h.h - kMechanics.y0), X = kMechanics.omega_h * s.X;
+  return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
+}
+
+// Of the drag, through the spring.
+double work_of_drag(const Piece& piece, double from, double until) {
+  const auto X = [&](double s) { return piece.at(s).X; };
+  return -kMechanics.omega_h * kMechanics.omega_h * piece.eta() *
+         boost::math::quadrature::gauss<double, 15>::integrate(X, from, until);
+}
+
+// The whole slide, piece by piece, up to its release.
+std::vector<Piece> pieces_of(double eta, const SlideState<double>& start) {
+  constexpr std::size_t kMost = 1000;
+  std::vector<Piece> pieces{Piece(kMechanics, eta, start)};
+  while (pieces.back().find_release() < 0.0 && pieces.size() < kMost) {
+    pieces.emplace_back(kMechanics, eta, pieces.back().at(pieces.back().length()));
+  }
+  return pieces;
+}
+
+double difference(double a, const Quad& b) { return static_cast<double>(abs(a - b)); }
+
+class Slide : public testing::TestWithParam<double> {};
+
+TEST(Slide, TheIntegralOfItsDisplacementIsThat) {
+  RandomLaunches random(7);
+  for (int i = 0; i < 200; ++i) {
+    const Piece piece = random_piece(random);
+    const auto d = [&](double s) { return piece.at(s).phase - piece.start().phase; };
+    const double s = random.within(0.1, 1.0) * piece.length();
+    const double sum = boost::math::quadrature::gauss<double, 10>::integrate(d, 0.0, s);  // exact for these powers
+    EXPECT_NEAR(piece.displacement_integral(s), sum, 3e-16 * s);
+  }
+}
+
+TEST_P(Slide, IsTheSolutionOfItsEquationOfMotion) {
+  RandomLaunches random(1);
+  for (int dwell = 0; dwell < 20; ++dwell) {
+    const SlideState<double> start = random_piece(GetParam(), random).start();
+    QuadSlide truth(GetParam(), start);
+    for (const Piece& piece : pieces_of(GetParam(), start)) {
+      const double middle = 0.5 * end_of(piece);
+      for (const double s : {middle, 2.0 * middle}) {
+        truth.advance(middle);
+        ASSERT_LT(difference(piece.at(s).phase, truth.state().phase), 1e-12);
+        ASSERT_LT(difference(piece.at(s).X, truth.state().X), 1e-12);
+        ASSERT_LT(difference(piece.at(s).u, truth.state().u), 1e-12);
+      }
+    }
+    // let go where the true pressure has fallen to nothing
+    ASSERT_LT(difference(-kReleaseNoise, pressure_of(kMica, truth.state())), 1e-10);
+  }
+}
+
+// Its length is chosen by its last two terms.
+TEST(Slide, APieceIsGoodUpToItsLengthAndNotFarBeyond) {
+  RandomLaunches random(3);
+  for (int i = 0; i < 60; ++i) {
+    const Piece piece = random_piece(random);
+    QuadSlide truth(piece.eta(), piece.start());
+    truth.advance(piece.length());
+    ASSERT_LT(difference(piece.at(piece.length()).u, truth.state().u), 1e-14);
+    truth.advance(piece.length());
+    ASSERT_GT(difference(piece.at(2.0 * piece.length()).u, truth.state().u), 1e-12) << "shorter than it need be";
+  }
+}
+
+TEST_P(Slide, KeepsTheEnergyThatTheDragDoesNotBring) {
+  RandomLaunches random(2);
+  for (int dwell = 0; dwell < 200; ++dwell) {
+    const std::vector<Piece> pieces = pieces_of(GetParam(), random_piece(GetParam(), random).start());
+    double work = 0.0;
+    for (const Piece& piece : pieces) work += work_of_drag(piece, 0.0, end_of(piece));
+    const double before = energy_of(pieces.front().start()), after = energy_of(pieces.back().at(end_of(pieces.back())));
+    ASSERT_NEAR(after - work, before, 1e-12 * std::max(1.0, before));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(DragSpeeds, Slide, testing::Values(0.2, 0.5, -0.5, 3.0, 5.0, 9.0));
+
+}  // namespace
+}  // namespace afm

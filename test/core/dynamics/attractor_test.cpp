@@ -1,0 +1,117 @@
+#include "afm/dynamics/attractor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "afm/dynamics/basins.h"
+
+namespace afm {
+namespace {
+
+Model model_with(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+Attractor from_above(double eta, double v_c) {
+  const Model model = model_with(v_c);
+  return find_attractor(model, eta, to_tip_state(model.H, {0.25, 0.0, 0.2, eta, 0.0}));
+}
+
+TEST(Attractor, PeriodOneLocksToTheSurface) {
+  struct Known {
+    double eta;
+    int cells;
+  };
+  for (const Known& known : {Known{1.5, 1}, Known{2.0, 1}, Known{2.25, 1}, Known{4.5, 2}}) {
+    const Attractor a = from_above(known.eta, 0.1 * known.eta);
+    EXPECT_EQ(a.name(), "period-1") << known.eta;
+    EXPECT_EQ(a.cells, known.cells);
+    EXPECT_LT(a.lyapunov.exponents[0], 0.0);
+    EXPECT_NEAR(a.cells_per_impact, known.cells, 0.01);
+  }
+}
+
+// The exponents of eta = 2, gamma = 0.7: multipliers 0.9195, -0.0723 +- 0.8931 i, 0.6637 over half a tau.
+TEST(Attractor, ExponentsOfAPeriodicOrbitAreThoseOfItsMultipliers) {
+  const Attractor a = from_above(2.0, 0.2);
+  const double expected[] = {std::log(0.91951) / 0.5, std::log(std::hypot(0.072317, 0.89314)) / 0.5,
+                             std::log(std::hypot(0.072317, 0.89314)) / 0.5, std::log(0.66369) / 0.5};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(a.lyapunov.exponents[i], expected[i], 1e-4) << i;
+  EXPECT_NEAR(a.lyapunov.volume_rate, 4.0 * std::log(0.7), 1e-9);
+}
+
+TEST(Attractor, ChaosHasAPositiveExponent) {
+  for (const double eta : {0.5, 2.75, 3.4, 5.0, 7.0}) {
+    const Attractor a = from_above(eta, 0.1 * eta);
+    EXPECT_EQ(a.kind, AttractorKind::chaotic) << eta;
+    EXPECT_GT(a.lyapunov.exponents[0], 0.1) << eta;
+    EXPECT_EQ(a.cells, 0);
+  }
+}
+
+// At eta = 2.5 a torus and an orbit of eight impacts draw different starts.
+TEST(Attractor, ATorusBesideAPeriodicOrbit) {
+  BasinSettings settings;
+  settings.starts = 100;
+  settings.friction_duration = 200.0;
+  const std::vector<Basin> basins = find_basins({2.5, 0.7, 0.25}, settings);
+  const Basin *torus = nullptr, *eight = nullptr;
+  double total = 0.0;
+  for (const Basin& basin : basins) {
+    total += basin.share;
+    if (basin.first.attractor.name() == "quasi-periodic") torus = &basin;
+    if (basin.first.attractor.name() == "period-8") eight = &basin;
+  }
+  EXPECT_NEAR(total, 1.0, 1e-12);
+  ASSERT_NE(torus, nullptr);
+  ASSERT_NE(eight, nullptr);
+  EXPECT_NEAR(torus->first.attractor.lyapunov.exponents[0], 0.0, 0.01);
+  EXPECT_GT(torus->first.attractor.rotation_number, 0.0);
+  EXPECT_NEAR(eight->share_std_error, std::sqrt(eight->share * (1.0 - eight->share) / 100.0), 1e-12);
+}
+
+// At eta = 1 the tip bounces ever lower, towards a glide on which nothing presses it and nothing lifts it.
+TEST(Attractor, AtEtaOneTheTipCreepsIntoContact) {
+  const Attractor a = from_above(1.0, 0.1);
+  EXPECT_EQ(a.name(), "contact");
+  EXPECT_GT(a.contact_share, 0.9);
+}
+
+TEST(Attractor, WithoutDragThereIsRest) { EXPECT_EQ(from_above(0.0, 0.05).name(), "rest"); }
+
+TEST(Attractor, WithTooSmallABudgetIsUndecided) {
+  AttractorSettings settings;
+  settings.most_events = 100;
+  EXPECT_EQ(find_attractor(model_with(0.34), 3.4, {0.5, 0.0, 3.4, 0.1, 1.0}, settings).name(), "undecided");
+}
+
+// Near a bifurcation the tip comes to its orbit too slowly to be seen coming back: Newton's method tells where it goes.
+TEST(Attractor, SlowlyAttractingOrbitsAreFound) {
+  const Model model = model_with(0.05);
+  AttractorSettings settings;
+  settings.transient = 200.0;
+  settings.duration = 100.0;
+  const Attractor a = find_attractor(model, 2.04, {0.75, 0.0, 1.5, 0.0, 6.0}, settings);  // a torus is born at 2.0426
+  EXPECT_EQ(a.name(), "period-1");
+  EXPECT_LT(a.lyapunov.exponents[0], 0.0);
+  EXPECT_GT(a.lyapunov.exponents[0], -0.05);
+}
+
+TEST(Basins, AreTheSameWhenLookedForAgain) {
+  BasinSettings settings;
+  settings.starts = 20;
+  settings.friction_duration = 100.0;
+  const auto a = find_basins({3.75, 0.7, 0.375}, settings), b = find_basins({3.75, 0.7, 0.375}, settings);
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_GE(a.size(), 2u);  // friction depends on history
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].starts, b[i].starts);
+    EXPECT_EQ(a[i].first.K_f, b[i].first.K_f);
+  }
+}
+
+}  // namespace
+}  // namespace afm

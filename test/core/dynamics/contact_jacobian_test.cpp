@@ -1,0 +1,149 @@
+#include "afm/dynamics/contact_jacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "afm/tip.h"
+#include "support/quad_impacts.h"
+
+namespace afm {
+namespace {
+
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+
+Model model_with(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+// One contact of a running tip, the flight after it, and the impact that ends that.
+struct Dwell {
+  double eta;
+  SlideState<double> begin;
+  double slide, flight;  // [tau]
+  TipState release;
+};
+
+std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
+  std::vector<Dwell> found;
+  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  for (int i = 0; i < 200000 && found.size() < wanted; ++i) {
+    if (tip.advance(kNever) != Outcome::contact) continue;
+    const TipState s = tip.tip_state();
+    const ModelTime begun = tip.now();
+    if (tip.advance(kNever) != Outcome::released) continue;
+    const ModelTime released = tip.now();
+    const TipState release = tip.tip_state();
+    tip.advance(kNever);
+    if (tip.last_impact().kind != ImpactKind::impact) continue;
+    found.push_back({eta, {s.phase, s.X, s.u}, released - begun, tip.now() - released, release});
+  }
+  return found;
+}
+
+// The slide until the pressure is nothing, in pieces a quarter as long as the series allow; then the flight to the next
+// impact.
+class QuadContact {
+ public:
+  QuadContact(const Model& model, const Dwell& dwell)
+      : mechanics_(model), impacts_(model, dwell.eta), eta_(dwell.eta), slide_(dwell.slide), flight_(dwell.flight) {}
+
+  std::array<Quad, 3> slide(const std::array<Quad, 3>& from, Quad left) const {
+    SlideState<Quad> q{from[0], from[1], from[2]};
+    while (left != 0) {
+      const SlidePiece<Quad> piece(mechanics_, eta_, q);
+      const Quad step = std::min<Quad>(left, piece.length() / 4);
+      q = piece.at(step);
+      left -= step;
+    }
+    return {q.phase, q.X, q.u};
+  }
+
+  QuadPoint slide_and_fly(const std::array<Quad, 3>& from) {
+    Quad time = slide_;
+    for (Quad error = 1; abs(error) > 1e-28;) {
+      const std::array<Quad, 3> q = slide(from, time);
+      const auto p = SlidePiece<Quad>(mechanics_, eta_, {q[0], q[1], q[2]}).pressure_jet(0);
+      error = p[0] / p[1];
+      time -= error;
+    }
+    const std::array<Quad, 3> q = slide(from, time);
+    return impacts_.next({q[0], q[1], q[2], 0}, flight_);
+  }
+
+ private:
+  Mechanics<Quad> mechanics_;
+  QuadImpacts impacts_;
+  Quad eta_, slide_, flight_;
+};
+
+std::array<Quad, 3> quad_slide(const SlideState<double>& s) { return {s.phase, s.X, s.u}; }
+
+constexpr double kEtas[] = {0.5, 3.0, 5.0};
+
+TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
+  for (const double eta : kEtas) {
+    const Model model = model_with(0.05);
+    for (const Dwell& dwell : dwells(model, eta, 6)) {
+      QuadContact exact(model, dwell);
+      const auto slide = [&](const std::array<Quad, 3>& q) { return exact.slide(q, dwell.slide); };
+      const Eigen::Matrix3d truth = quad_differences<3>(slide, quad_slide(dwell.begin), Quad(1e-12));
+      const Eigen::Matrix3d J = slide_jacobian(model, eta, dwell.begin, dwell.slide);
+      ASSERT_LE(relative_distance(J, truth), 1e-10) << "eta " << eta;
+    }
+  }
+}
+
+TEST(SlideJacobian, CarriesTheDirectionOfTheSlideAlongIt) {
+  const Model model = model_with(0.05);
+  for (const Dwell& dwell : dwells(model, 3.0, 20)) {
+    const Eigen::Matrix3d J = slide_jacobian(model, 3.0, dwell.begin, dwell.slide);
+    const Eigen::Vector3d before = slide_velocity(model, 3.0, dwell.begin);
+    const TipState& r = dwell.release;
+    const Eigen::Vector3d after = slide_velocity(model, 3.0, {r.phase, r.X, r.u});
+    ASSERT_LE((J * before - after).norm(), 1e-9 * after.norm());
+  }
+}
+
+// A slide, its release and a flight, to just after the next impact. Of the three directions one, along the slide, is
+// lost.
+TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
+  for (const double eta : kEtas) {
+    const Model model = model_with(0.05);
+    for (const Dwell& dwell : dwells(model, eta, 6)) {
+      QuadContact exact(model, dwell);
+      const auto map = [&](const std::array<Quad, 3>& q) { return exact.slide_and_fly(q); };
+      const auto truth = quad_differences<4>(map, quad_slide(dwell.begin), Quad(1e-12));
+      const Flight<double> flight(Mechanics<double>(model), eta, dwell.release);
+      const SectionJacobian<double> flown = section_jacobian(model, flight, dwell.flight, flight.gap(dwell.flight));
+      const Eigen::Matrix<double, 4, 3> J = flown.leftCols<3>() * slide_jacobian(model, eta, dwell.begin, dwell.slide);
+      ASSERT_LE(relative_distance(J, truth), 1e-9) << "eta " << eta;
+      const Eigen::Vector3d along = slide_velocity(model, eta, dwell.begin);
+      ASSERT_LE((J * along).norm(), 1e-7 * J.norm() * along.norm());
+    }
+  }
+}
+
+TEST(SettleJacobian, IsTheDerivativeOfSettling) {
+  const Model model;
+  const TipState start{0.2, 0.01, 2.7, 0.0, 0.4};
+  constexpr double kStep = 1e-6;
+  double TipState::*const parts[] = {&TipState::phase, &TipState::X, &TipState::u, &TipState::g1};
+  const Eigen::Matrix4d J = settle_jacobian(model, start);
+  for (int j = 0; j < 4; ++j) {
+    TipState up = start, down = start;
+    up.*parts[j] += kStep;
+    down.*parts[j] -= kStep;
+    const Settled high = settle(model, up), low = settle(model, down);
+    const Eigen::Vector4d column(high.guide.phase - low.guide.phase, high.guide.X - low.guide.X,
+                                 high.guide.u - low.guide.u, high.normal_speed - low.normal_speed);
+    EXPECT_LE((column / (2.0 * kStep) - J.col(j)).norm(), 1e-8) << j;
+  }
+}
+
+}  // namespace
+}  // namespace afm

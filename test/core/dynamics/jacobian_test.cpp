@@ -1,0 +1,203 @@
+#include "afm/dynamics/jacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "afm/impact_search.h"
+#include "afm/reflection.h"
+#include "support/quad_impacts.h"
+#include "trials/random_launches.h"
+
+namespace afm {
+namespace {
+
+Model model_with(double gamma, double v_c) {
+  Model model;
+  model.gamma = gamma;
+  model.v_c = v_c;
+  return model;
+}
+
+// above, around and below the cutoff; with the fold of the law (gamma < 1/2); elastic
+const Model kModels[] = {model_with(0.7, 0.0), model_with(0.7, 0.5), model_with(0.7, 20.0), model_with(0.3, 5.0),
+                         model_with(1.0, 0.05)};
+
+// One random flight with the impact that ends it.
+struct Bounce {
+  double eta;
+  TipState start;
+  Flight<double> flight;
+  Landing<double> landing;
+  SectionJacobian<double> J;
+  TipState after;
+};
+
+class Bounces {
+ public:
+  Bounces(const Model& model, unsigned seed) : model_(model), launches_(seed) {}
+
+  Bounce next() {
+    for (;;) {
+      const double eta = launches_.within(-9.0, 9.0);
+      const TipState start = launches_.next(eta, -4.0, 1.0);
+      const Bounce bounce = from(eta, start);
+      if (bounce.landing.outcome == SearchOutcome::impact) return bounce;
+    }
+  }
+  Bounce from(double eta, const TipState& start) const {
+    const Flight<double> flight(Mechanics<double>(model_), eta, start);
+    const Landing<double> landing = find_landing(model_, flight, 8.0);
+    return {eta,
+            start,
+            flight,
+            landing,
+            section_jacobian(model_, flight, landing.s, landing.jet),
+            reflect(model_, eta, landing.jet).after};
+  }
+
+ private:
+  Model model_;
+  RandomLaunches launches_;
+};
+
+constexpr int kImpacts = 2000;  // of each model: 1e4 in all
+const Quad kStep(1e-13);
+
+TEST(FlightJacobian, IsTheDerivativeOfTheFlight) {
+  const Mechanics<Quad> m{Model()};
+  RandomLaunches random(5);
+  for (int i = 0; i < 200; ++i) {
+    const double s = random.within(0.0, 5.0);
+    const Quad ch = cos(m.omega_h * s), sh = sin(m.omega_h * s), cv = cos(m.omega_v * s), sv = sin(m.omega_v * s);
+    const std::array<Quad, 5> start{random.within(0, 1), random.within(-0.1, 0.1), 3.0, random.within(0, 1), 2.0};
+    const Quad eta = random.within(-9.0, 9.0);
+    const auto fly = [&](const std::array<Quad, 5>& q) {
+      const Quad U = q[2] - eta, X = q[1] * ch + U * sh / m.omega_h;
+      return std::array<Quad, 5>{q[0] + X - q[1] + eta * s, X, eta + U * ch - q[1] * m.omega_h * sh,
+                                 q[3] * cv + q[4] * sv / m.omega_v, q[4] * cv - q[3] * m.omega_v * sv};
+    };
+    const FlowJacobian<double> J = flight_jacobian(Mechanics<double>(Model()), s);
+    ASSERT_LE(relative_distance(J, quad_differences<5>(fly, start, kStep)), 1e-14);
+    ASSERT_NEAR(J.determinant(), 1.0, 1e-13);
+  }
+}
+
+TEST(FlightJacobian, OfTwoFlightsIsTheirProduct) {
+  const Mechanics<double> m{Model()};
+  const FlowJacobian<double> both = flight_jacobian(m, 0.3) * flight_jacobian(m, 0.4);
+  EXPECT_LE((both - flight_jacobian(m, 0.7)).norm(), 1e-13 * both.norm());
+}
+
+TEST(SectionJacobian, IsTheDerivativeOfTheMap) {
+  for (const Model& model : kModels) {
+    Bounces bounces(model, 1);
+    int below_cutoff = 0;
+    for (int i = 0; i < kImpacts; ++i) {
+      const Bounce b = bounces.next();
+      QuadImpacts exact(model, b.eta);
+      const auto map = [&](const QuadPoint& p) { return exact.next(p, b.landing.s); };
+      const Eigen::Matrix4d truth = quad_differences<4>(map, quad_point(b.start), kStep);
+      below_cutoff += exact.speed() < model.v_c ? 1 : 0;
+      ASSERT_LE(relative_distance(b.J, truth), 1e-9) << "impact " << i << ", normal speed " << exact.speed();
+    }
+    const int expected = model.v_c >= 0.5 ? kImpacts / 20 : 0;
+    EXPECT_GE(below_cutoff, expected) << "v_c " << model.v_c;
+  }
+}
+
+// Flight keeps volume, so that the section's is what the restitution makes of it, over the rate at which the flow
+// crosses.
+TEST(SectionJacobian, ShrinksVolumeByTheRestitutionAlone) {
+  for (const Model& model : kModels) {
+    Bounces bounces(model, 2);
+    for (int i = 0; i < kImpacts; ++i) {
+      const Bounce b = bounces.next();
+      const Incidence<double> in(b.flight.mechanics(), b.eta, b.landing.jet.state, b.landing.jet.g1);
+      const RestitutionJet<double> law = restitution_jet(model, in.normal_speed);
+      const double expected = law.slope * law.restitution * b.start.g1 / b.after.g1;
+      // a determinant is good to what its largest elements leave
+      ASSERT_NEAR(b.J.determinant(), expected, 1e-11 * (std::abs(expected) + std::pow(b.J.norm(), 2.0)));
+    }
+  }
+}
+
+// The whole impact in the flow: Eq. 5, and turned into the frame of Eq. 13.
+Eigen::Matrix4d general_reflection(const Model& model, const Bounce& b, const Incidence<double>& in) {
+  const Mechanics<double>& m = b.flight.mechanics();
+  const FlightState<double>& q = b.landing.jet.state;
+  FlightState<double> after = q;
+  after.U = b.after.u - b.eta;
+  after.W = b.after.g1 + in.surface.h1 * b.after.u;
+  const FlowJacobian<double> J = map_in_flow(flight_velocity(m, b.eta, q), flight_velocity(m, b.eta, after),
+                                             gap_gradient(in.surface), reflection_derivative(model, in));
+  const double N = std::sqrt(1.0 + in.surface.h1 * in.surface.h1), tx = 1.0 / N, ty = in.surface.h1 / N;
+  Eigen::Matrix<double, 4, 5> turn = Eigen::Matrix<double, 4, 5>::Zero();
+  turn(0, 0) = turn(1, 3) = turn(2, 2) = turn(3, 4) = tx;
+  turn(0, 3) = turn(2, 4) = ty;
+  turn(1, 0) = turn(3, 2) = -ty;
+  return turn * J * turn.transpose();
+}
+
+TEST(ReflectionJacobian, OfThePaperIsThatOfTheGeneralConstruction) {
+  for (const Model& model : kModels) {
+    Bounces bounces(model, 3);
+    for (int i = 0; i < kImpacts; ++i) {
+      const Bounce b = bounces.next();
+      const Mechanics<double>& m = b.flight.mechanics();
+      const Incidence<double> in(m, b.eta, b.landing.jet.state, b.landing.jet.g1);
+      const double h1 = in.surface.h1, N = std::sqrt(1.0 + h1 * h1);
+      const FlowVector<double> F = flight_velocity(m, b.eta, b.landing.jet.state);
+      const Eigen::Matrix4d J = local_reflection_jacobian(model, in, (F(4) - h1 * F(2)) / N);
+      ASSERT_LE(relative_distance(general_reflection(model, b, in), J), 1e-10);
+      const RestitutionJet<double> law = restitution_jet(model, in.normal_speed);
+      ASSERT_NEAR(J.determinant(), law.restitution * law.slope, 1e-12);
+    }
+  }
+}
+
+// So the determinant is gamma^2.
+TEST(ReflectionJacobian, HasTheEigenvaluesOneAndMinusGammaTwice) {
+  const Model model = model_with(0.7, 0.0);
+  Bounces bounces(model, 4);
+  const Bounce b = bounces.next();
+  const Incidence<double> in(b.flight.mechanics(), b.eta, b.landing.jet.state, b.landing.jet.g1);
+  const Eigen::Matrix4d J = local_reflection_jacobian(model, in, 1.0);
+  const Eigen::Matrix4d I = Eigen::Matrix4d::Identity();
+  EXPECT_NEAR((J - I).determinant(), 0.0, 1e-12);
+  EXPECT_NEAR((J + 0.7 * I).determinant(), 0.0, 1e-12);
+  EXPECT_NEAR(J.trace(), 2.0 - 2.0 * 0.7, 1e-12);
+}
+
+TEST(SectionJacobian, FollowsTheChainRuleOverManyImpacts) {
+  const Model model = model_with(0.7, 0.34);
+  const double eta = 3.4;
+  constexpr int kLong = 12;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Bounces bounces(model, seed);
+    const TipState start{0.5 + 0.001 * seed, 0.003, 3.2, 0.0, 2.5};
+    TipState now = start;
+    Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
+    std::vector<double> times;
+    for (int i = 0; i < kLong; ++i) {
+      const Bounce b = bounces.from(eta, now);
+      ASSERT_EQ(b.landing.outcome, SearchOutcome::impact);
+      J = b.J * J;
+      times.push_back(b.landing.s);
+      now = b.after;
+    }
+    QuadImpacts exact(model, eta);
+    const auto map = [&](QuadPoint p) {
+      for (const double s : times) p = exact.next(p, s);
+      return p;
+    };
+    // a chain stretches the step: a smaller one
+    const Eigen::Matrix4d truth = quad_differences<4>(map, quad_point(start), Quad(1e-16));
+    ASSERT_LE(relative_distance(J, truth), 1e-9) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,145 @@
+#include "afm/dynamics/lyapunov.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "afm/surface.h"
+
+namespace afm {
+namespace {
+
+Model model_with(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+FreeState above_crest(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
+
+double sum(const LyapunovSpectrum& s) { return std::accumulate(s.exponents.begin(), s.exponents.end(), 0.0); }
+
+// The multipliers of the orbit of one impact are known to ten digits; the displacements leave it only after many turns.
+TEST(Lyapunov, OfAPeriodicOrbitIsThatOfItsMultipliers) {
+  const Model model = model_with(0.2);
+  LyapunovSettings settings;
+  settings.transient = 500.0;
+  settings.duration = 4000.0;
+  const LyapunovSpectrum s = lyapunov(model, 2.0, above_crest(2.0), settings);
+  ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
+  // gamma = 0.7, two impacts per tau: det = gamma^2 at each
+  EXPECT_NEAR(sum(s), 2.0 * 2.0 * std::log(0.7), 1e-6);
+  EXPECT_LT(s.exponents[0], -0.1);
+  for (int i = 0; i < 3; ++i) EXPECT_GE(s.exponents[i], s.exponents[i + 1] - 1e-2);
+}
+
+// What volumes do is known from the impacts alone.
+TEST(Lyapunov, SumsUpToWhatTheRestitutionTakes) {
+  for (const double eta : {1.0, 2.75, 3.0, 3.4, 5.0}) {
+    const Model model = model_with(0.1 * eta);
+    LyapunovSettings settings;
+    settings.duration = 500.0;
+    settings.contact_tolerance = 0.0;
+    const LyapunovSpectrum s = lyapunov(model, eta, above_crest(eta), settings);
+    ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta;
+    ASSERT_EQ(s.rank, 4);
+    EXPECT_NEAR(sum(s), s.volume_rate, 1e-8 * (1.0 + std::abs(s.volume_rate))) << eta;
+  }
+}
+
+// How far a neighbour is after a time, in parts of how far it was.
+double growth_of(const Tip& tip, const Model& model, double duration) {
+  constexpr double kApart = 1e-11;
+  TipState start = tip.tip_state();
+  Tip here(model, tip.eta(), start);
+  start.X += kApart;
+  Tip there(model, tip.eta(), start);
+  const ModelTime end = ModelTime{} + duration;
+  for (Tip* t : {&here, &there}) {
+    while (t->advance(end) != Outcome::time_limit) continue;
+  }
+  const Deflection a = here.deflection(end), b = there.deflection(end);
+  const double du = here.tip_state().u - there.tip_state().u;
+  return std::hypot(std::hypot(a.lateral - b.lateral, a.vertical - b.vertical), du / 40.0) / kApart;
+}
+
+// Two neighbours on the attractor part at the largest exponent: no Jacobian in it. Fresh displacements need a few
+// impacts to turn, so what counts is the growth from 4 tau to 8.
+TEST(Lyapunov, IsHowFastNeighboursPart) {
+  const Model model = model_with(0.34);
+  const LyapunovSpectrum s = lyapunov(model, 3.4, above_crest(3.4));
+  Tip tip(model, 3.4, above_crest(3.4));
+  double growth = 0.0;
+  constexpr int kSpans = 4000;
+  for (int i = 1; i <= kSpans; ++i) {
+    while (tip.advance({200 + 4 * i, 0.0}) != Outcome::time_limit) continue;
+    growth += std::log(growth_of(tip, model, 8.0) / growth_of(tip, model, 4.0));
+  }
+  EXPECT_NEAR(growth / (4.0 * kSpans), s.exponents[0], 0.06);
+  EXPECT_NEAR(s.exponents[0], 0.6, 0.1);
+}
+
+TEST(Lyapunov, IsTheSameToTheLastBitWhenRunAgain) {
+  const Model model = model_with(0.34);
+  const LyapunovSpectrum a = lyapunov(model, 3.4, above_crest(3.4)), b = lyapunov(model, 3.4, above_crest(3.4));
+  EXPECT_EQ(a.exponents, b.exponents);
+  EXPECT_EQ(a.std_errors, b.std_errors);
+}
+
+// Contact and bursts taken as a whole do not change what is measured where they are rare.
+TEST(Lyapunov, HoldsAcrossBursts) {
+  const Model model = model_with(0.1);
+  LyapunovSettings whole, single;
+  whole.duration = single.duration = 4000.0;
+  single.contact_tolerance = 0.0;
+  const LyapunovSpectrum a = lyapunov(model, 3.4, above_crest(3.4), whole);
+  const LyapunovSpectrum b = lyapunov(model, 3.4, above_crest(3.4), single);
+  EXPECT_NEAR(a.exponents[0], b.exponents[0], 4.0 * std::hypot(a.std_errors[0], b.std_errors[0]));
+  EXPECT_NEAR(a.exponents[1], b.exponents[1], 4.0 * std::hypot(a.std_errors[1], b.std_errors[1]));
+}
+
+TEST(Lyapunov, AcrossContactTwoDirectionsAreLost) {
+  const Model model = model_with(0.02);
+  const LyapunovSpectrum s = lyapunov(model, 3.0, above_crest(3.0));
+  ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
+  EXPECT_EQ(s.rank, 2);
+  EXPECT_EQ(s.exponents[2], -INFINITY);
+  EXPECT_EQ(s.volume_rate, -INFINITY);
+  EXPECT_LT(s.exponents[0], 0.0);  // a periodic attractor
+}
+
+// A Jacobian that was no number once passed as measured here: its law lost a fixed part of v below the cutoff too.
+TEST(Lyapunov, IsANumberWhereBurstsBeginAboveTheCutoff) {
+  LyapunovSettings settings;
+  settings.duration = 1000.0;
+  for (const double v_c : {0.003, 0.01, 0.02}) {
+    for (const double eta : {2.95, 4.7, 5.0, 6.95, 9.0}) {
+      const LyapunovSpectrum s = lyapunov(model_with(v_c), eta, above_crest(eta), settings);
+      ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta << ", cutoff " << v_c;
+      EXPECT_FALSE(std::isnan(s.exponents[0])) << eta << ", cutoff " << v_c;
+    }
+  }
+}
+
+// A hundredth of the tolerance has other bursts, fewer of which begin above the cutoff.
+TEST(Lyapunov, DoesNotDependOnTheToleranceOfBursts) {
+  LyapunovSettings coarse, fine;
+  coarse.duration = fine.duration = 4000.0;
+  fine.contact_tolerance = 1e-5;
+  const LyapunovSpectrum a = lyapunov(model_with(0.01), 5.0, above_crest(5.0), coarse);
+  const LyapunovSpectrum b = lyapunov(model_with(0.01), 5.0, above_crest(5.0), fine);
+  ASSERT_EQ(a.outcome, LyapunovOutcome::measured);
+  ASSERT_EQ(b.outcome, LyapunovOutcome::measured);
+  EXPECT_NEAR(a.exponents[0], b.exponents[0], 4.0 * std::hypot(a.std_errors[0], b.std_errors[0]));
+  EXPECT_GT(a.exponents[0], 0.1);
+}
+
+TEST(Lyapunov, TellsWhenItsBudgetIsSpent) {
+  LyapunovSettings settings;
+  settings.most_events = 1000;
+  EXPECT_EQ(lyapunov(model_with(0.34), 3.4, above_crest(3.4), settings).outcome, LyapunovOutcome::budget_spent);
+}
+
+}  // namespace
+}  // namespace afm

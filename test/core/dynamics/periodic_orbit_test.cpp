@@ -1,0 +1,133 @@
+#include "afm/dynamics/periodic_orbit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "afm/dynamics/orbit_search.h"
+
+namespace afm {
+namespace {
+
+Model model_with(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+// eta = 3.4, gamma = 0.7, computed in 128-bit floats.
+TEST(PeriodicOrbit, ThePapersOrbitComesOutToAllDigits) {
+  const Model model = model_with(0.05);
+  const OrbitResult r = find_orbit(PoincareMap(model, 3.4), {{0.53, 0.0, 3.2, 0.0, 2.5}});
+  ASSERT_EQ(r.outcome, OrbitOutcome::found);
+  const PeriodicOrbit& orbit = r.orbit;
+  EXPECT_LE(orbit.residual, 1e-13);
+  EXPECT_EQ(orbit.cells, 2);
+  EXPECT_EQ(orbit.period, 2.0 / 3.4);
+  EXPECT_EQ(orbit.K_f, 0.22902622884216517);
+  const FreeState first = to_free_state(model.H, orbit.points[0]);
+  EXPECT_NEAR(first.phase, 0.5290552555567710, 6e-17);  // sixteen digits are given
+  EXPECT_NEAR(first.X, 0.0036110865500110, 6e-17);
+  EXPECT_NEAR(first.u, 3.1709737711578348, 4.5e-16);  // an ulp
+  EXPECT_NEAR(first.w, 2.0880897958488404, 9e-16);    // two: from gap rate and slope
+  const std::complex<double> expected[] = {{-0.5274355542, 1.396024991},
+                                           {-0.5274355542, -1.396024991},
+                                           {-0.2232941408, 0.4125037623},
+                                           {-0.2232941408, -0.4125037623}};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_LE(std::abs(orbit.multipliers[i] - expected[i]), 6e-10) << i;
+}
+
+// Two impacts per tau at the rising flank, each the same: K_f = 4 (1+gamma)/(1-gamma) s^2/(1+s^2).
+TEST(PeriodicOrbit, AtEvenEtaIsTheClosedForm) {
+  for (const double eta : {2.0, 4.0, 6.0}) {
+    const Model model = model_with(0.05);
+    const double s = kTwoPi * model.H, N = std::sqrt(1.0 + s * s);
+    const double before = 2.0 * eta * s / (0.3 * N);  // normal speed
+    const TipState guess{0.75, 0.0, eta - s * 0.7 * before / N + 0.01, 0.0, 0.7 * before * N + 0.01};
+    const OrbitResult r = find_orbit(PoincareMap(model, eta), {guess});
+    ASSERT_EQ(r.outcome, OrbitOutcome::found) << eta;
+    EXPECT_NEAR(r.orbit.K_f, 4.0 * 1.7 / 0.3 * s * s / (1.0 + s * s), 4e-15);
+    EXPECT_EQ(r.orbit.period, 0.5);
+    EXPECT_NEAR(r.orbit.slowest_impact, before, 1e-12);
+  }
+}
+
+// The horizontal frequency is not in the closed form: it bends the flights, not the impacts.
+TEST(PeriodicOrbit, AtEvenEtaDoesNotKnowTheHorizontalFrequency) {
+  for (const double ratio : {4.3, 5.1, 6.25, 7.3, 9.7}) {
+    Model model = model_with(0.05);
+    model.frequency_ratio = ratio;
+    const double s = kTwoPi * model.H, N = std::sqrt(1.0 + s * s), before = 2.0 * 4.0 * s / (0.3 * N);
+    const double U = -s * 1.7 * before / (2.0 * N), omega = kTwoPi * ratio;
+    const TipState guess{0.75, U / omega / std::tan(0.25 * omega), 4.0 + U, 0.0, 0.7 * before * N};
+    const OrbitResult r = find_orbit(PoincareMap(model, 4.0), {guess});
+    ASSERT_EQ(r.outcome, OrbitOutcome::found) << ratio;
+    EXPECT_NEAR(r.orbit.K_f, 4.0 * 1.7 / 0.3 * s * s / (1.0 + s * s), 1e-12) << ratio;
+  }
+}
+
+std::complex<double> product(const Multipliers& m) { return m[0] * m[1] * m[2] * m[3]; }
+
+// The product of the multipliers is the volume that the impacts leave.
+TEST(PeriodicOrbit, MultipliersMultiplyToTheRestitutions) {
+  OrbitSearchSettings settings;
+  settings.longest = 5;
+  settings.trajectory = 20000;
+  settings.guesses = 100;
+  const Model model = model_with(0.05);
+  for (const FoundOrbit& found : search_orbits(PoincareMap(model, 3.4), settings).orbits) {
+    ASSERT_GE(found.orbit.slowest_impact, model.v_c);
+    const double volume = std::pow(model.gamma, 2.0 * static_cast<double>(found.orbit.length()));
+    EXPECT_NEAR(product(found.orbit.multipliers).real(), volume, 1e-11) << found.orbit.length();
+    EXPECT_NEAR(found.orbit.period, found.orbit.cells / 3.4, 1e-13);
+  }
+}
+
+TEST(PeriodicOrbit, IsTheSameFromAnyOfItsPoints) {
+  OrbitSearchSettings settings;
+  settings.longest = 3;
+  settings.trajectory = 20000;
+  settings.guesses = 200;
+  const PoincareMap map(model_with(0.05), 3.4);
+  const OrbitSearchResult found = search_orbits(map, settings);
+  PeriodicOrbit three = found.orbits.back().orbit;
+  ASSERT_EQ(three.length(), 3u);
+  PeriodicOrbit turned = three;
+  std::rotate(turned.points.begin(), turned.points.begin() + 1, turned.points.end());
+  EXPECT_TRUE(same_orbit(three, turned));
+  EXPECT_TRUE(is_prime(three));
+  std::swap(turned.points[0], turned.points[1]);
+  EXPECT_FALSE(same_orbit(three, turned));
+  const PeriodicOrbit& one = found.orbits.front().orbit;
+  ASSERT_EQ(one.length(), 1u);
+  const OrbitResult twice = find_orbit(map, {one.points[0], one.points[0]});
+  ASSERT_EQ(twice.outcome, OrbitOutcome::found);
+  EXPECT_FALSE(is_prime(twice.orbit));
+}
+
+TEST(PeriodicOrbit, BouncesWithoutSpeedAreNone) {
+  const OrbitResult r = find_orbit(PoincareMap(model_with(0.05), 3.4), {{0.5, 0.0, 3.4, 0.0, 1e-12}});
+  EXPECT_NE(r.outcome, OrbitOutcome::found);
+}
+
+// Lengths 1, 1, 3, 4, 5, 6 and none of length 2, whatever guesses are taken.
+TEST(OrbitSearch, FindsTheSameOrbitsFromOtherGuesses) {
+  for (const std::uint64_t seed : {1u, 2u}) {
+    OrbitSearchSettings settings;
+    settings.trajectory = 30000;
+    settings.guesses = 300;
+    settings.seed = seed;
+    const OrbitSearchResult found = search_orbits(PoincareMap(model_with(0.05), 3.4), settings);
+    std::vector<std::size_t> lengths;
+    for (const FoundOrbit& orbit : found.orbits) {
+      lengths.push_back(orbit.orbit.length());
+      EXPECT_LE(orbit.orbit.residual, 1e-13);
+    }
+    EXPECT_EQ(lengths, (std::vector<std::size_t>{1, 1, 3, 4, 5, 6})) << seed;
+    EXPECT_EQ(found.lengths[1].prime, 0);
+    EXPECT_GT(found.lengths[1].repeats, 100);
+  }
+}
+
+}  // namespace
+}  // namespace afm

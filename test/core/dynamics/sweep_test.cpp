@@ -1,0 +1,163 @@
+#include "afm/dynamics/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "afm/surface.h"
+#include "common/decimal_range.h"
+
+namespace afm {
+namespace {
+
+TipState plain_start(double eta) { return to_tip_state(Model{}.H, FreeState{0.25, 0.0, 0.2, eta, 0.0}); }
+
+SweepSettings settings_of(double duration, double transient) {
+  SweepSettings settings;
+  settings.duration = duration;
+  settings.transient = transient;
+  return settings;
+}
+
+struct Known {
+  double eta, K_f;
+};
+
+// The closed form 4 (1+gamma)/(1-gamma) s^2/(1+s^2), and orbits iterated in 34 digits (see known_orbits_test).
+TEST(Sweep, OnAPeriodicOrbitTheFrictionIsExact) {
+  const Model mica;
+  const double s = kTwoPi * mica.H, even = 4.0 * (1.0 + mica.gamma) / (1.0 - mica.gamma) * s * s / (1.0 + s * s);
+  const Known known[] = {{2.0, even},
+                         {4.0, even},
+                         {6.0, even},
+                         {8.0, even},
+                         {1.5, 0.2507777307734768407203532},
+                         {2.25, 1.603774408582840476679226},
+                         {4.5, 0.445730537638223617016902}};
+  for (const Known& k : known) {
+    const SweepResult r = sweep_point({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
+    EXPECT_EQ(r.attractor.kind, AttractorKind::periodic) << k.eta;
+    EXPECT_NEAR(r.friction.K_f, k.K_f, 1e-10) << k.eta;
+    EXPECT_LT(r.friction.K_f_std_error, 1e-10) << k.eta;
+    EXPECT_LE(r.attractor.lyapunov.exponents[0], 0.0) << k.eta;
+  }
+}
+
+TEST(Sweep, WhatTheEvenOrbitIsLike) {
+  const double eta = 2.0, gamma = 0.7, s = kTwoPi * Model{}.H;
+  const SweepResult r = sweep_point({eta, gamma, 0.1 * eta}, settings_of(1000.0, 500.0), plain_start(eta));
+  const double speed = 2.0 * eta * s / ((1.0 - gamma) * std::sqrt(1.0 + s * s));
+  EXPECT_NEAR(r.friction.impacts_per_tau, 2.0, 1e-12);
+  EXPECT_NEAR(r.friction.mean_flight_time, 0.5, 1e-12);
+  EXPECT_NEAR(r.friction.mean_energy_loss, 0.5 * (1.0 - gamma * gamma) * speed * speed, 1e-9);
+}
+
+TEST(Sweep, TheAttractorOfThePaperHasItsFriction) {
+  for (const double v_c : {0.05, 0.34}) {
+    const SweepResult r = sweep_point({3.4, 0.7, v_c}, settings_of(100000.0, 500.0), plain_start(3.4));
+    EXPECT_EQ(r.attractor.kind, AttractorKind::chaotic);
+    EXPECT_GT(r.attractor.lyapunov.exponents[0], 0.2);
+    EXPECT_NEAR(r.friction.K_f, 0.2533, 3.0 * std::hypot(r.friction.K_f_std_error, 3e-4)) << v_c;
+    EXPECT_LT(r.friction.K_f_std_error, 2e-4);
+  }
+}
+
+// How many of the 95 % intervals of short runs hold the mean of a run of 1e7 tau.
+struct Chaotic {
+  double eta, K_f;  // v_c = 0.1 eta
+};
+
+class Coverage : public testing::TestWithParam<Chaotic> {};
+
+TEST_P(Coverage, IsNineteenInTwenty) {
+  constexpr int kSeeds = 1000;
+  const Chaotic& known = GetParam();
+  const SweepPoint point{known.eta, 0.7, 0.1 * known.eta};
+  int covered = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    Tip tip(model_of(point), point.eta, random_start(point, seed, 0));
+    average_over_time(tip, 100.0);
+    const FrictionAverage average = average_over_time(tip, 1000.0);
+    covered += std::abs(average.K_f - known.K_f) < 1.96 * average.K_f_std_error ? 1 : 0;
+  }
+  std::printf("eta = %g: %.1f %%\n", known.eta, 100.0 * covered / kSeeds);
+  EXPECT_GE(covered, kSeeds * 93 / 100);
+  EXPECT_LE(covered, kSeeds * 97 / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Chaos, Coverage,
+                         testing::Values(Chaotic{2.75, 0.28925}, Chaotic{3.4, 0.25305}, Chaotic{5.0, 0.18813}));
+
+TEST(Sweep, AtRestThereIsNoCoefficient) {
+  const SweepResult r = sweep_point({0.0, 0.7, 0.05}, settings_of(100.0, 100.0), plain_start(0.0));
+  EXPECT_TRUE(std::isnan(r.friction.K_f));
+  EXPECT_TRUE(std::isnan(r.friction.K_f_std_error));
+}
+
+bool identical(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+// Rest, contact, bursts, periods, chaos, the hammer, side by side.
+TEST(Sweep, ManyPointsTogetherAreEachAsAlone) {
+  std::vector<SweepTrip> trips;
+  for (int i = 0; i < 60; ++i) {
+    const SweepPoint point{0.125 * i, i % 3 == 0 ? 0.5 : 0.7, i % 4 == 1 ? 0.3 : 0.05,
+                           i % 7 == 4 ? ModelKind::hammer : ModelKind::oscillator};
+    trips.push_back({point, random_start(point, 3, static_cast<std::uint64_t>(i))});
+  }
+  for (const double transient : {0.0, 150.0}) {
+    const SweepSettings settings = settings_of(300.0, transient);
+    const std::vector<SweepResult> together = sweep_points(trips, settings);
+    for (std::size_t i = 0; i < trips.size(); ++i) {
+      const SweepResult &a = together[i], b = sweep_point(trips[i].point, settings, trips[i].start);
+      const FrictionAverage &f = a.friction, &g = b.friction;
+      EXPECT_TRUE(identical(f.K_f, g.K_f) && identical(f.K_f_std_error, g.K_f_std_error) &&
+                  identical(f.impacts_per_tau, g.impacts_per_tau) && identical(f.mean_energy_loss, g.mean_energy_loss) &&
+                  identical(f.mean_flight_time, g.mean_flight_time) && f.search_failures == g.search_failures)
+          << trips[i].point.eta;
+      EXPECT_EQ(a.attractor.name(), b.attractor.name());
+      EXPECT_TRUE(identical(a.attractor.lyapunov.exponents[0], b.attractor.lyapunov.exponents[0]));
+      EXPECT_TRUE(identical(a.end.phase, b.end.phase) && identical(a.end.X, b.end.X) && identical(a.end.u, b.end.u) &&
+                  identical(a.end.g, b.end.g) && identical(a.end.g1, b.end.g1))
+          << trips[i].point.eta;
+    }
+  }
+}
+
+TEST(Sweep, StartsAreAboveTheSurfaceAndTheirOwn) {
+  const SweepPoint point{3.4, 0.7, 0.05};
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const TipState start = random_start(point, 7, i);
+    ASSERT_GE(start.g, 0.0);
+    ASSERT_EQ(random_start(point, 7, i).phase, start.phase);
+    ASSERT_NE(random_start(point, 8, i).phase, start.phase);
+    ASSERT_NE(random_start(point, 7, i + 1).phase, start.phase);
+  }
+}
+
+TEST(DecimalRange, EveryValueIsTheNumberMeant) {
+  const std::vector<double> values = parse_range("0:9:0.01");
+  ASSERT_EQ(values.size(), 901u);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    ASSERT_EQ(values[i], std::strtod((std::to_string(i) + "e-2").c_str(), nullptr)) << i;
+  }
+  EXPECT_EQ(parse_range("1:2:0.3"), (std::vector<double>{1.0, 1.3, 1.6, 1.9}));
+  EXPECT_EQ(parse_range("-0.2:.1:1e-1"), (std::vector<double>{-0.2, -0.1, 0.0, 0.1}));
+  EXPECT_EQ(parse_range("3.4"), std::vector<double>{3.4});
+  EXPECT_EQ(parse_range("1:1:1"), std::vector<double>{1.0});
+}
+
+TEST(DecimalRange, WhatIsNoRangeIsRefused) {
+  for (const char* text : {"",     "a",    "1:2", "1:2:3:4", "1:2:0", "1:2:-1",   "2:1:1",     "1:2:x",
+                           "nan",  "inf",  "1e",  "--1",     "1 ",    "0:1:1e-9", "1:2:1e-30", "1.2345678901234567",
+                           "0x10", "1..2", ":",   "1::2"}) {
+    EXPECT_THROW(parse_range(text), std::invalid_argument) << text;
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,176 @@
+#include "afm/friction.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace afm {
+namespace {
+
+Impact impact_at(double t, double energy, std::uint32_t count = 1) {
+  Impact impact;
+  impact.time = ModelTime{} + t;
+  impact.energy_loss = energy;
+  impact.count = count;
+  return impact;
+}
+
+ModelTime time_of(double t) { return ModelTime{} + t; }
+
+Friction started(double window, double eta, double t = 0.0) {
+  Friction friction(window);
+  friction.restart(time_of(t), eta);
+  return friction;
+}
+
+TEST(Friction, IsTheEnergyLostOverTheWayDragged) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> energy(0.0, 2.0), pause(0.0, 1.0);
+  Friction friction = started(100.0, 2.5, 10.0);
+  double t = 10.0;
+  long double sum = 0.0L;
+  for (int i = 0; i < 100000; ++i) {
+    const double dE = energy(random);
+    t += pause(random);
+    sum += dE;
+    friction.add(impact_at(t, dE));
+  }
+  const FrictionEstimate e = friction.estimate(time_of(t + 0.5));
+  const double power = static_cast<double>(sum / (static_cast<long double>(t) + 0.5L - 10.0L));
+  EXPECT_NEAR(e.energy_loss, static_cast<double>(sum), 1e-15 * static_cast<double>(sum));
+  EXPECT_NEAR(e.force, power / 2.5, 1e-12);
+  EXPECT_NEAR(e.K_f, power / (2.5 * 2.5), 1e-12);
+  EXPECT_EQ(e.impact_count, 100000u);
+}
+
+TEST(Friction, HasTheSignOfTheDrag) {
+  Friction friction = started(10.0, -2.0);
+  for (int i = 0; i < 100; ++i) friction.add(impact_at(0.5 + i, 1.0));
+  const FrictionEstimate e = friction.estimate(time_of(100.0));
+  EXPECT_NEAR(e.force, -0.5, 1e-12);
+  EXPECT_NEAR(e.window_force, -0.5, 1e-12);
+  EXPECT_NEAR(e.K_f, 0.25, 1e-12);
+  EXPECT_GE(e.force_std_error, 0.0);
+}
+
+TEST(Friction, OfATipAtRestIsNoughtAndItsCoefficientUndefined) {
+  Friction friction = started(10.0, 0.0);
+  for (int i = 0; i < 100; ++i) friction.add(impact_at(0.5 + i, 1.0));
+  const FrictionEstimate e = friction.estimate(time_of(100.0));
+  EXPECT_EQ(e.force, 0.0);
+  EXPECT_EQ(e.window_force, 0.0);
+  EXPECT_EQ(e.force_std_error, 0.0);
+  EXPECT_TRUE(std::isnan(e.K_f));
+  EXPECT_TRUE(std::isnan(e.K_f_std_error));
+  EXPECT_TRUE(std::isnan(e.window_K_f));
+  EXPECT_EQ(e.energy_loss, 100.0);
+}
+
+TEST(Friction, ATipThatTouchesNothingHasNone) {
+  Friction friction = started(10.0, 1.0);
+  const FrictionEstimate e = friction.estimate(time_of(1e6));
+  EXPECT_EQ(e.force, 0.0);
+  EXPECT_EQ(e.K_f, 0.0);
+  EXPECT_EQ(e.K_f_std_error, 0.0);
+  EXPECT_EQ(e.window_K_f, 0.0);
+}
+
+TEST(Friction, SaysNothingBeforeThereIsAnythingToSay) {
+  Friction friction = started(64.0, 1.0);
+  EXPECT_TRUE(std::isnan(friction.estimate(time_of(0.0)).K_f));
+  friction.add(impact_at(0.5, 1.0));
+  const FrictionEstimate e = friction.estimate(time_of(1.5));
+  EXPECT_NEAR(e.K_f, 1.0 / 1.5, 1e-12);
+  EXPECT_TRUE(std::isnan(e.K_f_std_error));
+  EXPECT_TRUE(std::isnan(e.window_K_f));
+}
+
+TEST(Friction, ABurstCountsItsBounces) {
+  Friction friction = started(10.0, 1.0);
+  friction.add(impact_at(1.0, 0.5));
+  friction.add(impact_at(2.0, 0.25, 1000));
+  EXPECT_EQ(friction.estimate(time_of(3.0)).impact_count, 1001u);
+}
+
+TEST(Friction, TheWindowForgets) {
+  Friction friction = started(32.0, 1.0);
+  for (int i = 0; i < 1000; ++i) friction.add(impact_at(i + 0.5, i < 500 ? 3.0 : 1.0));
+  const FrictionEstimate e = friction.estimate(time_of(1000.0));
+  EXPECT_NEAR(e.K_f, 2.0, 1e-12);
+  EXPECT_NEAR(e.window_K_f, 1.0, 1e-12);
+  EXPECT_NEAR(e.window_K_f_std_error, 0.0, 1e-12);
+  // a long silence empties it, whatever the ring held
+  EXPECT_NEAR(friction.estimate(time_of(1040.0)).window_K_f, 0.0, 1e-12);
+  EXPECT_NEAR(friction.estimate(time_of(1e7)).window_K_f, 0.0, 1e-12);
+}
+
+TEST(Friction, TheWindowHoldsItsWindow) {
+  Friction friction = started(32.0, 1.0);
+  // one impact a tau, of rising energy: the mean over the last 32 bins of one tau each
+  for (int i = 0; i < 200; ++i) {
+    friction.add(impact_at(i + 0.5, i));
+    if (i < 32) continue;
+    ASSERT_NEAR(friction.estimate(time_of(i + 1.0)).window_K_f, i - 15.5, 1e-9) << i;
+  }
+}
+
+TEST(Friction, ANewDragVelocityStartsAgain) {
+  Friction friction = started(10.0, 1.0);
+  for (int i = 0; i < 300; ++i) friction.add(impact_at(i + 0.5, 5.0));
+  friction.restart(time_of(300.0), 2.0);
+  EXPECT_EQ(friction.estimate(time_of(300.0)).energy_loss, 0.0);
+  EXPECT_EQ(friction.estimate(time_of(300.0)).impact_count, 0u);
+  EXPECT_TRUE(std::isnan(friction.estimate(time_of(300.0)).K_f));
+  for (int i = 300; i < 400; ++i) friction.add(impact_at(i + 0.5, 4.0));
+  const FrictionEstimate e = friction.estimate(time_of(400.0));
+  EXPECT_NEAR(e.K_f, 1.0, 1e-12);
+  EXPECT_NEAR(e.window_K_f, 1.0, 1e-12);
+}
+
+// Energy lost once a tau, each remembering the one before: what a chaotic tip looks like.
+struct Measured {
+  double mean, std_error, naive_std_error;
+};
+
+Measured correlated_run(unsigned seed, int length, double mean) {
+  constexpr double kMemory = 0.8;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, std::sqrt(1.0 - kMemory * kMemory));
+  Friction friction = started(100.0, 1.0);
+  double x = std::normal_distribution<double>()(random), squares = 0.0;
+  for (int i = 0; i < length; ++i) {
+    x = kMemory * x + noise(random);
+    squares += x * x;
+    friction.add(impact_at(i + 0.5, mean + x));
+  }
+  const FrictionEstimate e = friction.estimate(time_of(length));
+  return {e.K_f, e.K_f_std_error, std::sqrt(squares) / length};
+}
+
+TEST(Friction, TheStandardErrorIsThatOfACorrelatedProcess) {
+  constexpr int kRuns = 400;
+  int covered = 0, covered_naively = 0;
+  for (unsigned seed = 0; seed < kRuns; ++seed) {
+    const Measured run = correlated_run(seed, 5000, 10.0);
+    covered += std::abs(run.mean - 10.0) < 2.0 * run.std_error ? 1 : 0;
+    covered_naively += std::abs(run.mean - 10.0) < 2.0 * run.naive_std_error ? 1 : 0;
+  }
+  // two standard errors hold 95 % of the runs, less a little for the few bins
+  EXPECT_GT(covered, kRuns * 90 / 100);
+  EXPECT_LT(covered, kRuns * 99 / 100);
+  EXPECT_LT(covered_naively, kRuns * 70 / 100) << "the process is not correlated, so this test says nothing";
+}
+
+TEST(Friction, TheStandardErrorFallsWithTheRootOfTheTime) {
+  double short_error = 0.0, long_error = 0.0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    short_error += correlated_run(seed, 1000, 0.0).std_error;
+    long_error += correlated_run(seed, 16000, 0.0).std_error;
+  }
+  EXPECT_NEAR(short_error / long_error, 4.0, 0.6);
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,35 @@
+// The functions that a pack must give lane by lane as a number does. T: double or a pack.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm/impact_search.h"
+#include "lane_probe.h"
+
+namespace afm {
+namespace {
+
+template <class T>
+void probe_functions(const T& x, const T& y, const T& z, T results[kProbeResults]) {
+  using std::abs;
+  using std::floor;
+  using std::fma;
+  using std::max;
+  using std::min;
+  using std::sqrt;
+  int n = 0;
+  const auto add = [&](const T& value) { results[n++] = value; };
+  const T zero(0.0), one(1.0);
+  add(x + y), add(x - y), add(x * y), add(x / y), add(-x), add(fma(x, y, z));
+  add(min(x, y)), add(max(x, y)), add(abs(x)), add(sqrt(x)), add(floor(x)), add(wrapped(x));
+  add(select(x < y, one, zero)), add(select(x <= y, one, zero)), add(select(!(x < y || x > z) && y >= z, one, zero));
+  const SinCos<T> turn = sin_cos_turns(x);
+  add(turn.sin), add(turn.cos), add(turn_product(x, y));
+  const SmallTurn<T> small = small_turn(y), tiny = tiny_turn(y);
+  add(small.sin), add(small.sin_minus_angle), add(small.versine), add(tiny.sin), add(tiny.versine);
+  add(over(x, 3.0)), add(over(x, 6.0)), add(over(x, 12.0));
+}
+
+}  // namespace
+}  // namespace afm

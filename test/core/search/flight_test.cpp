@@ -1,0 +1,236 @@
+#include "afm/flight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trials/quad.h"
+#include "trials/random_launches.h"
+
+namespace afm {
+namespace {
+
+const Model kMica;
+const Mechanics<double> kMechanics(kMica);
+const Mechanics<Quad> kQuadMechanics(kMica);
+constexpr double kEps = 2.220446049250313e-16;
+constexpr double kDragSpeeds[] = {0.0, 0.2, 1.01, 3.4, -3.4, 9.0, 50.0};
+
+// Speeds of a flight, for tolerances: what u and w reach, and what the gap rate is made of.
+double speed_scale(double eta, const Flight<double>& f) {
+  const double u = std::abs(eta) + kMechanics.omega_h * f.amplitude_X();
+  return u + kMechanics.omega_v * f.amplitude_Y();
+}
+
+// The same for accelerations: those of y, of the slope's turning and of x.
+double acceleration_scale(double eta, const Flight<double>& f) {
+  const double u = std::abs(eta) + kMechanics.omega_h * f.amplitude_X(), slope = kTwoPi * kMechanics.H;
+  return kMechanics.omega_v * kMechanics.omega_v * f.amplitude_Y() +
+         slope * (kTwoPi * u * u + kMechanics.omega_h * kMechanics.omega_h * f.amplitude_X());
+}
+
+TEST(Flight, TwoHalvesEqualOneWhole) {
+  RandomLaunches launches(1);
+  for (int i = 0; i < 10000; ++i) {
+    const double eta = kDragSpeeds[i % 7], s = launches.within(0.0, 4.0);
+    const Flight<double> flight(kMechanics, eta, launches.next(eta));
+    const TipState whole = flight.tip_state(s);
+    const TipState half = flight.tip_state(s / 2.0);
+    const TipState halves = Flight<double>(kMechanics, eta, half).tip_state(s / 2.0);
+    const double few = 40.0 * kEps, speed = speed_scale(eta, flight);
+    const double apart = std::abs(halves.phase - whole.phase);
+    ASSERT_LE(std::min(apart, 1.0 - apart), few * (1.0 + speed));  // a rounded phase and speed, half the time
+    ASSERT_NEAR(halves.X, whole.X, few * (flight.amplitude_X() + speed));
+    ASSERT_NEAR(halves.u, whole.u, few * speed * (1.0 + kMechanics.omega_h));
+    ASSERT_NEAR(halves.g, whole.g, few * (1.0 + speed));
+    ASSERT_NEAR(halves.g1, whole.g1, few * (1.0 + speed) * (1.0 + speed));
+  }
+}
+
+TEST(Flight, KeepsTheComovingEnergy) {
+  RandomLaunches launches(2);
+  const double kh = kMechanics.omega_h * kMechanics.omega_h, kv = kMechanics.omega_v * kMechanics.omega_v;
+  for (int i = 0; i < 10000; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    const Flight<double> flight(kMechanics, eta, launches.next(eta));
+    const auto energy = [&](double s) {
+      const FlightState<double> q = flight.gap(s).state;
+      return 0.5 * (q.U * q.U + kh * q.X * q.X + q.W * q.W + kv * q.Y * q.Y);
+    };
+    const double whole = energy(0.0);
+    for (const double s : {1e-9, 1e-3, 0.02, 0.5, 3.0, 100.0}) ASSERT_NEAR(energy(s), whole, 20.0 * kEps * whole) << s;
+  }
+}
+
+TEST(Flight, ItsGapIsTheGapInQuadWithinItsOwnBound) {
+  RandomLaunches launches(3);
+  for (int i = 0; i < 20000; ++i) {
+    const double eta = kDragSpeeds[i % 7], s = std::pow(10.0, launches.within(-9.0, 1.0));
+    const TipState start = launches.next(eta);
+    const GapJet<double> jet = Flight<double>(kMechanics, eta, start).gap(s);
+    const GapJet<Quad> truth = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    const Flight<double> flight(kMechanics, eta, start);
+    ASSERT_LE(static_cast<double>(abs(jet.g - truth.g)), flight.gap_error(s)) << eta << " " << s;
+    const double speed = 1.0 + speed_scale(eta, flight);
+    ASSERT_LE(static_cast<double>(abs(jet.g1 - truth.g1)), 20.0 * kEps * speed * speed) << eta << " " << s;
+    ASSERT_LE(static_cast<double>(abs(jet.g2 - truth.g2)), 200.0 * kEps * speed * speed * speed) << eta << " " << s;
+  }
+}
+
+TEST(Flight, NearItsStartTheGapKeepsItsDigits) {
+  RandomLaunches launches(4);
+  for (int i = 0; i < 20000; ++i) {
+    const double eta = kDragSpeeds[i % 7], s = std::pow(10.0, launches.within(-14.0, -2.5));
+    const TipState start = launches.next(eta, -10.0, 1.0);
+    const GapJet<double> jet = Flight<double>(kMechanics, eta, start).gap(s);
+    const GapJet<Quad> truth = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    // the gap rate's part and the rest are each right to a few ulp
+    const double rest = 0.5 * acceleration_scale(eta, Flight<double>(kMechanics, eta, start)) * s * s;
+    ASSERT_LE(static_cast<double>(abs(jet.g - truth.g)), 16.0 * kEps * (start.g1 * s + rest)) << eta << " " << s;
+  }
+}
+
+TEST(Flight, TheFormForSmallTimesIsTheLongForm) {
+  RandomLaunches launches(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    const Quad s = std::pow(10.0, launches.within(-9.0, -2.0)) / (1.0 + std::abs(eta));
+    const Flight<Quad> flight(kQuadMechanics, eta, launches.next(eta));
+    const GapJet<Quad> small = flight.gap(s);
+    const FlightState<Quad> far = flight.at(s);
+    const SurfaceJet<Quad> surface = surface_jet(kQuadMechanics.H, far.phase);
+    ASSERT_LE(static_cast<double>(abs(small.g - (far.Y + kQuadMechanics.y0 - surface.h))), 1e-32);
+    ASSERT_LE(static_cast<double>(abs(small.g1 - (far.W - surface.h1 * (eta + far.U)))), 1e-28);
+    ASSERT_LE(static_cast<double>(abs(small.state.phase - far.phase)), 1e-32);
+    ASSERT_LE(static_cast<double>(abs(small.state.X - far.X)), 1e-32);
+    ASSERT_LE(static_cast<double>(abs(small.state.Y - far.Y)), 1e-32);
+  }
+}
+
+TEST(Flight, AShiftByWholeCellsChangesNothing) {
+  RandomLaunches launches(6);
+  for (int i = 0; i < 2000; ++i) {
+    const double eta = kDragSpeeds[i % 7], s = std::pow(10.0, launches.within(-6.0, 1.0));
+    TipState here = launches.next(eta);
+    here.phase = std::ldexp(std::floor(std::ldexp(here.phase, 40)), -40);  // with room for whole cells
+    TipState there = here;
+    there.phase += 1 + i % 7;
+    const GapJet<double> a = Flight<double>(kMechanics, eta, here).gap(s);
+    const GapJet<double> b = Flight<double>(kMechanics, eta, there).gap(s);
+    ASSERT_EQ(a.state.X, b.state.X);
+    ASSERT_EQ(a.state.U, b.state.U);
+    ASSERT_EQ(a.state.Y, b.state.Y);
+    ASSERT_NEAR(a.g, b.g, 1e-14);  // the phase far out is rounded to the ulp of a larger number
+    ASSERT_NEAR(a.state.phase + 1 + i % 7, b.state.phase, 1e-13);
+  }
+}
+
+TEST(Flight, EachDerivativeIsTheSlopeOfTheOneBefore) {
+  RandomLaunches launches(7);
+  const Quad step(1e-13);
+  for (int i = 0; i < 1000; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    const Flight<Quad> flight(kQuadMechanics, eta, launches.next(eta));
+    const Quad s = launches.within(1e-4, 3.0);
+    const GapJet<Quad> up = flight.gap(s + step), here = flight.gap(s), down = flight.gap(s - step);
+    const double scale = static_cast<double>(flight.third_derivative_bound());
+    ASSERT_LE(static_cast<double>(abs((up.g - down.g) / (2 * step) - here.g1)), 1e-17 * scale) << eta;
+    ASSERT_LE(static_cast<double>(abs((up.g1 - down.g1) / (2 * step) - here.g2)), 1e-14 * scale) << eta;
+  }
+}
+
+TEST(Flight, TheThirdDerivativeStaysWithinItsBound) {
+  RandomLaunches launches(8);
+  const Quad step(1e-10);
+  double closest = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    const Flight<Quad> flight(kQuadMechanics, eta, launches.next(eta));
+    for (int k = 1; k <= 200; ++k) {
+      const Quad s = Quad(k) * Quad(0.011);
+      const Quad third = (flight.gap(s + step).g2 - flight.gap(s - step).g2) / (2 * step);
+      const double share = static_cast<double>(abs(third) / flight.third_derivative_bound());
+      ASSERT_LE(share, 1.0) << eta << " " << s;
+      closest = std::max(closest, share);
+    }
+  }
+  EXPECT_GT(closest, 0.3) << "a bound so loose would make the search slow";
+}
+
+// The largest fourth derivative between two times, over its bound.
+double largest_share(const Flight<Quad>& flight, const Quad& from, const Quad& to, const Quad& bound) {
+  constexpr int kTimes = 50;
+  const Quad step(1e-10);
+  Quad largest = 0.0;
+  for (int k = 0; k <= kTimes; ++k) {
+    const Quad s = from + (to - from) * Quad(k) / Quad(kTimes);
+    const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
+    EXPECT_EQ(fourth, fourth) << "no number at " << s;
+    largest = std::max(largest, Quad(abs(fourth)));
+  }
+  return static_cast<double>(largest / bound);
+}
+
+// Also of tips that are stretched far, for which the bound over a stretch is made.
+TEST(Flight, TheFourthDerivativeStaysWithinItsBoundOverAStretch) {
+  RandomLaunches launches(9);
+  double closest = 0.0, least_gain = 1.0;
+  for (int i = 0; i < 400; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    TipState start = launches.next(eta);
+    if (i % 2 == 0) start.X = launches.within(-12.0, 12.0);
+    const Flight<Quad> flight(kQuadMechanics, eta, start);
+    const Quad S = std::pow(10.0, launches.within(-5.0, -1.0)), bound = flight.fourth_derivative_bound(S);
+    ASSERT_LE(bound, flight.fourth_derivative_bound());
+    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
+    const double share = largest_share(flight, 0.0, S, bound);
+    ASSERT_LE(share, 1.0 + 1e-6) << eta << " up to " << S;
+    closest = std::max(closest, share);
+  }
+  EXPECT_GT(closest, 0.3);
+  EXPECT_LT(least_gain, 1e-2);
+}
+
+// About any time of a flight, forwards and back; far smaller than for the whole where a stretched tip turns.
+TEST(Flight, TheFourthDerivativeStaysWithinItsBoundAboutATime) {
+  RandomLaunches launches(10);
+  double closest = 0.0, least_gain = 1.0;
+  for (int i = 0; i < 400; ++i) {
+    const double eta = kDragSpeeds[i % 7];
+    TipState start = launches.next(eta);
+    if (i % 2 == 0) start.X = launches.within(-40.0, 40.0), start.u = launches.within(-20.0, 20.0);
+    const Flight<Quad> flight(kQuadMechanics, eta, start);
+    const Quad now = i % 4 == 0 ? 0.0 : launches.within(0.0, 0.5), S = std::pow(10.0, launches.within(-5.0, -1.0));
+    const Quad bound = flight.fourth_derivative_bound(flight.gap(now), S);
+    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
+    const double share = largest_share(flight, now - S, now + S, bound);
+    ASSERT_LE(share, 1.0 + 1e-6) << eta << " within " << S << " of " << now;
+    closest = std::max(closest, share);
+  }
+  EXPECT_GT(closest, 0.3);
+  EXPECT_LT(least_gain, 1e-2);
+}
+
+// Also of one that creeps about a floor or a crest at the height of rest, where slopes are next to nothing.
+TEST(Flight, TheFourthDerivativeStaysWithinItsBoundAboutARestingPlace) {
+  RandomLaunches launches(11);
+  double least_gain = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    Model model;
+    model.H = 10.0;
+    model.y0 = i % 2 == 0 ? -10.0 : 10.0;
+    const double size = std::pow(10.0, launches.within(-12.0, -9.0));
+    const TipState start{i % 2 == 0 ? 0.5 : 0.0, size * launches.within(-1.0, 1.0), size * launches.within(-9.0, 9.0),
+                         size * size, size * launches.within(-1.0, 1.0)};
+    const Flight<Quad> flight(Mechanics<Quad>(model), Quad(0.0), start);
+    const Quad now = launches.within(0.0, 0.5), S = std::pow(10.0, launches.within(-4.0, -1.0));
+    const Quad bound = flight.fourth_derivative_bound(flight.gap(now), S);
+    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
+    ASSERT_LE(largest_share(flight, now - S, now + S, bound), 1.0 + 1e-6) << size << " within " << S << " of " << now;
+  }
+  EXPECT_LT(least_gain, 1e-2);
+}
+
+}  // namespace
+}  // namespace afm

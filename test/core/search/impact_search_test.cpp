@@ -1,0 +1,211 @@
+#include "afm/impact_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trials/quad.h"
+#include "trials/random_launches.h"
+
+namespace afm {
+namespace {
+
+const Model kMica;
+const Mechanics<double> kMechanics(kMica);
+const Mechanics<DoubleDouble> kFineMechanics(kMica);
+const Mechanics<Quad> kQuadMechanics(kMica);
+constexpr double kHorizon = 8.0;
+constexpr double kEps = 2.220446049250313e-16;
+
+double to_double(const Quad& x) { return static_cast<double>(x); }
+
+double speed_scale(const Flight<double>& f) {
+  return std::abs(f.eta()) + kMechanics.omega_h * f.amplitude_X() + kMechanics.omega_v * f.amplitude_Y();
+}
+
+// How far rounding the flight to T may move a landing.
+template <class T>
+double condition(const Flight<double>& f, const Landing<Quad>& landing) {
+  const double scale = (1.0 + speed_scale(f)) * (1.0 + speed_scale(f)), s = to_double(landing.s);
+  const double eps = static_cast<double>(epsilon<T>());
+  return 20.0 * eps * scale * (s / f.start().g1 + 1.0 / -to_double(landing.jet.g1));
+}
+
+// The lowest gap between two times around a minimum, from its rate.
+double lowest_gap(const Flight<double>& f, double from, double to) {
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (from + to);
+    (f.gap(middle).g1 < 0.0 ? from : to) = middle;
+  }
+  return f.gap(from).g + f.gap_error(from);
+}
+
+// Samples the whole flight densely, and looks into every dip between samples.
+bool penetrates(const Flight<double>& f, double until) {
+  const double step = std::min(0.01 / (1.0 + speed_scale(f)), until / 50.0);
+  GapJet<double> before = f.start();
+  double s = 0.0;
+  for (double t = step; t < until; t += step) {
+    const GapJet<double> jet = f.gap(t);
+    if (jet.g < -f.gap_error(t)) return true;
+    if (before.g1 < 0.0 && jet.g1 > 0.0 && lowest_gap(f, s, t) < 0.0) return true;
+    before = jet;
+    s = t;
+  }
+  return false;
+}
+
+class ImpactSearchAtEta : public testing::TestWithParam<double> {};
+
+TEST_P(ImpactSearchAtEta, NoImpactIsMissedAndNoneInvented) {
+  RandomLaunches launches(1);
+  const double eta = GetParam();
+  int impacts = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const TipState start = launches.next(eta);
+    const Flight<double> flight(kMechanics, eta, start);
+    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+    ASSERT_TRUE(landing.outcome == SearchOutcome::impact || landing.outcome == SearchOutcome::clear);
+    const double s = landing.s;
+    ASSERT_FALSE(penetrates(flight, s * (1.0 - 1e-6))) << "flight " << i << " landed at " << s;
+    if (landing.outcome == SearchOutcome::clear) continue;
+    ++impacts;
+    const GapJet<Quad> there = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    ASSERT_LE(std::abs(to_double(there.g)), flight.gap_error(s) + kEps * s * std::abs(to_double(there.g1))) << i;
+    ASSERT_LT(landing.jet.g1, 0.0) << i;
+  }
+  EXPECT_GT(impacts, 700);
+}
+
+TEST_P(ImpactSearchAtEta, IsTheSameInDoubleInTwiceTheDigitsAndInQuad) {
+  RandomLaunches launches(2);
+  const double eta = GetParam();
+  for (int i = 0; i < 300; ++i) {
+    const TipState start = launches.next(eta);
+    const Flight<double> flight(kMechanics, eta, start);
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    const Landing<DoubleDouble> fine =
+        find_impact(Flight<DoubleDouble>(kFineMechanics, eta, start), DoubleDouble(kHorizon));
+    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+    ASSERT_EQ(truth.outcome, fine.outcome) << i;
+    ASSERT_EQ(truth.outcome, landing.outcome) << i;
+    if (truth.outcome != SearchOutcome::impact) continue;
+    EXPECT_LE(to_double(abs(to_quad(fine.s) - truth.s)), condition<DoubleDouble>(flight, truth)) << i;
+    EXPECT_LE(to_double(abs(landing.s - truth.s)), condition<double>(flight, truth)) << i;
+  }
+}
+
+TEST_P(ImpactSearchAtEta, AHorizonBeforeTheImpactIsReachedOrTheImpactIsSeenBeyondIt) {
+  RandomLaunches launches(3);
+  const double eta = GetParam();
+  int cleared = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Flight<double> flight(kMechanics, eta, launches.next(eta));
+    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+    const double early = landing.s * launches.within(0.0, 0.999);
+    const Landing<double> cut = find_landing(kMica, flight, early);
+    if (cut.outcome == SearchOutcome::clear) {
+      ++cleared;
+      ASSERT_EQ(cut.s, early) << i;
+    } else {
+      ASSERT_EQ(cut.outcome, SearchOutcome::impact) << i;
+      ASSERT_NEAR(cut.s, landing.s, 1e-9) << i;
+    }
+  }
+  EXPECT_GT(cleared, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(DragSpeeds, ImpactSearchAtEta, testing::Values(0.0, 0.2, 1.01, -3.4, 3.4, 9.0, 50.0));
+
+// Of fast launches and of chatter, as the tip leaves bounds for later.
+TEST(ImpactSearch, BoundsThatAreLeftForLaterChangeNothing) {
+  RandomLaunches launches(8);
+  for (int i = 0; i < 2000; ++i) {
+    const double eta = launches.within(-9.0, 9.0);
+    const TipState start = i % 2 == 0 ? launches.next(eta) : launches.next(eta, -6.0, -1.0);
+    const Landing<double> known = find_landing(kMica, Flight<double>(kMechanics, eta, start), kHorizon);
+    Flight<double> flight(kMechanics, eta, start, BoundLater{});
+    const Landing<double> later = find_landing(kMica, flight, kHorizon);
+    ASSERT_EQ(later.outcome, known.outcome) << i;
+    ASSERT_EQ(later.s, known.s) << i;
+    ASSERT_EQ(later.jet.g1, known.jet.g1) << i;
+  }
+}
+
+TEST(ImpactSearch, AMicroBounceIsRightToItsLastDigits) {
+  RandomLaunches launches(4);
+  int bounces = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double eta = launches.within(-9.0, 9.0);
+    const TipState start = launches.next(eta, -15.0, -4.0);
+    const Flight<double> flight(kMechanics, eta, start);
+    if (!(flight.start().g2 < -1.0)) continue;
+    ++bounces;
+    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    ASSERT_EQ(landing.outcome, SearchOutcome::impact);
+    ASSERT_GT(landing.s, start.g1 / -flight.start().g2) << "the impact just left was found again";
+    // the pressing force is a sum of large terms, and so known to fewer digits than it has
+    const double speed = 1.0 + speed_scale(flight);
+    const double digits = 10.0 * kEps * (1.0 + 40.0 * speed * speed / -flight.start().g2);
+    ASSERT_LE(relative_error(landing.s, truth.s), digits) << i;
+    ASSERT_LE(relative_error(landing.jet.g1, truth.jet.g1), digits) << i;
+  }
+  EXPECT_GT(bounces, 1000);
+}
+
+TEST(ImpactSearch, LeavingSlowlyUnderALiftingForceIsNoImpact) {
+  RandomLaunches launches(5);
+  int lifts = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double eta = launches.within(-9.0, 9.0);
+    const TipState start = launches.next(eta, -15.0, -8.0);
+    const Flight<double> flight(kMechanics, eta, start);
+    if (!(flight.start().g2 > 1.0)) continue;
+    ++lifts;
+    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    ASSERT_EQ(landing.outcome, truth.outcome);
+    ASSERT_NEAR(landing.s, to_double(truth.s), 1e-9) << i;
+  }
+  EXPECT_GT(lifts, 1000);
+}
+
+// A reflection turns velocities round by it, and takes no sine.
+TEST(ImpactSearch, ComesWithTheSlopeOfTheSurfaceWhereItEnds) {
+  for (const double ratio : {0.01, 6.25, 1000.0}) {
+    Model model;
+    model.frequency_ratio = ratio;
+    const Mechanics<double> mechanics(model);
+    RandomLaunches random(13);
+    for (int i = 0; i < 20000; ++i) {
+      const double eta = random.within(-9.0, 9.0);
+      const TipState start = random.next(eta, i % 2 == 0 ? -6.0 : -2.0, 1.0);
+      const Landing<double> landing = find_landing(model, Flight<double>(mechanics, eta, start), kHorizon);
+      if (landing.outcome != SearchOutcome::impact) continue;
+      const Quad slope = surface_jet(Quad(model.H), Quad(landing.jet.state.phase)).h1;
+      const double place = std::max(1.0, std::abs(landing.jet.state.phase));  // it is rounded too
+      ASSERT_NEAR(landing.jet.h1, to_double(slope), kEps * (4.0 + kTwoPi * place) * kTwoPi * model.H) << i;
+    }
+  }
+}
+
+TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
+  RandomLaunches launches(6);
+  for (int i = 0; i < 1000; ++i) {
+    const double eta = launches.within(-9.0, 9.0);
+    TipState start = launches.next(eta, -3.0, 1.0);
+    start.g = launches.within(1e-6, 0.5);
+    if (i % 2 == 0) start.g1 = -start.g1;
+    const Flight<double> flight(kMechanics, eta, start);
+    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    ASSERT_EQ(landing.outcome, truth.outcome);
+    ASSERT_NEAR(landing.s, to_double(truth.s), 1e-9) << i;
+    ASSERT_FALSE(penetrates(flight, landing.s * (1.0 - 1e-6))) << i;
+  }
+}
+
+}  // namespace
+}  // namespace afm

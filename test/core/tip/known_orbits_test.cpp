@@ -1,0 +1,97 @@
+// Flight, search, reflection and the tip together, against orbits that are known otherwise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "afm/surface.h"
+#include "afm/tip.h"
+
+namespace afm {
+namespace {
+
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+
+Model mica_with_cutoff(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+// K_f over `impacts` impacts after a transient. On an orbit of one impact that is a whole number of its periods.
+double simulated_K_f(const Model& model, double eta, int transient, int impacts) {
+  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  for (int i = 0; i < transient; ++i) tip.advance(kNever);
+  const ModelTime begin = tip.now();
+  double energy = 0.0;
+  for (int i = 0; i < impacts; ++i) {
+    tip.advance(kNever);
+    energy += tip.last_impact().energy_loss;
+  }
+  return energy / ((tip.now() - begin) * eta * eta);
+}
+
+struct Known {
+  double eta, K_f;
+};
+
+// 4 (1+gamma)/(1-gamma) s^2/(1+s^2), s = 2 pi H: two impacts per tau, each at mid-height of the rising flank
+Known even(double eta) {
+  const Model mica;
+  const double s = kTwoPi * mica.H;
+  return {eta, 4.0 * (1.0 + mica.gamma) / (1.0 - mica.gamma) * s * s / (1.0 + s * s)};
+}
+
+const Known kKnown[] = {
+    even(2.0),
+    even(4.0),
+    even(6.0),
+    even(8.0),
+    // the map of one impact iterated in 34 digits (Python's mpmath, on the flight's closed form) until K_f stood still
+    {1.5, 0.2507777307734768407203532},
+    {2.25, 1.603774408582840476679226},
+    {4.5, 0.445730537638223617016902}};
+
+TEST(KnownOrbits, TheSimulatedFrictionIsTheKnownOne) {
+  for (const double cutoff_share : {0.05, 0.1}) {
+    for (const Known& known : kKnown) {
+      const double K_f = simulated_K_f(mica_with_cutoff(cutoff_share * known.eta), known.eta, 2000, 500);
+      EXPECT_NEAR(K_f, known.K_f, 1e-9 * known.K_f) << "eta " << known.eta << ", v_c " << cutoff_share << " eta";
+    }
+  }
+}
+
+// eta = 3.4, gamma = 0.7: one impact every two cells. It is unstable, so only one turn is compared.
+TEST(KnownOrbits, TheMapReturnsThePeriodOneOrbitOfThePaper) {
+  const Model model;
+  const double eta = 3.4, phase = 0.5290552555567710;
+  const double height = surface_jet(model.H, phase).h;
+  const FreeState start{phase, 0.0036110865500110, height, 3.1709737711578348, 2.0880897958488404};
+  Tip tip(model, eta, start);
+  ASSERT_EQ(tip.advance(kNever), Outcome::impact);
+  EXPECT_NEAR(tip.now() - ModelTime{}, 2.0 / 3.4, 1e-14);
+  const FreeState after = tip.state();
+  EXPECT_NEAR(after.phase, start.phase, 1e-14);
+  EXPECT_NEAR(after.X, start.X, 1e-14);
+  EXPECT_NEAR(after.u, start.u, 1e-13);
+  EXPECT_NEAR(after.w, start.w, 1e-13);
+  const double K_f = tip.last_impact().energy_loss / (eta * eta * (2.0 / 3.4));
+  EXPECT_NEAR(K_f, 0.22902622884216517, 1e-13);
+}
+
+TEST(KnownOrbits, AtEvenEtaTheImpactsAreThoseOfTheClosedForm) {
+  const Model model;
+  const double s = kTwoPi * model.H;
+  for (const double eta : {2.0, 4.0, 6.0, 8.0}) {
+    Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+    for (int i = 0; i < 2000; ++i) tip.advance(kNever);
+    const Impact& impact = tip.last_impact();
+    EXPECT_NEAR(impact.surface_phase, 0.75, 1e-9) << eta;
+    EXPECT_NEAR(impact.normal_speed, 2.0 * eta * s / ((1.0 - model.gamma) * std::sqrt(1.0 + s * s)), 1e-9 * eta);
+    const ModelTime before = tip.now();
+    tip.advance(kNever);
+    EXPECT_NEAR(tip.now() - before, 0.5, 1e-12) << eta;
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,144 @@
+// The level of the model changed in mid-run: the tip goes on where it was, and no energy gets lost unseen.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "trials/energy_ledger.h"
+#include "trials/random_launches.h"
+#include "support/recorded_run.h"
+
+namespace afm {
+namespace {
+
+constexpr double kTolerances[] = {0.0, 1e-5, 1e-4, 1e-3, 1e-2};
+
+Model model_with(double v_c) {
+  Model model;
+  model.v_c = v_c;
+  return model;
+}
+
+FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
+
+struct Run {
+  double eta, v_c;
+};
+class Relevel : public testing::TestWithParam<Run> {};
+
+TEST_P(Relevel, AnotherToleranceConservesEnergy) {
+  RandomLaunches random(3);
+  const Model model = model_with(GetParam().v_c);
+  Tip tip(model, GetParam().eta, start_at(GetParam().eta));
+  EnergyLedger ledger(model, tip);
+  int bursts = 0, contacts = 0;
+  for (int changes = 0; changes < 3000; ++changes) {
+    const ModelTime next = tip.now() + random.within(0.0, 1.0);
+    for (int arcs = 0; tip.now() < next && arcs < 500; ++arcs) {
+      ASSERT_NE(ledger.advance_arc(tip, next), Outcome::search_failed);
+    }
+    bursts += ledger.bursting();
+    contacts += tip.in_contact();
+    const FreeState before = tip.state();
+    const double tolerance = kTolerances[static_cast<std::size_t>(random.within(0.0, 4.999))];
+    ASSERT_EQ(tip.relevel(ModelKind::oscillator, tolerance), 0.0);
+    ASSERT_NEAR(tip.state().y, before.y, 1e-4);
+    ledger.advance_arc(tip, tip.now());  // a burst is booked when it has ended
+    ASSERT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << changes;
+  }
+  EXPECT_GT(ledger.lost(), 0.0);
+  if (GetParam().v_c < 0.004) {  // elsewhere it is rarely caught in a burst
+    EXPECT_GT(bursts + contacts, 20);
+  }
+}
+
+// What is dropped on the way to the hammer is what is missing; on the way back nothing is.
+TEST_P(Relevel, AnotherModelDropsWhatItSays) {
+  RandomLaunches random(5);
+  const double eta = GetParam().eta;
+  const Model model = model_with(GetParam().v_c);
+  Tip tip(model, eta, start_at(eta));
+  int contacts = 0;
+  double dropped = 0.0;
+  for (int changes = 0; changes < 3000; ++changes) {
+    const bool to_hammer = changes % 2 == 0;
+    const ModelTime next = tip.now() + random.within(0.0, 2.0);
+    for (int events = 0; events < 2000 && tip.advance(next) != Outcome::time_limit; ++events) {
+    }
+    contacts += tip.in_contact();
+    const bool free = tip.tip_state().g > 0.0;
+    const FreeState before = tip.state();
+    const double drop = tip.relevel(to_hammer ? ModelKind::hammer : ModelKind::oscillator, kDefaultContactTolerance);
+    const FreeState after = tip.state();
+    const double scale = stored_energy(model, before) + 0.5 * eta * eta;
+    if (free) {
+      ASSERT_NEAR(stored_energy(model, before) - stored_energy(model, after), drop, 1e-13 * scale);
+      ASSERT_EQ(after.phase, before.phase);
+      ASSERT_NEAR(after.y, before.y, 1e-15);
+      ASSERT_NEAR(after.w, before.w, 1e-14 * (1.0 + std::abs(eta)));
+    }
+    if (to_hammer) {
+      ASSERT_EQ(after.X, 0.0);
+      ASSERT_EQ(after.u, eta);
+      dropped += drop;
+    } else {
+      ASSERT_EQ(drop, 0.0);
+    }
+    ASSERT_GE(tip.deflection(tip.now()).gap, -1e-13);
+  }
+  EXPECT_NE(dropped, 0.0);
+  if (GetParam().v_c < 0.01) {
+    EXPECT_GT(contacts, GetParam().v_c < 0.004 ? 20 : 0);
+  }
+}
+
+// A change of level that ends a burst or a contact tells of it, once, at its time; commands at the same time lose
+// nothing.
+TEST_P(Relevel, EventsAreToldOnce) {
+  RandomLaunches random(8);
+  const double eta = GetParam().eta;
+  Tip tip(model_with(GetParam().v_c), eta, start_at(eta));
+  int begun = 0, ended = 0;
+  const auto book = [&](Outcome outcome) {
+    if (outcome == Outcome::contact) ++begun;
+    if (outcome == Outcome::released) ++ended;
+  };
+  for (int changes = 0; changes < 3000; ++changes) {
+    const ModelTime next = tip.now() + random.within(0.0, 1.0);
+    Outcome outcome = Outcome::flying;
+    for (int events = 0; events < 2000 && outcome != Outcome::time_limit; ++events) book(outcome = tip.advance(next));
+    tip.relevel(changes % 2 == 0 ? ModelKind::hammer : ModelKind::oscillator, kTolerances[1 + changes % 4]);
+    if (changes % 3 == 0) tip.drag(eta * random.within(0.5, 1.5));
+    if (changes % 5 == 0) tip.relevel(ModelKind::oscillator, 1e-3);
+    ASSERT_EQ(begun - ended, tip.in_contact() ? 1 : begun - ended);
+    ASSERT_GE(begun, ended);
+    ASSERT_LE(begun, ended + 1);
+  }
+  if (GetParam().v_c < 0.01) {
+    EXPECT_GT(begun, GetParam().v_c < 0.004 ? 20 : 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Runs, Relevel,
+                         testing::Values(Run{3.4, 0.3}, Run{0.5, 0.005}, Run{-0.2, 0.002}, Run{3.0, 0.03}));
+
+TEST(RelevelTip, TheSameLevelInFlightChangesNextToNothing) {
+  RandomLaunches random(6);
+  Tip tip(model_with(0.05), 2.2, start_at(2.2));
+  int flights = 0;
+  for (int i = 0; i < 500; ++i) {
+    const ModelTime next = tip.now() + random.within(0.0, 1.0);
+    while (tip.advance(next) != Outcome::time_limit) {
+    }
+    if (!(tip.tip_state().g > 0.0)) continue;
+    Tip other = tip, same = tip;
+    other.relevel(ModelKind::oscillator, 1e-3);
+    for (Tip* t : {&other, &same}) ASSERT_EQ(t->advance(t->now() + 100.0), Outcome::impact);
+    ASSERT_NEAR(other.last_impact().surface_phase, same.last_impact().surface_phase, 1e-12);
+    ASSERT_NEAR(other.now() - same.now(), 0.0, 1e-12);
+    ++flights;
+  }
+  EXPECT_GT(flights, 300);
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,179 @@
+// Restitution, cutoff and rest height changed in mid-flight, in a burst, in contact: what happens to the tip.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "trials/energy_ledger.h"
+#include "trials/random_launches.h"
+
+namespace afm {
+namespace {
+
+Model random_model(RandomLaunches& random, double v_c) {
+  Model model;
+  model.gamma = random.within(0.05, 0.95);
+  model.v_c = v_c * random.within(0.5, 2.0);
+  model.y0 = random.within(-0.3, 0.09);
+  return model;
+}
+
+Model small_cutoff() {
+  Model model;
+  model.v_c = 0.005;
+  return model;
+}
+
+FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
+
+void advance_to(Tip& tip, const ModelTime& time) {
+  while (tip.advance(time) != Outcome::time_limit) {
+  }
+}
+
+TEST(Retune, InFlightTheTipIsAsIfLaunchedThere) {
+  RandomLaunches random(7);
+  Tip tip(Model{}, 3.4, start_at(3.4));
+  int flights = 0;
+  for (int i = 0; i < 2000; ++i) {
+    advance_to(tip, tip.now() + random.within(0.0, 0.7));
+    const TipState state = tip.tip_state();
+    if (!(state.g > 0.0)) continue;
+    const Model model = random_model(random, 0.05);
+    tip.retune(model);
+    Tip fresh(model, 3.4, state);
+    Tip ahead = tip;
+    for (Tip* t : {&fresh, &ahead}) ASSERT_EQ(t->advance(t->now() + 1000.0), Outcome::impact);
+    ASSERT_EQ(ahead.last_impact().surface_phase, fresh.last_impact().surface_phase);
+    ASSERT_EQ(ahead.last_impact().normal_speed, fresh.last_impact().normal_speed);
+    ASSERT_EQ(ahead.last_impact().energy_loss, fresh.last_impact().energy_loss);
+    ASSERT_NEAR(ahead.now() - tip.now(), fresh.now() - ModelTime{}, 1e-14 * (1.0 + (fresh.now() - ModelTime{})));
+    ++flights;
+  }
+  EXPECT_GT(flights, 1000);
+}
+
+TEST(Retune, KeepsTheHammerAboveTheSurface) {
+  RandomLaunches random(9);
+  Model hammer = small_cutoff();
+  hammer.kind = ModelKind::hammer;
+  Tip tip(hammer, 0.5, start_at(0.5));
+  int contacts = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const ModelTime next = tip.now() + random.within(0.0, 0.5);
+    for (Outcome o = Outcome::flying; o != Outcome::time_limit;) {
+      o = tip.advance(next);
+      ASSERT_NE(o, Outcome::search_failed);
+    }
+    contacts += tip.in_contact();
+    const FreeState before = tip.state();
+    Model model = random_model(random, 0.005);
+    model.kind = ModelKind::hammer;
+    tip.retune(model);
+    ASSERT_NEAR(tip.state().y, before.y, 1e-5);
+    ASSERT_EQ(tip.state().X, 0.0);
+    ASSERT_GE(tip.deflection(tip.now()).gap, -1e-13);
+  }
+  EXPECT_GT(contacts, 20);
+}
+
+struct Run {
+  double eta, v_c;
+};
+
+class RetuneEnergy : public testing::TestWithParam<Run> {};
+
+// Whatever the tip is at: flight, burst, contact.
+TEST_P(RetuneEnergy, IsConserved) {
+  RandomLaunches random(11);
+  Model model;
+  model.v_c = GetParam().v_c;
+  Tip tip(model, GetParam().eta, start_at(GetParam().eta));
+  EnergyLedger ledger(model, tip);
+  int bursts = 0, contacts = 0;
+  for (int changes = 0; changes < 3000; ++changes) {
+    const ModelTime next = tip.now() + random.within(0.0, 1.0);
+    while (tip.now() < next) ASSERT_NE(ledger.advance_arc(tip, next), Outcome::search_failed);
+    bursts += ledger.bursting();
+    contacts += tip.in_contact();
+    const FreeState before = tip.state();
+    const bool free = tip.tip_state().g > 0.0;
+    ledger.retune(tip, random_model(random, GetParam().v_c));
+    // in a burst the tip is where its bounces are, not on its guide: beside it by less than the contact tolerance
+    const double near = free || tip.in_contact() ? 1e-14 : 1e-5;
+    ASSERT_NEAR(tip.state().y, before.y, near);
+    ASSERT_NEAR(tip.state().X, before.X, near);
+    ASSERT_NEAR(tip.state().u, before.u, 1e-2 * near * 1e5 * (std::abs(before.u) + 1.0));
+    ledger.advance_arc(tip, tip.now());  // a burst is booked when it has ended
+    ASSERT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << changes;
+  }
+  EXPECT_GT(ledger.lost(), 0.0);
+  if (GetParam().v_c < 0.1) {
+    EXPECT_GT(bursts + contacts, 20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Runs, RetuneEnergy,
+                         testing::Values(Run{3.4, 0.3}, Run{0.5, 0.005}, Run{-0.2, 0.002}, Run{3.0, 0.03}));
+
+// A slow bounce: where the surface presses, a burst.
+Tip slow_bounce(RandomLaunches& random, const Model& model, double eta) {
+  const TipState start{random.within(0.0, 1.0), random.within(-0.02, 0.02), eta * random.within(0.7, 1.3), 0.0,
+                       std::pow(10.0, random.within(-3.0, -2.0))};
+  return {model, eta, start};
+}
+
+bool is_bursting(const Tip& tip) {
+  const TipState state = tip.tip_state();
+  return state.g == 0.0 && state.g1 == 0.0 && !tip.in_contact();
+}
+
+void advance_within_arc(RandomLaunches& random, Tip& tip) {
+  tip.advance(tip.now() + random.within(0.0, 0.999) * (tip.arc_end() - tip.now()));
+}
+
+TEST(RetuneContact, GoesOnExactlyWhereTheSurfaceStillPresses) {
+  RandomLaunches random(3);
+  int stayed = 0, left = 0;
+  while (stayed + left < 2000) {
+    Tip tip = slow_bounce(random, small_cutoff(), 0.5);
+    const ModelTime patience = tip.now() + 1.0;
+    for (Outcome o = Outcome::flying; o != Outcome::contact && o != Outcome::time_limit;) o = tip.advance(patience);
+    if (!tip.in_contact()) continue;
+    advance_within_arc(random, tip);
+    Tip changed = tip;
+    const Model model = random_model(random, 0.005);
+    changed.retune(model);
+    const double pull = Flight<double>(Mechanics<double>(model), tip.eta(), tip.tip_state()).start().g2;
+    const Outcome outcome = changed.advance(tip.now());
+    ASSERT_EQ(outcome, pull < 0.0 ? Outcome::time_limit : Outcome::released) << pull;
+    ASSERT_EQ(changed.in_contact(), pull < 0.0);
+    if (outcome == Outcome::released) {
+      ASSERT_EQ(changed.last_impact().kind, ImpactKind::contact_ended);
+      ASSERT_TRUE(changed.last_impact().time == tip.now());
+    }
+    ++(pull < 0.0 ? stayed : left);
+  }
+  EXPECT_GT(stayed, 100);
+  EXPECT_GT(left, 50);
+}
+
+TEST(RetuneBurst, EndsWithTheBounceItIsAt) {
+  RandomLaunches random(5);
+  for (int bursts = 0; bursts < 1000;) {
+    Tip tip = slow_bounce(random, small_cutoff(), 0.5);
+    if (!is_bursting(tip)) continue;
+    advance_within_arc(random, tip);
+    Tip changed = tip;
+    changed.retune(random_model(random, 0.005));
+    ASSERT_EQ(changed.advance(tip.now()), Outcome::impact);
+    ASSERT_EQ(changed.last_impact().kind, ImpactKind::burst);
+    ASSERT_TRUE(changed.now() == tip.now());
+    ASSERT_GT(changed.tip_state().g1, 0.0);
+    ASSERT_EQ(changed.tip_state().g, 0.0);
+    ++bursts;
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,274 @@
+#include "afm/tip.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "afm/surface.h"
+
+namespace afm {
+namespace {
+
+constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
+constexpr double kDragSpeeds[] = {0.5, 2.0, 2.25, 3.4, -3.4, 4.5, 9.0, 50.0};
+
+FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
+
+Model model_at(double eta) {
+  Model model;
+  model.v_c = 0.1 * std::abs(eta);
+  return model;
+}
+
+Tip tip_at(double eta) { return {model_at(eta), eta, start_at(eta)}; }
+
+void expect_same(const Impact& a, const Impact& b) {
+  EXPECT_TRUE(a.time == b.time) << a.time.tau << " " << a.time.phase << " and " << b.time.tau << " " << b.time.phase;
+  EXPECT_EQ(a.surface_phase, b.surface_phase);
+  EXPECT_EQ(a.normal_speed, b.normal_speed);
+  EXPECT_EQ(a.tangential_velocity, b.tangential_velocity);
+  EXPECT_EQ(a.energy_loss, b.energy_loss);
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.count, b.count);
+}
+
+void run_to(Tip& tip, const ModelTime& time) {
+  Outcome outcome;
+  do outcome = tip.advance(time);
+  while (outcome != Outcome::time_limit);
+}
+
+bool is_event(Outcome outcome) { return outcome != Outcome::time_limit && outcome != Outcome::flying; }
+
+TEST(Tip, LimitsDoNotChangeBits) {
+  for (const double eta : kDragSpeeds) {
+    Tip whole = tip_at(eta), pieces = tip_at(eta);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> ahead(-0.1, 0.5);
+    for (int event = 0; event < 1500; ++event) {
+      const Outcome outcome = whole.advance(kNever);
+      Outcome piece = Outcome::time_limit;
+      // any limits at all, the time of the event among them, until the same event has happened
+      for (int i = 0; !is_event(piece); ++i) {
+        piece = pieces.advance(i % 5 == 4 ? whole.now() : pieces.now() + ahead(random));
+      }
+      ASSERT_EQ(piece, outcome) << "eta " << eta << " event " << event;
+      ASSERT_TRUE(pieces.now() == whole.now()) << "eta " << eta << " event " << event;
+      expect_same(pieces.last_impact(), whole.last_impact());
+      ASSERT_FALSE(HasFailure()) << "eta " << eta << " event " << event;
+    }
+  }
+}
+
+TEST(Tip, AnEventAtTheLimitStillHappens) {
+  Tip scout = tip_at(3.4), tip = tip_at(3.4);
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(scout.advance(kNever), Outcome::impact);
+    const ModelTime before = scout.now() + -1e-9;
+    ASSERT_EQ(tip.advance(before), Outcome::time_limit);
+    ASSERT_TRUE(tip.now() == before);
+    ASSERT_EQ(tip.advance(scout.now()), Outcome::impact);
+    ASSERT_TRUE(tip.now() == scout.now());
+  }
+}
+
+TEST(Tip, TimeNeverRunsBackwards) {
+  Tip tip = tip_at(2.75);
+  tip.advance({0, 0.1});
+  const ModelTime now = tip.now();
+  EXPECT_EQ(tip.advance({0, 0.05}), Outcome::time_limit);
+  EXPECT_TRUE(tip.now() == now);
+}
+
+TEST(Tip, ItNeverSinksIntoTheSurface) {
+  for (const double eta : kDragSpeeds) {
+    Tip tip = tip_at(eta);
+    ModelTime t;
+    for (int sample = 0; sample < 20000; t = t + 0.0037, ++sample) {
+      while (!(t < tip.arc_end())) tip.advance_arc(t);
+      ASSERT_GE(tip.deflection(t).gap, -1e-13) << "eta " << eta << " at " << t.tau << " + " << t.phase;
+    }
+  }
+}
+
+TEST(Tip, TheDeflectionIsThatOfTheState) {
+  Tip tip = tip_at(3.4);
+  const Model model = model_at(3.4);
+  for (int i = 1; i < 1000; ++i) {
+    const ModelTime t = multiply(static_cast<std::uint64_t>(i), 0.0171);
+    run_to(tip, t);
+    const FreeState state = tip.state();
+    const Deflection deflection = tip.deflection(t);
+    ASSERT_NEAR(deflection.vertical, state.y - model.y0, 1e-14);
+    ASSERT_NEAR(deflection.lateral, state.X, 1e-14);
+    ASSERT_NEAR(deflection.gap, state.y - surface_jet(model.H, state.phase).h, 1e-14);
+  }
+}
+
+TEST(Tip, ADragCommandMovesNothing) {
+  for (const double eta : kDragSpeeds) {
+    Tip tip = tip_at(eta);
+    for (int i = 1; i < 200; ++i) {
+      run_to(tip, multiply(static_cast<std::uint64_t>(i), 0.237));
+      const FreeState before = tip.state();
+      const ModelTime now = tip.now();
+      tip.drag(kDragSpeeds[i % 8]);
+      ASSERT_EQ(tip.eta(), kDragSpeeds[i % 8]);
+      ASSERT_TRUE(tip.now() == now);
+      const FreeState after = tip.state();
+      ASSERT_EQ(after.phase, before.phase);
+      ASSERT_EQ(after.X, before.X);
+      ASSERT_NEAR(after.u, before.u, 2e-14);  // carried as u - eta
+      ASSERT_NEAR(after.y, before.y, 1e-15);
+      ASSERT_NEAR(after.w, before.w, 1e-13);
+    }
+  }
+}
+
+TEST(Tip, TheSameDragAgainOnlySplitsTheFlight) {
+  for (const double eta : {2.25, 3.4, 8.0}) {
+    Tip whole = tip_at(eta), split = tip_at(eta);
+    ASSERT_EQ(whole.advance(kNever), Outcome::impact);
+    split.advance(ModelTime{} + 0.5 * (whole.now() - ModelTime{}));
+    split.drag(std::nextafter(eta, 0.0));
+    ASSERT_EQ(split.advance(kNever), Outcome::impact);
+    EXPECT_NEAR(split.now() - whole.now(), 0.0, 1e-14) << eta;
+    EXPECT_NEAR(split.last_impact().normal_speed, whole.last_impact().normal_speed, 1e-12 * eta);
+  }
+}
+
+TEST(Tip, AfterADragCommandItFliesAsIfStartedThere) {
+  Tip tip = tip_at(3.4);
+  run_to(tip, {5, 0.3});
+  tip.drag(-2.25);
+  Tip fresh(model_at(3.4), -2.25, tip.state());
+  ASSERT_EQ(tip.advance(kNever), Outcome::impact);
+  ASSERT_EQ(fresh.advance(kNever), Outcome::impact);
+  EXPECT_NEAR(tip.now() - (ModelTime{5, 0.3}), fresh.now() - ModelTime{}, 1e-13);
+  EXPECT_NEAR(tip.last_impact().normal_speed, fresh.last_impact().normal_speed, 1e-11);
+}
+
+TEST(Tip, DraggedTheOtherWayItIsItsMirrorImage) {
+  for (const double eta : {2.0, 2.25, 4.5}) {  // where small differences die out
+    const Model model = model_at(eta);
+    Tip right(model, eta, FreeState{0.25, 0.01, 0.2, eta, 0.3});
+    Tip left(model, -eta, FreeState{0.75, -0.01, 0.2, -eta, 0.3});
+    for (int i = 0; i < 3000; ++i) {
+      ASSERT_EQ(right.advance(kNever), left.advance(kNever));
+      const Impact &r = right.last_impact(), &l = left.last_impact();
+      ASSERT_NEAR(right.now() - left.now(), 0.0, 1e-9) << eta << " impact " << i;
+      ASSERT_NEAR(r.surface_phase, wrap_phase(-l.surface_phase), 1e-9) << eta << " impact " << i;
+      ASSERT_NEAR(r.normal_speed, l.normal_speed, 1e-8) << eta << " impact " << i;
+      ASSERT_NEAR(r.tangential_velocity, -l.tangential_velocity, 1e-8) << eta << " impact " << i;
+    }
+  }
+}
+
+TEST(Tip, AnImpactIsWhatTheStatesOnEitherSideSay) {
+  const Model model = model_at(3.4);
+  Tip tip = tip_at(3.4);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(is_event(tip.advance(kNever)));
+    const Impact& impact = tip.last_impact();
+    const TipState after = tip.tip_state();
+    ASSERT_TRUE(impact.time == tip.now());
+    if (impact.kind != ImpactKind::impact) continue;
+    ASSERT_EQ(impact.surface_phase, after.phase);
+    ASSERT_GT(impact.normal_speed, 0.0);
+    ASSERT_GE(impact.energy_loss, 0.0);
+    ASSERT_EQ(after.g, 0.0);
+    ASSERT_GT(after.g1, 0.0);
+    const double slope = surface_jet(model.H, after.phase).h1, n = std::sqrt(1.0 + slope * slope);
+    const double w = after.g1 + slope * after.u;
+    ASSERT_NEAR((after.u + slope * w) / n, impact.tangential_velocity, 1e-13);
+  }
+}
+
+// x = v0 t, y = h(x) solves the motion at eta = 1: nothing presses, nothing pulls, and nothing may happen.
+TEST(Tip, OnTheGlideNothingHappens) {
+  for (const double eta : {1.0, -1.0}) {
+    for (const double phase : {0.0, 0.25, 0.6, 0.75}) {
+      for (const double tolerance : {0.0, kDefaultContactTolerance}) {
+        Tip tip(Model{}, eta, TipState{phase, 0.0, eta, 0.0, 0.0}, tolerance);
+        ASSERT_EQ(tip.advance({1000, 0.0}), Outcome::contact);
+        ASSERT_EQ(tip.advance({1000, 0.0}), Outcome::time_limit) << phase;
+        EXPECT_NEAR(tip.tip_state().X, 0.0, 1e-9);
+        EXPECT_NEAR(tip.tip_state().u, eta, 1e-8);
+      }
+    }
+  }
+}
+
+// Each bounce keeps a hundredth of the speed: seventy of them, and the squares of what is left are no numbers any more.
+TEST(Tip, BouncesByThemselvesDieOutIntoContact) {
+  Model model;
+  model.gamma = 0.01;
+  model.v_c = 0.0;
+  for (const auto kind : {ModelKind::oscillator, ModelKind::hammer}) {
+    model.kind = kind;
+    Tip tip(model, 0.0, FreeState{0.1, 0.0, 0.2, 0.0, 0.0}, 0.0);
+    double slowest = 1.0;
+    Outcome outcome = tip.advance({2, 0.0});
+    for (; outcome == Outcome::impact; outcome = tip.advance({2, 0.0})) slowest = tip.last_impact().normal_speed;
+    EXPECT_EQ(outcome, Outcome::contact) << name(kind);
+    EXPECT_LT(slowest, 1e-137) << name(kind);
+    while (outcome != Outcome::time_limit) {
+      outcome = tip.advance({2, 0.0});
+      ASSERT_NE(outcome, Outcome::search_failed) << name(kind);
+    }
+  }
+}
+
+// On the steepest of the slope springs and surface are in balance at eta = 0, and at 1e-18 all but: what presses is the
+// third derivative, and bounces of 1e-57 a/tau ended where rounding said, as fast as they began however small gamma.
+TEST(Tip, WhereHardlyAForceIsLeftItComesToRest) {
+  Model model;
+  model.v_c = 0.0;
+  const double eta = 1.0000013124039413e-18, tolerance = kDefaultContactTolerance;
+  for (const double gamma : {5.9371814145560333e-08, 7.6353317144409129e-05, 0.01, 0.3, 0.45}) {
+    model.gamma = gamma;
+    Tip tip(model, eta, TipState{0.75, 0.0, eta, 0.0, 2.11806e-43}, tolerance);
+    Outcome outcome = tip.advance({10, 0.0});
+    int bounces = 0;
+    for (; outcome == Outcome::impact && bounces < 100; ++bounces) outcome = tip.advance({10, 0.0});
+    EXPECT_EQ(outcome, Outcome::contact) << gamma;
+    EXPECT_EQ(tip.advance({10, 0.0}), Outcome::time_limit) << gamma;
+  }
+}
+
+// A commanded velocity may halve until it is next to nothing: it throws a riding hammer off by as little.
+TEST(Tip, AHammerIsThrownOffByNextToNothing) {
+  Model model;
+  model.kind = ModelKind::hammer;
+  for (const double eta : {1e-150, -1e-150, 1e-200, -1e-200, 1e-300, 5e-324}) {
+    Tip tip(model, 0.0, TipState{0.1, 0.0, 0.0, 0.0, 0.0});
+    ASSERT_EQ(tip.advance({1, 0.0}), Outcome::contact);
+    ASSERT_EQ(tip.advance({1, 0.0}), Outcome::time_limit);
+    tip.drag(eta);
+    for (Outcome outcome = Outcome::flying; outcome != Outcome::time_limit;) {
+      outcome = tip.advance({2, 0.0});
+      ASSERT_NE(outcome, Outcome::search_failed) << eta;
+    }
+    EXPECT_TRUE(tip.in_contact()) << eta;
+  }
+}
+
+TEST(Tip, RefusesAStartBelowTheSurface) {
+  EXPECT_THROW(Tip(Model(), 1.0, FreeState{0.0, 0.0, 0.0, 1.0, 0.0}), ParameterError);
+  EXPECT_NO_THROW(Tip(Model(), 1.0, FreeState{0.5, 0.0, 0.0, 1.0, 0.0}));
+}
+
+TEST(Tip, RefusesAFaultyModel) {
+  Model model;
+  model.gamma = -1.0;
+  try {
+    Tip(model, 1.0, start_at(1.0));
+    FAIL() << "gamma = -1 was accepted";
+  } catch (const ParameterError& fault) {
+    EXPECT_EQ(fault.name, "gamma");
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,36 @@
+// Slides for tests: random ones, and what their pressure should be.
+#pragma once
+
+#include "afm/contact.h"
+#include "afm/surface.h"
+#include "trials/random_launches.h"
+
+namespace afm {
+
+using Piece = SlidePiece<double>;
+
+// Minus what the gap's acceleration would be in free flight, over 1 + h'^2.
+template <class T>
+T pressure_of(const Model& model, const SlideState<T>& s) {
+  const Mechanics<T> m(model);
+  const SurfaceJet<T> h = surface_jet(m.H, s.phase);
+  return (m.omega_v * m.omega_v * (h.h - m.y0) + h.h2 * s.u * s.u - h.h1 * m.omega_h * m.omega_h * s.X) /
+         (T(1.0) + h.h1 * h.h1);
+}
+
+inline double end_of(const Piece& piece) {
+  const double release = piece.find_release();
+  return release < 0.0 ? piece.length() : release;
+}
+
+// Pressed, and moving about as fast as it is dragged.
+inline Piece random_piece(double eta, RandomLaunches& random) {
+  for (;;) {
+    const double u = eta * random.within(0.5, 1.5);
+    const Piece piece(Mechanics<double>(Model()), eta, {random.within(0.0, 1.0), random.within(-0.02, 0.02), u});
+    if (piece.pressure(0.0) > 0.01) return piece;
+  }
+}
+inline Piece random_piece(RandomLaunches& random) { return random_piece(random.within(-9.0, 9.0), random); }
+
+}  // namespace afm
