@@ -63,9 +63,9 @@ endif()
 
 # node/NAME_test.cpp: parts of the node that need no master
 foreach(name diagnosis run_history)
-  catkin_add_gtest(${name}_test node/${name}_test.cpp)
+  afm_add_gtest(${name}_test node/${name}_test.cpp)
   target_include_directories(${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${name}_test afm_emulator_ros ${gtest_main})
+  target_link_libraries(${name}_test afm_emulator_ros)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
 
@@ -95,8 +95,8 @@ set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOS
 
 if(NOT AFM_SANITIZE)
   # it stands between the program and its allocator itself
-  catkin_add_gtest(stepping_path_test node/stepping_path_test.cpp)
+  afm_add_gtest(stepping_path_test node/stepping_path_test.cpp)
   target_include_directories(stepping_path_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-  target_link_libraries(stepping_path_test afm_emulator_ros ${gtest_main} ${CMAKE_DL_LIBS})
+  target_link_libraries(stepping_path_test afm_emulator_ros ${CMAKE_DL_LIBS})
   set_tests_properties(${gtest_prefix}stepping_path_test PROPERTIES TIMEOUT 60)
 endif()

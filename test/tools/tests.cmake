@@ -1,9 +1,11 @@
 # Tools on the command line, and programs that measure.
 
-add_test(NAME plot_run
-  COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
-    ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
-set_tests_properties(plot_run PROPERTIES TIMEOUT 60)
+if(catkin_FOUND)
+  add_test(NAME plot_run
+    COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
+      ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
+  set_tests_properties(plot_run PROPERTIES TIMEOUT 60)
+endif()
 
 add_test(NAME next_impact
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
@@ -52,7 +54,21 @@ set_tests_properties(help PROPERTIES TIMEOUT 60)
 
 # common/NAME_test.cpp: what tools share
 foreach(name command_line)
-  catkin_add_gtest(${name}_test common/${name}_test.cpp)
-  target_link_libraries(${name}_test afm_common ${gtest_main})
+  afm_add_gtest(${name}_test common/${name}_test.cpp)
+  target_link_libraries(${name}_test afm_common)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
+
+# a project outside the tree
+if(NOT AFM_SANITIZE)
+  add_executable(consumer_within EXCLUDE_FROM_ALL consumer/main.cpp)
+  target_link_libraries(consumer_within afm_emulator_core)
+  add_dependencies(tests consumer_within)
+  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR} $<TARGET_FILE:consumer_within>)
+  set_tests_properties(consumer PROPERTIES TIMEOUT 180)
+  if(catkin_FOUND)
+    add_test(NAME without_ros
+      COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/without_ros_test.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/without_ros)
+    set_tests_properties(without_ros PROPERTIES TIMEOUT 300)
+  endif()
+endif()

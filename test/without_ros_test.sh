@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Without ROS the tree gives the core and the tools that need no bag.
+#
+# usage: without_ros_test.sh ROOT BUILD     BUILD: a directory that is kept, so that the next run builds only what changed
+set -euo pipefail
+root=$1 build=$2
+mkdir -p "$build"
+if ! { cmake -S "$root" -B "$build" -DAFM_ROS=OFF -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=Release &&
+  cmake --build "$build" --target next_impact --parallel 2; } >"$build/log" 2>&1; then
+  tail -n 30 "$build/log"
+  exit 1
+fi
+"$build/bin/next_impact" "$root/test/data/next_impact.csv" >"$build/impacts.csv"
+lines=$(wc -l <"$build/impacts.csv")
+[[ $lines -gt 100 ]] || { echo "only $lines lines of impacts"; exit 1; }
+echo "$lines lines of impacts"
