@@ -10,7 +10,7 @@ if ! { cmake -S "$root" -B "$build" -DAFM_ROS=OFF -DBUILD_TESTING=OFF -DCMAKE_BU
   tail -n 30 "$build/log"
   exit 1
 fi
-"$build/bin/next_impact" "$root/test/data/next_impact.csv" >"$build/impacts.csv"
+cut -d, -f1-7 "$root/test/data/next_impact.csv" | "$build/bin/next_impact" >"$build/impacts.csv"
 lines=$(wc -l <"$build/impacts.csv")
 [[ $lines -gt 100 ]] || { echo "only $lines lines of impacts"; exit 1; }
 echo "$lines lines of impacts"
