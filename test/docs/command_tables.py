@@ -5,7 +5,7 @@ SUBSTITUTIONS = [
     # the build directory belongs to the tree itself, not to the copy in which commands run
     (r'^scripts/(run|build)\b', r'"$AFM_ROOT/scripts/\1"'),
     (r'(scripts/run")(?: --duration \S+)?', r'\1 --duration 3'),
-    (r'^cmake -S \.', r'cmake -S "$AFM_ROOT"'),
+    (r'^cmake -S \.(.* --parallel)', r'cmake -S "$AFM_ROOT"\1 --target afm_emulator_core'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
     (r'^(roslaunch afm_emulator (?:emulator|pair|view)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),
