@@ -78,11 +78,6 @@ Dual<N> sqrt(const Dual<N>& a) {
   return chain(root, 0.5 / root, a);
 }
 template <std::size_t N>
-Dual<N> cbrt(const Dual<N>& a) {
-  const double root = std::cbrt(a.value);
-  return chain(root, root / (3.0 * a.value), a);
-}
-template <std::size_t N>
 SinCos<Dual<N>> sin_cos_turns(const Dual<N>& a) {
   const SinCos<double> turn = sin_cos_turns(a.value);
   return {chain(turn.sin, two_pi<double>() * turn.cos, a), chain(turn.cos, -two_pi<double>() * turn.sin, a)};
