@@ -1,4 +1,5 @@
 """The digests of a recording computed again from what a reader of bags gets: docs/recording.md in Python."""
+import copy
 import struct
 from io import BytesIO
 
@@ -15,35 +16,41 @@ def add(state, words):
     return state
 
 
-def bits(*numbers):
-    return struct.unpack('<%dQ' % len(numbers), struct.pack('<%dd' % len(numbers), *numbers))
+def words_of(buffer):
+    """Bytes eight at a time, the first of them the lowest; the last word is filled up with zeros."""
+    padded = buffer + bytes(-len(buffer) % 8)
+    return struct.unpack('<%dQ' % (len(padded) // 8), padded)
 
 
-def time_words(time):
-    return (time.tau & MASK,) + bits(time.phase)
+def bytes_of(message):
+    """On the wire, with an empty header."""
+    message = copy.deepcopy(message)
+    if hasattr(message, 'header'):
+        message.header = Header()
+    buffer = BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
 
 
 def of_configuration(message):
-    header, message.header = message.header, Header()
-    buffer = BytesIO()
-    message.serialize(buffer)
-    message.header = header
-    return add(START, buffer.getvalue())
+    return add(START, words_of(bytes_of(message)))
 
 
 def of_samples(messages, state=START):
     for message in messages:
         pairs = [value for pair in zip(message.vertical, message.lateral) for value in pair]
-        state = add(state, bits(*pairs))
+        state = add(state, struct.unpack('<%dQ' % len(pairs), struct.pack('<%dd' % len(pairs), *pairs)))
+    return state
+
+
+def of_messages(messages, state=START):
+    for message in messages:
+        state = add(state, words_of(bytes_of(message)))
     return state
 
 
 def of_impacts(messages, state=START):
-    for message in messages:
-        for i in message.impacts:
-            state = add(state, time_words(i.time) + bits(i.surface_phase, i.normal_speed, i.tangential_velocity,
-                                                         i.energy_loss) + (i.kind, i.count))
-    return state
+    return of_messages([impact for message in messages for impact in message.impacts], state)
 
 
 def in_order(drags, changes):
@@ -56,35 +63,8 @@ def in_order(drags, changes):
     return applied + rest
 
 
-def of_level(m):
-    return (int(m.model == 'hammer'),) + bits(m.contact_tolerance, m.expected_error, m.energy_dropped)
-
-
-def of_commands(messages, state=START):
-    for m in messages:
-        if hasattr(m, 'drag_velocity'):
-            words = bits(m.drag_velocity) + (m.first_impact,) + of_level(m)
-        else:
-            words = ((m.first_impact, m.first_sample, m.first_command) +
-                     bits(m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau) +
-                     (m.samples_per_batch,) + bits(m.sample_period_tau) + of_level(m))
-        state = add(state, time_words(m.time) + words)
-    return state
-
-
-def of_estimates(messages, state=START):
-    for m in messages:
-        figures = (m.drag_velocity, m.eta, m.force, m.force_std_error, m.k_f, m.k_f_std_error, m.k_f_tau_per_m,
-                   m.energy_loss, m.window_force, m.window_k_f, m.window_k_f_std_error)
-        state = add(state, time_words(m.time) + bits(*figures) + (m.impact_count,))
-    return state
-
-
-def of_checkpoint(m):
-    d = m.digest
-    figures = (m.drag_velocity, m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau)
-    told = (d.epoch,) + time_words(d.time) + (d.samples, d.impacts, d.commands, d.estimates, d.configuration_digest,
-                                              d.first_sample, d.samples_digest, d.impacts_digest, d.commands_digest,
-                                              d.estimates_digest)
-    return add(START, (m.epoch,) + time_words(m.time) + (m.impacts, m.samples, m.drags, m.next_drag, m.next_parameters) +
-               bits(*figures) + told + (m.layout,) + tuple(m.state))
+def of_checkpoint(message):
+    message = copy.deepcopy(message)
+    message.digest.header = Header()
+    message.state_digest = 0
+    return add(START, words_of(bytes_of(message)))

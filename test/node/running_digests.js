@@ -21,31 +21,35 @@ function bits(number) {
   return word.getBigUint64(0);
 }
 
-const time = (t) => [t.tau, bits(t.phase)];
-const impact = (i) => [...time(i.time), bits(i.surface_phase), bits(i.normal_speed), bits(i.tangential_velocity),
-  bits(i.energy_loss), BigInt(i.kind), BigInt(i.count)];
+// Bytes eight at a time, the first of them the lowest; the last word is filled up with zeros.
+function words(bytes) {
+  const padded = new Uint8Array(Math.ceil(bytes.length / 8) * 8);
+  padded.set(bytes);
+  const view = new DataView(padded.buffer);
+  return Array.from({length: padded.length / 8}, (_, i) => view.getBigUint64(8 * i, true));
+}
 
-const level = (m) => [BigInt(m.model === 'hammer'), bits(m.contact_tolerance), bits(m.expected_error), bits(m.energy_dropped)];
+// A header is seq, stamp, and the length of a string before the string: 16 bytes, and all of them 0 in an empty one.
+const bytesBehindHeader = (bytes) => bytes.subarray(16 + new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true));
+const message = (bytes) => words(new Uint8Array([...new Uint8Array(16), ...bytesBehindHeader(bytes)]));
+
+// Behind the header epoch, first_index and how many; each of them is as long as the others.
+function impacts(bytes, count) {
+  const all = bytesBehindHeader(bytes).subarray(16), length = all.length / count;
+  return Array.from({length: count}, (_, i) => words(all.subarray(i * length, (i + 1) * length))).flat();
+}
 
 // topic: the digest its messages go into, and the words of one
 const TOPICS = {
   deflection: ['samples', (m) => Array.from(m.vertical).flatMap((y, i) => [bits(y), bits(m.lateral[i])])],
-  impacts: ['impacts', (m) => m.impacts.flatMap(impact)],
-  applied_drag: ['commands', (m) => [...time(m.time), bits(m.drag_velocity), m.first_impact,
-    ...level(m)]],
-  applied_parameters: ['commands', (m) => [...time(m.time), m.first_impact, m.first_sample, m.first_command,
-    ...[m.restitution_gamma, m.cutoff_speed, m.rest_height_m, m.sample_rate_hz, m.friction_window_tau].map(bits),
-    m.samples_per_batch, bits(m.sample_period_tau), ...level(m)]],
-  friction: ['estimates', (m) => [...time(m.time), ...[m.drag_velocity, m.eta, m.force, m.force_std_error, m.k_f,
-    m.k_f_std_error, m.k_f_tau_per_m, m.energy_loss, m.window_force, m.window_k_f, m.window_k_f_std_error].map(bits),
-  m.impact_count]],
+  impacts: ['impacts', (m, bytes) => impacts(bytes, m.impacts.length)],
+  applied_drag: ['commands', (m, bytes) => message(bytes)],
+  applied_parameters: ['commands', (m, bytes) => message(bytes)],
+  friction: ['estimates', (m, bytes) => message(bytes)],
 };
 
-// bytes: of the message of the configuration, whose header is left out: an empty one is 16 bytes of 0
 function begin(bytes) {
-  const frame = new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true);
-  const configuration = add(START, [...new Uint8Array(16), ...bytes.subarray(16 + frame)].map(BigInt));
-  return {configuration, samples: START, impacts: START, commands: START, estimates: START};
+  return {configuration: add(START, message(bytes)), samples: START, impacts: START, commands: START, estimates: START};
 }
 
 async function main(path) {
@@ -56,8 +60,8 @@ async function main(path) {
     const name = topic.split('/').pop();
     if (name === 'configuration') digests = begin(data);
     if (name in TOPICS) {
-      const [digest, words] = TOPICS[name];
-      digests[digest] = add(digests[digest], words(message));
+      const [digest, wordsOf] = TOPICS[name];
+      digests[digest] = add(digests[digest], wordsOf(message, data));
     }
     if (name !== 'digest') continue;
     const wrong = Object.keys(digests).filter((digest) => digests[digest] !== message[digest + '_digest']);

@@ -29,8 +29,8 @@ class SpoiledBags(SpoiledBag):
             self.assertEqual(digest_recipe.of_impacts(part('impacts', told.impacts, lambda m: len(m.impacts))),
                              told.impacts_digest)
             applied = digest_recipe.in_order(messages['applied_drag'], messages['applied_parameters'])
-            self.assertEqual(digest_recipe.of_commands(applied[:told.commands]), told.commands_digest)
-            self.assertEqual(digest_recipe.of_estimates(part('friction', told.estimates)), told.estimates_digest)
+            self.assertEqual(digest_recipe.of_messages(applied[:told.commands]), told.commands_digest)
+            self.assertEqual(digest_recipe.of_messages(part('friction', told.estimates)), told.estimates_digest)
 
     def test_one_bit_of_one_sample(self):
         flip_last_bit(self.of('deflection')[100], -8)

@@ -1,6 +1,9 @@
 # Tools on the command line, and programs that measure.
 
 if(catkin_FOUND)
+  afm_add_gtest(message_difference_test tools/message_difference_test.cpp)
+  target_link_libraries(message_difference_test afm_replay)
+
   add_test(NAME plot_run
     COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
       ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "digest.h"
+#include "message_bytes.h"
 #include "message_conversion.h"
 
 namespace afm::node {
@@ -26,29 +26,10 @@ afm_emulator::Checkpoint to_checkpoint(const CheckpointContext& context, const M
   return message;
 }
 
-std::uint64_t digest_of(const afm_emulator::Checkpoint& c) {
+std::uint64_t digest_of(afm_emulator::Checkpoint checkpoint) {
+  checkpoint.state_digest = 0;
   Digest digest;
-  const auto add_time = [&](const afm_emulator::ModelTime& time) {
-    digest.add(static_cast<std::uint64_t>(time.tau));
-    digest.add(time.phase);
-  };
-  digest.add(std::uint64_t{c.epoch});
-  add_time(c.time);
-  for (const std::uint64_t n : {c.impacts, c.samples, c.drags}) digest.add(n);
-  for (const std::uint32_t n : {c.next_drag, c.next_parameters}) digest.add(std::uint64_t{n});
-  for (const double value : {c.drag_velocity, c.restitution_gamma, c.cutoff_speed, c.rest_height_m, c.sample_rate_hz,
-                             c.friction_window_tau}) {
-    digest.add(value);
-  }
-  const afm_emulator::Digest& d = c.digest;
-  digest.add(std::uint64_t{d.epoch});
-  add_time(d.time);
-  for (const std::uint64_t n : {d.samples, d.impacts, d.commands, d.estimates, d.configuration_digest, d.first_sample,
-                                d.samples_digest, d.impacts_digest, d.commands_digest, d.estimates_digest}) {
-    digest.add(n);
-  }
-  digest.add(std::uint64_t{c.layout});
-  for (const std::uint64_t word : c.state) digest.add(word);
+  add_message(checkpoint, digest);
   return digest.value();
 }
 

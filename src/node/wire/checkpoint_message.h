@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "afm/emulator.h"
-#include "node/stepping/events.h"
 #include "node/parameters/live_parameters.h"
+#include "node/stepping/events.h"
 #include "run_digest.h"
 
 namespace afm::node {
@@ -26,7 +26,7 @@ struct CheckpointContext {
 afm_emulator::Checkpoint to_checkpoint(const CheckpointContext& context, const ModelTime& time, std::uint64_t impacts,
                                        std::uint64_t samples, const RunDigest& digest, const SavedState& state);
 
-std::uint64_t digest_of(const afm_emulator::Checkpoint& checkpoint);  // what state_digest should be
+std::uint64_t digest_of(afm_emulator::Checkpoint checkpoint);  // what state_digest should be
 
 // Changes of parameters that took effect before it.
 inline std::uint64_t changes_before(const afm_emulator::Checkpoint& checkpoint) {

@@ -2,7 +2,9 @@
 // left off.
 #pragma once
 
+#include <algorithm>
 #include <cinttypes>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -24,6 +26,14 @@ class Digest {
     std::uint64_t word;
     std::memcpy(&word, &value, sizeof word);
     add(word);
+  }
+  // Bytes eight at a time, the first of them the lowest; the last word is filled up with zeros.
+  void add(const std::uint8_t* bytes, std::size_t size) {
+    for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + i, std::min(size - i, sizeof word));
+      add(word);
+    }
   }
   std::uint64_t value() const { return hash_; }
 

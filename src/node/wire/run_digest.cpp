@@ -1,35 +1,13 @@
 #include "run_digest.h"
 
-#include <ros/serialization.h>
-
-#include <vector>
-
-#include "afm/model.h"
+#include "message_bytes.h"
 
 namespace afm::node {
 namespace {
 
-void add(const afm_emulator::ModelTime& time, Digest& digest) {
-  digest.add(static_cast<std::uint64_t>(time.tau));
-  digest.add(time.phase);
-}
-
-template <class Applied>
-void add_level(const Applied& applied, Digest& digest) {
-  digest.add(std::uint64_t{applied.model == name(ModelKind::hammer)});
-  digest.add(applied.contact_tolerance);
-  digest.add(applied.expected_error);
-  digest.add(applied.energy_dropped);
-}
-
-// Of the bytes on the wire, a word a byte, without stamp and sequence number.
-std::uint64_t digest_of(afm_emulator::Configuration configuration) {
-  configuration.header = std_msgs::Header();
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(configuration));
-  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(stream, configuration);
+std::uint64_t digest_of(const afm_emulator::Configuration& configuration) {
   Digest digest;
-  for (const std::uint8_t byte : bytes) digest.add(std::uint64_t{byte});
+  add_message(configuration, digest);
   return digest.value();
 }
 
@@ -65,51 +43,25 @@ void RunDigest::begin_samples(std::uint64_t first) {
   samples_digest_ = Digest();
 }
 
+// Impact by impact, so that it does not matter how they are divided into messages.
 void RunDigest::add(const afm_emulator::ImpactArray& batch) {
-  for (const afm_emulator::Impact& impact : batch.impacts) {
-    node::add(impact.time, impacts_digest_);
-    impacts_digest_.add(impact.surface_phase);
-    impacts_digest_.add(impact.normal_speed);
-    impacts_digest_.add(impact.tangential_velocity);
-    impacts_digest_.add(impact.energy_loss);
-    impacts_digest_.add(std::uint64_t{impact.kind});
-    impacts_digest_.add(std::uint64_t{impact.count});
-  }
+  for (const afm_emulator::Impact& impact : batch.impacts) add_message(impact, impacts_digest_);
   impacts_ += batch.impacts.size();
 }
 
 void RunDigest::add(const afm_emulator::Friction& estimate) {
-  node::add(estimate.time, estimates_digest_);
-  for (const double figure : {estimate.drag_velocity, estimate.eta, estimate.force, estimate.force_std_error,
-                              estimate.k_f, estimate.k_f_std_error, estimate.k_f_tau_per_m, estimate.energy_loss,
-                              estimate.window_force, estimate.window_k_f, estimate.window_k_f_std_error}) {
-    estimates_digest_.add(figure);
-  }
-  estimates_digest_.add(std::uint64_t{estimate.impact_count});
+  add_message(estimate, estimates_digest_);
   time_ = estimate.time;
   ++estimates_;
 }
 
 void RunDigest::add(const afm_emulator::AppliedDrag& command) {
-  node::add(command.time, commands_digest_);
-  commands_digest_.add(command.drag_velocity);
-  commands_digest_.add(std::uint64_t{command.first_impact});
-  add_level(command, commands_digest_);
+  add_message(command, commands_digest_);
   ++commands_;
 }
 
 void RunDigest::add(const afm_emulator::AppliedParameters& change) {
-  node::add(change.time, commands_digest_);
-  for (const std::uint64_t number : {change.first_impact, change.first_sample, change.first_command}) {
-    commands_digest_.add(number);
-  }
-  for (const double value : {change.restitution_gamma, change.cutoff_speed, change.rest_height_m,
-                             change.sample_rate_hz, change.friction_window_tau}) {
-    commands_digest_.add(value);
-  }
-  commands_digest_.add(change.samples_per_batch);
-  commands_digest_.add(change.sample_period_tau);
-  add_level(change, commands_digest_);
+  add_message(change, commands_digest_);
   ++commands_;
 }
 

@@ -1,36 +1,29 @@
-// Where two messages differ, bit for bit. Stamps and sequence numbers are of their moment and not looked at.
+// Where two messages differ, bit for bit. Stamps and sequence numbers belong to their moment and are not compared.
 #pragma once
 
-#include <afm_emulator/AppliedDrag.h>
-#include <afm_emulator/AppliedParameters.h>
-#include <afm_emulator/Checkpoint.h>
-#include <afm_emulator/Configuration.h>
-#include <afm_emulator/Deflection.h>
-#include <afm_emulator/Digest.h>
-#include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
+#include <ros/message_traits.h>
 
-#include <cstddef>
 #include <optional>
-#include <string>
+
+#include "node/wire/message_bytes.h"
+#include "printed_fields.h"
 
 namespace afm::replay {
 
-// The first field that differs, and its values as text: 17 digits and the bits of a number.
-struct FieldDifference {
-  std::string field, first, second;
-  std::size_t index = 0;  // in an array
-};
+// The first field that differs. The bytes on the wire decide; names and values are those that ROS prints. Nothing here
+// lists the fields of a message.
+template <class Message>
+std::optional<FieldDifference> find_difference(const Message& a, const Message& b) {
+  if (node::bytes_of(a) == node::bytes_of(b)) return {};
+  Message first = a, second = b;
+  node::clear_headers(first);
+  node::clear_headers(second);
+  const std::string name = topic_name(ros::message_traits::datatype<Message>());
+  return first_difference(printed_fields(name, first), printed_fields(name, second));
+}
 
-std::optional<FieldDifference> find_difference(const afm_emulator::Deflection& a, const afm_emulator::Deflection& b);
+// Impact by impact: the answer has the index of the first that differs.
 std::optional<FieldDifference> find_difference(const afm_emulator::ImpactArray& a, const afm_emulator::ImpactArray& b);
-std::optional<FieldDifference> find_difference(const afm_emulator::Friction& a, const afm_emulator::Friction& b);
-std::optional<FieldDifference> find_difference(const afm_emulator::AppliedDrag& a, const afm_emulator::AppliedDrag& b);
-std::optional<FieldDifference> find_difference(const afm_emulator::AppliedParameters& a,
-                                               const afm_emulator::AppliedParameters& b);
-std::optional<FieldDifference> find_difference(const afm_emulator::Configuration& a,
-                                               const afm_emulator::Configuration& b);
-std::optional<FieldDifference> find_difference(const afm_emulator::Checkpoint& a, const afm_emulator::Checkpoint& b);
-std::optional<FieldDifference> find_difference(const afm_emulator::Digest& a, const afm_emulator::Digest& b);
 
 }  // namespace afm::replay

@@ -99,7 +99,7 @@ void Resimulation::apply(const afm_emulator::AppliedParameters& change) {
   state.impacts = impacts();
   state.samples = emulator_.samples();
   state.commands = drags_;
-  digest_.add(node::to_applied_parameters(state, parameters_, level, {}));
+  digest_.add(node::to_applied_parameters(state, parameters_, level, {{}, log_.configuration.epoch}));
 }
 
 // An impact and the end of a batch may have the same time; then the number tells which is first.
@@ -152,6 +152,7 @@ void Resimulation::digest_samples(const afm_emulator::Deflection& batch) {
 
 afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint64_t count) const {
   afm_emulator::Deflection message;
+  message.epoch = log_.configuration.epoch;
   // a batch without samples may lie before a change that then samples sooner
   const SampleGrid& grid = emulator_.grid();
   message.time = node::to_message(first < grid.first ? sample_time(first) : grid.time_or_end(first));
@@ -164,6 +165,7 @@ afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint
 
 afm_emulator::ImpactArray Resimulation::impacts(std::uint64_t first, std::uint64_t count) const {
   afm_emulator::ImpactArray message;
+  message.epoch = log_.configuration.epoch;
   message.first_index = first;
   message.impacts = part_of(impacts_, first_impact_, first, count);
   return message;
