@@ -31,17 +31,19 @@ Result run(double eta, double cutoff, double tolerance, const Options& o) {
   afm::Friction friction(1000.0);
   const afm::ModelTime begin{o.transient, 0.0}, end{o.transient + o.tau, 0.0};
   Result r{true, 0.0, {}};
+  afm::Segments ended;
   for (bool counting = false;;) {
-    const afm::Outcome outcome = tip.advance(counting ? end : begin);
+    const afm::Outcome outcome = tip.advance_arc(counting ? end : begin, &ended);
     if (outcome == afm::Outcome::time_limit) {
       if (counting) break;
       friction.restart(begin, eta);
       counting = true;
     }
-    if (++r.events > o.most_events) return {false, r.events, {}};
-    if (counting && outcome == afm::Outcome::impact) friction.add(tip.last_impact());
+    if (outcome != afm::Outcome::flying && ++r.events > o.most_events) return {false, r.events, {}};
+    if (!counting) continue;
+    for (const afm::Segment& segment : ended) friction.add(segment);
   }
-  r.friction = friction.estimate(end);
+  r.friction = friction.estimate(end, tip.segment());
   return r;
 }
 

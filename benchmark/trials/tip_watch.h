@@ -9,7 +9,7 @@
 #include <string>
 
 #include "afm/tip.h"
-#include "energy_ledger.h"
+#include "energy_balance.h"
 
 namespace afm {
 
@@ -25,14 +25,14 @@ class TipWatch {
  public:
   // `start` is in the air.
   TipWatch(const Model& model, double eta, const FreeState& start, double contact_tolerance)
-      : model_(model), tip_(model, eta, start, contact_tolerance), ledger_(model, tip_) {}
+      : model_(model), tip_(model, eta, start, contact_tolerance), balance_(tip_) {}
 
   // One arc, or to the limit. False: what violation() tells has happened.
   bool advance_arc(const ModelTime& limit, Outcome& outcome) {
     const ModelTime begin = tip_.now(), arc_end = tip_.arc_end(), end = arc_end < limit ? arc_end : limit;
     if (arc_end < begin) return violated("an arc ends before it begins");
     if (!check_depths(begin, end)) return false;
-    outcome = ledger_.advance_arc(tip_, limit);
+    outcome = balance_.advance_arc(tip_, limit);
     enter(outcome);
     if (outcome == Outcome::search_failed) return violated("the search failed");
     if (tip_.now() < begin) return violated("time ran backwards");
@@ -50,7 +50,7 @@ class TipWatch {
   }
 
   void drag(double eta) {
-    tip_.drag(eta);
+    balance_.command(tip_, [&] { tip_.drag(eta); });
     ++count_.commands;
   }
 
@@ -65,9 +65,9 @@ class TipWatch {
          << " v_c " << model_.v_c << " H " << model_.H << " y0 " << model_.y0 << " ratio " << model_.frequency_ratio
          << " eta " << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 "
          << s.g1
-         << (tip_.in_contact()    ? " in contact"
-             : ledger_.bursting() ? " in a burst"
-                                  : "");
+         << (tip_.in_contact() ? " in contact"
+             : tip_.in_burst() ? " in a burst"
+                               : "");
     return text.str();
   }
 
@@ -109,12 +109,10 @@ class TipWatch {
   }
 
   // Against the most that was ever turned over, in the holder's frame too: what the drag takes back, and what a slow
-  // tip has over a fast holder, leaves its rounding behind. A burst enters the books when it ends. The hammer's holder
-  // keeps books of its own.
+  // tip has over a fast holder, leaves its rounding behind.
   bool check_energy() {
-    if (ledger_.bursting() || model_.kind == ModelKind::hammer) return true;
-    turnover_ = std::max({turnover_, ledger_.turnover(tip_), 0.5 * tip_.eta() * tip_.eta()});
-    const double part = std::abs(ledger_.imbalance(tip_)) / turnover_;
+    turnover_ = std::max({turnover_, balance_.turnover(tip_), 0.5 * tip_.eta() * tip_.eta()});
+    const double part = balance_.imbalance(tip_) / turnover_;
     count_.worst_imbalance = std::max(count_.worst_imbalance, part);
     return part <= kMostImbalance ||
            violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
@@ -139,7 +137,7 @@ class TipWatch {
 
   Model model_;
   Tip tip_;
-  EnergyLedger ledger_;
+  EnergyBalance balance_;
   TipCount count_;
   std::uint64_t arcs_this_tau_ = 0;
   std::int64_t tau_ = 0;

@@ -2,12 +2,13 @@
 // event.
 #pragma once
 
+#include "afm/detail/sample_grid.h"
 #include "chatter.h"
+#include "contact.h"
 #include "flight.h"
 #include "impact_search.h"
 #include "model.h"
-#include "afm/detail/sample_grid.h"
-#include "contact.h"
+#include "segment.h"
 #include "state.h"
 
 namespace afm {
@@ -37,9 +38,17 @@ class Tip {
   // at a limit: any sequence of limits gives the same bits as one.
   Outcome advance(const ModelTime& limit);
 
-  // The same, in arcs: it also stops (Outcome::flying) where the search of a long flight has come to.
-  Outcome advance_arc(const ModelTime& limit);
+  // The same, in arcs: it also stops (Outcome::flying) where the search of a long flight has come to. `ended`: the
+  // segments that ended with this arc; they do not depend on the limits.
+  Outcome advance_arc(const ModelTime& limit, Segments* ended = nullptr);
   ModelTime arc_end();  // up to here, exclusive, deflection() holds
+
+  // The segment under way up to now(). Ask before a command: one that changes something ends it, and no advance yields it.
+  // What the command itself changes (a lifted holder, a jolted hammer) is in no segment.
+  Segment segment() const;
+  double stored_energy() const {
+    return account().energy;
+  }  // in springs and motion, in the lab, at now() [m a^2/tau^2]
 
   // A new drag velocity from now() on: the flight, burst or slide under way is split here, and only here. The present
   // one again changes no bit.
@@ -74,9 +83,6 @@ class Tip {
   const Impact& last_impact() const { return last_impact_; }
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
-  // The work of the drag is -omega_h^2 eta times the time integral of the lateral deflection; in bursts that of the
-  // deflection below, which is the guide's, and this much more, up to their last event [m a^2/tau^2].
-  double work_off_guide() const { return work_off_guide_; }
   Deflection deflection(const ModelTime& t) const;  // from the last event to arc_end()
   // The same at n times of a grid, the first-th and those after it, bit for bit and several in one instruction where
   // the machine can. Returns the lowest gap [a].
@@ -89,7 +95,23 @@ class Tip {
   enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
 
   TipState held(const TipState& state) const;
+  struct ChatterRide {
+    SlideState<double> moved;
+    double gain, impulse, energy;  // of the sequence so far; energy: stored
+  };
+
   Chatter chatter_now() const;
+  ChatterRide ride(double s, const Chatter& chatter) const;
+  double slide_impulse(double s) const;
+  double burst_loss(double v, double gain) const;
+  Account account() const;
+  Account account_at(double s, const Chatter& chatter) const;
+  Account account_at_begin() const;
+  Account account_at_end() const;
+  Account flight_account(const FlightState<double>& state) const;
+  Segment segment_to(const Account& end) const;
+  Segment impact_segment(double energy_before) const;
+  void split_account();
   void jolt(double eta);
   void end_guide_now();
   void leave_now();
@@ -104,6 +126,8 @@ class Tip {
   void leave_or_press();
   bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
   void find_landing();
+  Outcome end_arc();
+  Outcome end_arc(Segments& ended);
   Outcome land();
   Outcome touch();
   Outcome end_flight();
@@ -126,9 +150,13 @@ class Tip {
   bool slide_releases_ = false;
   Chatter chatter_{};                // at the start of the present piece of a burst
   ChatterRun chatter_run_{};         // over it
+  ModelTime burst_begin_;            // of the chatter sequence, as the next four
   double burst_normal_speed_ = 0.0;  // with which it began
-  double burst_gain_ = 0.0;          // of energy since then, for leaving guides
-  double work_off_guide_ = 0.0;
+  double burst_energy_ = 0.0;        // stored then
+  double burst_gain_ = 0.0;          // since then: lost beyond the fall of v^2/2
+  double burst_impulse_ = 0.0;       // of the holder
+  Account split_;                    // at the last command within an arc or a sequence
+  bool is_split_ = false;
   Impact last_impact_;
   bool untold_ = false;  // an event at now() that the next advance tells
   Impact untold_impact_;

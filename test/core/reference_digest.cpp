@@ -83,6 +83,33 @@ void print_run(double eta, double cutoff, double contact_tolerance, ModelKind ki
   std::printf("%s: %s\n", name, to_text(digest).c_str());
 }
 
+// The records of segments, and the mean lateral force that comes of them.
+void print_segments(double eta, double cutoff, ModelKind kind) {
+  const std::string name = "segments of the " + std::string(afm::name(kind));
+  if (!wanted(name)) return;
+  EmulatorSettings settings;
+  settings.model.kind = kind;
+  settings.model.v_c = cutoff;
+  settings.eta = settings.initial.u = eta;
+  Emulator emulator(settings);
+  afm::Tip tip(settings.model, eta, settings.initial);
+  afm::Segments ended;
+  Batch batch;
+  Digest digest;
+  for (int arcs = 0; arcs < 5000; ++arcs) {
+    tip.advance_arc(afm::kEndOfTime, &ended);
+    for (const afm::Segment& s : ended) {
+      for (const double figure : {s.impulse, s.loss, s.stored}) digest.add(figure);
+    }
+  }
+  for (int i = 0; i < 20; ++i) {
+    emulator.run_batch(batch);
+    digest.add(batch.friction.lateral_force);
+    digest.add(batch.friction.lateral_force_std_error);
+  }
+  std::printf("%s: %s\n", name.c_str(), to_text(digest).c_str());
+}
+
 // Every impact of tips that are as different as can be, flown together. What lanes there are, the line does not tell:
 // it is the same without any.
 void print_together(const std::string& name, afm::LaneUse use) {
@@ -112,6 +139,8 @@ int main(int argc, char** argv) {
   print_run(3.0, 0.3, 0.0);   // every bounce by itself
   print_run(3.4, 0.0, 1e-3);  // the same restitution at every speed
   for (const double eta : {0.5, 3.4}) print_run(eta, 0.05, 1e-3, ModelKind::hammer);
+  print_segments(0.5, 0.01, ModelKind::oscillator);  // flights, bursts, contact
+  print_segments(-0.3, 0.02, ModelKind::hammer);
   print_together("96 tips one after another", afm::LaneUse::none);
   print_together("96 tips four at once where that can be", afm::LaneUse::four);
   print_together("96 tips as many at once as can be", afm::LaneUse::widest);

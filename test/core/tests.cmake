@@ -48,6 +48,7 @@ set(core_tests
   tip/known_orbits
   tip/relevel
   tip/retune
+  tip/segment
   tip/split
   tip/tip
   units)

@@ -88,6 +88,11 @@ class Publishes(unittest.TestCase):
         self.assertGreater(min(heights), -0.06e-9)
         self.assertTrue(0.05e-9 < max(heights) < 10e-9, max(heights))
 
+    def test_the_lateral_force_is_the_friction_but_for_what_the_tip_stores(self):
+        last = self.topics['friction'][-1]
+        self.assertGreater(last.lateral_force_std_error, 0.0)
+        self.assertLess(abs(last.lateral_force - last.force), 5 * (last.lateral_force_std_error + last.force_std_error))
+
     def test_model_time_keeps_up_with_wall_time(self):
         self.assertGreaterEqual(self.wall_s, WATCHED_S)
         self.assertAlmostEqual(self.model_s / self.wall_s, 1.0, delta=0.05)

@@ -1,8 +1,11 @@
 # Tools on the command line, and programs that measure.
 
 if(catkin_FOUND)
-  afm_add_gtest(message_difference_test tools/message_difference_test.cpp)
-  target_link_libraries(message_difference_test afm_replay)
+  foreach(name friction_audit message_difference)
+    afm_add_gtest(${name}_test tools/${name}_test.cpp)
+    target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/benchmark)
+    target_link_libraries(${name}_test afm_replay)
+  endforeach()
 
   add_test(NAME plot_run
     COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py

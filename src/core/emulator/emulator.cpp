@@ -163,11 +163,13 @@ void Emulator::sample_until(const ModelTime& time, Batch& batch) {
 // Samples are taken arc by arc, before the arc's end replaces it.
 Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
   constexpr std::uint64_t kFailureCost = 100;  // a failed search takes about as long as so many impacts
+  Segments ended;
   for (std::uint64_t spent = 0; spent < impacts;) {
     const ModelTime arc_end = tip_.arc_end();
     if (sampling_) sample_until(arc_end < end ? arc_end : end, batch);
-    const Outcome outcome = tip_.advance_arc(end);
+    const Outcome outcome = tip_.advance_arc(end, &ended);
     if (outcome == Outcome::time_limit) return outcome;
+    for (const Segment& segment : ended) friction_.add(segment);
     if (outcome == Outcome::search_failed) {
       ++counters_.search_failures;
       spent += kFailureCost;
@@ -175,7 +177,6 @@ Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& b
     const bool event = outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released;
     if (!event) continue;
     batch.impacts.push_back(tip_.last_impact());
-    friction_.add(tip_.last_impact());
     ++impact_index_;
     ++spent;
   }
@@ -188,7 +189,7 @@ Outcome Emulator::run(const ModelTime& end, std::uint64_t impacts, Batch& batch)
   now_ = tip_.now();
   if (!sampling_) next_sample_ = first_sample_from(now_);  // they are due all the same
   batch.end = now_;
-  batch.friction = friction_.estimate(now_);
+  batch.friction = friction_.estimate(now_, tip_.segment());
   return outcome;
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewestBins = 8;  // below it the spread says nothing about the error
 
-// Standard error of the mean of n bins, of energy per tau.
+// Standard error of the mean rate over n bins.
 double standard_error(const double* energy, std::size_t n, double width) {
   if (n < kFewestBins) return kNaN;
   double mean = 0.0, squares = 0.0;
@@ -22,20 +22,34 @@ double standard_error(const double* energy, std::size_t n, double width) {
 
 }  // namespace
 
-void PowerBins::merge() {
-  for (std::size_t i = 0; i < kBins / 2; ++i) energy_[i] = energy_[2 * i] + energy_[2 * i + 1];
-  std::fill(energy_.begin() + kBins / 2, energy_.end(), 0.0);
+void RateBins::merge() {
+  for (std::size_t i = 0; i < kBins / 2; ++i) amount_[i] = amount_[2 * i] + amount_[2 * i + 1];
+  std::fill(amount_.begin() + kBins / 2, amount_.end(), 0.0);
   width_ *= 2.0;
 }
 
-void PowerBins::add(double age, double energy) {
+void RateBins::add(double age, double amount) {
   while (age >= width_ * static_cast<double>(kBins)) merge();
-  energy_[static_cast<std::size_t>(age / width_)] += energy;
+  amount_[static_cast<std::size_t>(age / width_)] += amount;
 }
 
-double PowerBins::std_error(double age) const {
+void RateBins::spread(double begin, double end, double amount) {
+  while (end >= width_ * static_cast<double>(kBins)) merge();
+  const auto first = static_cast<std::size_t>(begin / width_), last = static_cast<std::size_t>(end / width_);
+  if (first == last) {
+    amount_[last] += amount;
+    return;
+  }
+  for (std::size_t i = first; i <= last; ++i) {
+    const double from = std::max(begin, width_ * static_cast<double>(i));
+    const double to = std::min(end, width_ * static_cast<double>(i + 1));
+    amount_[i] += amount * ((to - from) / (end - begin));
+  }
+}
+
+double RateBins::std_error(double age) const {
   const double completed = std::min(age / width_, static_cast<double>(kBins));
-  return standard_error(energy_.data(), static_cast<std::size_t>(completed), width_);
+  return standard_error(amount_.data(), static_cast<std::size_t>(completed), width_);
 }
 
 void PowerWindow::roll_to(double age) {
@@ -76,15 +90,19 @@ namespace {
 constexpr double kFirstBinWidth = 1.0;  // [tau]: bins begin with a vertical period each and double from there
 }
 
-Friction::Friction(double window_tau) : window_tau_(window_tau), bins_(kFirstBinWidth), window_(window_tau) {}
+void CompensatedSum::add(double x) {
+  const double term = x - rest_, sum = sum_ + term;
+  rest_ = (sum - sum_) - term;
+  sum_ = sum;
+}
+
+Friction::Friction(double window_tau)
+    : window_tau_(window_tau), energy_bins_(kFirstBinWidth), impulse_bins_(kFirstBinWidth), window_(window_tau) {}
 
 void Friction::restart(const ModelTime& now, double eta) {
-  start_ = now;
+  *this = Friction(window_tau_);
+  start_ = window_start_ = now;
   eta_ = eta;
-  energy_ = energy_rest_ = 0.0;
-  impact_count_ = 0;
-  bins_ = PowerBins(kFirstBinWidth);
-  set_window(now, window_tau_);
 }
 
 void Friction::set_window(const ModelTime& now, double window_tau) {
@@ -93,27 +111,29 @@ void Friction::set_window(const ModelTime& now, double window_tau) {
   window_ = PowerWindow(window_tau);
 }
 
-void Friction::add(const Impact& impact) {
-  const double age = std::max(0.0, impact.time - start_);
-  const double term = impact.energy_loss - energy_rest_;
-  const double sum = energy_ + term;
-  energy_rest_ = (sum - energy_) - term;
-  energy_ = sum;
-  impact_count_ += impact.count;
-  bins_.add(age, impact.energy_loss);
-  window_.add(std::max(0.0, impact.time - window_start_), impact.energy_loss);
+void Friction::add(const Segment& segment) {
+  const double end = std::max(0.0, segment.end - start_);
+  if (segment.impulse != 0.0) {
+    impulse_.add(segment.impulse);
+    impulse_bins_.spread(std::max(0.0, segment.begin - start_), end, segment.impulse);
+  }
+  if (segment.kind != SegmentKind::impact && segment.kind != SegmentKind::chatter) return;
+  energy_.add(segment.loss);
+  impact_count_ += segment.count;
+  energy_bins_.add(end, segment.loss);
+  window_.add(std::max(0.0, segment.end - window_start_), segment.loss);
 }
 
-FrictionEstimate Friction::estimate(const ModelTime& now) {
+FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   const double age = now - start_;
   FrictionEstimate e;
-  e.energy_loss = energy_;
+  e.energy_loss = energy_.value();
   e.impact_count = impact_count_;
-  const double power = age > 0.0 ? energy_ / age : kNaN;
+  const double power = age > 0.0 ? energy_.value() / age : kNaN;
   const bool moving = eta_ != 0.0;
   const auto to_force = [&](double p) { return moving ? p / eta_ : 0.0; };
   const auto to_K_f = [&](double p) { return moving ? p / (eta_ * eta_) : kNaN; };
-  const double error = bins_.std_error(age);
+  const double error = energy_bins_.std_error(age);
   e.force = to_force(power);
   e.force_std_error = std::abs(to_force(error));
   e.K_f = to_K_f(power);
@@ -123,15 +143,18 @@ FrictionEstimate Friction::estimate(const ModelTime& now) {
   e.window_force = to_force(window_power);
   e.window_K_f = to_K_f(window_power);
   e.window_K_f_std_error = to_K_f(window_.std_error(window_age));
+  e.lateral_force = age > 0.0 ? (impulse_.value() + open.impulse) / age : kNaN;
+  e.lateral_force_std_error = impulse_bins_.std_error(age);
   return e;
 }
 
 bool Friction::is_possible(const ModelTime& now, double window_tau) const {
   const auto is_phase = [](double phase) { return phase >= 0.0 && phase < 1.0; };
+  const auto is_width = [](double width) { return width >= kFirstBinWidth && std::isfinite(width); };
   const bool in_time = is_phase(start_.phase) && is_phase(window_start_.phase) && ModelTime{} <= start_ &&
                        start_ <= window_start_ && window_start_ <= now;
   const double bins = (now - window_start_) / window_.width();
-  return in_time && window_tau_ == window_tau && bins_.width() >= kFirstBinWidth && std::isfinite(bins_.width()) &&
+  return in_time && window_tau_ == window_tau && is_width(energy_bins_.width()) && is_width(impulse_bins_.width()) &&
          window_.width() == PowerWindow(window_tau).width() && window_.current() >= 0 &&
          static_cast<double>(window_.current()) <= bins;
 }

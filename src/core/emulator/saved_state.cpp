@@ -139,7 +139,7 @@ template <class Archive, class Self>
 void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   constexpr std::size_t kParts =
       sizeof t.flight_ + sizeof t.slide_ + sizeof t.landing_ + sizeof t.law_ + sizeof t.mechanics_;
-  static_assert(!kLp64 || sizeof t - kParts == 392);
+  static_assert(!kLp64 || sizeof t - kParts == 472);
   of_model(archive, t.model_);
   whole(archive, t.eta_);
   if constexpr (std::is_const_v<Self>) {
@@ -158,7 +158,12 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   choice(archive, t.chatter_run_.end, ChatterEnd::exits);
   whole(archive, t.chatter_run_.s);
   whole(archive, t.chatter_run_.chatter);
-  for (auto* field : {&t.burst_normal_speed_, &t.burst_gain_, &t.work_off_guide_}) whole(archive, *field);
+  whole(archive, t.burst_begin_);
+  for (auto* field : {&t.burst_normal_speed_, &t.burst_energy_, &t.burst_gain_, &t.burst_impulse_}) {
+    whole(archive, *field);
+  }
+  whole(archive, t.split_);
+  choice(archive, t.is_split_, true);
   of_impact(archive, t.last_impact_);
   choice(archive, t.untold_, true);
   of_impact(archive, t.untold_impact_);
@@ -194,7 +199,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
 }
 
 std::uint32_t state_layout() {
-  constexpr std::uint32_t kMeaning = 3;  // to be raised whenever the words mean something else
+  constexpr std::uint32_t kMeaning = 4;  // to be raised whenever the words mean something else
   static const std::uint32_t layout = [] {
     SavedState state;
     Emulator(EmulatorSettings{}).save(state);

@@ -39,11 +39,6 @@ int guide_bits(double contact_tolerance) {
 // In contact the velocity is good to 1e-14 of itself, or of 1 a/tau.
 int contact_bits(double u) { return kSlideBits - std::ilogb(std::fmin(std::fmax(std::fabs(u), 1.0), 0x1p24)); }
 
-std::uint32_t whole_count(double n) {
-  constexpr double kMost = 4294967295.0;
-  return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
-}
-
 }  // namespace
 
 Tip::Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance)
@@ -83,11 +78,15 @@ void Tip::fly(const TipState& start) {
 
 void Tip::begin_flight() {
   mode_ = Mode::flying;
+  is_split_ = false;
   start_ = now_;
   landing_known_ = false;
 }
 
-void Tip::slide(const SlideState<double>& start) { slide(start, contact_bits(start.u)); }
+void Tip::slide(const SlideState<double>& start) {
+  slide(start, contact_bits(start.u));
+  is_split_ = false;
+}
 
 void Tip::slide(const SlideState<double>& start, int bits) {
   slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits, slide_);
@@ -105,17 +104,12 @@ void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
-// To where the chatter has moved the tip, which has been on the guide for s. What it stores more, the drag has worked
-// or the bounces have given; a tip that is held its holder has moved along the guide.
+// To where the chatter has moved the tip.
 SlideState<double> Tip::leave_guide(double s, const Chatter& chatter) {
-  const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
-  const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;
-  const bool held = mechanics_.mobility == 0.0;
-  const double before = slide_energy(mechanics_, held ? guide : slide_.start());
-  if (!held) burst_gain_ += force * stretch_integral(slide_, s);
-  burst_gain_ += work - (slide_energy(mechanics_, moved) - before) + chatter.lift;
-  work_off_guide_ += work;
-  return moved;
+  const ChatterRide r = ride(s, chatter);
+  burst_gain_ = r.gain;
+  burst_impulse_ = r.impulse;
+  return r.moved;
 }
 
 // The flight after a bounce has begun: does the surface press, and is it the first bounce of a burst?
@@ -127,8 +121,11 @@ void Tip::leave_or_press() {
     if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
   } else if (g2 < 0.0 && start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
     const Settled settled = settle(model_, start);
+    burst_begin_ = now_;
     burst_normal_speed_ = settled.normal_speed;
-    burst_gain_ = 0.0;
+    burst_energy_ = slide_energy(mechanics_, settled.guide) + 0.5 * settled.normal_speed * settled.normal_speed;
+    burst_gain_ = burst_impulse_ = 0.0;
+    is_split_ = false;
     burst(settled.guide, {settled.normal_speed, 0.0});
   }
 }
@@ -170,7 +167,11 @@ Outcome Tip::land() {
   return Outcome::impact;
 }
 
-// All that the bounces lost: what their normal speed was at first, less what it is now.
+// All that the bounces lost: what their normal speed was at first, less what it is now, and what the tip gained meanwhile.
+double Tip::burst_loss(double v, double gain) const {
+  return 0.5 * (burst_normal_speed_ - v) * (burst_normal_speed_ + v) + gain;
+}
+
 Outcome Tip::end_burst() {
   const ChatterRun run = chatter_run_;
   if (run.end == ChatterEnd::time && !slide_releases_) {
@@ -181,12 +182,11 @@ Outcome Tip::end_burst() {
   const bool died = run.end == ChatterEnd::died;
   const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
   const Settled settled = settle(model_, bounce);
-  const double before = burst_normal_speed_, after = died ? 0.0 : run.chatter.v;
   last_impact_ = {now_,
                   bounce.phase,
-                  before,
+                  burst_normal_speed_,
                   settled.tangential_velocity,
-                  0.5 * (before - after) * (before + after) + burst_gain_,
+                  burst_loss(died ? 0.0 : run.chatter.v, burst_gain_),
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
   fly(bounce);
@@ -232,7 +232,8 @@ ModelTime Tip::arc_end() {
   return start_ + landing_.s;
 }
 
-Outcome Tip::advance_arc(const ModelTime& limit) {
+Outcome Tip::advance_arc(const ModelTime& limit, Segments* ended) {
+  if (ended != nullptr) ended->clear();
   const ModelTime end = arc_end();
   if (limit < end) {
     now_ = now_ < limit ? limit : now_;
@@ -244,6 +245,10 @@ Outcome Tip::advance_arc(const ModelTime& limit) {
     return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
   }
   now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
+  return ended == nullptr ? end_arc() : end_arc(*ended);
+}
+
+Outcome Tip::end_arc() {
   switch (mode_) {
     case Mode::bursting:
       return end_burst();

@@ -57,6 +57,8 @@ void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
 
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
 
+AFM_MULTIVERSION FlightState<double> flight_state(const Flight<double>& flight, double s) { return flight.at(s); }
+
 AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
                                  int bits, SlidePiece<double>& slide) {
   if (orders_in_lanes != nullptr) {

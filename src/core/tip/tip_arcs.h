@@ -1,6 +1,9 @@
 // What a tip asks of its flights and slides, each in the version for the machine at hand (multiversion.h).
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+
 #include "afm/impact_search.h"
 #include "afm/contact.h"
 
@@ -11,6 +14,12 @@ constexpr double kLeastGapRate = 1e-140;
 
 // A flight shorter than this part of the fastest turn may be rounding: lanes leave it to the tip, which finds out.
 constexpr double kLeastFlight = 1e-12;
+
+// Of a chatter sequence that is over: at least one, as its first bounce has been.
+inline std::uint32_t whole_count(double n) {
+  constexpr double kMost = 4294967295.0;
+  return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), kMost)));
+}
 
 // What of a reflection its record keeps.
 struct Bounce {
@@ -26,6 +35,7 @@ void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
              Flight<double>& flight, Bounce& bounce);
 
 TipState state_of(const Flight<double>& flight, double s);
+FlightState<double> flight_state(const Flight<double>& flight, double s);
 
 // Begins a piece of a slide in the place of another.
 void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits,

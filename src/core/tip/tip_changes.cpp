@@ -15,7 +15,8 @@ void Tip::drag(double eta) {
     const Chatter chatter = chatter_now();
     guide = leave_guide(now_ - start_, chatter);
     eta_ = eta;
-    return burst(guide, {chatter.v, chatter.n});
+    burst(guide, {chatter.v, chatter.n});
+    return split_account();
   }
   eta_ = eta;
   if (mode_ == Mode::sliding) return slide(guide);
@@ -29,6 +30,7 @@ void Tip::drag(double eta) {
 void Tip::jolt(double eta) {
   end_guide_now();
   eta_ = eta;
+  split_account();
 }
 
 // What ends burst or contact at the next advance ends it here.
@@ -59,7 +61,7 @@ void Tip::retune(const Model& model) {
     mode_ = Mode::bursting;
     chatter_ = {chatter.v, chatter.n};
     chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
-    return;
+    return split_account();
   }
   adopt(model);
   if (mode_ == Mode::sliding) return slide(guide);

@@ -87,6 +87,8 @@ afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, con
   message.window_force = estimate.window_force * units.force();
   message.window_k_f = estimate.window_K_f * units.friction();
   message.window_k_f_std_error = estimate.window_K_f_std_error * units.friction();
+  message.lateral_force = estimate.lateral_force * units.force();
+  message.lateral_force_std_error = estimate.lateral_force_std_error * units.force();
   return message;
 }
 

@@ -10,6 +10,7 @@ namespace afm::audit {
 namespace {
 
 constexpr std::size_t kStretches = 5;
+constexpr long double kSumRoundings = 1e-12L;  // of a sum of energies, relative
 
 // Relative to the larger; NaN agrees with NaN alone.
 double mismatch(double a, double b) {
@@ -45,18 +46,31 @@ void FrictionAudit::command(const ModelTime& time, double drag_velocity) {
 void FrictionAudit::change(const ModelTime& time) {
   close_stretch();
   start_ = time;
-  sums_ = {};
+  sums_ = split_ = {};
   base_ = Sums{};
+  awaits_first_ = true;
 }
 
 void FrictionAudit::gap() {
   base_.reset();
-  sums_ = {};
+  sums_ = split_ = {};
+  awaits_first_ = true;
+}
+
+// The estimate counts of a burst what came after the command that split it; the burst's event counts it whole.
+void FrictionAudit::take_split(const afm_emulator::Friction& estimate) {
+  const long double before = base_->energy + sums_.energy - estimate.energy_loss;
+  const std::uint64_t count = base_->count + sums_.count - estimate.impact_count;
+  const bool is_part = before >= 0.0L && before <= split_.energy * (1.0L + kSumRoundings) && count <= split_.count;
+  if (is_part) base_ = Sums{base_->energy - before, base_->count - count};
+  split_ = {};
 }
 
 void FrictionAudit::add(const afm_emulator::ImpactArray& batch) {
   if (batch.first_index == 0 && start_ == ModelTime{}) base_ = Sums{};
   for (const afm_emulator::Impact& impact : batch.impacts) {
+    if (awaits_first_ && impact.kind == afm_emulator::Impact::BURST) split_ = {impact.energy_loss, impact.count};
+    awaits_first_ = false;
     sums_.energy += impact.energy_loss;
     sums_.count += impact.count;
   }
@@ -67,6 +81,7 @@ void FrictionAudit::judge(const afm_emulator::Friction& estimate) {
   if (!base_) {
     base_ = Sums{static_cast<long double>(estimate.energy_loss) - sums_.energy, estimate.impact_count - sums_.count};
   }
+  if (split_.count > 0) take_split(estimate);
   const auto energy = static_cast<double>(base_->energy + sums_.energy);
   if (base_->count + sums_.count != estimate.impact_count) ++report_.miscounted;
   note(report_.energy_error, mismatch(energy, estimate.energy_loss));

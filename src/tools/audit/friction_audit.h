@@ -52,6 +52,7 @@ class FrictionAudit {
     long double energy = 0.0L;  // [J]
     std::uint64_t count = 0;
   };
+  void take_split(const afm_emulator::Friction& estimate);
   void judge_figures(const afm_emulator::Friction& estimate, double energy);
   void close_stretch();
 
@@ -59,6 +60,8 @@ class FrictionAudit {
   double drag_velocity_;
   ModelTime start_;           // of the present stretch
   Sums sums_;                 // of the impacts in it
+  Sums split_;                // a burst that may have begun before the command, or before what is recorded
+  bool awaits_first_ = true;  // the first event since then
   std::optional<Sums> base_;  // what was lost before our sums began, from the first estimate seen
   std::optional<Stretch> last_;
   FrictionReport report_;

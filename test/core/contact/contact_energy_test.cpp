@@ -1,10 +1,10 @@
-// The books of energy through bursts, contact and release, at the default tolerance.
+// The energy balance through bursts, contact and release, at the default tolerance.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <ostream>
 
-#include "trials/energy_ledger.h"
+#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
@@ -30,25 +30,25 @@ class ContactEnergy : public testing::TestWithParam<Drag> {};
 TEST_P(ContactEnergy, WhatIsLostIsTheWorkOfTheDragLessWhatIsStored) {
   const Model model = mica(GetParam());
   Tip tip(model, GetParam().eta, FreeState{0.25, 0.0, 0.2, GetParam().eta, 0.0});
-  EnergyLedger ledger(model, tip);
+  EnergyBalance balance(tip);
   int events = 0, bursts = 0;
   while (events < 100000) {
-    const Outcome outcome = ledger.advance_arc(tip, kNever);
+    const Outcome outcome = balance.advance_arc(tip, kNever);
     ASSERT_NE(outcome, Outcome::search_failed);
     if (outcome == Outcome::flying) continue;
     ++events;
     if (tip.last_impact().kind == ImpactKind::burst) ++bursts;
     if (events % 1000 != 0) continue;
-    ASSERT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << events;
+    ASSERT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << events;
   }
   EXPECT_GT(bursts, 20);
-  EXPECT_GT(ledger.lost(), 0.0);
+  EXPECT_GT(balance.lost(), 0.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(DragSpeeds, ContactEnergy,
-                         testing::Values(Drag{0.05, 0.1}, Drag{0.2, 0.1}, Drag{0.2, 0.01},
-                                         Drag{0.5, 0.01}, Drag{-0.5, 0.01}, Drag{2.75, 0.01}, Drag{3.0, 0.01},
-                                         Drag{5.0, 0.01}, Drag{9.0, 0.01}, Drag{50.0, 0.01}));
+                         testing::Values(Drag{0.05, 0.1}, Drag{0.2, 0.1}, Drag{0.2, 0.01}, Drag{0.5, 0.01},
+                                         Drag{-0.5, 0.01}, Drag{2.75, 0.01}, Drag{3.0, 0.01}, Drag{5.0, 0.01},
+                                         Drag{9.0, 0.01}, Drag{50.0, 0.01}));
 
 TEST(ContactEnergyOfModels, IsInBalanceWhateverTheRestitution) {
   for (const double gamma : {0.0, 0.3, 0.9, 0.99, 1.0}) {
@@ -57,9 +57,9 @@ TEST(ContactEnergyOfModels, IsInBalanceWhateverTheRestitution) {
       model.gamma = gamma;
       model.v_c = v_c;
       Tip tip(model, 0.7, FreeState{0.25, 0.0, 0.2, 0.7, 0.0});
-      EnergyLedger ledger(model, tip);
-      while (tip.now() < ModelTime{300, 0.0}) ledger.advance_arc(tip, {300, 0.0});
-      EXPECT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << gamma << ", v_c " << v_c;
+      EnergyBalance balance(tip);
+      while (tip.now() < ModelTime{300, 0.0}) balance.advance_arc(tip, {300, 0.0});
+      EXPECT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << gamma << ", v_c " << v_c;
     }
   }
 }

@@ -69,11 +69,11 @@ FrictionEstimate friction_of(const Drag& drag, double tolerance) {
   while (tip.advance(kTransient) != Outcome::time_limit) continue;
   Friction friction(100.0);
   friction.restart(kTransient, drag.eta);
-  for (;;) {
-    const Outcome outcome = tip.advance(kEnd);
-    if (outcome == Outcome::time_limit) return friction.estimate(kEnd);
-    if (outcome == Outcome::impact) friction.add(tip.last_impact());
+  Segments ended;
+  while (tip.advance_arc(kEnd, &ended) != Outcome::time_limit) {
+    for (const Segment& segment : ended) friction.add(segment);
   }
+  return friction.estimate(kEnd, tip.segment());
 }
 
 TEST_P(FrictionAt, IsThatOfEveryBounceByItself) {

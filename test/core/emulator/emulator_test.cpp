@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/recorded_run.h"
+#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
@@ -12,7 +14,7 @@ namespace {
 EmulatorSettings settings_at(double eta, std::uint64_t samples_per_batch = 200) {
   EmulatorSettings settings;
   settings.eta = eta;
-  settings.model.v_c = 0.1 * eta;
+  settings.model.v_c = 0.1 * std::abs(eta);
   settings.initial = {0.25, 0.0, 0.2, eta, 0.0};
   settings.samples_per_batch = samples_per_batch;
   return settings;
@@ -212,6 +214,8 @@ TEST(Emulator, ADragCommandStartsTheFrictionAgain) {
   EXPECT_EQ(batch.friction.impact_count, bounces);
 }
 
+double lab_energy(const Emulator& emulator) { return stored_energy(emulator.settings().model, emulator.state()); }
+
 TEST(Emulator, TheFrictionIsThatOfItsImpacts) {
   Emulator emulator(settings_at(3.4, 10000));
   Batch batch;
@@ -223,6 +227,45 @@ TEST(Emulator, TheFrictionIsThatOfItsImpacts) {
   EXPECT_NEAR(batch.friction.energy_loss, energy, 1e-11 * energy);
   EXPECT_NEAR(batch.friction.K_f, energy / (3.4 * 3.4 * (batch.end - ModelTime{})), 1e-11);
   EXPECT_NEAR(batch.friction.K_f, 0.2533, 5.0 * batch.friction.K_f_std_error);  // of the attractor
+}
+
+// Eq. 1: the drag puts in what the impacts lose and what the tip stores.
+TEST(Emulator, TheMeanLateralForceIsThePowerOfTheDragOverItsVelocity) {
+  for (const double eta : {0.5, 2.0, 3.4, -5.0}) {
+    Emulator emulator(settings_at(eta, 777));
+    Batch batch;
+    emulator.run_batch(batch);
+    emulator.drag(1.001 * eta);
+    const ModelTime begin = emulator.now();
+    const double stored = lab_energy(emulator);
+    for (int i = 0; i < 20; ++i) emulator.run_batch(batch);
+    while (emulator.run_impacts(1, batch) != Outcome::impact) continue;
+    const double work = batch.friction.energy_loss + lab_energy(emulator) - stored;
+    const double force = work / (emulator.eta() * (emulator.now() - begin));
+    EXPECT_NEAR(batch.friction.lateral_force, force, 1e-12 * std::abs(eta) * std::abs(eta)) << eta;
+  }
+}
+
+// Of the chaotic tip at 3.4: the error is no smaller than the scatter, and little larger.
+TEST(Emulator, TheErrorOfTheMeanLateralForceIsThatOfRepeatedRuns) {
+  constexpr int kRuns = 60;
+  double mean = 0.0, square = 0.0, variance = 0.0;
+  for (int i = 0; i < kRuns; ++i) {
+    EmulatorSettings settings = settings_at(3.4, 330000);
+    settings.initial.X = 1e-3 * i;
+    Emulator emulator(settings);
+    emulator.take_samples(false);
+    Batch batch;
+    emulator.run_until({10000, 0.0}, batch);
+    while (emulator.now() < ModelTime{10000, 0.0}) emulator.run_until({10000, 0.0}, batch);
+    const FrictionEstimate& e = batch.friction;
+    mean += e.lateral_force / kRuns;
+    square += e.lateral_force * e.lateral_force / kRuns;
+    variance += e.lateral_force_std_error * e.lateral_force_std_error / kRuns;
+  }
+  const double told_over_found = std::sqrt(variance / (square - mean * mean));
+  EXPECT_GT(told_over_found, 0.9);
+  EXPECT_LT(told_over_found, 1.6);
 }
 
 }  // namespace

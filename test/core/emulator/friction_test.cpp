@@ -9,10 +9,11 @@
 namespace afm {
 namespace {
 
-Impact impact_at(double t, double energy, std::uint32_t count = 1) {
-  Impact impact;
-  impact.time = ModelTime{} + t;
-  impact.energy_loss = energy;
+Segment impact_at(double t, double energy, std::uint32_t count = 1) {
+  Segment impact;
+  impact.kind = SegmentKind::impact;
+  impact.begin = impact.end = ModelTime{} + t;
+  impact.loss = energy;
   impact.count = count;
   return impact;
 }
@@ -37,7 +38,7 @@ TEST(Friction, IsTheEnergyLostOverTheWayDragged) {
     sum += dE;
     friction.add(impact_at(t, dE));
   }
-  const FrictionEstimate e = friction.estimate(time_of(t + 0.5));
+  const FrictionEstimate e = friction.estimate(time_of(t + 0.5), Segment());
   const double power = static_cast<double>(sum / (static_cast<long double>(t) + 0.5L - 10.0L));
   EXPECT_NEAR(e.energy_loss, static_cast<double>(sum), 1e-15 * static_cast<double>(sum));
   EXPECT_NEAR(e.force, power / 2.5, 1e-12);
@@ -48,7 +49,7 @@ TEST(Friction, IsTheEnergyLostOverTheWayDragged) {
 TEST(Friction, HasTheSignOfTheDrag) {
   Friction friction = started(10.0, -2.0);
   for (int i = 0; i < 100; ++i) friction.add(impact_at(0.5 + i, 1.0));
-  const FrictionEstimate e = friction.estimate(time_of(100.0));
+  const FrictionEstimate e = friction.estimate(time_of(100.0), Segment());
   EXPECT_NEAR(e.force, -0.5, 1e-12);
   EXPECT_NEAR(e.window_force, -0.5, 1e-12);
   EXPECT_NEAR(e.K_f, 0.25, 1e-12);
@@ -58,7 +59,7 @@ TEST(Friction, HasTheSignOfTheDrag) {
 TEST(Friction, OfATipAtRestIsNoughtAndItsCoefficientUndefined) {
   Friction friction = started(10.0, 0.0);
   for (int i = 0; i < 100; ++i) friction.add(impact_at(0.5 + i, 1.0));
-  const FrictionEstimate e = friction.estimate(time_of(100.0));
+  const FrictionEstimate e = friction.estimate(time_of(100.0), Segment());
   EXPECT_EQ(e.force, 0.0);
   EXPECT_EQ(e.window_force, 0.0);
   EXPECT_EQ(e.force_std_error, 0.0);
@@ -70,7 +71,7 @@ TEST(Friction, OfATipAtRestIsNoughtAndItsCoefficientUndefined) {
 
 TEST(Friction, ATipThatTouchesNothingHasNone) {
   Friction friction = started(10.0, 1.0);
-  const FrictionEstimate e = friction.estimate(time_of(1e6));
+  const FrictionEstimate e = friction.estimate(time_of(1e6), Segment());
   EXPECT_EQ(e.force, 0.0);
   EXPECT_EQ(e.K_f, 0.0);
   EXPECT_EQ(e.K_f_std_error, 0.0);
@@ -79,9 +80,9 @@ TEST(Friction, ATipThatTouchesNothingHasNone) {
 
 TEST(Friction, SaysNothingBeforeThereIsAnythingToSay) {
   Friction friction = started(64.0, 1.0);
-  EXPECT_TRUE(std::isnan(friction.estimate(time_of(0.0)).K_f));
+  EXPECT_TRUE(std::isnan(friction.estimate(time_of(0.0), Segment()).K_f));
   friction.add(impact_at(0.5, 1.0));
-  const FrictionEstimate e = friction.estimate(time_of(1.5));
+  const FrictionEstimate e = friction.estimate(time_of(1.5), Segment());
   EXPECT_NEAR(e.K_f, 1.0 / 1.5, 1e-12);
   EXPECT_TRUE(std::isnan(e.K_f_std_error));
   EXPECT_TRUE(std::isnan(e.window_K_f));
@@ -91,19 +92,19 @@ TEST(Friction, ABurstCountsItsBounces) {
   Friction friction = started(10.0, 1.0);
   friction.add(impact_at(1.0, 0.5));
   friction.add(impact_at(2.0, 0.25, 1000));
-  EXPECT_EQ(friction.estimate(time_of(3.0)).impact_count, 1001u);
+  EXPECT_EQ(friction.estimate(time_of(3.0), Segment()).impact_count, 1001u);
 }
 
 TEST(Friction, TheWindowForgets) {
   Friction friction = started(32.0, 1.0);
   for (int i = 0; i < 1000; ++i) friction.add(impact_at(i + 0.5, i < 500 ? 3.0 : 1.0));
-  const FrictionEstimate e = friction.estimate(time_of(1000.0));
+  const FrictionEstimate e = friction.estimate(time_of(1000.0), Segment());
   EXPECT_NEAR(e.K_f, 2.0, 1e-12);
   EXPECT_NEAR(e.window_K_f, 1.0, 1e-12);
   EXPECT_NEAR(e.window_K_f_std_error, 0.0, 1e-12);
   // a long silence empties it, whatever the ring held
-  EXPECT_NEAR(friction.estimate(time_of(1040.0)).window_K_f, 0.0, 1e-12);
-  EXPECT_NEAR(friction.estimate(time_of(1e7)).window_K_f, 0.0, 1e-12);
+  EXPECT_NEAR(friction.estimate(time_of(1040.0), Segment()).window_K_f, 0.0, 1e-12);
+  EXPECT_NEAR(friction.estimate(time_of(1e7), Segment()).window_K_f, 0.0, 1e-12);
 }
 
 TEST(Friction, TheWindowHoldsItsWindow) {
@@ -112,7 +113,7 @@ TEST(Friction, TheWindowHoldsItsWindow) {
   for (int i = 0; i < 200; ++i) {
     friction.add(impact_at(i + 0.5, i));
     if (i < 32) continue;
-    ASSERT_NEAR(friction.estimate(time_of(i + 1.0)).window_K_f, i - 15.5, 1e-9) << i;
+    ASSERT_NEAR(friction.estimate(time_of(i + 1.0), Segment()).window_K_f, i - 15.5, 1e-9) << i;
   }
 }
 
@@ -120,11 +121,11 @@ TEST(Friction, ANewDragVelocityStartsAgain) {
   Friction friction = started(10.0, 1.0);
   for (int i = 0; i < 300; ++i) friction.add(impact_at(i + 0.5, 5.0));
   friction.restart(time_of(300.0), 2.0);
-  EXPECT_EQ(friction.estimate(time_of(300.0)).energy_loss, 0.0);
-  EXPECT_EQ(friction.estimate(time_of(300.0)).impact_count, 0u);
-  EXPECT_TRUE(std::isnan(friction.estimate(time_of(300.0)).K_f));
+  EXPECT_EQ(friction.estimate(time_of(300.0), Segment()).energy_loss, 0.0);
+  EXPECT_EQ(friction.estimate(time_of(300.0), Segment()).impact_count, 0u);
+  EXPECT_TRUE(std::isnan(friction.estimate(time_of(300.0), Segment()).K_f));
   for (int i = 300; i < 400; ++i) friction.add(impact_at(i + 0.5, 4.0));
-  const FrictionEstimate e = friction.estimate(time_of(400.0));
+  const FrictionEstimate e = friction.estimate(time_of(400.0), Segment());
   EXPECT_NEAR(e.K_f, 1.0, 1e-12);
   EXPECT_NEAR(e.window_K_f, 1.0, 1e-12);
 }
@@ -145,7 +146,7 @@ Measured correlated_run(unsigned seed, int length, double mean) {
     squares += x * x;
     friction.add(impact_at(i + 0.5, mean + x));
   }
-  const FrictionEstimate e = friction.estimate(time_of(length));
+  const FrictionEstimate e = friction.estimate(time_of(length), Segment());
   return {e.K_f, e.K_f_std_error, std::sqrt(squares) / length};
 }
 

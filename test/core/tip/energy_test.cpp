@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "trials/energy_ledger.h"
+#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {

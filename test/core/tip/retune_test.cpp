@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "trials/energy_ledger.h"
+#include "trials/energy_balance.h"
 #include "trials/random_launches.h"
 
 namespace afm {
@@ -89,25 +89,25 @@ TEST_P(RetuneEnergy, IsConserved) {
   Model model;
   model.v_c = GetParam().v_c;
   Tip tip(model, GetParam().eta, start_at(GetParam().eta));
-  EnergyLedger ledger(model, tip);
+  EnergyBalance balance(tip);
   int bursts = 0, contacts = 0;
   for (int changes = 0; changes < 3000; ++changes) {
     const ModelTime next = tip.now() + random.within(0.0, 1.0);
-    while (tip.now() < next) ASSERT_NE(ledger.advance_arc(tip, next), Outcome::search_failed);
-    bursts += ledger.bursting();
+    while (tip.now() < next) ASSERT_NE(balance.advance_arc(tip, next), Outcome::search_failed);
+    bursts += tip.in_burst();
     contacts += tip.in_contact();
     const FreeState before = tip.state();
     const bool free = tip.tip_state().g > 0.0;
-    ledger.retune(tip, random_model(random, GetParam().v_c));
+    const Model changed = random_model(random, GetParam().v_c);
+    balance.command(tip, [&] { tip.retune(changed); });
     // in a burst the tip is where its bounces are, not on its guide: beside it by less than the contact tolerance
     const double near = free || tip.in_contact() ? 1e-14 : 1e-5;
     ASSERT_NEAR(tip.state().y, before.y, near);
     ASSERT_NEAR(tip.state().X, before.X, near);
     ASSERT_NEAR(tip.state().u, before.u, 1e-2 * near * 1e5 * (std::abs(before.u) + 1.0));
-    ledger.advance_arc(tip, tip.now());  // a burst is booked when it has ended
-    ASSERT_LT(std::abs(ledger.imbalance(tip)), 1e-12 * ledger.turnover(tip)) << changes;
+    ASSERT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << changes;
   }
-  EXPECT_GT(ledger.lost(), 0.0);
+  EXPECT_GT(balance.lost(), 0.0);
   if (GetParam().v_c < 0.1) {
     EXPECT_GT(bursts + contacts, 20);
   }

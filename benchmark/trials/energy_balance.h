@@ -1,0 +1,76 @@
+// The energy balance of a tip, from the records of its segments (afm/segment.h): the drag works only through the holder,
+// so what is lost is what it put in, less what is stored.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm/reflection.h"
+#include "afm/surface.h"
+#include "afm/tip.h"
+
+namespace afm {
+
+// In the springs and in motion over the ground [m a^2/tau^2].
+inline double stored_energy(const Model& m, const FreeState& s) {
+  const double omega_h = kTwoPi * m.frequency_ratio, Y = s.y - m.y0;
+  return 0.5 * (s.u * s.u + s.w * s.w + omega_h * omega_h * s.X * s.X + kTwoPi * kTwoPi * Y * Y);
+}
+
+// Horizontal velocity before an impact.
+inline double incident_u(const Model& m, const Impact& impact) {
+  const double slope = surface_jet(m.H, impact.surface_phase).h1;
+  return (impact.tangential_velocity + slope * impact.normal_speed) / std::sqrt(1.0 + slope * slope);
+}
+
+class EnergyBalance {
+ public:
+  explicit EnergyBalance(const Tip& tip) : stored_(tip.stored_energy()) {}
+
+  // Tip::advance_arc, its segments added.
+  Outcome advance_arc(Tip& tip, const ModelTime& limit) {
+    Segments ended;
+    const Outcome outcome = tip.advance_arc(limit, &ended);
+    for (const Segment& segment : ended) add(segment);
+    return outcome;
+  }
+
+  // Such as tip.drag(eta): it ends a segment unless it changes nothing, and may change the energy by itself.
+  template <class Command>
+  void command(const Tip& tip, const Command& act) {
+    const Segment before = tip.segment();
+    act();
+    if (!(tip.segment().begin == tip.now())) return;
+    add(before);
+    stored_ = tip.stored_energy();
+  }
+
+  // Energy from nothing: in the sum of all segments, or between it and the state of the tip. A hammer's holder changes the
+  // state where it takes up a new velocity.
+  double imbalance(const Tip& tip) const {
+    const double sum = std::abs(static_cast<double>(imbalance_));
+    if (tip.model().kind == ModelKind::hammer) return sum;
+    const double now = tip.stored_energy(), by_records = stored_ + tip.segment().stored;
+    // in a chatter sequence the state is that of the reference slide, without the bounces
+    const double of_state = tip.in_burst() ? now : afm::stored_energy(tip.model(), tip.state());
+    return std::max({sum, std::abs(by_records - now), std::abs(of_state - now)});
+  }
+  // What it is to be compared with: all that has been turned over.
+  double turnover(const Tip& tip) const {
+    return static_cast<double>(gross_) + tip.stored_energy() + std::abs(stored_);
+  }
+  double lost() const { return static_cast<double>(lost_); }
+
+ private:
+  void add(const Segment& segment) {
+    lost_ += segment.loss;
+    gross_ += std::abs(segment.loss) + std::abs(segment.work());
+    imbalance_ += segment.imbalance();
+    stored_ += segment.stored;
+  }
+
+  double stored_;  // by the records
+  long double lost_ = 0.0L, gross_ = 0.0L, imbalance_ = 0.0L;
+};
+
+}  // namespace afm

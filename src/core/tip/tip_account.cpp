@@ -1,0 +1,143 @@
+// The energy account of the tip. Nothing of it is computed unless someone asks.
+#include "afm/surface.h"
+#include "afm/tip.h"
+#include "tip_arcs.h"
+
+namespace afm {
+namespace {
+
+double energy_of(const Mechanics<double>& m, double eta, const FlightState<double>& q) {
+  const double u = q.U + eta, spring_h = m.omega_h * q.X, spring_v = m.omega_v * q.Y;
+  return 0.5 * (u * u + q.W * q.W + spring_h * spring_h + spring_v * spring_v);
+}
+
+// The holder of a held tip balances what the surface pushes along x. Its work is the change of energy; at rest the force
+// is constant.
+double held_impulse(const SlidePiece<double>& slide, double s, double work) {
+  if (slide.eta() != 0.0) return work / slide.eta();
+  return surface_jet(slide.mechanics().H, slide.start().phase).h1 * slide.pressure(0.0) * s;
+}
+
+}  // namespace
+
+double Tip::slide_impulse(double s) const {
+  if (mechanics_.mobility == 0.0) {
+    return held_impulse(slide_, s,
+                        slide_energy(mechanics_, slide_at(slide_, s)) - slide_energy(mechanics_, slide_.start()));
+  }
+  return -mechanics_.omega_h * mechanics_.omega_h * stretch_integral(slide_, s);
+}
+
+// The end of a piece of the reference slide in a chatter sequence. `gain` is what the sequence loses beyond the fall of
+// v^2/2: the work of the drag, less what the tip stores off the guide.
+Tip::ChatterRide Tip::ride(double s, const Chatter& chatter) const {
+  const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
+  const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;
+  const bool held = mechanics_.mobility == 0.0;
+  const double before = slide_energy(mechanics_, held ? guide : slide_.start());
+  const double after = slide_energy(mechanics_, moved);
+  ChatterRide r{moved, burst_gain_, burst_impulse_ + slide_impulse(s), after + 0.5 * chatter.v * chatter.v};
+  if (!held) r.gain += force * stretch_integral(slide_, s);
+  r.gain += work - (after - before) + chatter.lift;
+  r.impulse +=
+      held ? held_impulse(slide_, 0.0, chatter.lift) : -mechanics_.omega_h * mechanics_.omega_h * chatter.drift;
+  return r;
+}
+
+Account Tip::account_at_begin() const {
+  if (is_split_) return split_;
+  if (mode_ == Mode::bursting) return {burst_begin_, 0.0, 0.0, burst_energy_, 0};
+  if (mode_ == Mode::sliding) return {start_, 0.0, 0.0, slide_energy(mechanics_, slide_.start()), 0};
+  return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flight_.start().state), 0};
+}
+
+// At a time s of the arc; of a chatter sequence `chatter` is its state there.
+Account Tip::account_at(double s, const Chatter& chatter) const {
+  if (mode_ == Mode::bursting) {
+    const ChatterRide r = ride(s, chatter);
+    return {now_, r.impulse, burst_loss(chatter.v, r.gain), r.energy, static_cast<std::uint64_t>(chatter.n)};
+  }
+  if (mode_ == Mode::sliding) {
+    return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, slide_at(slide_, s)), 0};
+  }
+  return flight_account(flight_state(flight_, s));
+}
+
+// In a flight the impulse is the change of the lateral velocity.
+Account Tip::flight_account(const FlightState<double>& q) const {
+  return {now_, q.U - flight_.start().state.U, 0.0, energy_of(mechanics_, eta_, q), 0};
+}
+
+Account Tip::account() const {
+  if (mode_ == Mode::touching) return account_at_begin();
+  return account_at(now_ - start_, mode_ == Mode::bursting ? chatter_now() : Chatter{});
+}
+
+Segment Tip::segment_to(const Account& end) const {
+  const Account begin = account_at_begin();
+  Segment s;
+  s.kind = mode_ == Mode::bursting  ? SegmentKind::chatter
+           : mode_ == Mode::sliding ? SegmentKind::contact
+                                    : SegmentKind::flight;
+  s.begin = begin.time;
+  s.end = end.time;
+  s.eta = eta_;
+  s.impulse = end.impulse - begin.impulse;
+  s.loss = end.loss - begin.loss;
+  s.stored = end.energy - begin.energy;
+  s.count = end.count - begin.count;
+  return s;
+}
+
+Segment Tip::segment() const { return segment_to(account()); }
+
+// A command that leaves the tip on the surface ends a segment within the arc.
+void Tip::split_account() {
+  is_split_ = false;
+  split_ = account();
+  is_split_ = true;
+}
+
+// The end of the arc, to the last digit: chatter that has died has no normal speed left.
+Account Tip::account_at_end() const {
+  if (mode_ == Mode::touching) return account_at_begin();
+  if (mode_ == Mode::sliding) return account_at(slide_end_, {});
+  if (mode_ == Mode::flying) {
+    const bool lands = landing_.outcome == SearchOutcome::impact;
+    return lands ? flight_account(landing_.jet.state) : account_at(landing_.s, {});
+  }
+  Chatter chatter = chatter_run_.chatter;
+  if (chatter_run_.end == ChatterEnd::died) chatter.v = 0.0;
+  Account end = account_at(chatter_run_.s, chatter);
+  if (chatter_run_.end != ChatterEnd::time) end.count = whole_count(chatter.n);
+  return end;
+}
+
+// The flight that begins with it is in the tip, also where the tip does not fly it.
+Segment Tip::impact_segment(double energy_before) const {
+  const GapJet<double>& after = flight_.start();
+  Segment s;
+  s.kind = SegmentKind::impact;
+  s.begin = s.end = now_;
+  s.eta = eta_;
+  // the holder of a held tip takes what the surface gives along x
+  if (mechanics_.mobility == 0.0) s.impulse = landing_.jet.h1 * (after.g1 - landing_.jet.g1);
+  s.loss = last_impact_.energy_loss;
+  s.stored = energy_of(mechanics_, eta_, after.state) - energy_before;
+  s.count = last_impact_.count;
+  return s;
+}
+
+// A piece of the reference slide that is followed by another is no segment yet.
+Outcome Tip::end_arc(Segments& ended) {
+  const Account end = account_at_end();
+  const Segment arc = segment_to(end);
+  const Outcome outcome = end_arc();
+  const bool goes_on = arc.kind == SegmentKind::chatter && outcome == Outcome::flying;
+  if (!goes_on) ended.add(arc);
+  const bool bounced = outcome == Outcome::impact && last_impact_.kind == ImpactKind::impact;
+  if (bounced) ended.add(impact_segment(end.energy));
+  return outcome;
+}
+
+}  // namespace afm

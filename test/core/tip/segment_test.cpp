@@ -1,0 +1,168 @@
+// The records of segments: each is in balance, they follow on, and their sums are what the events say.
+#include "afm/segment.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "afm/tip.h"
+#include "trials/random_launches.h"
+
+namespace afm {
+namespace {
+
+struct Run {
+  ModelKind kind;
+  double eta, v_c;
+  bool chatters() const { return v_c < 0.02 || (kind == ModelKind::hammer && std::abs(eta) < 1.0); }
+};
+
+class SegmentsOf : public testing::TestWithParam<Run> {
+ protected:
+  static Tip tip() {
+    Model model;
+    model.kind = GetParam().kind;
+    model.v_c = GetParam().v_c;
+    return {model, GetParam().eta, FreeState{0.25, 0.0, 0.2, GetParam().eta, 0.0}};
+  }
+};
+
+double scale_of(const Tip& tip) { return tip.stored_energy() + 0.5 * tip.eta() * tip.eta() + 1.0; }
+
+TEST_P(SegmentsOf, EachIsInBalanceAndFollowsTheOneBefore) {
+  Tip tip = SegmentsOf::tip();
+  Segments ended;
+  ModelTime last = tip.now();
+  int kinds[4] = {};
+  for (int arcs = 0; arcs < 30000; ++arcs) {
+    const Outcome outcome = tip.advance_arc({1000000, 0.0}, &ended);
+    ASSERT_NE(outcome, Outcome::search_failed);
+    for (const Segment& s : ended) {
+      ASSERT_EQ(s.begin, last) << arcs;
+      last = s.end;
+      ASSERT_LE(std::abs(s.imbalance()), 3e-14 * scale_of(tip)) << arcs;
+      ASSERT_EQ(s.eta, GetParam().eta);
+      ++kinds[static_cast<int>(s.kind)];
+    }
+  }
+  EXPECT_GT(kinds[0], 1000);
+  EXPECT_GT(kinds[1], 1000);
+  if (GetParam().chatters()) {
+    EXPECT_GT(kinds[2], 10);
+    EXPECT_GT(kinds[3], 10);
+  }
+}
+
+TEST_P(SegmentsOf, LimitsChangeNoRecord) {
+  Tip whole = tip(), halting = tip();
+  RandomLaunches random(2);
+  Segments a, b;
+  for (int arcs = 0; arcs < 3000; ++arcs) {
+    whole.advance_arc({1000000, 0.0}, &a);
+    while (halting.advance_arc(halting.now() + random.within(0.0, 0.5), &b) == Outcome::time_limit) {
+      ASSERT_EQ(b.begin(), b.end());
+    }
+    ASSERT_EQ(a.end() - a.begin(), b.end() - b.begin());
+    for (const Segment *s = a.begin(), *t = b.begin(); s != a.end(); ++s, ++t) {
+      ASSERT_EQ(s->impulse, t->impulse);
+      ASSERT_EQ(s->loss, t->loss);
+      ASSERT_EQ(s->stored, t->stored);
+      ASSERT_EQ(s->end, t->end);
+    }
+  }
+}
+
+// Also where commands split chatter sequences: nothing is lost or counted twice.
+TEST_P(SegmentsOf, LossesAndCountsAddUpToThoseOfTheEventsWhateverTheCommands) {
+  Tip tip = SegmentsOf::tip();
+  RandomLaunches random(3);
+  Segments ended;
+  long double events = 0.0L, segments = 0.0L;
+  std::uint64_t impacts = 0, counted = 0;
+  int split = 0;
+  const auto add = [&](const Segment& s) {
+    segments += s.loss;
+    counted += s.count;
+    EXPECT_LE(std::abs(s.imbalance()), 3e-14 * scale_of(tip));
+  };
+  for (int commands = 0; commands < 10000; ++commands) {
+    const ModelTime next = tip.now() + random.within(0.0, 0.5);
+    for (Outcome o = Outcome::flying; o != Outcome::time_limit;) {
+      o = tip.advance_arc(next, &ended);
+      for (const Segment& s : ended) add(s);
+      if (o != Outcome::impact) continue;
+      events += tip.last_impact().energy_loss;
+      impacts += tip.last_impact().count;
+    }
+    const Segment open = tip.segment();
+    split += open.kind == SegmentKind::chatter;
+    add(open);
+    tip.drag(GetParam().eta * random.within(0.99, 1.01));
+    ASSERT_EQ(tip.segment().loss, 0.0);
+    ASSERT_EQ(tip.segment().count, 0u);
+  }
+  while (tip.in_burst()) {  // the last event is still open
+    const Outcome o = tip.advance_arc({1000000, 0.0}, &ended);
+    for (const Segment& s : ended) add(s);
+    if (o != Outcome::impact) continue;
+    events += tip.last_impact().energy_loss;
+    impacts += tip.last_impact().count;
+  }
+  EXPECT_NEAR(static_cast<double>(segments), static_cast<double>(events), 1e-12 * static_cast<double>(events));
+  EXPECT_EQ(counted, impacts);
+  if (GetParam().chatters()) {
+    EXPECT_GT(split, 10);
+  }
+}
+
+// The force of the spring, by quadrature of the deflection.
+class OscillatorSegments : public SegmentsOf {};
+
+TEST_P(OscillatorSegments, TheImpulseIsTheTimeIntegralOfTheLateralForce) {
+  Tip tip = SegmentsOf::tip();
+  Segments ended;
+  const double omega_h = kTwoPi * tip.model().frequency_ratio;
+  for (int arcs = 0; arcs < 3000; ++arcs) {
+    const ModelTime begin = tip.now();
+    const double duration = tip.arc_end() - begin;
+    const auto X = [&](double s) { return tip.deflection(begin + s).lateral; };
+    const double integral = boost::math::quadrature::gauss<double, 30>::integrate(X, 0.0, duration);
+    tip.advance_arc({1000000, 0.0}, &ended);
+    if (ended.begin() == ended.end() || duration > 1.0) continue;
+    const Segment& s = *ended.begin();
+    if (s.kind != SegmentKind::flight && s.kind != SegmentKind::contact) continue;
+    ASSERT_NEAR(s.impulse, -omega_h * omega_h * integral, 1e-9 * scale_of(tip)) << arcs;
+  }
+}
+
+constexpr Run kOscillators[] = {{ModelKind::oscillator, 3.4, 0.34},
+                                {ModelKind::oscillator, -2.0, 0.02},
+                                {ModelKind::oscillator, 0.5, 0.01},
+                                {ModelKind::oscillator, 3.0, 0.01}};
+constexpr Run kHammers[] = {{ModelKind::hammer, 3.4, 0.1}, {ModelKind::hammer, -0.3, 0.02}};
+INSTANTIATE_TEST_SUITE_P(Oscillator, SegmentsOf, testing::ValuesIn(kOscillators));
+INSTANTIATE_TEST_SUITE_P(Hammer, SegmentsOf, testing::ValuesIn(kHammers));
+INSTANTIATE_TEST_SUITE_P(Runs, OscillatorSegments, testing::ValuesIn(kOscillators));
+
+// A tip that rests on a slope: its holder holds it, and nothing works.
+TEST(Segment, AtRestTheHolderHoldsWithoutWork) {
+  Model model;
+  model.kind = ModelKind::hammer;
+  Tip tip(model, 0.0, FreeState{0.1, 0.0, 0.09, 0.0, 0.0});
+  while (tip.now() < ModelTime{500, 0.0}) tip.advance({500, 0.0});
+  ASSERT_TRUE(tip.in_contact());
+  const SurfaceJet<double> surface = surface_jet(model.H, tip.state().phase);
+  const double force = surface.h1 * kTwoPi * kTwoPi * (surface.h - model.y0);
+  Segments ended;
+  for (int arcs = 0; arcs < 10; ++arcs) {
+    tip.advance_arc({1000000, 0.0}, &ended);
+    for (const Segment& s : ended) {
+      EXPECT_EQ(s.work(), 0.0);
+      EXPECT_NEAR(s.impulse, force * (s.end - s.begin), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace afm
