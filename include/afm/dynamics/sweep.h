@@ -1,4 +1,6 @@
-// One point of a friction curve: the attractor that a start leads to, and the friction on it. Natural units.
+// A sweep takes a parameter over a range, point by point. This is one point of it: the attractor that a start leads to, and
+// the friction on it. Natural units. src/sweep/ makes curves of such points; the scene `sweep` takes the drag velocity of a
+// running emulator over a range.
 #pragma once
 
 #include <cstdint>
