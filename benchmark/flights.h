@@ -1,4 +1,4 @@
-// Flights to compare methods on: starts that lie on the attractor, each with its truth in 113 bits.
+// Flights to compare methods on: starts that lie on the attractor, each with its truth in quad precision.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The next impact in 113 bits: what every method's answer is set against.
+// The next impact in quad precision: what every method's answer is set against.
 #pragma once
 
 #include "afm/model.h"

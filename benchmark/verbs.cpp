@@ -27,7 +27,7 @@ struct Chain {
     while (tip.now().tau < 300) tip.advance({300, 0.0});
     while (tip.advance(kNever) != Outcome::impact) continue;
     for (int i = 0; i < kStates; ++i) {
-      flights.emplace_back(mechanics, eta, tip.tip_state(), BoundLater{});
+      flights.emplace_back(mechanics, eta, tip.tip_state());
       const Landing<double> landing = find_landing(model, flights.back(), 8.0);
       times.push_back(0.9 * landing.s);
       incidents.push_back(landing.jet);
@@ -100,23 +100,6 @@ void Bounce(benchmark::State& state) {
   }
 }
 BENCHMARK(Bounce)->Arg(50)->Arg(150)->Arg(200)->Arg(250)->Arg(340)->Arg(450)->Arg(600)->Arg(800);
-
-// The same of many tips at once, an impact of one of them: eta and how many lanes (1: one tip after another).
-void EnsembleBounce(benchmark::State& state) {
-  const double eta = eta_of(state);
-  const LaneUse use = state.range(1) == 1 ? LaneUse::none : state.range(1) == 4 ? LaneUse::four : LaneUse::widest;
-  constexpr int kTips = 256, kEvents = 50;
-  Model model;
-  model.v_c = 0.1 * eta;
-  Ensemble ensemble(1, use);
-  for (int i = 0; i < kTips; ++i) ensemble.add(Tip(model, eta, FreeState{0.25, 4e-4 * i, 0.2, eta, 0.0}, 0.0));
-  if (ensemble.lanes() != state.range(1)) return state.SkipWithError("this machine has not so many lanes");
-  ensemble.advance(1000, kNever);
-  for (auto _ : state) ensemble.advance(kEvents, kNever);
-  state.counters["per_impact"] = benchmark::Counter(
-      1.0 * kTips * kEvents, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-BENCHMARK(EnsembleBounce)->ArgsProduct({{50, 150, 200, 250, 300, 340, 450, 600, 800}, {1, 4, 8}});
 
 // Bounces of a speed that falls from 0.01 a/tau, one by one.
 void MicroBounce(benchmark::State& state) {

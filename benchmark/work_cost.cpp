@@ -88,25 +88,6 @@ void against_tips(const Options& o) {
   std::fprintf(stderr, "one tip is %zu bytes\n", sizeof(afm::Tip));
 }
 
-// All tips a few impacts on, together.
-void against_tips_in_lanes(const Options& o) {
-  const double before = resident_bytes();
-  afm::Ensemble tips;
-  for (long n = 1; n <= o.most_tips; n *= 10) {
-    tips.reserve(static_cast<std::size_t>(n));
-    while (static_cast<long>(tips.size()) < n) tips.add(tip_number(static_cast<long>(tips.size()), o.eta));
-    std::vector<double> seconds;
-    for (int round = 0; round < o.rounds; ++round) {
-      const double start = afm::thread_seconds();
-      tips.advance(static_cast<std::uint32_t>(o.impacts_a_tip), {std::int64_t{1} << 60, 0.0});
-      seconds.push_back(afm::thread_seconds() - start);
-    }
-    const double impacts = static_cast<double>(n) * static_cast<double>(o.impacts_a_tip);
-    print("tips_in_lanes", n, median(seconds), 1e9 * median(seconds) / impacts, resident_bytes() - before);
-  }
-  std::fprintf(stderr, "%d lanes\n", tips.lanes());
-}
-
 // The same work for each thread: wall time, which more threads than free cores must stretch, and processor time.
 void against_threads(const Options& o) {
   for (int threads = 1; threads <= o.most_threads; ++threads) {
@@ -150,7 +131,6 @@ int main(int argc, char** argv) {
     std::printf("axis,n,seconds,ns_per_impact,resident_bytes\n");
     against_impacts(o);
     against_tips(o);
-    against_tips_in_lanes(o);
     against_threads(o);
     return 0;
   });

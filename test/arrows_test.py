@@ -18,10 +18,7 @@ ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': set
            'trials': {'core', 'dynamics'}, 'benchmark': {'common', 'core', 'dynamics', 'trials'},
            'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'view', 'trials'}}
 # where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
-DOORS = {('src/core/contact/chatter_rates.cpp', 'src/core/lanes/node_step.h'),
-         ('src/core/emulator/ensemble.cpp', 'src/core/lanes/lane_tip.h'),
-         ('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h'),
-         ('src/core/tip/tip_arcs.cpp', 'src/core/lanes/slide_orders.h')}
+DOORS = {('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h')}
 SEARCHED = ('include', 'src', 'test', 'benchmark')  # after the folder of the file itself
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 

@@ -10,7 +10,7 @@ namespace rivals {
 namespace {
 
 AFM_MULTIVERSION void launch(const Model& model, double eta, const TipState& start, Flight<double>& flight) {
-  flight = Flight<double>(Mechanics<double>(model), eta, start, BoundLater{});
+  flight = Flight<double>(Mechanics<double>(model), eta, start);
 }
 AFM_MULTIVERSION Hit bounce(const Model& model, double eta, const Landing<double>& landing) {
   const Reflection r = reflect(model, eta, landing.jet);

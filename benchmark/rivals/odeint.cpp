@@ -62,7 +62,7 @@ class Odeint : public Method {
 
 MethodSpec dopri5_spec() {
   return {"odeint_dopri5", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
-            // near the step that it will settle at
+            // near the step that it will project_onto_surface at
             return std::make_unique<Odeint<Dopri5>>(tolerance, 0.1 * std::pow(tolerance, 0.2));
           }};
 }

@@ -72,7 +72,7 @@ class BurstTrials {
       if (impact.kind != ImpactKind::impact || guide.g != 0.0 || guide.g1 != 0.0) continue;
       const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
       if (!(after > 0.0)) continue;
-      return unsettle(model_, {guide.phase, guide.X, guide.u}, after);
+      return leave_surface(model_, {guide.phase, guide.X, guide.u}, after);
     }
   }
 

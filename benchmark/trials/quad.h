@@ -1,4 +1,4 @@
-// The core's templates in 113 bits: the truth that tests compare with.
+// The core's templates in quad precision: the truth that tests compare with.
 #pragma once
 
 #include <boost/multiprecision/float128.hpp>

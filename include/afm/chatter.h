@@ -1,5 +1,5 @@
 // Chatter under a surface that presses, without its bounces one by one: the tip rides on the slide it would make if it
-// did not bounce (the guide), and beside it run the averages of chatter_rates.h, whose values at whole n are those of
+// did not bounce (the reference slide), and beside it run the averages of chatter_rates.h, whose values at whole n are those of
 // the bounces.
 #pragma once
 
@@ -31,13 +31,13 @@ class ChatterLaw {
   ChatterLaw(const Model& model, double threshold);
 
   // Can a burst begin with the bounce that begins this flight? The bounces must be short against every change; those
-  // that lose too much each for the series of the interpolation are made one by one along the guide.
+  // that lose too much each for the series of the interpolation are made one by one along the reference slide.
   bool holds(const Flight<double>& bounce) const;
 
-  // From one time of the guide to another, `until`, or to the end of the chatter.
+  // From one time of the reference slide to another, `until`, or to the end of the chatter.
   ChatterRun run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const;
 
-  // From the start of the guide to a time before that end.
+  // From the start of the reference slide to a time before that end.
   Chatter at(const SlidePiece<double>& guide, double s, const Chatter& start) const;
 
   // Whether bounces at v lose too large a part of it for the averages, and are made one by one.
@@ -47,16 +47,16 @@ class ChatterLaw {
 
  private:
   bool steep(double v) const;
-  double strain(const ChatterSurroundings& at, double v, bool within) const;
+  double adiabaticity(const ChatterSurroundings& at, double v, bool within) const;
   double step_length(const ChatterPlace& at) const;
   double step_towards_end(const ChatterPlace& at, double dt) const;
-  double bearable_time(const ChatterPlace& at, double strained) const;
+  double time_until_limit(const ChatterPlace& at, double ratio) const;
   ChatterRun descend(const SlidePiece<double>& guide, double from, double until, const Chatter& start,
                      bool exits) const;
   ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
   ChatterRun exit_at(double n, const ChatterPlace& at) const;
   ChatterRun whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
-                          double last_strain) const;
+                          double last_ratio) const;
 
   // Where bounces above the cutoff lose less than this part of v there are too many to be made one by one.
   static constexpr double kLeastDescent = 0.05;
@@ -68,12 +68,12 @@ class ChatterLaw {
 };
 
 // The tip at a bounce with its normal velocity taken out, and put back: tangential velocity kept.
-struct Settled {
+struct Projection {
   SlideState<double> guide;
   double normal_speed;         // |n.v| of the gap rate taken out [a/tau]
   double tangential_velocity;  // [a/tau]
 };
-Settled settle(const Model& model, const TipState& state);
-TipState unsettle(const Model& model, const SlideState<double>& guide, double normal_speed);
+Projection project_onto_surface(const Model& model, const TipState& state);
+TipState leave_surface(const Model& model, const SlideState<double>& guide, double normal_speed);
 
 }  // namespace afm

@@ -19,12 +19,8 @@ class SlidePiece {
  public:
   // At length() the last terms are at most about three times 2^-bits: at 48 the velocity is good to 1e-14 up to there.
   SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
-      : SlidePiece(mechanics, eta, start, bits, write_slide_orders<T>) {}
-
-  template <class Write>
-  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits, const Write& write)
       : m_(mechanics), eta_(eta), start_(start) {
-    write(slide_beginning(mechanics, eta, start), series_.d.data(), series_.u.data(), series_.lambda.data());
+    write_slide_series(mechanics, eta, start, series_);
     length_ = choose_length(bits);
   }
 

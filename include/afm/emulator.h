@@ -68,7 +68,7 @@ class Emulator {
   // the friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
   // Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
-  // Another level of the model from now() on; Tip::relevel() says how the tip gets there. The friction estimate begins
+  // Another level of the model from now() on; Tip::set_model() says how the tip gets there. The friction estimate begins
   // anew. Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: has_sound_tolerance().
   double set_level(const Level& level);
   // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.

@@ -9,9 +9,9 @@
 #include "afm/detail/flight_bounds.h"
 #include "afm/detail/mechanics.h"
 #include "afm/detail/select.h"
+#include "afm/detail/turns.h"
 #include "state.h"
 #include "surface.h"
-#include "afm/detail/turns.h"
 
 namespace afm {
 
@@ -23,37 +23,13 @@ struct GapJet {
   T h, h1;
 };
 
-// What a flight begins with: of a number whatever its digits in double, of a pack of lanes its own.
-template <class T>
-struct LaunchOf {
-  using State = TipState;
-};
-
-// So many times slower than it may become, a tip is nowhere near the bounds of its whole flight.
-constexpr double kMuchSlower = 4.0;
-// No more accelerated than that, a tip creeps about one place [a/tau^2].
-constexpr double kCreeping = 1e-6;
-
-struct BoundLater {};
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
 template <class T>
 class Flight {
  public:
-  using Launch = typename LaunchOf<T>::State;
-
-  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start)
-      : Flight(mechanics, eta, start, BoundLater{}) {
-    afm::bound_derivatives(m_, eta_, bounds_);
-  }
-  // Without the bounds of the third and fourth derivative, which brief bounces do not ask for: infinite until they are
-  // bounded.
-  Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, BoundLater);
-  // The same under other bounds.
-  Flight(const Flight& flight, const FlightBounds<T>& bounds) : Flight(flight) { bounds_ = bounds; }
+  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start);
   // One that has been launched before: `launch()` is not asked for.
   Flight(const Mechanics<T>& mechanics, const T& eta, const GapJet<T>& start, const FlightBounds<T>& bounds)
-      : m_(mechanics), eta_(eta), launch_(), start_(start), bounds_(bounds) {}
+      : m_(mechanics), eta_(eta), launch_{0.0, 0.0, 0.0, 0.0, 0.0}, start_(start), bounds_(bounds) {}
 
   // Within a few ulp of the larger terms; for small turns, within a few ulp of the change since the start.
   GapJet<T> gap(const T& s) const;
@@ -64,7 +40,7 @@ class Flight {
   // Bound of the rounding error of gap(s).g.
   T gap_error(const T& s) const;
 
-  const Launch& launch() const { return launch_; }  // the state it began with, as given
+  const TipState& launch() const { return launch_; }  // the state it began with, as given
   const GapJet<T>& start() const { return start_; }
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
@@ -73,69 +49,24 @@ class Flight {
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
   // In a time so long every turn is at most 1/8, or 2^-10.
-  Truth<T> is_small(const T& s) const { return s * bounds_.fastest <= T(kSmallTurn); }
-  Truth<T> is_tiny(const T& s) const { return s * bounds_.fastest <= T(kTinyTurn); }
+  auto is_small(const T& s) const { return s * bounds_.fastest <= T(kSmallTurn); }
 
-  // The gap at a time that is small.
-  GapJet<T> gap_soon(const T& s) const {
-    return either(
-        is_tiny(s), [&] { return moved_by_tiny_turns(start_, s); }, [&] { return gap_by_small_turns(s); });
-  }
-
-  // The ways that these choose from, for those who have chosen.
-  GapJet<T> gap_by_turns(const T& s) const { return jet_at(at(s)); }
   GapJet<T> gap_by_small_turns(const T& s) const { return moved(start_, s); }
-  GapJet<T> moved_by_small_turns(const GapJet<T>& jet, const T& step) const { return moved(jet, step); }
-  GapJet<T> moved_by_tiny_turns(const GapJet<T>& jet, const T& step) const {
-    return moved_by(jet, step, [](const T& x) { return tiny_turn(x); });
-  }
 
-  void bound_derivatives() {  // those that were left for later
-    if (!(bounds_.third < T(kUnbounded))) afm::bound_derivatives(m_, eta_, bounds_);
-  }
   const FlightBounds<T>& bounds() const { return bounds_; }
   const T& amplitude_X() const { return bounds_.X; }
   const T& amplitude_Y() const { return bounds_.Y; }
   const T& third_derivative_bound() const { return bounds_.third; }
   const T& fourth_derivative_bound() const { return bounds_.fourth; }
-  // Coarser: every derivative of x brings no more than the fastest turn [rad/tau], and 52 of their products make the
-  // fifth of h: of the n-th, n <= 5, no more than the n-th power of that times the reach.
-  T fastest() const { return two_pi<T>() * bounds_.fastest; }
-  T reach() const { return T(52.0) * m_.H + bounds_.Y; }
-  T fifth_derivative_bound() const {
-    const T square = fastest() * fastest();
-    return square * square * (fastest() * reach());
+  T fourth_derivative_bound(const FlightState<T>& now, const T& S) const {  // within S of a state on the flight
+    return afm::fourth_derivative_bound(m_, eta_, now, bounds_, S);
   }
-  // The same over the next S only, from the gap rate and acceleration now: g''' = p' - omega_v^2 g', where p depends on
-  // x alone. Near the glide at eta = 1, where p hardly changes, it is far smaller, as the gap rate swings.
-  T third_derivative_bound(const GapJet<T>& now, const T& S) const;
-  // Over the first S only. Stretched far and slow still, the tip is nowhere near the speeds of the whole flight.
-  T fourth_derivative_bound(const T& S) const {
-    using std::min;
-    return min(bounds_.fourth, early_fourth_derivative_bound(S));
-  }
-  // Over the next S, or the last: smaller by powers of ten where a tip turns whose spring is stretched far, and at rest
-  // on a floor.
-  T fourth_derivative_bound(const GapJet<T>& now, const T& S) const {
-    using std::abs;
-    using std::min;
-    const T room = bounds_.fastest * T(1.0 / kMuchSlower) - (m_.ratio + T(1.0));
-    const auto about = [&] { return afm::fourth_derivative_bound(m_, eta_, now.state, now.h1, bounds_, S); };
-    return either(
-        both(room > T(0.0), [&] { return room > abs(eta_ + now.state.U); }) || bounds_.second < T(kCreeping),
-        [&] { return T(min(bounds_.fourth, about())); }, [&] { return bounds_.fourth; });
-  }
-  // The same without regard to that of the whole flight, which may not be known.
-  T early_fourth_derivative_bound(const T& S) const {
-    return afm::fourth_derivative_bound(m_, eta_, start_.state, bounds_, S);
-  }
+  T fastest() const { return two_pi<T>() * bounds_.fastest; }  // [rad/tau]
 
  private:
   // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
   // is within a few ulp of itself. Precondition: t is small.
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
-  template <class Turn>
-  GapJet<T> moved_by(const GapJet<T>& jet, const T& t, Turn turn) const;
   GapJet<T> jet_at(const FlightState<T>& state) const;
   T second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const;
   // The same so far above the surface: what is there last, its height, is waited for with one product.
@@ -144,13 +75,13 @@ class Flight {
 
   Mechanics<T> m_;
   T eta_;
-  Launch launch_;
+  TipState launch_;
   GapJet<T> start_;
   FlightBounds<T> bounds_;
 };
 
 template <class T>
-Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& start, BoundLater)
+Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
     : m_(mechanics), eta_(eta), launch_(start) {
   const SurfaceJet<T> surface = surface_jet(mechanics.H, T(start.phase));
   const T W = mul_add(surface.h1, T(start.u), T(start.g1));
@@ -160,17 +91,7 @@ Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const Launch& sta
   const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
   start_ = {T(start.g), T(start.g1), g2,        third_derivative(state, u, surface.h, surface.h1),
             state,      surface.h,   surface.h1};
-  bounds_.third = bounds_.fourth = bounds_.drive = T(kUnbounded);
-  bound_places(mechanics, eta, start_.state, bounds_);
-}
-
-template <class T>
-T Flight<T>::third_derivative_bound(const GapJet<T>& now, const T& S) const {
-  using std::abs;
-  using std::min;
-  const T growing = abs(now.g1) + S * (abs(now.g2) + S * bounds_.third / T(2.0));
-  const T swinging = length_bound(now.g1, T(now.g2 * m_.per_omega_v)) + S * (bounds_.drive * m_.per_omega_v);
-  return min(bounds_.third, bounds_.drive + m_.omega_v * m_.omega_v * min(growing, swinging));
+  bound_flight(mechanics, eta, start_.state, bounds_);
 }
 
 template <class T>
@@ -179,9 +100,9 @@ FlightState<T> Flight<T>::at(const T& s) const {
   const FlightState<T>& o = start_.state;
   const SinCos<T> h = sin_cos_turn_product(m.ratio, s);
   const SinCos<T> v = sin_cos_turns(s);
-  const T X = mul_add(o.X, h.cos, T(m.turned(o.U, m.omega_h, m.per_omega_h) * h.sin));
+  const T X = mul_add(o.X, h.cos, T(m.turned(o.U, m.omega_h, m.inverse_omega_h) * h.sin));
   const T U = mul_add(o.U, h.cos, T(-(m.omega_h * o.X) * h.sin));
-  const T Y = mul_add(o.Y, v.cos, T(m.turned(o.W, m.omega_v, m.per_omega_v) * v.sin));
+  const T Y = mul_add(o.Y, v.cos, T(m.turned(o.W, m.omega_v, m.inverse_omega_v) * v.sin));
   const T W = mul_add(o.W, v.cos, T(-(m.omega_v * o.Y) * v.sin));
   return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
 }
@@ -220,40 +141,30 @@ GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
 
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
-  return either(
-      is_small(s), [&] { return gap_soon(s); }, [&] { return gap_by_turns(s); });
+  return is_small(s) ? moved(start_, s) : jet_at(at(s));
 }
 
 template <class T>
 GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) const {
   using std::abs;
   const T size = abs(step);
-  const auto far = [&] {
-    return either(
-        is_small(size), [&] { return moved(jet, step); }, [&] { return gap(s + step); });
-  };
-  const auto near = [&] {
-    return either(
-        is_tiny(size), [&] { return moved_by_tiny_turns(jet, step); }, far);
-  };
-  return either(
-      is_small(s + step), [&] { return gap(s + step); }, near);
+  if (is_small(s + step)) return gap(s + step);
+  return is_small(size) ? moved(jet, step) : gap(s + step);
 }
 
 // The terms linear in t cancel on paper, into g1 t: what is left is small of second order, each term to a few ulp.
 template <class T>
-template <class Turn>
-GapJet<T> Flight<T>::moved_by(const GapJet<T>& jet, const T& t, Turn turn) const {
+GapJet<T> Flight<T>::moved(const GapJet<T>& jet, const T& t) const {
   const Mechanics<T>& m = m_;
   const FlightState<T>& o = jet.state;
-  const T k = two_pi<T>(), per = m.per_omega_v, u0 = eta_ + o.U;
-  const SmallTurn<T> h = turn(T(m.ratio * t)), v = turn(t);
+  const T k = two_pi<T>(), per = m.inverse_omega_v, u0 = eta_ + o.U;
+  const SmallTurn<T> h = small_turn(T(m.ratio * t)), v = small_turn(t);
 
   // of x and X what is not linear in t, and of u
-  const T dx2 = mul_add(T(o.U * m.per_omega_h), h.sin_minus_angle, T(-o.X * h.versine));
+  const T dx2 = mul_add(T(o.U * m.inverse_omega_h), h.sin_minus_angle, T(-o.X * h.versine));
   const T du = mul_add(T(-o.U), h.versine, T(-(m.omega_h * o.X) * h.sin));
   const T dx = mul_add(u0, t, dx2), u = u0 + du;
-  const SmallTurn<T> d = turn(dx);
+  const SmallTurn<T> d = small_turn(dx);
   // and of Y and -W
   const T dY2 = mul_add(T(o.W * per), v.sin_minus_angle, T(-o.Y * v.versine));
   const T brake = mul_add(o.W, v.versine, T((m.omega_v * o.Y) * v.sin));
@@ -271,11 +182,6 @@ GapJet<T> Flight<T>::moved_by(const GapJet<T>& jet, const T& t, Turn turn) const
 }
 
 template <class T>
-GapJet<T> Flight<T>::moved(const GapJet<T>& jet, const T& t) const {
-  return moved_by(jet, t, [](const T& x) { return small_turn(x); });
-}
-
-template <class T>
 TipState Flight<T>::tip_state(const T& s) const {
   const GapJet<T> jet = gap(s);
   const T u = eta_ + jet.state.U;
@@ -286,9 +192,8 @@ TipState Flight<T>::tip_state(const T& s) const {
 template <class T>
 T Flight<T>::gap_error(const T& s) const {
   using std::abs;
-  const T small = epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bounds_.second * s));
-  return choose(
-      is_small(s), [&] { return small; }, [&] { return T(epsilon<T>() * (T(4.0) * bounds_.Y + T(16.0) * m_.H)); });
+  if (is_small(s)) return epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bounds_.second * s));
+  return epsilon<T>() * (T(4.0) * bounds_.Y + T(16.0) * m_.H);
 }
 
 }  // namespace afm

@@ -45,11 +45,15 @@ inline double mobility(const Model& model) { return model.kind == ModelKind::ham
 // Of the section of impacts: a held tip has its phase and gap rate only.
 inline int section_dimension(const Model& model) { return model.kind == ModelKind::hammer ? 2 : 4; }
 
-constexpr double kMaxEta = 1e3;             // above it a flight crosses more cells than the search is tested for
-constexpr double kMaxFrequencyRatio = 1e3;  // likewise for turns of the horizontal spring
-constexpr double kMaxAmplitude = 10.0;      // [a]: a hundred times mica
-constexpr double kMinAmplitude = 1e-9;      // [a]: flatter, and the surface is lost in the rounding of the tip's height
-constexpr double kMinCutoff = 1e-140;       // [a/tau], or 0: slower bounces are none, and its inverse is a number
+// The envelope: what a scene can want, with a wide margin. Beyond it nothing is tested.
+constexpr double kMaxEta = 1000.0;  // [a/tau], and of a start's velocities: the reference flights reach 224
+constexpr double kMinFrequencyRatio = 0.01;
+constexpr double kMaxFrequencyRatio = 1000.0;  // the paper's is 6.25; the hammer is the limit of stiff springs
+constexpr double kMinAmplitude = 1e-6;         // [a]
+constexpr double kMaxAmplitude = 1.0;          // [a]: ten times mica
+constexpr double kLowestRest = -10.0;          // y0 [a]: a hundred times mica's amplitude
+constexpr double kMinCutoff = 1e-9;            // [a/tau], or 0
+constexpr double kLeastGapRate = 1e-16;  // [a/tau]: slower bounces are contact; the rounding of a velocity of 1 a/tau
 
 // Every fault of the set, not only the first; empty when the model can be run.
 std::vector<ParameterError> find_faults(const Model& model);

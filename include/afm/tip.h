@@ -1,5 +1,5 @@
-// The hybrid automaton: flight, impact, burst, contact, release. Knows where the tip is at any time up to its next
-// event.
+// The hybrid automaton (docs/algorithm.md): flight, impact, chatter, contact, release (Eq. 2-5, 9-11). It knows where the
+// tip is at any time up to its next event.
 #pragma once
 
 #include "afm/detail/sample_grid.h"
@@ -30,7 +30,7 @@ constexpr double kMinContactTolerance = 1e-9;  // or 0; below it bursts are foll
 class Tip {
  public:
   // contact_tolerance 0: every bounce by itself, and contact only where a bounce leaves no gap rate, or one below
-  // 1e-140 a/tau. Throws the model's first ParameterError, or one about a start below the surface.
+  // 1e-16 a/tau. Throws the model's first ParameterError, or one about a start below the surface.
   Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
   Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
 
@@ -50,21 +50,21 @@ class Tip {
     return account().energy;
   }  // in springs and motion, in the lab, at now() [m a^2/tau^2]
 
-  // A new drag velocity from now() on: the flight, burst or slide under way is split here, and only here. The present
-  // one again changes no bit.
+  // A new drag velocity from now() on. It splits the flight, chatter sequence or slide under way. Setting the current
+  // velocity again has no effect.
   void drag(double eta);
 
-  // Another restitution, cutoff or height of the harmonic centre from now() on: where the tip is and how fast stays.
-  // Lifting the centre works on the spring; a burst ends with the bounce it is at; contact goes on if the surface still
-  // presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
-  void retune(const Model& model);
+  // Another restitution, cutoff or height of the holder from now() on. Position and velocity of the tip stay. Lifting the
+  // holder works on the spring. A chatter sequence ends with the bounce that is under way; contact goes on if the surface
+  // still presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
+  void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its place over the surface, height and vertical velocity.
   // To the hammer the holder is put above the tip: the extension and what the horizontal velocity has beyond the
   // holder's are dropped, and the energy in them is returned [m a^2/tau^2] (0 otherwise). To the oscillator nothing
-  // changes: the spring is relaxed, and the tip as fast as its holder. A burst ends with the bounce it is at; contact
-  // ends where the hammer's gap rate differs from the oscillator's; both are told as events at now().
-  double relevel(ModelKind kind, double contact_tolerance);
+  // changes: the spring is relaxed, and the tip as fast as its holder. A chatter sequence ends with the bounce that is
+  // under way. Contact ends where the hammer's gap rate differs from the oscillator's. Both are reported as events at now().
+  double set_model(ModelKind kind, double contact_tolerance);
 
   // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip
   // as it is after an impact at that time, which was `last` and from which it launches so.
@@ -115,7 +115,7 @@ class Tip {
   void jolt(double eta);
   void end_guide_now();
   void leave_now();
-  void tolerate(double contact_tolerance);
+  void set_tolerance(double contact_tolerance);
   void adopt(const Model& model);
   void fly(const TipState& start);
   void slide(const SlideState<double>& start);
@@ -158,8 +158,8 @@ class Tip {
   Account split_;                    // at the last command within an arc or a sequence
   bool is_split_ = false;
   Impact last_impact_;
-  bool untold_ = false;  // an event at now() that the next advance tells
-  Impact untold_impact_;
+  bool pending_ = false;  // an event at now() that the next advance reports
+  Impact pending_impact_;
 };
 
 }  // namespace afm

@@ -7,9 +7,6 @@
 namespace afm {
 namespace {
 
-// [1] Softer springs would swing tips further than a double's digits of a lattice cell reach.
-constexpr double kMinFrequencyRatio = 1e-6;
-
 std::string to_text(const std::string& name, double value, const std::string& reason) {
   std::ostringstream out;
   out.precision(17);
@@ -40,15 +37,15 @@ std::vector<ParameterError> find_faults(const Model& m) {
     if (!holds) faults.emplace_back(name, value, reason);
   };
   require(m.frequency_ratio >= kMinFrequencyRatio && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio",
-          m.frequency_ratio, "omega_h/omega_v must be between 1e-6 and 1000");
+          m.frequency_ratio, "omega_h/omega_v must be between 0.01 and 1000");
   require(m.H >= kMinAmplitude && m.H <= kMaxAmplitude, "H", m.H,
-          "the surface amplitude must be between 1e-9 and 10 lattice spacings");
+          "the surface amplitude must be between 1e-6 and 1 lattice spacings");
   require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
           "the harmonic centre must be finite and below the crest, or the tip hovers and never touches");
-  require(m.y0 >= -kMaxAmplitude, "y0", m.y0, "the harmonic centre must be at most 10 lattice spacings down");
+  require(m.y0 >= kLowestRest, "y0", m.y0, "the harmonic centre must be at most 10 lattice spacings down");
   require(m.gamma >= 0.0 && m.gamma <= 1.0, "gamma", m.gamma, "the restitution must be between 0 and 1");
   require(m.v_c >= 0.0 && std::isfinite(m.v_c), "v_c", m.v_c, "the cutoff speed must be finite and not negative");
-  require(!(m.v_c > 0.0) || m.v_c >= kMinCutoff, "v_c", m.v_c, "the cutoff speed must be 0 or at least 1e-140 a/tau");
+  require(!(m.v_c > 0.0) || m.v_c >= kMinCutoff, "v_c", m.v_c, "the cutoff speed must be 0 or at least 1e-9 a/tau");
   return faults;
 }
 

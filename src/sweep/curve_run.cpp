@@ -10,9 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include "common/progress_bar.h"
 #include "curve_table.h"
 #include "journal.h"
-#include "common/progress_bar.h"
 #include "ranks.h"
 #include "task_board.h"
 
@@ -63,19 +63,11 @@ std::deque<SweepTask> tasks_left(const SweepGrid& grid, const std::map<std::size
   return tasks;
 }
 
-// Enough to fill lanes, and so few that no worker is left with much when the others have finished.
-std::size_t side_by_side(const SweepGrid& grid, int workers) {
-  constexpr std::size_t kMost = 64, kRounds = 3;
-  const std::size_t tasks = grid.size() / grid.chain_length(), n = static_cast<std::size_t>(workers);
-  return std::min(kMost, std::max<std::size_t>(1, workers == 1 ? tasks : tasks / (kRounds * n)));
-}
-
 // In each of the ranks so many.
-std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings, int n,
-                                       const Ranks& ranks) {
-  const std::size_t at_once = side_by_side(grid, n * ranks.size());
+std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings,
+                                       int n) {
   std::vector<std::thread> workers;
-  for (int i = 0; i < n; ++i) workers.emplace_back([&, at_once] { do_work(source, grid, settings, at_once); });
+  for (int i = 0; i < n; ++i) workers.emplace_back([&] { do_work(source, grid, settings); });
   return workers;
 }
 
@@ -97,7 +89,7 @@ class Run {
 
   void finish(Ranks& ranks, const SweepSettings& settings, int threads) {
     TaskBoard board(tasks_left(grid_, journal_ ? journal_->found() : std::map<std::size_t, PackedResult>{}));
-    std::vector<std::thread> workers = start_workers(board, grid_, settings, threads, ranks);
+    std::vector<std::thread> workers = start_workers(board, grid_, settings, threads);
     ranks.expect(threads);
     try {
       collect(board, ranks);
@@ -141,7 +133,7 @@ class Run {
 int help_rank_0(Ranks& ranks, const SweepGrid& grid, const SweepSettings& settings, int threads) {
   if (!ranks.agree(true)) return 2;
   const std::unique_ptr<WorkSource> board = ranks.remote_board();
-  std::vector<std::thread> workers = start_workers(*board, grid, settings, threads, ranks);
+  std::vector<std::thread> workers = start_workers(*board, grid, settings, threads);
   join(workers);
   return 0;
 }

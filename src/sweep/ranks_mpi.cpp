@@ -70,18 +70,13 @@ bool waiting(int from, int tag, MPI_Status& status) {
 // MPI is entered by one thread at a time; an answer takes rank 0 a few milliseconds.
 class RemoteBoard : public WorkSource {
  public:
-  std::vector<SweepTask> take(std::size_t most) override {
+  std::optional<SweepTask> take() override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    send(std::array<double, 1>{static_cast<double>(most)}, 0, kAsk);
+    send(std::array<double, 1>{}, 0, kAsk);
     MPI_Status status;
     while (!waiting(0, kTask, status)) std::this_thread::sleep_for(kPause);
-    std::vector<SweepTask> taken;
-    while (taken.size() < most) {
-      const SweepTask task = to_task(receive<TaskMessage>(0, kTask));
-      if (task.end == 0) break;
-      taken.push_back(task);
-    }
-    return taken;
+    const SweepTask task = to_task(receive<TaskMessage>(0, kTask));
+    return task.end == 0 ? std::nullopt : std::optional<SweepTask>(task);
   }
 
   void deliver(const SweepDone& done) override {
@@ -135,11 +130,10 @@ void Ranks::serve(TaskBoard& board) {
       board.deliver(to_done(receive<DoneMessage>(status.MPI_SOURCE, kDone)));
       continue;
     }
-    const auto asked = static_cast<std::size_t>(receive<std::array<double, 1>>(status.MPI_SOURCE, kAsk)[0]);
-    const std::vector<SweepTask> taken = board.take(asked);
-    if (taken.empty()) --asking_;
-    for (const SweepTask& task : taken) send(to_message(task), status.MPI_SOURCE, kTask);
-    if (taken.size() < asked) send(to_message(SweepTask{}), status.MPI_SOURCE, kTask);
+    receive<std::array<double, 1>>(status.MPI_SOURCE, kAsk);
+    const std::optional<SweepTask> task = board.take();
+    if (!task) --asking_;
+    send(to_message(task.value_or(SweepTask{})), status.MPI_SOURCE, kTask);
   }
 }
 

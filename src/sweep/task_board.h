@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "grid.h"
@@ -28,18 +29,18 @@ struct SweepDone {
 class WorkSource {
  public:
   virtual ~WorkSource() = default;
-  virtual std::vector<SweepTask> take(std::size_t most) = 0;  // none: no more work
+  virtual std::optional<SweepTask> take() = 0;  // nothing: no more work
   virtual void deliver(const SweepDone& done) = 0;
 };
 
-// Takes tasks and does them, so many side by side, until there are none.
-void do_work(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings, std::size_t side_by_side);
+// Takes tasks and does them until there are none.
+void do_work(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings);
 
 class TaskBoard : public WorkSource {
  public:
   explicit TaskBoard(std::deque<SweepTask> tasks) : tasks_(std::move(tasks)) {}
 
-  std::vector<SweepTask> take(std::size_t most) override;
+  std::optional<SweepTask> take() override;
   void deliver(const SweepDone& done) override;
   std::vector<SweepDone> collect(std::chrono::milliseconds patience);  // what was delivered since, or nothing
 

@@ -50,7 +50,7 @@ void check(const FlightInput& input) {
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
-// w - h'(phase) u is a small difference of velocities after a slow impact: taken in twice the digits.
+// w - h'(phase) u is a small difference of velocities after a slow impact: taken in double-double.
 TipState start_of(const FlightInput& input) {
   const DoubleDouble slope = surface_jet(DoubleDouble(model_of(input).H), DoubleDouble(input.phase)).h1;
   const bool held = input.kind == ModelKind::hammer;
@@ -68,7 +68,7 @@ Landing<double> land(const Model& model, double eta, TipState start) {
   const Mechanics<double> mechanics(model);
   double flown = 0.0;
   for (int attempt = 0; attempt < kAttempts && flown < kLongestFlight; ++attempt) {
-    Flight<double> flight(mechanics, eta, start, BoundLater{});
+    Flight<double> flight(mechanics, eta, start);
     Landing<double> landing = find_landing(model, flight, kLongestFlight - flown);
     const double s = landing.s;
     landing.s = flown += s;

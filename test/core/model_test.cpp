@@ -60,17 +60,17 @@ struct Limit {
 TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
   const double H = Model().H;
   const Limit limits[] = {
-      {"frequency_ratio", &Model::frequency_ratio, 1e-6, 0.999e-6},
+      {"frequency_ratio", &Model::frequency_ratio, kMinFrequencyRatio, kMinFrequencyRatio * 0.999},
       {"frequency_ratio", &Model::frequency_ratio, kMaxFrequencyRatio, kMaxFrequencyRatio * 1.001},
       {"H", &Model::H, kMinAmplitude, 0.0},
       {"H", &Model::H, kMinAmplitude, kMinAmplitude * 0.999},
       {"H", &Model::H, kMaxAmplitude, kMaxAmplitude * 1.001},
       {"y0", &Model::y0, H * 0.999, H},
-      {"y0", &Model::y0, -kMaxAmplitude, -kMaxAmplitude * 1.001},
+      {"y0", &Model::y0, kLowestRest, kLowestRest * 1.001},
       {"gamma", &Model::gamma, 0.0, -1e-9},
       {"gamma", &Model::gamma, 1.0, 1.0 + 1e-9},
       {"v_c", &Model::v_c, 0.0, -1e-9},
-      {"v_c", &Model::v_c, 1e-140, 1e-311},
+      {"v_c", &Model::v_c, kMinCutoff, kMinCutoff * 0.999},
   };
   for (const Limit& limit : limits) {
     Model model;

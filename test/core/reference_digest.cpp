@@ -110,12 +110,11 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
   std::printf("%s: %s\n", name.c_str(), to_text(digest).c_str());
 }
 
-// Every impact of tips that are as different as can be, flown together. What lanes there are, the line does not tell:
-// it is the same without any.
-void print_together(const std::string& name, afm::LaneUse use) {
+// Every impact of tips that are as different as can be, flown together.
+void print_together(const std::string& name, int threads) {
   if (!wanted(name)) return;
   constexpr std::uint32_t kTips = 96, kEvents = 60;
-  afm::Ensemble tips(1, use);
+  afm::Ensemble tips(threads);
   for (std::uint32_t i = 0; i < kTips; ++i) {
     afm::Model model;
     model.kind = i % 5 == 4 ? ModelKind::hammer : ModelKind::oscillator;
@@ -141,8 +140,7 @@ int main(int argc, char** argv) {
   for (const double eta : {0.5, 3.4}) print_run(eta, 0.05, 1e-3, ModelKind::hammer);
   print_segments(0.5, 0.01, ModelKind::oscillator);  // flights, bursts, contact
   print_segments(-0.3, 0.02, ModelKind::hammer);
-  print_together("96 tips one after another", afm::LaneUse::none);
-  print_together("96 tips four at once where that can be", afm::LaneUse::four);
-  print_together("96 tips as many at once as can be", afm::LaneUse::widest);
+  print_together("96 tips one after another", 1);
+  print_together("96 tips on three threads", 3);
   return 0;
 }

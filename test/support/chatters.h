@@ -14,7 +14,7 @@ struct RandomChatter {
   double v;  // normal speed after the first bounce
   SlidePiece<double> guide;
 
-  Tip every_bounce() const { return {model, guide.eta(), unsettle(model, guide.start(), v), 0.0}; }
+  Tip every_bounce() const { return {model, guide.eta(), leave_surface(model, guide.start(), v), 0.0}; }
 
   // How long a bounce is, at most, against every change around it.
   double shortness(double s) const {
@@ -31,7 +31,7 @@ inline RandomChatter random_chatter(const Model& model, const ChatterLaw& law, R
   for (;;) {
     const Piece guide = random_piece(random);
     const double v = std::pow(10.0, random.within(from, to));
-    const Flight<double> bounce(mechanics, guide.eta(), unsettle(model, guide.start(), v));
+    const Flight<double> bounce(mechanics, guide.eta(), leave_surface(model, guide.start(), v));
     if (guide.pressure(0.0) > 0.5 && law.holds(bounce)) return {model, v, guide};
   }
 }

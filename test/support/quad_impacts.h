@@ -1,4 +1,4 @@
-// From one impact to the next in 113 bits, written from the paper's formulas alone (Eq. 9-11): what Jacobians are
+// From one impact to the next in quad precision, written from the paper's formulas alone (Eq. 9-11): what Jacobians are
 // compared with.
 #pragma once
 

@@ -29,7 +29,7 @@ struct ReferenceFlight {
     return m;
   }
 
-  // The gap rate is a small difference of velocities: taken in twice the digits.
+  // The gap rate is a small difference of velocities: taken in double-double.
   TipState start() const {
     const DoubleDouble slope = surface_jet(DoubleDouble(model().H), DoubleDouble(phase)).h1;
     return {phase, X, u, 0.0, static_cast<double>(DoubleDouble(w) - slope * DoubleDouble(u))};

@@ -1,13 +1,13 @@
 // How a tip that bounces quickly under a pressing surface changes on average: the flow that passes through its bounces.
 //
 // At the distance rho from the surface, s along it: rho'' = -P - K rho while it flies, with the reaction P of the slide
-// that it would make instead (its guide). A bounce of normal speed v lasts 2 v/P and keeps the action
+// that it would make instead (its reference slide). A bounce of normal speed v lasts 2 v/P and keeps the action
 // v^3/P (1 - K v^2 / 5 P^2); it ends in v -> v (1 - w), w = (1 - gamma) v / v_c, at and above the cutoff in
 // v -> gamma v. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P T(w), so
 //   dv/dt = -(P/2) w R(w) + v P'/(3 P T(w)) (1 - w^2 S(w)),   R = G/T.
-// While it bounces the tip is off its guide by sigma, as the forces differ at its mean height v^2/(3 P), and this
+// While it bounces the tip is off its reference slide by sigma, as the forces differ at its mean height v^2/(3 P), and this
 // changes P. Kept are all terms of the third order of w and of a bounce's duration against every change, by computer
-// algebra (docs/derive_chatter_law.py); of what moves it off the guide, and without a cutoff, those of the second.
+// algebra (docs/derive_chatter_law.py); of what moves it off the reference slide, and without a cutoff, those of the second.
 #pragma once
 
 #include "chatter_view.h"
@@ -16,12 +16,12 @@ namespace afm {
 
 template <class T>
 struct ChatterOf {
-  T v;                // normal speed after a bounce [a/tau]
-  T n;                // bounces since the burst began; whole at a bounce
-  T sigma = T(0.0);   // at a bounce: from the guide, along the surface [a]
-  T p = T(0.0);       // and faster along it [a/tau]
-  T drift = T(0.0);   // time integral of how far x is from the guide's, bounces and all [a tau]
-  T lift = T(0.0);    // energy that the holder of a held tip has given the bounces: of the gap times P' [m a^2/tau^2]
+  T v;               // normal speed after a bounce [a/tau]
+  T n;               // bounces since the burst began; whole at a bounce
+  T sigma = T(0.0);  // at a bounce: from the guide, along the surface [a]
+  T p = T(0.0);      // and faster along it [a/tau]
+  T drift = T(0.0);  // time integral of how far x is from the guide's, bounces and all [a tau]
+  T lift = T(0.0);   // energy that the holder of a held tip has given the bounces: of the gap times P' [m a^2/tau^2]
 };
 using Chatter = ChatterOf<double>;
 
@@ -43,7 +43,7 @@ EvenChatterOf<T> operator*(const T& k, const EvenChatterOf<T>& c) {
   return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift, k * c.lift};
 }
 
-// On the way along the guide.
+// On the way along the reference slide.
 struct ChatterPlace {
   double s;  // time of the guide
   ChatterSurroundings around;
@@ -53,19 +53,16 @@ struct ChatterPlace {
 };
 
 // How long a bounce lasts there [tau].
-inline double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.per_P; }
+inline double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.inverse_P; }
 
 // What the rates ask of a model.
 struct ChatterFlow {
   bool geometric, held;  // without regard to the cutoff; along x
   double gamma;
-  double loss;      // (1 - gamma) / v_c
-  double even;      // n's part in v: 1 / loss, or 1 / -log(gamma)
-  double per_mean;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first
+  double loss;          // (1 - gamma) / v_c
+  double even;          // n's part in v: 1 / loss, or 1 / -log(gamma)
+  double inverse_mean;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first
 };
-
-// A step from one place to another, of which the surroundings are known, and what it begins with at the first.
-using NodeStep = void (*)(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to);
 
 class ChatterRates {
  public:
@@ -99,7 +96,6 @@ class ChatterRates {
 
   ChatterView view_;
   ChatterFlow flow_;
-  NodeStep node_step_;  // in lanes, where the machine has them
 };
 
 // The guide with what the chatter has moved it by.

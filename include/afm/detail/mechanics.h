@@ -21,8 +21,8 @@ struct Mechanics {
         omega_h(omega_v * ratio),
         H(model.H),
         y0(model.y0),
-        per_omega_v(T(1.0) / omega_v),
-        per_omega_h(afm::mobility(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
+        inverse_omega_v(T(1.0) / omega_v),
+        inverse_omega_h(afm::mobility(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
 
   // w / omega to more than the last digit: w times a rounded 1 / omega would add energy at every turn, or take it away.
   static T turned(const T& w, const T& omega, const T& per) {
@@ -31,7 +31,7 @@ struct Mechanics {
 
   T mobility;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
   T ratio, omega_v, omega_h, H, y0;
-  T per_omega_v, per_omega_h;  // a product is sooner there than a quotient
+  T inverse_omega_v, inverse_omega_h;  // a product is sooner there than a quotient
 };
 
 // A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the

@@ -1,11 +1,13 @@
-// The Taylor series of a slide about a state: what it begins with, and sums of it.
+// The Taylor series of a slide about a state: Eq. 2-3 with the reaction lambda of the surface along y [a/tau^2].
 #pragma once
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "mechanics.h"
-#include "slide_orders.h"
 
 namespace afm {
 
@@ -14,6 +16,8 @@ template <class T>
 struct SlideState {
   T phase, X, u;
 };
+
+constexpr std::size_t kSlideOrder = 18;
 
 template <class T>
 using Series = std::array<T, kSlideOrder + 1>;
@@ -37,18 +41,66 @@ struct SlideSeries {
   Series<T> d, u, lambda;  // x - x(start), x', reaction
 };
 
-template <class T>
-SlideBeginning<T> slide_beginning(const Mechanics<T>& m, const T& eta, const SlideState<T>& start) {
-  const SinCos<T> turn = sin_cos_turns(start.phase);
-  const T k = two_pi<T>(), r = k * m.H * turn.sin, inertia = m.mobility / (T(1.0) + r * r);
-  return {r,       k * k * m.H * turn.cos,           start.u, start.X, start.u - eta, m.omega_v * m.omega_v * m.y0,
-          inertia, inertia * (m.omega_h * m.omega_h)};
+// Order n of the product of two series, without its first `skip` terms and its last `skip` terms. From the middle outwards:
+// the coefficients that are known last come last, and little waits for them. Precondition: n >= 2 skip - 1.
+template <std::size_t n, std::size_t skip, class T, class A, class B>
+AFM_INLINED T product_order(const A& a, const B& b) {
+  using std::fma;
+  T low(0.0), high = n % 2 == 0 ? T(a[n / 2] * b[n / 2]) : T(0.0);
+#pragma GCC unroll 16
+  for (std::size_t j = skip; j < (n + 1) / 2; ++j) {
+    const std::size_t i = (n + 1) / 2 - 1 - (j - skip);
+    low = fma(a[i], b[n - i], low);
+    high = fma(a[n - i], b[i], high);
+  }
+  return low + high;
 }
 
-// How the orders are written: with three numbers side by side in a register, or in this.
+// Calls write(0), write(1) ... with constants, so that the compiler unrolls every order by itself: twice as fast.
+template <class Write, std::size_t... n>
+AFM_INLINED void for_each_order(const Write& write, std::index_sequence<n...>) {
+  (write(std::integral_constant<std::size_t, n>{}), ...);
+}
+
+// With r = -h'(x) and c = -h''(x) along the slide: r' = c u and c' = -(2 pi)^2 r u, as the surface is a cosine. Of a tip
+// of mass 1, free along x:
+//   x'' = -omega_h^2 X + r lambda,   lambda = y'' + omega_v^2 (h - y0) = c - omega_v^2 y0 - (r u)',
+// as y' = -r u and omega_v is the surface's wave number too. Of each order these are two linear equations for x'' and
+// lambda; a tip that is held along x has x'' = 0. What an order waits for from the one before, u[n] and c[n], comes last.
 template <class T>
-void write_slide_orders(const SlideBeginning<T>& start, T* d, T* u, T* lambda) {
-  SlideOrders<T, Three<T>>(start, d, u, lambda);
+AFM_INLINED void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideState<T>& start,
+                                    SlideSeries<T>& series) {
+  using std::fma;
+  const SinCos<T> turn = sin_cos_turns(start.phase);
+  const T k = two_pi<T>(), k2 = k * k, wh2 = m.omega_h * m.omega_h;
+  std::array<T, kSlideOrder + 3> r, c;
+  auto &d = series.d, &u = series.u, &lambda = series.lambda;
+  r[0] = k * m.H * turn.sin, c[0] = k2 * m.H * turn.cos, c[1] = -k2 * (r[0] * start.u);
+  u[0] = start.u, d[0] = T(0.0);
+  const T inverse_mass = m.mobility / (T(1.0) + r[0] * r[0]), weight = m.omega_v * m.omega_v * m.y0;
+  T X = start.X;  // of order n
+  const auto write_order = [&](auto order) __attribute__((always_inline)) {
+    constexpr std::size_t n = decltype(order)::value;
+    constexpr double next = static_cast<double>(n + 1);
+    T pull = -wh2 * X, cu = c[0] * u[0], level = c[n] - weight;  // (c u)[n]
+    if constexpr (n > 0) {
+      pull = fma(r[n], lambda[0], pull) + product_order<n, 1, T>(r, lambda);
+      cu = fma(c[0], u[n], fma(c[n], u[0], product_order<n, 1, T>(c, u)));
+      level = c[n];
+    }
+    const T inner = product_order<n + 1, 1, T>(r, u);            // (r u)[n + 1] without r[0] u[n + 1] and r[n + 1] u[0]
+    const T rest = fma(-u[0], cu, fma(T(-next), inner, level));  // lambda without x''
+    const T x2 = fma(r[0] * inverse_mass, rest, inverse_mass * pull);
+    lambda[n] = fma(-r[0], x2, rest);
+    X = over(T(u[n] - (n == 0 ? eta : T(0.0))), next);
+    if constexpr (n < kSlideOrder) {
+      d[n + 1] = over(u[n], next);
+      r[n + 1] = over(cu, next);
+      u[n + 1] = over(x2, next);
+      c[n + 2] = over(T(-k2 * fma(r[0], u[n + 1], fma(u[0], r[n + 1], inner))), next + 1.0);
+    }
+  };
+  for_each_order(write_order, std::make_index_sequence<kSlideOrder + 1>{});
 }
 
 }  // namespace afm

@@ -5,9 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 #include "multiversion.h"
 
@@ -92,25 +89,12 @@ constexpr double kRounder = 6755399441055744.0, kQuarterRounder = 16888498602639
 
 // The sine and cosine of an angle, from those of what is left of it less some quarters of a turn: as many as the last
 // digits of `quarters` say, that is, with kQuarterRounder.
-#if defined(__SSE2__)
-// without branches, which no one can foresee, and without leaving the registers of numbers
-AFM_INLINED SinCos<double> turn_quarters(double quarters, double s, double c) {
-  const __m128i k = _mm_castpd_si128(_mm_set_sd(quarters)), one = _mm_set_epi64x(0, 1);
-  const __m128i odd = _mm_sub_epi64(_mm_setzero_si128(), _mm_and_si128(k, one)), sign = _mm_set_epi64x(0, INT64_MIN);
-  const __m128d sin_sign = _mm_castsi128_pd(_mm_and_si128(_mm_slli_epi64(k, 62), sign));
-  const __m128d cos_sign = _mm_castsi128_pd(_mm_and_si128(_mm_slli_epi64(_mm_add_epi64(k, one), 62), sign));
-  const __m128d x = _mm_set_sd(s), y = _mm_set_sd(c), swap = _mm_and_pd(_mm_xor_pd(x, y), _mm_castsi128_pd(odd));
-  return {_mm_cvtsd_f64(_mm_xor_pd(_mm_xor_pd(x, sin_sign), swap)),
-          _mm_cvtsd_f64(_mm_xor_pd(_mm_xor_pd(y, cos_sign), swap))};
-}
-#else
 AFM_INLINED SinCos<double> turn_quarters(double quarters, double s, double c) {
   const long long k = static_cast<long long>(4.0 * (quarters - kQuarterRounder));
   const bool swap = (k & 1) != 0;
   const double sin_value = swap ? c : s, cos_value = swap ? s : c;
   return {(k & 2) != 0 ? -sin_value : sin_value, ((k + 1) & 2) != 0 ? -cos_value : cos_value};
 }
-#endif
 
 template <class T>
 AFM_INLINED T nearest_of(T x) {
@@ -141,14 +125,6 @@ AFM_INLINED SmallTurn<T> small_turn_of(T x) {
           fma(-(z * z), cosine_rest(z), fma(z, T(-kC2), z * fma(z, T(-kC4Low), T(-kC2Low))))};
 }
 
-template <class T>
-AFM_INLINED SmallTurn<T> tiny_turn_of(T x) {
-  const T z = x * x, cube = x * z;
-  const T sine_rest = z * fma(z, T(kS7), T(kS5)), cosine_rest = fma(z, T(kC6), T(kC4));
-  return {fma(x, T(kTwoPiHigh), fma(cube, sine_rest, fma(cube, T(kS3), x * T(kTwoPiLow)))),
-          fma(cube, sine_rest, cube * T(kS3)), fma(-(z * z), cosine_rest, z * T(-kC2))};
-}
-
 }  // namespace turns_detail
 
 // Nearest whole number, |x| < 2^51.
@@ -167,16 +143,9 @@ SinCos<T> sin_cos_turn_product(const T& a, const T& b) {
   return sin_cos_turns(turn_product(a, b));
 }
 
-constexpr double kSmallTurn = 0.125, kTinyTurn = 0x1p-10;
+constexpr double kSmallTurn = 0.125;
 
 // Precondition: |x| <= 1/8.
 AFM_INLINED SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
-
-// The same in fewer terms. Precondition: |x| <= 2^-10.
-AFM_INLINED SmallTurn<double> tiny_turn(double x) { return turns_detail::tiny_turn_of(x); }
-template <class T>
-SmallTurn<T> tiny_turn(const T& x) {
-  return small_turn(x);
-}
 
 }  // namespace afm

@@ -22,7 +22,7 @@ SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<do
 // d(x, X, u)/dt of a slide: the direction that does not count.
 Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<double>& q);
 
-// The guide and the normal speed (settle() of chatter.h) by the state after a bounce: by dx, dX, du, dg1.
+// The guide and the normal speed (project_onto_surface() of chatter.h) by the state after a bounce: by dx, dX, du, dg1.
 Eigen::Matrix4d settle_jacobian(const Model& model, const TipState& bounce);
 
 // From after the first bounce of a burst, `start`, to after its last, `duration` later [tau], which leaves a normal

@@ -1,6 +1,6 @@
 // Averages over a chaotic attractor from its periodic orbits (periodic orbit theory, Eq. 7): K_f = <dE> / (eta^2 <dt>).
 // They converge to the true average only when all orbits of the attractor up to a length are there, and fast only when
-// longer ones are nearly made up of shorter ones; the deviation from flow conservation tells how far that holds.
+// longer ones are nearly made up of shorter ones; the deviation from flow conservation shows how far that holds.
 #pragma once
 
 #include <cstddef>

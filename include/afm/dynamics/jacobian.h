@@ -39,11 +39,11 @@ FlowJacobian<T> flight_jacobian(const Mechanics<T>& m, const T& s) {
   const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s)), v = sin_cos_turns(s);
   FlowJacobian<T> J = FlowJacobian<T>::Identity();
   J(0, 1) = h.cos - T(1.0);
-  J(0, 2) = J(1, 2) = h.sin * m.per_omega_h;
+  J(0, 2) = J(1, 2) = h.sin * m.inverse_omega_h;
   J(1, 1) = J(2, 2) = h.cos;
   J(2, 1) = -m.omega_h * h.sin;
   J(3, 3) = J(4, 4) = v.cos;
-  J(3, 4) = v.sin * m.per_omega_v;
+  J(3, 4) = v.sin * m.inverse_omega_v;
   J(4, 3) = -m.omega_v * v.sin;
   return J;
 }

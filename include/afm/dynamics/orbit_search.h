@@ -39,7 +39,7 @@ struct OrbitSearchResult {
 };
 
 // Newton's method from the nearest returns of a long run, from pieces of it taken at random, and from pieces of runs
-// begun anywhere; `progress` is told the share done. The same orbits for the same seed.
+// begun anywhere; `progress` is called with the share done. The same orbits for the same seed.
 OrbitSearchResult search_orbits(const PoincareMap& map, const OrbitSearchSettings& settings,
                                 const std::function<void(double)>& progress = {});
 

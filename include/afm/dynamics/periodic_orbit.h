@@ -49,10 +49,10 @@ struct NewtonSettings {
 };
 
 // From a guess of each of its points, in order. Points, period and K_f of an orbit found are right to the last digit
-// (they are refined in twice the digits), multipliers as the double Jacobians at these points give them.
+// (they are refined in double-double), multipliers as the double Jacobians at these points give them.
 OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess, const NewtonSettings& settings = {});
 
-// An orbit whose points are known, as they are: what its residual is tells how good they are. Empty where a point does
+// An orbit whose points are known, as they are: the residual shows how good they are. Empty where a point does
 // not land.
 PeriodicOrbit orbit_at(const PoincareMap& map, const std::vector<TipState>& points);
 

@@ -15,7 +15,7 @@ namespace afm {
 
 enum class MapOutcome : std::uint8_t {
   impact,
-  no_flight,  // the tip does not leave the surface, or slower than a bounce can be (1e-140 a/tau): contact
+  no_flight,  // the tip does not leave the surface, or slower than a bounce can be (1e-16 a/tau): contact
   no_impact   // none within kLongestMapFlight, or the search gave up
 };
 

@@ -43,12 +43,4 @@ TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t
 // A function of its arguments alone, to the last bit. Precondition: no faults.
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start);
 
-// The same for each of many points, to the same bits, and sooner where the machine has lanes (ensemble.h): of each
-// point all but the search for its attractor is flown in them.
-struct SweepTrip {
-  SweepPoint point;
-  TipState start;
-};
-std::vector<SweepResult> sweep_points(const std::vector<SweepTrip>& trips, const SweepSettings& settings);
-
 }  // namespace afm

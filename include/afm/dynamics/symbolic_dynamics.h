@@ -47,7 +47,7 @@ struct WordCount {
 };
 
 // What a word leaves unsaid of the point at its middle: rms of the gap rate within the points of one word, and in the
-// word that says least; over the rms of all [1]. Both go to 0 with the length where the partition tells points apart
+// word that says least; over the rms of all [1]. Both go to 0 with the length where the partition separates points
 // (it generates).
 struct WordSpread {
   double mean, largest;

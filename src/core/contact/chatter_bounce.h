@@ -52,12 +52,12 @@ AFM_INLINED T speed_after(double most_loss, const ChatterFlow& flow, const T& v)
   return v * (T(1.0) - min(T(most_loss), T(T(flow.loss) * v)));
 }
 
-// What the mean height v^2/(3 P) of a bounce moves the tip off its guide by.
+// What the mean height v^2/(3 P) of a bounce moves the tip off its reference slide by.
 template <class T>
 AFM_INLINED ChatterOf<T> moved(const ChatterSurroundingsOf<T>& at, const Reaction<T>& r, const T& dt, bool held,
                                const ChatterOf<T>& c) {
   const T height = T(kThird) * c.v * c.v * r.inverse_P * dt, P1 = r.p1 * r.P;
-  const T p = mul_add(at.lean, height, mul_add(T(-at.stiffness * c.sigma), dt, c.p));
+  const T p = mul_add(at.c_height, height, mul_add(T(-at.stiffness * c.sigma), dt, c.p));
   return {c.v,
           c.n,
           mul_add(T(T(2.0) * at.turn), height, mul_add(T(T(0.5) * (c.p + p)), dt, c.sigma)),

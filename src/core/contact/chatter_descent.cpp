@@ -21,7 +21,7 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::descend(const SlidePiece<double>& guide,
   double s = from;
   while (descends(c.v) && c.v > threshold_) {
     const ChatterSurroundings at = rates_.surroundings(guide, s);
-    const double far = kFar / std::max(at.quickness, 2.0 * kTwoPi * at.slow_rate);
+    const double far = kFar / std::max(at.relative_rate, 2.0 * kTwoPi * at.slow_rate);
     double t = 0.0;
     do {
       const auto r = later(at, t);

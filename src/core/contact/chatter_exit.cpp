@@ -19,17 +19,17 @@ double time_at(double n, const ChatterPlace& from, const ChatterPlace& to) {
 // What the strain of a bounce asks for, so much later.
 ChatterSurroundings foretold(const ChatterSurroundings& now, double dt) {
   ChatterSurroundings at = now;
-  at.P = now.P + dt * (now.P1 + 0.5 * dt * now.P2), at.per_P = 1.0 / at.P;
-  at.squeeze = (now.P1 + dt * now.P2) * at.per_P / 3.0;
-  at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(now.P2 * at.per_P)));
+  at.P = now.P + dt * (now.P1 + 0.5 * dt * now.P2), at.inverse_P = 1.0 / at.P;
+  at.c_speed = (now.P1 + dt * now.P2) * at.inverse_P / 3.0;
+  at.relative_rate = std::sqrt(std::max(9.0 * square(at.c_speed), std::abs(now.P2 * at.inverse_P)));
   return at;
 }
 
 // The part of a step until its bounces last too long: where the pressure falls to nothing they do like its square,
 // upside down.
-double bearable_part(double first_strain, double last_strain) {
+double bearable_part(double first_strain, double last_ratio) {
   constexpr double kLeast = 1e-9;
-  const double first = 1.0 / std::sqrt(std::max(first_strain, kLeast)), last = 1.0 / std::sqrt(last_strain);
+  const double first = 1.0 / std::sqrt(std::max(first_strain, kLeast)), last = 1.0 / std::sqrt(last_ratio);
   return first > 1.0 ? (first - 1.0) / (first - last) : 0.0;
 }
 
@@ -38,13 +38,13 @@ double bearable_part(double first_strain, double last_strain) {
 // How long until the bounces of a falling pressure last too long, about; 0 or less where they do already. Their strain
 // grows like the square of the time to nothing, upside down, and where that is far off more slowly: it is foretold
 // there.
-double ChatterLaw::bearable_time(const ChatterPlace& at, double strained) const {
+double ChatterLaw::time_until_limit(const ChatterPlace& at, double ratio) const {
   constexpr double kFar = 0.009;  // no step goes as far as from there
-  if (!(-3.0 * at.around.squeeze * duration(at) > kFar)) return std::numeric_limits<double>::infinity();
-  const double nothing = time_to_fall(at.around, 1.0), soon = nothing * (1.0 - std::sqrt(strained));
+  if (!(-3.0 * at.around.c_speed * duration(at) > kFar)) return std::numeric_limits<double>::infinity();
+  const double nothing = time_to_fall(at.around, 1.0), soon = nothing * (1.0 - std::sqrt(ratio));
   if (!(soon > 0.0 && soon < nothing)) return soon;
   const double fall = std::max(0.0, -at.rate.x * (v_c_ > threshold_ ? 1.0 : 1.0 / at.plain.v));
-  const double then = strain(foretold(at.around, soon), at.plain.v / (1.0 + fall * soon), true);
+  const double then = adiabaticity(foretold(at.around, soon), at.plain.v / (1.0 + fall * soon), true);
   return soon + (nothing - soon) * (1.0 - std::sqrt(then));
 }
 
@@ -58,18 +58,18 @@ ChatterRun ChatterLaw::exit_at(double n, const ChatterPlace& at) const {
 // The last whole n of a step before its bounces last too long, or its first: bracketed, as n only grows. Half a bounce
 // either way is not worth a step.
 ChatterRun ChatterLaw::whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
-                                    double last_strain) const {
+                                    double last_ratio) const {
   constexpr double kBearable = 1.05, kNearlyWhole = 1e-2, kLeastRest = 1e-6;
   constexpr double kLittleLoss = 0.03;  // of v in a bounce: over half of one the mean of two rates is enough
   constexpr int kMostTries = 5, kMostSteps = 40;
   const double first_n = std::floor(from.plain.n) + 1.0, dt = to.s - from.s;
   const double least = std::min(dt, (first_n - from.plain.n) * duration(from));
-  const double first_strain = strain(from.around, from.plain.v, true);
+  const double first_strain = adiabaticity(from.around, from.plain.v, true);
   ChatterPlace at = to;
   // more than once where the pressure passes its maximum
-  for (int i = 0; i < kMostTries && last_strain > kBearable && at.s - from.s > least; ++i) {
-    at = rates_.step(guide, from, std::max(least, bearable_part(first_strain, last_strain) * (at.s - from.s)));
-    last_strain = strain(at.around, at.plain.v, true);
+  for (int i = 0; i < kMostTries && last_ratio > kBearable && at.s - from.s > least; ++i) {
+    at = rates_.step(guide, from, std::max(least, bearable_part(first_strain, last_ratio) * (at.s - from.s)));
+    last_ratio = adiabaticity(at.around, at.plain.v, true);
   }
   // of a bounce, and of what is left to the whole one
   const auto nearly = [&](double n) { return kNearlyWhole * std::clamp(n - from.plain.n, kLeastRest, 1.0); };

@@ -18,18 +18,18 @@ constexpr double kThird = 1.0 / 3.0;
 // What follows from the reaction, its derivatives and K.
 template <class T>
 AFM_INLINED void set_reaction_terms(ChatterSurroundingsOf<T>& at) {
-  const T per_P = T(1.0) / at.P, per_P2 = per_P * per_P, K = at.bend;
-  const T p1 = at.P1 * per_P, p2 = at.P2 * per_P, p3 = at.P3 * per_P, p1_2 = p1 * p1;
-  at.per_P = per_P;
-  at.squeeze = T(kThird) * p1;
-  at.stretch = mul_add(T(3.0 / 27), p2, mul_add(T(-4.0 / 27), p1_2, T(T(-kThird) * K))) * per_P2;
+  const T inverse_P = T(1.0) / at.P, per_P2 = inverse_P * inverse_P, K = at.bend;
+  const T p1 = at.P1 * inverse_P, p2 = at.P2 * inverse_P, p3 = at.P3 * inverse_P, p1_2 = p1 * p1;
+  at.inverse_P = inverse_P;
+  at.c_speed = T(kThird) * p1;
+  at.c_duration = mul_add(T(3.0 / 27), p2, mul_add(T(-4.0 / 27), p1_2, T(T(-kThird) * K))) * per_P2;
   const T bent = mul_add(T(T(-0.2) * K), p1, T(at.bend1 * T(1.0 / 15)));
-  at.twist = mul_add(T(-3.0 / 135), p3, mul_add(T(T(20.0 / 135) * p1), T(p2 - p1_2), bent)) * per_P2;
-  at.lag = T(T(kThird) * K) * per_P2;
-  at.late = mul_add(T(0.5), K, T(mul_add(T(-2.0 / 3), p1_2, p2) * T(1.0 / 9))) * per_P2;
+  at.c_speed3 = mul_add(T(-3.0 / 135), p3, mul_add(T(T(20.0 / 135) * p1), T(p2 - p1_2), bent)) * per_P2;
+  at.c_loss = T(T(kThird) * K) * per_P2;
+  at.c_loss_w = mul_add(T(0.5), K, T(mul_add(T(-2.0 / 3), p1_2, p2) * T(1.0 / 9))) * per_P2;
 }
 
-// At every node of a step of which both ends are known, without quickness and speeds. The reaction is interpolated to
+// At every node of a step of which both ends are known, without relative_rate and speeds. The reaction is interpolated to
 // the order 8, what is only in terms of the second order evenly.
 template <class T>
 AFM_INLINED ChatterSurroundingsOf<T> between(const ChatterSurroundings& first, const ChatterSurroundings& last,
@@ -44,15 +44,15 @@ AFM_INLINED ChatterSurroundingsOf<T> between(const ChatterSurroundings& first, c
   at.bend = at_nodes(first.bend, last.bend), at.bend1 = at_nodes(first.bend1, last.bend1);
   set_reaction_terms(at);
   at.turn = at_nodes(first.turn, last.turn);
-  at.lean = at_nodes(first.lean, last.lean), at.stiffness = at_nodes(first.stiffness, last.stiffness);
+  at.c_height = at_nodes(first.c_height, last.c_height), at.stiffness = at_nodes(first.stiffness, last.stiffness);
   at.along = at_nodes(first.along, last.along), at.up = at_nodes(first.up, last.up);
   return at;
 }
 
-// The reaction off the guide over that on it, less 1. The action keeps v^3/P.
+// The reaction off the reference slide over that on it, less 1. The action keeps v^3/P.
 template <class T>
 AFM_INLINED T disturbance(const ChatterSurroundingsOf<T>& at, const T& sigma, const T& p) {
-  return mul_add(T(T(2.0) * at.turn), p, T(-at.lean * sigma)) * at.per_P;
+  return mul_add(T(T(2.0) * at.turn), p, T(-at.c_height * sigma)) * at.inverse_P;
 }
 
 // The interpolation of w -> w (1 - w): R = G/T and 1/T. Terms are paired, to shorten the chain of dependencies.
@@ -88,37 +88,39 @@ AFM_INLINED T chatter_speed(const ChatterFlow& flow, const T& x) {
   return flow.geometric ? T(max(x, T(kLeastSpeed))) : portable_exp(x);
 }
 
-// d/dt. In `c` v stands for what it would be on the guide itself. Products of two terms of the second order are of the
+// d/dt. In `c` v stands for what it would be on the reference slide itself. Products of two terms of the second order are of the
 // fourth, and left out.
 template <class T>
 AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
                                           const EvenChatterOf<T>& c) {
-  const T one(1.0), third(kThird), half(0.5), on_guide = chatter_speed(flow, c.x), per_v = one / on_guide;
+  const T one(1.0), third(kThird), half(0.5), on_guide = chatter_speed(flow, c.x), inverse_v = one / on_guide;
   const T more = disturbance(at, c.sigma, c.p), v = mul_add(on_guide, T(third * more), on_guide), v2 = v * v;
-  const T height = v2 * (third * at.per_P), longer = at.stretch * v2, longer2 = mul_add(T(-longer), longer, longer);
-  const T even = half * at.P, bounces = per_v * mul_add(even, T(T(2.0 * kThird) * more), even);
-  const T sigma = mul_add(T(T(2.0) * at.turn), height, c.p), p = mul_add(at.lean, height, T(-at.stiffness * c.sigma));
+  const T height = v2 * (third * at.inverse_P), longer = at.c_duration * v2,
+          longer2 = mul_add(T(-longer), longer, longer);
+  const T even = half * at.P, bounces = inverse_v * mul_add(even, T(T(2.0 * kThird) * more), even);
+  const T sigma = mul_add(T(T(2.0) * at.turn), height, c.p),
+          p = mul_add(at.c_height, height, T(-at.stiffness * c.sigma));
   const T drift = mul_add(at.along, c.sigma, T(at.up * height));
   // the mean height of a bounce times P'; v is that of its beginning, of which the flow is less later on
-  const T lift = (flow.held ? at.squeeze : T(0.0)) * v2;
+  const T lift = (flow.held ? at.c_speed : T(0.0)) * v2;
   // of ln v, as are those below
-  const T bent = mul_add(T(-at.squeeze), longer2, T(at.twist * v2));
+  const T bent = mul_add(T(-at.c_speed), longer2, T(at.c_speed3 * v2));
   if (flow.geometric) {
     const double g = flow.gamma;
-    const T sooner = mul_add(T(-bounces), longer2, bounces), change = mul_add(T(g - 1.0), sooner, at.squeeze + bent);
+    const T sooner = mul_add(T(-bounces), longer2, bounces), change = mul_add(T(g - 1.0), sooner, at.c_speed + bent);
     return {on_guide * change,
-            mul_add(sooner, T(flow.per_mean), T(T(flow.even) * change)),
+            mul_add(sooner, T(flow.inverse_mean), T(T(flow.even) * change)),
             sigma,
             p,
             drift,
             lift * T(3.0 / (1.0 + g + g * g))};
   }
-  const T w = T(flow.loss) * v, later = mul_add(half, w, one), delay = at.squeeze * at.per_P * v * w * series_D(w);
-  const T per_T = series_1_over_T(w), lost = mul_add(v2, mul_add(w, at.late, at.lag), series_R(w));
-  const T squeezed = T(at.squeeze * per_T) * mul_add(T(-w * w), series_S(w), one);
+  const T w = T(flow.loss) * v, later = mul_add(half, w, one), delay = at.c_speed * at.inverse_P * v * w * series_D(w);
+  const T per_T = series_1_over_T(w), lost = mul_add(v2, mul_add(w, at.c_loss_w, at.c_loss), series_R(w));
+  const T squeezed = T(at.c_speed * per_T) * mul_add(T(-w * w), series_S(w), one);
   const T change = mul_add(bent, later, mul_add(T(-w), T(bounces * lost), squeezed));
   const T sooner = mul_add(T(-longer2), later, mul_add(T(-per_T), delay, per_T));
-  return {change, mul_add(bounces, sooner, T(T(part) * per_v * change)), sigma, p, drift, mul_add(lift, w, lift)};
+  return {change, mul_add(bounces, sooner, T(T(part) * inverse_v * change)), sigma, p, drift, mul_add(lift, w, lift)};
 }
 
 template <class T>

@@ -26,7 +26,7 @@ AFM_INLINED ChatterSurroundingsOf<T> ChatterView::look(const SlidePiece<T>& guid
   // held along x, the tip sees no slope: only that the pressure changes
   h.h1 *= free, h.h2 *= free, h.h3 *= free;
   const T u = q.u, u2 = u * u, N2 = one + square(h.h1), per_N2 = one / N2, per_N = sqrt(per_N2);
-  // time derivatives of x, of the guide with the reaction on it, and of the slope
+  // time derivatives of x, of the reference slide with the reaction on it, and of the slope
   const T s = h.h1, s1 = h.h2 * u, x2 = -wh2 * q.X - s * a[0];
   const T x3 = -wh2 * (u - guide.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
   const T s3 = u * (three * h.h3 * x2 - T(square(kTwoPi)) * h.h2 * u2) + h.h2 * x3;
@@ -48,13 +48,13 @@ AFM_INLINED ChatterSurroundingsOf<T> ChatterView::look(const SlidePiece<T>& guid
   // curvature k = h''/N^3, its rate along the surface, speed N u, acceleration along the surface from the springs alone
   const T curvature = h.h2 * per_N2 * per_N, curvature1 = (h.h3 - three * s * square(h.h2) * per_N2) * square(per_N2);
   const T pull = (x2 + L1 * u) * N2 * per_N, speed2 = u2 * N2;
-  at.lean = s * (wh2 - wv2) * per_N2 - curvature * pull - curvature1 * speed2;
+  at.c_height = s * (wh2 - wv2) * per_N2 - curvature * pull - curvature1 * speed2;
   at.stiffness = (wh2 + wv2 * square(s)) * per_N2 - curvature * (curvature * speed2 - at.P);
   at.along = free * per_N;
   at.up = -s * per_N;
   // these choose steps alone
   const double change = static_cast<double>(p1), bend = static_cast<double>(p2);
-  at.quickness = std::sqrt(std::max(square(change), std::abs(bend)));
+  at.relative_rate = std::sqrt(std::max(square(change), std::abs(bend)));
   at.speed = std::abs(static_cast<double>(u));
   at.slow_rate = std::max(static_cast<double>(at.speed), slow_rate_);
   return at;
@@ -67,14 +67,14 @@ AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) 
   const double a = -start.g2, a1 = -start.g3, per_N2 = 1.0 / (1.0 + free_ * square(h1));
   ChatterSurroundings at{};
   at.P = a * std::sqrt(per_N2);
-  at.per_P = 1.0 / at.P;
-  at.squeeze = kThird * (a1 / a - free_ * h1 * h2 * q.u * per_N2);
+  at.inverse_P = 1.0 / at.P;
+  at.c_speed = kThird * (a1 / a - free_ * h1 * h2 * q.u * per_N2);
   // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
   const double u = q.u, u2 = square(u), reaction = free_ * a * per_N2;
   const double x2 = -wh2_ * q.X - h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h2 * u * reaction, x4 = -wh2_ * x2;
   const double a2 =
       h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
-  at.quickness = std::sqrt(std::max(9.0 * square(at.squeeze), std::abs(a2) / a));
+  at.relative_rate = std::sqrt(std::max(9.0 * square(at.c_speed), std::abs(a2) / a));
   at.speed = std::abs(q.u);
   at.slow_rate = std::max(at.speed, slow_rate_);
   return at;

@@ -8,7 +8,6 @@
 #include "chatter_flow.h"
 #include "chatter_look.h"
 #include "four.h"
-#include "core/lanes/node_step.h"
 #include "portable_exp.h"
 #include "projection.h"
 
@@ -21,10 +20,6 @@ double mean_over_first(double gamma) {
   return gamma > 0.0 ? -portable_log(gamma) / loss : std::numeric_limits<double>::infinity();
 }
 
-AFM_MULTIVERSION void step_by_numbers(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to) {
-  node_step<Four>(flow, from, dt, to);
-}
-
 }  // namespace
 
 ChatterView::ChatterView(const Model& model)
@@ -35,16 +30,13 @@ ChatterView::ChatterView(const Model& model)
       slow_rate_(std::max(1.0, free_ * model.frequency_ratio)) {}
 
 ChatterRates::ChatterRates(const Model& model, bool geometric)
-    : view_(model),
-      flow_{geometric,   view_.held(),
-            model.gamma, geometric ? 0.0 : (1.0 - model.gamma) / model.v_c,
-            0.0,         1.0 / mean_over_first(model.gamma)},
-      node_step_(lanes::node_step()) {
+    : view_(model), flow_{geometric,   view_.held(),
+                          model.gamma, geometric ? 0.0 : (1.0 - model.gamma) / model.v_c,
+                          0.0,         1.0 / mean_over_first(model.gamma)} {
   // no more than rounding allows where the loss is next to nothing: then n alone changes evenly
   constexpr double kLeastLoss = 1e-4;
   const double loss = geometric ? 1.0 - model.gamma : flow_.loss;
-  flow_.even = loss > kLeastLoss ? (geometric ? flow_.per_mean : 1.0) / loss : 0.0;
-  if (node_step_ == nullptr) node_step_ = step_by_numbers;
+  flow_.even = loss > kLeastLoss ? (geometric ? flow_.inverse_mean : 1.0) / loss : 0.0;
 }
 
 double ChatterRates::x_of(double v) const { return even_speed(flow_, v); }
@@ -57,7 +49,7 @@ AFM_INLINED void ChatterRates::take_part(double more, EvenChatter& even, EvenCha
 }
 
 double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
-  return 2.0 * at.per_P * (flow_.geometric ? v / (1.0 - flow_.gamma) : 1.0 / flow_.loss);
+  return 2.0 * at.inverse_P * (flow_.geometric ? v / (1.0 - flow_.gamma) : 1.0 / flow_.loss);
 }
 
 AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<double>& bounce) const {
@@ -89,11 +81,11 @@ AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide
     const double part = dt > kMuchFall * fall_time(from.around, from.plain.v) ? flow_.even : 0.0;
     ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), from.even, from.rate, {}, part};
     take_part(part - from.part, to.even, to.rate);
-    node_step_(flow_, from, dt, to);
+    node_step<Four>(flow_, from, dt, to);
     to.plain = plain_of(flow_, to.around, to.part, to.even);
     return to;
   };
-  const bool brief = dt * std::max(from.around.quickness, from.around.slow_rate) < kBrief;
+  const bool brief = dt * std::max(from.around.relative_rate, from.around.slow_rate) < kBrief;
   return brief ? brief_step(guide, from, dt) : by_nodes();
 }
 

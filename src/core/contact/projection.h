@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "afm/contact.h"
 #include "afm/detail/chatter_rates.h"
 #include "afm/detail/multiversion.h"
-#include "afm/contact.h"
 #include "afm/surface.h"
 
 namespace afm {

@@ -1,4 +1,4 @@
-// What tells a bifurcation of a periodic orbit from its multipliers and impacts.
+// Recognizes a bifurcation of a periodic orbit by its multipliers and impacts.
 #pragma once
 
 #include "afm/dynamics/continuation.h"

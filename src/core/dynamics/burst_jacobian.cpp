@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "afm/dynamics/contact_jacobian.h"
 #include "afm/detail/dual.h"
+#include "afm/dynamics/contact_jacobian.h"
 #include "core/contact/chatter_bounce.h"
 #include "core/contact/chatter_flow.h"
 #include "core/contact/chatter_look.h"
@@ -55,14 +55,14 @@ class BurstFlow {
 
  private:
   ProjectedOf<Dual4> first(const TipState& s) const {
-    return projected(free_, mechanics_.H,
-                     {Dual4::variable(s.phase, 0), Dual4::variable(s.X, 1), Dual4::variable(s.u, 2),
-                      Dual4::variable(s.g1, 3)});
+    return projected(
+        free_, mechanics_.H,
+        {Dual4::variable(s.phase, 0), Dual4::variable(s.X, 1), Dual4::variable(s.u, 2), Dual4::variable(s.g1, 3)});
   }
 
   ChatterSurroundingsOf<Dual4> look(const Dual4& s) const { return law_.rates().view().look(guide_, s); }
 
-  // A new piece of the guide begins where the chatter has moved the tip, as the tip does it.
+  // A new piece of the reference slide begins where the chatter has moved the tip, as the tip does it.
   void begin_piece() {
     guide_ = SlidePiece<Dual4>(mechanics_, eta_, moved_guide_of(mechanics_.H, guide_.at(s_), chatter_));
     chatter_ = {chatter_.v, chatter_.n};
@@ -108,7 +108,7 @@ class BurstFlow {
     const ChatterSurroundingsOf<Dual4> at = look(s_);
     const double P = at.P.value, v = chatter_.v.value;
     const double fall = 2.0 / P * (flow_.geometric ? v / law_.most_loss() : 1.0 / flow_.loss);
-    const double changes = std::max(at.quickness.value, 2.0 * kTwoPi * at.slow_rate.value);
+    const double changes = std::max(at.relative_rate.value, 2.0 * kTwoPi * at.slow_rate.value);
     return std::min(kStep * std::min(fall, 1.0 / changes), guide_.length().value);
   }
 

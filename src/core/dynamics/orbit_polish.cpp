@@ -20,11 +20,11 @@ Incident fly(const Mechanics<Fine>& m, const Fine& eta, const FinePoint& p, cons
   const Fine Y = start.h - m.y0, W = p.g1 + start.h1 * p.u, U = p.u - eta;
   const SinCos<Fine> h = sin_cos_turns(turn_product(m.ratio, s)), v = sin_cos_turns(s);
   Incident at;
-  at.X = p.X * h.cos + U * h.sin * m.per_omega_h;
+  at.X = p.X * h.cos + U * h.sin * m.inverse_omega_h;
   at.u = eta + U * h.cos - m.omega_h * p.X * h.sin;
   at.phase = p.phase + (at.X - p.X) + eta * s;
   at.surface = surface_jet(m.H, at.phase);
-  at.g = Y * v.cos + W * v.sin * m.per_omega_v + m.y0 - at.surface.h;
+  at.g = Y * v.cos + W * v.sin * m.inverse_omega_v + m.y0 - at.surface.h;
   at.g1 = W * v.cos - m.omega_v * Y * v.sin - at.surface.h1 * at.u;
   return at;
 }

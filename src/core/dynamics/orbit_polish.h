@@ -1,4 +1,4 @@
-// The last digits of a periodic orbit: Newton's method with errors computed in twice the digits.
+// The last digits of a periodic orbit: Newton's method with errors computed in double-double.
 #pragma once
 
 #include <Eigen/Core>

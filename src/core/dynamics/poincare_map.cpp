@@ -17,7 +17,7 @@ TipState PoincareMap::held(const TipState& start) const {
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
   if (!(start.g1 >= kLeastGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
-  Flight<double> flight(mechanics_, eta_, held(start), BoundLater{});
+  Flight<double> flight(mechanics_, eta_, held(start));
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;

@@ -83,29 +83,6 @@ AttractorSettings search_settings(const SweepSettings& settings) {
   return search;
 }
 
-constexpr std::size_t kFewest = 3;  // in a pack that is all but empty a tip is slower than by itself
-
-// Brings the meters' tips on together, until few are left.
-void measure_together(std::vector<FrictionMeter>& meters, Ensemble& tips) {
-  constexpr std::uint32_t kEvents = 128;
-  std::vector<Impact> log(meters.size() * kEvents);
-  std::vector<ModelTime> limits;
-  for (const FrictionMeter& meter : meters) limits.push_back(meter.limit());
-  for (std::size_t left = meters.size(); left > kFewest;) {
-    tips.advance(kEvents, limits.data(), log.data());
-    for (std::size_t i = 0; i < meters.size(); ++i) {
-      if (meters[i].done()) continue;
-      const std::uint32_t events = tips.events(i), failures = tips.search_failures(i);
-      meters[i].add_search_failures(failures);
-      for (std::uint32_t k = 0; k < events - failures; ++k) meters[i].add(log[i * kEvents + k]);
-      if (events == kEvents) continue;
-      meters[i].reach_limit();
-      limits[i] = meters[i].limit();
-      left -= meters[i].done() ? 1 : 0;
-    }
-  }
-}
-
 }  // namespace
 
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start) {
@@ -113,50 +90,9 @@ SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, 
   Tip tip(model, point.eta, start);
   SweepResult result;
   result.attractor = find_attractor(model, tip, search_settings(settings));
-  FrictionMeter meter(tip, result.attractor.cells, settings.duration);
-  result.friction = measure(tip, meter);
+  result.friction = average_over_periods(tip, result.attractor.cells, settings.duration);
   result.end = tip.tip_state();
   return result;
-}
-
-std::vector<SweepResult> sweep_points(const std::vector<SweepTrip>& trips, const SweepSettings& settings) {
-  std::vector<SweepResult> results;
-  if (trips.size() <= kFewest || Ensemble().lanes() == 1) {
-    for (const SweepTrip& trip : trips) results.push_back(sweep_point(trip.point, settings, trip.start));
-    return results;
-  }
-  const AttractorSettings search = search_settings(settings);
-  const ModelTime transient = ModelTime{} + settings.transient;
-  Ensemble tips;
-  for (const SweepTrip& trip : trips) tips.add(Tip(model_of(trip.point), trip.point.eta, trip.start));
-  tips.advance(static_cast<std::uint32_t>(search.most_events), transient);
-
-  results.resize(trips.size());
-  std::vector<FrictionMeter> meters;
-  Ensemble settled;
-  for (std::size_t i = 0; i < trips.size(); ++i) {
-    const SweepTrip& trip = trips[i];
-    const Model model = model_of(trip.point);
-    Tip tip = tips.tip(i);
-    AttractorSettings rest = search;
-    // one that has no drag or is in trouble is looked at from its start on, as it is alone
-    if (trip.point.eta == 0.0 || tips.search_failures(i) > 0 || tips.events(i) + 2 > search.most_events) {
-      tip = Tip(model, trip.point.eta, trip.start);
-    } else {
-      rest.transient = 0.0;
-      rest.most_events -= tips.events(i);
-    }
-    results[i].attractor = find_attractor(model, tip, rest);
-    meters.emplace_back(tip, results[i].attractor.cells, settings.duration);
-    settled.add(tip);
-  }
-  measure_together(meters, settled);
-  for (std::size_t i = 0; i < trips.size(); ++i) {
-    Tip tip = settled.tip(i);
-    results[i].friction = measure(tip, meters[i]);
-    results[i].end = tip.tip_state();
-  }
-  return results;
 }
 
 }  // namespace afm

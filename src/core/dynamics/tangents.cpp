@@ -83,14 +83,14 @@ void Tangents::carry_bounce(double dt) {
 }
 
 // From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A
-// tip that has begun a burst tells its guide alone; then the bounce is as good.
+// tip that has begun a chatter sequence shows its reference slide alone; then the bounce is as good.
 void Tangents::restart(const TipState& bounce) {
   start_ = tip_.tip_state();
   if (!(start_.g1 > 0.0)) start_ = bounce;
   since_ = tip_.now();
 }
 
-// A burst that dies has carried the guide, and leaves it to the contact that follows; its normal velocity is gone.
+// A burst that dies has carried the reference slide, and leaves it to the contact that follows; its normal velocity is gone.
 void Tangents::carry_burst(double dt) {
   const TipState end = tip_.tip_state();
   stretch_.volume = std::numeric_limits<double>::quiet_NaN();
@@ -98,7 +98,7 @@ void Tangents::carry_burst(double dt) {
     carry(burst_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
   } else {
     SectionJacobian<double> J = settle_jacobian(model_, start_);
-    J.topRows<3>() = slide_jacobian(model_, tip_.eta(), settle(model_, start_).guide, dt) * J.topRows<3>().eval();
+    J.topRows<3>() = slide_jacobian(model_, tip_.eta(), project_onto_surface(model_, start_).guide, dt) * J.topRows<3>().eval();
     J.row(3).setZero();
     J = held(mechanics_.mobility, J);
     columns_ = J * columns_;
@@ -109,7 +109,7 @@ void Tangents::carry_burst(double dt) {
 }
 
 void Tangents::begin_contact() {
-  const SlideState<double> guide = settle(model_, start_).guide;
+  const SlideState<double> guide = project_onto_surface(model_, start_).guide;
   SectionJacobian<double> J = held(mechanics_.mobility, settle_jacobian(model_, start_));
   J.row(3).setZero();
   const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), guide).normalized();

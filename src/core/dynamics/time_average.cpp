@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -39,7 +40,46 @@ void bring_to(Tip& tip, const ModelTime& end) {
   while (tip.advance(end) != Outcome::time_limit) continue;
 }
 
-}  // namespace
+// Takes the events of a tip that is brought to limit() time after time until the meter is done.
+class FrictionMeter {
+ public:
+  // Of an orbit that repeats itself after `cells` cells, or wanders: 0. The tip is moved to where the meter begins.
+  FrictionMeter(Tip& tip, std::int64_t cells, double duration);
+
+  bool done() const { return windows_left_ == 0; }
+  const ModelTime& limit() const { return end_; }
+  void add(const Impact& event);
+  void add_search_failures(std::uint64_t n) { totals_.search_failures += n; }
+  void reach_limit();                                          // the tip is there
+  const FrictionAverage& average() const { return average_; }  // once done
+
+ private:
+  // A sum whose rounding is carried along (Neumaier).
+  class Sum {
+   public:
+    void add(double x);
+    double value() const { return sum_ + rest_; }
+
+   private:
+    double sum_ = 0.0, rest_ = 0.0;
+  };
+  struct Totals {
+    Sum energy;
+    double impacts = 0.0, contact_time = 0.0;
+    std::uint64_t search_failures = 0;
+  };
+
+  void begin_window(const ModelTime& begin);
+  FrictionAverage window_average() const;
+
+  double eta_, length_;  // of a window [tau]
+  int windows_left_;
+  ModelTime begin_, end_, touched_;
+  bool in_contact_;
+  Totals totals_;
+  std::vector<double> batches_;  // of an orbit that wanders: energies lost
+  FrictionAverage average_;
+};
 
 void FrictionMeter::Sum::add(double x) {
   const double sum = sum_ + x;
@@ -60,33 +100,33 @@ FrictionMeter::FrictionMeter(Tip& tip, std::int64_t cells, double duration)
 }
 
 void FrictionMeter::begin_window(const ModelTime& begin) {
-  books_ = {};
+  totals_ = {};
   begin_ = touched_ = begin;
   end_ = begin + length_;
 }
 
 void FrictionMeter::add(const Impact& event) {
-  books_.energy.add(event.energy_loss);
-  books_.impacts += event.count;
+  totals_.energy.add(event.energy_loss);
+  totals_.impacts += event.count;
   if (!batches_.empty()) {
     const double age = event.time - begin_, length = length_ / static_cast<double>(kBatches);
     batches_[std::min(kBatches - 1, static_cast<std::size_t>(age / length))] += event.energy_loss;
   }
   if (event.kind == ImpactKind::contact_begun) touched_ = event.time;
-  if (event.kind == ImpactKind::contact_ended) books_.contact_time += event.time - touched_;
+  if (event.kind == ImpactKind::contact_ended) totals_.contact_time += event.time - touched_;
   in_contact_ = event.kind == ImpactKind::contact_begun;
 }
 
 FrictionAverage FrictionMeter::window_average() const {
-  const double energy = books_.energy.value(), time = end_ - begin_;
-  const double contact_time = books_.contact_time + (in_contact_ ? end_ - touched_ : 0.0);
-  const double per_impact = books_.impacts > 0.0 ? 1.0 / books_.impacts : kNaN;
+  const double energy = totals_.energy.value(), time = end_ - begin_;
+  const double contact_time = totals_.contact_time + (in_contact_ ? end_ - touched_ : 0.0);
+  const double per_impact = totals_.impacts > 0.0 ? 1.0 / totals_.impacts : kNaN;
   FrictionAverage a;
   a.K_f = eta_ == 0.0 ? kNaN : energy / (eta_ * eta_ * time);
-  a.impacts_per_tau = books_.impacts / time;
+  a.impacts_per_tau = totals_.impacts / time;
   a.mean_energy_loss = energy * per_impact;
   a.mean_flight_time = (time - contact_time) * per_impact;
-  a.search_failures = books_.search_failures;
+  a.search_failures = totals_.search_failures;
   return a;
 }
 
@@ -114,6 +154,8 @@ FrictionAverage measure(Tip& tip, FrictionMeter& meter) {
   }
   return meter.average();
 }
+
+}  // namespace
 
 FrictionAverage average_over_time(Tip& tip, double duration) { return average_over_periods(tip, 0, duration); }
 

@@ -72,7 +72,7 @@ void Emulator::drag(double eta) {
 
 double Emulator::set_level(const Level& level) {
   if (level == Level{settings_.model.kind, settings_.contact_tolerance}) return 0.0;
-  const double dropped = tip_.relevel(level.kind, level.contact_tolerance);
+  const double dropped = tip_.set_model(level.kind, level.contact_tolerance);
   settings_.model.kind = level.kind;
   settings_.contact_tolerance = level.contact_tolerance;
   friction_.restart(now_, eta_);
@@ -90,7 +90,7 @@ void Emulator::change(const LiveSettings& live) {
     model.gamma = live.gamma;
     model.v_c = live.v_c;
     model.y0 = live.y0;
-    tip_.retune(model);
+    tip_.set_parameters(model);
     friction_.restart(now_, eta_);
   }
   if (live.sample_period != settings_.sample_period) grid_ = {live.sample_period, next_sample_, now_};

@@ -12,12 +12,6 @@
 namespace afm {
 namespace {
 
-// Whether or not its search has begun.
-Flight<double> bounded(Flight<double> flight) {
-  flight.bound_derivatives();
-  return flight;
-}
-
 constexpr bool kLp64 = sizeof(void*) == 8;  // where the sizes below are known
 
 class Writer {
@@ -142,12 +136,7 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   static_assert(!kLp64 || sizeof t - kParts == 472);
   of_model(archive, t.model_);
   whole(archive, t.eta_);
-  if constexpr (std::is_const_v<Self>) {
-    const Flight<double> flight = bounded(t.flight_);
-    whole(archive, flight);
-  } else {
-    whole(archive, t.flight_);
-  }
+  whole(archive, t.flight_);
   whole(archive, t.slide_);
   choice(archive, t.mode_, Tip::Mode::sliding);
   whole(archive, t.start_);
@@ -165,10 +154,10 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   whole(archive, t.split_);
   choice(archive, t.is_split_, true);
   of_impact(archive, t.last_impact_);
-  choice(archive, t.untold_, true);
-  of_impact(archive, t.untold_impact_);
+  choice(archive, t.pending_, true);
+  of_impact(archive, t.pending_impact_);
   if constexpr (!std::is_const_v<Self>) {
-    t.tolerate(contact_tolerance);
+    t.set_tolerance(contact_tolerance);
     t.adopt(Model(t.model_));
     t.landing_known_ = false;
   }
@@ -199,7 +188,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
 }
 
 std::uint32_t state_layout() {
-  constexpr std::uint32_t kMeaning = 4;  // to be raised whenever the words mean something else
+  constexpr std::uint32_t kMeaning = 5;  // to be raised whenever the words mean something else
   static const std::uint32_t layout = [] {
     SavedState state;
     Emulator(EmulatorSettings{}).save(state);

@@ -1,8 +1,5 @@
 // What the compiler could make and the machine can run. For any machine: compiled like the rest.
-#include "lane_tip.h"
-#include "node_step.h"
 #include "sample_row.h"
-#include "slide_orders.h"
 
 namespace afm {
 namespace lanes {
@@ -27,19 +24,12 @@ Function chosen(int width, Function four, Function eight) {
 }  // namespace
 
 #ifdef AFM_WIDE_LANES
-Advance advance_in(int width) { return chosen(width, advance_avx2, advance_avx512); }
 Sampler sampler_in(int width) { return chosen(width, sample_avx2, sample_avx512); }
 #else
-Advance advance_in(int width) { return chosen(width, advance_avx2, advance_avx2); }
 Sampler sampler_in(int width) { return chosen(width, sample_avx2, sample_avx2); }
 #endif
-NodeStep node_step() { return widest(4) == 4 ? node_step_avx2 : nullptr; }
-WriteSlideOrders slide_orders() { return widest(4) == 4 ? slide_orders_avx2 : nullptr; }
 #else
-Advance advance_in(int) { return nullptr; }
 Sampler sampler_in(int) { return nullptr; }
-NodeStep node_step() { return nullptr; }
-WriteSlideOrders slide_orders() { return nullptr; }
 #endif
 
 }  // namespace lanes

@@ -1,12 +1,8 @@
-// A pack of numbers, one in each lane, that the templates of the flight and its search can be given for their number:
-// every lane goes through the arithmetic that the number would, bit for bit. Include a register first; internal, as
-// that is.
+// A pack of numbers, one in each lane, that the templates of a flight can be given for their number: every lane goes
+// through the arithmetic that the number would, bit for bit. Include a register first; internal, as that is.
 #pragma once
 
-#include <utility>
-
-#include "afm/impact_search.h"
-#include "afm/reflection.h"
+#include "afm/flight.h"
 #include "register_bits.h"
 
 namespace afm {
@@ -54,23 +50,7 @@ AFM_LANE_INLINE unsigned bits(M m) { return mask_bits(m.r); }
 constexpr unsigned kAllLanes = (1u << kLanes) - 1u;
 
 AFM_LANE_INLINE Pack select(M m, P yes, P no) { return Pack(blended(m.r, yes.r, no.r)); }
-AFM_LANE_INLINE FlightState<Pack> select(M m, const FlightState<Pack>& a, const FlightState<Pack>& b) {
-  return {select(m, a.phase, b.phase), select(m, a.X, b.X), select(m, a.U, b.U), select(m, a.Y, b.Y),
-          select(m, a.W, b.W)};
-}
-AFM_LANE_INLINE GapJet<Pack> select(M m, const GapJet<Pack>& a, const GapJet<Pack>& b) {
-  return {select(m, a.g, b.g),         select(m, a.g1, b.g1), select(m, a.g2, b.g2), select(m, a.g3, b.g3),
-          select(m, a.state, b.state), select(m, a.h, b.h),   select(m, a.h1, b.h1)};
-}
-AFM_LANE_INLINE RootInterval<Pack> select(M m, const RootInterval<Pack>& a, const RootInterval<Pack>& b) {
-  return {(m && a.certain) || (!m && b.certain), select(m, a.estimate, b.estimate), select(m, a.low, b.low),
-          select(m, a.high, b.high)};
-}
 
-template <class F, class G>
-AFM_LANE_INLINE auto choose(M m, const F& yes, const G& no) {
-  return select(m, yes(), no());
-}
 template <class F, class G>
 AFM_LANE_INLINE auto either(M m, const F& yes, const G& no) {
   const unsigned lanes = bits(m);
@@ -79,34 +59,11 @@ AFM_LANE_INLINE auto either(M m, const F& yes, const G& no) {
   if (lanes != 0) value = select(m, yes(), value);
   return value;
 }
-template <class F>
-AFM_LANE_INLINE Mask both(M m, const F& rest) {
-  return m && rest();
-}
-
 AFM_LANE_INLINE Pack over(P x, double d) { return x * Pack(1.0 / d); }
 AFM_LANE_INLINE Pack mul_add(P a, P b, P c) { return fma(a, b, c); }
 
-AFM_LANE_INLINE Pack rough(P x) { return x; }
-
-// As the template, with one division for both of its ways.
-AFM_LANE_INLINE Pack first_root(P g, P g1, P q, P none) {
-  const Pack discriminant = g1 * g1 - Pack(2.0) * q * g, root = sqrt(discriminant), zero(0.0);
-  const Mask falling = g1 < zero;
-  const Pack value = select(falling, Pack(2.0) * g, g1 + root) / select(falling, root - g1, -q);
-  return select(discriminant < zero || (!falling && !(q < zero)), none, value);
-}
-
-struct PackLaunch {
-  Pack phase, X, u, g, g1;
-};
-
 }  // namespace
 
-template <>
-struct LaunchOf<Pack> {
-  using State = PackLaunch;
-};
 template <>
 AFM_LANE_INLINE Pack epsilon<Pack>() {
   return Pack(0x1p-52);

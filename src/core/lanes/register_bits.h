@@ -9,7 +9,6 @@ namespace {
 AFM_LANE_INLINE Whole whole(Register a) { return reinterpret_cast<Whole>(a); }
 AFM_LANE_INLINE Register bits_in_lanes(Whole a) { return reinterpret_cast<Register>(a); }
 AFM_LANE_INLINE Register plus_whole(Register a, Register b) { return bits_in_lanes(whole(a) + whole(b)); }
-AFM_LANE_INLINE Register minus_whole(Register a, Register b) { return bits_in_lanes(whole(a) - whole(b)); }
 
 AFM_LANE_INLINE Whole sign_bit() { return whole(filled(-0.0)); }
 AFM_LANE_INLINE Register negated(Register a) { return bits_in_lanes(whole(a) ^ sign_bit()); }

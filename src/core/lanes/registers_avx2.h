@@ -34,12 +34,6 @@ AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return _mm256_xor_pd(a, 
 AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return static_cast<unsigned>(_mm256_movemask_pd(a)); }
 
 // Of whole numbers kept in the bits of the lanes (register_bits.h).
-AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) {
-  return _mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_castpd_si256(b), _mm256_castpd_si256(a)));
-}
-AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) {
-  return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_castpd_si256(a), _mm256_castpd_si256(b)));
-}
 AFM_LANE_INLINE RegisterMask odd(Register bits) {
   const __m256i low = _mm256_slli_epi64(_mm256_castpd_si256(bits), 63);
   return _mm256_castsi256_pd(_mm256_cmpgt_epi64(_mm256_setzero_si256(), low));
@@ -47,23 +41,6 @@ AFM_LANE_INLINE RegisterMask odd(Register bits) {
 
 AFM_LANE_INLINE Register lane_numbers() { return _mm256_setr_pd(0.0, 1.0, 2.0, 3.0); }
 AFM_LANE_INLINE void store_row(double* row, Register a) { _mm256_storeu_pd(row, a); }
-
-// Two neighbours in each of four rows.
-AFM_LANE_INLINE void load_pair(const double* const* rows, int at, Register& first, Register& second) {
-  const Register even =
-      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[0] + at)), _mm_loadu_pd(rows[2] + at), 1);
-  const Register odds =
-      _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[1] + at)), _mm_loadu_pd(rows[3] + at), 1);
-  first = _mm256_unpacklo_pd(even, odds);
-  second = _mm256_unpackhi_pd(even, odds);
-}
-AFM_LANE_INLINE void store_pair(double* const* rows, int at, Register first, Register second) {
-  const Register even = _mm256_unpacklo_pd(first, second), odds = _mm256_unpackhi_pd(first, second);
-  _mm_storeu_pd(rows[0] + at, _mm256_castpd256_pd128(even));
-  _mm_storeu_pd(rows[1] + at, _mm256_castpd256_pd128(odds));
-  _mm_storeu_pd(rows[2] + at, _mm256_extractf128_pd(even, 1));
-  _mm_storeu_pd(rows[3] + at, _mm256_extractf128_pd(odds, 1));
-}
 
 }  // namespace
 }  // namespace afm

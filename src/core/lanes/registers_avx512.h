@@ -33,42 +33,12 @@ AFM_LANE_INLINE RegisterMask mask_or(RegisterMask a, RegisterMask b) { return st
 AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return static_cast<RegisterMask>(~a); }
 AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return a; }
 
-AFM_LANE_INLINE RegisterMask less_whole(Register a, Register b) {
-  return _mm512_cmplt_epi64_mask(_mm512_castpd_si512(a), _mm512_castpd_si512(b));
-}
-AFM_LANE_INLINE RegisterMask equal_whole(Register a, Register b) {
-  return _mm512_cmpeq_epi64_mask(_mm512_castpd_si512(a), _mm512_castpd_si512(b));
-}
 AFM_LANE_INLINE RegisterMask odd(Register bits) {
   return _mm512_test_epi64_mask(_mm512_castpd_si512(bits), _mm512_set1_epi64(1));
 }
 
 AFM_LANE_INLINE Register lane_numbers() { return _mm512_setr_pd(0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0); }
 AFM_LANE_INLINE void store_row(double* row, Register a) { _mm512_storeu_pd(row, a); }
-
-// Every second row of four, from one row on.
-AFM_LANE_INLINE Register every_second(const double* const* rows, int first, int at) {
-  const __m256d low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[first] + at)),
-                                           _mm_loadu_pd(rows[first + 2] + at), 1);
-  const __m256d high = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(rows[first + 4] + at)),
-                                            _mm_loadu_pd(rows[first + 6] + at), 1);
-  return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
-}
-AFM_LANE_INLINE void load_pair(const double* const* rows, int at, Register& first, Register& second) {
-  const Register even = every_second(rows, 0, at), odds = every_second(rows, 1, at);
-  first = _mm512_unpacklo_pd(even, odds);
-  second = _mm512_unpackhi_pd(even, odds);
-}
-AFM_LANE_INLINE void store_every_second(double* const* rows, int first, int at, Register pairs) {
-  _mm_storeu_pd(rows[first] + at, _mm512_extractf64x2_pd(pairs, 0));
-  _mm_storeu_pd(rows[first + 2] + at, _mm512_extractf64x2_pd(pairs, 1));
-  _mm_storeu_pd(rows[first + 4] + at, _mm512_extractf64x2_pd(pairs, 2));
-  _mm_storeu_pd(rows[first + 6] + at, _mm512_extractf64x2_pd(pairs, 3));
-}
-AFM_LANE_INLINE void store_pair(double* const* rows, int at, Register first, Register second) {
-  store_every_second(rows, 0, at, _mm512_unpacklo_pd(first, second));
-  store_every_second(rows, 1, at, _mm512_unpackhi_pd(first, second));
-}
 
 }  // namespace
 }  // namespace afm

@@ -23,9 +23,9 @@ struct SampleRow {
   double* vertical;
   double* lateral;
   bool on_guide;
-  // the arc: its start, and of a guide the series of its displacement
+  // the arc: its start, and of a reference slide the series of its displacement
   double phase, X, U, Y, W, g, g1, h, h1, fastest;
-  double ratio, omega_h, per_omega_h, H, y0, eta;
+  double ratio, omega_h, inverse_omega_h, H, y0, eta;
   const double* displacement;
 };
 

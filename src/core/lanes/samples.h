@@ -20,8 +20,8 @@ AFM_LANE_INLINE PackDeflection select(M m, const PackDeflection& a, const PackDe
 
 AFM_LANE_INLINE Flight<Pack> flight_of(const SampleRow& row) {
   Mechanics<Pack> m;
-  m.ratio = Pack(row.ratio), m.omega_h = Pack(row.omega_h), m.per_omega_h = Pack(row.per_omega_h);
-  m.omega_v = Pack(kTwoPi), m.per_omega_v = Pack(1.0 / kTwoPi);
+  m.ratio = Pack(row.ratio), m.omega_h = Pack(row.omega_h), m.inverse_omega_h = Pack(row.inverse_omega_h);
+  m.omega_v = Pack(kTwoPi), m.inverse_omega_v = Pack(1.0 / kTwoPi);
   m.H = Pack(row.H), m.y0 = Pack(row.y0);
   GapJet<Pack> start{};
   start.g = Pack(row.g), start.g1 = Pack(row.g1), start.h = Pack(row.h), start.h1 = Pack(row.h1);

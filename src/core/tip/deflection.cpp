@@ -31,7 +31,7 @@ lanes::SampleRow row_of(const Flight<double>& flight) {
   row.on_guide = false;
   row.phase = o.state.phase, row.X = o.state.X, row.U = o.state.U, row.Y = o.state.Y, row.W = o.state.W;
   row.g = o.g, row.g1 = o.g1, row.h = o.h, row.h1 = o.h1, row.fastest = flight.bounds().fastest;
-  row.ratio = m.ratio, row.omega_h = m.omega_h, row.per_omega_h = m.per_omega_h, row.H = m.H, row.y0 = m.y0;
+  row.ratio = m.ratio, row.omega_h = m.omega_h, row.inverse_omega_h = m.inverse_omega_h, row.H = m.H, row.y0 = m.y0;
   row.eta = flight.eta();
   return row;
 }

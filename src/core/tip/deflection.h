@@ -7,6 +7,12 @@
 
 namespace afm {
 
+// Of a number a plain branch. A pack (src/core/lanes/pack.h) leaves out a way that none of its numbers goes.
+template <class F, class G>
+auto either(bool condition, const F& yes, const G& no) {
+  return condition ? yes() : no();
+}
+
 // The state and gap of Flight::gap, without the derivatives.
 template <class T>
 DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
@@ -22,7 +28,7 @@ DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
   return either(flight.is_small(s), near, far);
 }
 
-// Along a piece of contact, or of the guide of a burst.
+// Along a piece of contact, or of the reference slide of a burst.
 template <class T>
 struct Guide {
   T phase, X;  // at its start
@@ -36,7 +42,7 @@ DeflectionOf<T> guide_deflection(const Guide<T>& guide, const T& s) {
   return {surface_jet(guide.H, T(guide.phase + d)).h - guide.y0, guide.X + (d - guide.eta * s), T(0.0)};
 }
 
-// What lanes must know of an arc, to be told which samples.
+// What lanes need of an arc, but for which samples.
 lanes::SampleRow row_of(const Flight<double>& flight);
 lanes::SampleRow row_of(const SlidePiece<double>& slide);
 

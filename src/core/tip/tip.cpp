@@ -29,8 +29,8 @@ double entry_gap_rate(double contact_tolerance) {
   return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
 
-// A burst's guide need be no better than a 2500th of the tolerance, and its pieces are 2.7 times as long for it. What
-// it gains of energy by that is in the books.
+// The reference slide of a chatter sequence need be no better than a 2500th of the tolerance. Its pieces are 2.7 times as long
+// for it. The energy account of the sequence holds all the same.
 int guide_bits(double contact_tolerance) {
   constexpr double kPart = 4e-4, kLeast = 1e-15;
   return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
@@ -120,7 +120,7 @@ void Tip::leave_or_press() {
     // also where the surface does not press, but only rounding pulls: on the glide at eta = 1 for ever
     if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
   } else if (g2 < 0.0 && start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
-    const Settled settled = settle(model_, start);
+    const Projection settled = project_onto_surface(model_, start);
     burst_begin_ = now_;
     burst_normal_speed_ = settled.normal_speed;
     burst_energy_ = slide_energy(mechanics_, settled.guide) + 0.5 * settled.normal_speed * settled.normal_speed;
@@ -138,7 +138,7 @@ void Tip::resume(const TipState& launched, const ModelTime& start, const Impact&
   leave_or_press();
 }
 
-void Tip::tolerate(double contact_tolerance) {
+void Tip::set_tolerance(double contact_tolerance) {
   slowest_chatter_ = contact_tolerance / kGrowth;
   burst_gap_rate_ = entry_gap_rate(contact_tolerance);
 }
@@ -158,71 +158,8 @@ void Tip::find_landing() {
   landing_known_ = true;
 }
 
-Outcome Tip::land() {
-  Bounce b;
-  rebound(model_, mechanics_, eta_, landing_, flight_, b);
-  last_impact_ = {now_, b.phase, b.normal_speed, b.tangential_velocity, b.energy_loss, ImpactKind::impact, 1};
-  begin_flight();
-  leave_or_press();
-  return Outcome::impact;
-}
-
-// All that the bounces lost: what their normal speed was at first, less what it is now, and what the tip gained meanwhile.
-double Tip::burst_loss(double v, double gain) const {
-  return 0.5 * (burst_normal_speed_ - v) * (burst_normal_speed_ + v) + gain;
-}
-
-Outcome Tip::end_burst() {
-  const ChatterRun run = chatter_run_;
-  if (run.end == ChatterEnd::time && !slide_releases_) {
-    burst(leave_guide(run.s, run.chatter), {run.chatter.v, run.chatter.n});
-    return Outcome::flying;
-  }
-  const SlideState<double> guide = leave_guide(run.s, run.chatter);
-  const bool died = run.end == ChatterEnd::died;
-  const TipState bounce = unsettle(model_, guide, died ? 0.0 : run.chatter.v);
-  const Settled settled = settle(model_, bounce);
-  last_impact_ = {now_,
-                  bounce.phase,
-                  burst_normal_speed_,
-                  settled.tangential_velocity,
-                  burst_loss(died ? 0.0 : run.chatter.v, burst_gain_),
-                  ImpactKind::burst,
-                  whole_count(run.chatter.n)};
-  fly(bounce);
-  if (died) mode_ = Mode::touching;
-  return Outcome::impact;
-}
-
-Outcome Tip::touch() {
-  const TipState state = flight_.launch();
-  const double tangential = settle(model_, state).tangential_velocity;
-  last_impact_ = {now_, state.phase, 0.0, tangential, 0.0, ImpactKind::contact_begun, 0};
-  slide({state.phase, state.X, state.u});
-  return Outcome::contact;
-}
-
-Outcome Tip::end_slide() {
-  const SlideState<double> q = slide_at(slide_, slide_end_);
-  if (!slide_releases_) {
-    slide(q);
-    return Outcome::flying;
-  }
-  const TipState state{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
-  last_impact_ = {now_, state.phase, 0.0, settle(model_, state).tangential_velocity, 0.0, ImpactKind::contact_ended, 0};
-  fly(state);
-  return Outcome::released;
-}
-
-Outcome Tip::end_flight() {
-  if (landing_.outcome == SearchOutcome::impact) return land();
-  const bool failed = landing_.outcome == SearchOutcome::cap;
-  fly(state_of(flight_, landing_.s));
-  return failed ? Outcome::search_failed : Outcome::flying;
-}
-
 ModelTime Tip::arc_end() {
-  if (untold_) return now_;
+  if (pending_) return now_;
   if (on_guide()) {
     const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
     return end < now_ ? now_ : end;  // a jolt ends it now, and not a rounding before the command
@@ -239,26 +176,13 @@ Outcome Tip::advance_arc(const ModelTime& limit, Segments* ended) {
     now_ = now_ < limit ? limit : now_;
     return Outcome::time_limit;
   }
-  if (untold_) {
-    untold_ = false;
-    last_impact_ = untold_impact_;
+  if (pending_) {
+    pending_ = false;
+    last_impact_ = pending_impact_;
     return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
   }
   now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
   return ended == nullptr ? end_arc() : end_arc(*ended);
-}
-
-Outcome Tip::end_arc() {
-  switch (mode_) {
-    case Mode::bursting:
-      return end_burst();
-    case Mode::touching:
-      return touch();
-    case Mode::sliding:
-      return end_slide();
-    default:
-      return end_flight();
-  }
 }
 
 Outcome Tip::advance(const ModelTime& limit) {

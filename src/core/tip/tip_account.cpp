@@ -29,7 +29,7 @@ double Tip::slide_impulse(double s) const {
 }
 
 // The end of a piece of the reference slide in a chatter sequence. `gain` is what the sequence loses beyond the fall of
-// v^2/2: the work of the drag, less what the tip stores off the guide.
+// v^2/2: the work of the drag, less what the tip stores off the reference slide.
 Tip::ChatterRide Tip::ride(double s, const Chatter& chatter) const {
   const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
   const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;

@@ -5,12 +5,9 @@
 
 #include "afm/detail/multiversion.h"
 #include "afm/reflection.h"
-#include "core/lanes/slide_orders.h"
 
 namespace afm {
 namespace {
-
-const lanes::WriteSlideOrders orders_in_lanes = lanes::slide_orders();
 
 // A flight of next to no time, for the fastest turn, under next to no force is none either: its end is rounding, and a
 // drag of 1e-18 a/tau that would bring pressure moves no phase.
@@ -25,7 +22,7 @@ AFM_MULTIVERSION void reflect_and_launch(const Model& model, const Mechanics<dou
                                          const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
   const Reflection r = reflect(model, eta, incident);
   const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, r.after.g1};
-  new (&flight) Flight<double>(mechanics, eta, after, BoundLater{});
+  new (&flight) Flight<double>(mechanics, eta, after);
   bounce.phase = r.after.phase;
   bounce.normal_speed = r.normal_speed;
   bounce.tangential_velocity = r.tangential_velocity;
@@ -45,7 +42,7 @@ void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight
 // time.
 AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
                              Flight<double>& flight) {
-  new (&flight) Flight<double>(mechanics, eta, state, BoundLater{});
+  new (&flight) Flight<double>(mechanics, eta, state);
 }
 
 void rebound(const Model& model, const Mechanics<double>& mechanics, double eta, const Landing<double>& landing,
@@ -61,11 +58,7 @@ AFM_MULTIVERSION FlightState<double> flight_state(const Flight<double>& flight, 
 
 AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
                                  int bits, SlidePiece<double>& slide) {
-  if (orders_in_lanes != nullptr) {
-    new (&slide) SlidePiece<double>(mechanics, eta, start, bits, orders_in_lanes);
-  } else {
-    new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
-  }
+  new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
 }
 
 AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {

@@ -9,9 +9,6 @@
 
 namespace afm {
 
-// Bounces slower than this are none [a/tau]: the search's squares of a gap rate would run out of digits.
-constexpr double kLeastGapRate = 1e-140;
-
 // A flight shorter than this part of the fastest turn may be rounding: lanes leave it to the tip, which finds out.
 constexpr double kLeastFlight = 1e-12;
 

@@ -50,7 +50,7 @@ void Tip::adopt(const Model& model) {
   law_ = ChatterLaw(model, slowest_chatter_);
 }
 
-void Tip::retune(const Model& model) {
+void Tip::set_parameters(const Model& model) {
   const TipState state = tip_state();
   SlideState<double> guide{state.phase, state.X, state.u};
   if (mode_ == Mode::bursting) {
@@ -69,15 +69,15 @@ void Tip::retune(const Model& model) {
   if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
 }
 
-// Ends burst or contact at once; the event is told by the next advance.
+// Ends chatter or contact at once. The next advance reports the event.
 void Tip::leave_now() {
   end_guide_now();
   mode_ == Mode::sliding ? end_slide() : end_burst();
-  untold_ = true;
-  untold_impact_ = last_impact_;
+  pending_ = true;
+  pending_impact_ = last_impact_;
 }
 
-double Tip::relevel(ModelKind kind, double contact_tolerance) {
+double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
   const bool jolted = mode_ == Mode::sliding && slide_releases_ && start_ + slide_end_ <= now_;
   if (mode_ == Mode::bursting || jolted || (mode_ == Mode::sliding && drops)) leave_now();
@@ -85,7 +85,7 @@ double Tip::relevel(ModelKind kind, double contact_tolerance) {
   const double spring = mechanics_.omega_h * state.X;
   Model model = model_;
   model.kind = kind;
-  tolerate(contact_tolerance);
+  set_tolerance(contact_tolerance);
   adopt(model);
   if (mode_ == Mode::sliding) {
     slide({state.phase, state.X, state.u});

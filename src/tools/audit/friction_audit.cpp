@@ -10,7 +10,7 @@ namespace afm::audit {
 namespace {
 
 constexpr std::size_t kStretches = 5;
-constexpr long double kSumRoundings = 1e-12L;  // of a sum of energies, relative
+constexpr long double kBurstError = 0.1L;  // of the energy of a part of a burst, over that of the burst
 
 // Relative to the larger; NaN agrees with NaN alone.
 double mismatch(double a, double b) {
@@ -61,8 +61,10 @@ void FrictionAudit::gap() {
 void FrictionAudit::take_split(const afm_emulator::Friction& estimate) {
   const long double before = base_->energy + sums_.energy - estimate.energy_loss;
   const std::uint64_t count = base_->count + sums_.count - estimate.impact_count;
-  const bool is_part = before >= 0.0L && before <= split_.energy * (1.0L + kSumRoundings) && count <= split_.count;
-  if (is_part) base_ = Sums{base_->energy - before, base_->count - count};
+  const long double part = before / split_.energy;
+  if (part > -kBurstError && part < 1.0L + kBurstError && count <= split_.count) {
+    base_ = Sums{base_->energy - before, base_->count - count};
+  }
   split_ = {};
 }
 

@@ -1,4 +1,4 @@
-// Bounces that lose too much for the averages, made one by one along the guide, against the tip's own.
+// Bounces that lose too much for the averages, made one by one along the reference slide, against the tip's own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Descents : public testing::TestWithParam<double> {
     Tip tip = chatter.every_bounce();
     tip.advance(kNever);
     const Chatter now = law_.at(chatter.guide, tip.now() - ModelTime{}, {chatter.v, 0.0});
-    const double v = settle(model_, tip.tip_state()).normal_speed;
+    const double v = project_onto_surface(model_, tip.tip_state()).normal_speed;
     return std::max(std::abs(now.v / v - 1.0), std::abs(now.n - 1.0));
   }
 };
@@ -66,7 +66,7 @@ TEST_P(Descents, AllTheWayDownNumbersAndSpeedsAreThoseOfTheBounces) {
     Tip tip = chatter.every_bounce();
     for (int n = 1;; ++n) {
       tip.advance(kNever);
-      const double t = tip.now() - ModelTime{}, v = settle(model_, tip.tip_state()).normal_speed;
+      const double t = tip.now() - ModelTime{}, v = project_onto_surface(model_, tip.tip_state()).normal_speed;
       if (t >= end || v < 2e-3) break;
       const Chatter now = law_.at(chatter.guide, t, start);
       ASSERT_NEAR(now.n, n, 3e-4) << i;

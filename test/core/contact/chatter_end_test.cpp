@@ -38,7 +38,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
     for (int n = 1; n <= static_cast<int>(run.chatter.n); ++n) tip.advance(kNever);
     const double bounce = 2.0 * run.chatter.v / chatter.guide.pressure(run.s);
     ASSERT_NEAR(tip.now() - ModelTime{}, run.s, 0.1 * bounce) << i;
-    ASSERT_NEAR(settle(model, tip.tip_state()).normal_speed, run.chatter.v, 2.0 * kThreshold) << i;
+    ASSERT_NEAR(project_onto_surface(model, tip.tip_state()).normal_speed, run.chatter.v, 2.0 * kThreshold) << i;
   }
   EXPECT_GT(exits, 20);
 }
@@ -64,7 +64,7 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
     const double end = tip.now() - ModelTime{};
     int count = 0;
     const ModelTime late = tip.now() + 1.0;
-    while (settle(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(late) == Outcome::impact)
+    while (project_onto_surface(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(late) == Outcome::impact)
       ++count;
     ASSERT_NEAR(burst.count, count, 1.5 + 0.05 * count) << i;
     while (bounces.tip_state().g1 > 1e-9 && bounces.advance(late) == Outcome::impact) continue;
@@ -90,14 +90,14 @@ TEST(Settle, TakesOutTheNormalVelocityAndUnsettlePutsItBack) {
   const Model model;
   for (int i = 0; i < 10000; ++i) {
     TipState state = random.next(random.within(-9.0, 9.0));
-    const Settled settled = settle(model, state);
+    const Projection settled = project_onto_surface(model, state);
     const double slope = surface_jet(model.H, state.phase).h1, n = std::sqrt(1.0 + slope * slope);
     const double w = state.g1 + slope * state.u;
     ASSERT_NEAR(settled.normal_speed, (w - slope * state.u) / n, 1e-14 * (1.0 + std::abs(w)));
     ASSERT_NEAR(settled.tangential_velocity, (state.u + slope * w) / n,
                 1e-14 * (1.0 + std::abs(state.u) + std::abs(w)));
     ASSERT_NEAR(settled.guide.u * n, settled.tangential_velocity, 1e-14 * (1.0 + std::abs(state.u)));
-    const TipState back = unsettle(model, settled.guide, settled.normal_speed);
+    const TipState back = leave_surface(model, settled.guide, settled.normal_speed);
     ASSERT_EQ(back.phase, state.phase);
     ASSERT_EQ(back.X, state.X);
     ASSERT_EQ(back.g, 0.0);

@@ -35,7 +35,7 @@ struct Comparison {
   double longest = 0.0;  // bounce, against every change
 };
 
-// Step by step: the law after a small part of the guide, and the guide from there on.
+// Step by step: the law after a small part of the reference slide, and the reference slide from there on.
 struct LawStep {
   Model model;
   Piece guide;
@@ -59,7 +59,7 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
   double before = 0.0;
   for (int n = 1; n <= most; ++n) {
     tip.advance(kNever);
-    const double t = tip.now() - ModelTime{}, v = settle(chatter.model, tip.tip_state()).normal_speed;
+    const double t = tip.now() - ModelTime{}, v = project_onto_surface(chatter.model, tip.tip_state()).normal_speed;
     if (t >= end) return comparison;
     for (int part = 0; part < parts; ++part) law_step.advance(law, (t - before) / parts);
     before = t;
@@ -105,7 +105,7 @@ TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
   for (int i = 0; i < 200; ++i) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
     const ChatterPlace start = rates.begin(chatter.guide, 0.0, {chatter.v, 0.0});
-    const double fastest = std::max({start.around.quickness, kTwoPi * start.around.slow_rate, std::abs(start.rate.x)});
+    const double fastest = std::max({start.around.relative_rate, kTwoPi * start.around.slow_rate, std::abs(start.rate.x)});
     for (double part = 1e-3; part > 1e-20; part *= 0.1) {
       const double dt = part / fastest, x = rates.step(chatter.guide, start, dt).even.x;
       ASSERT_NEAR(x, start.even.x + dt * start.rate.x, 10.0 * part * part + 1e-14) << i << ' ' << part;

@@ -1,4 +1,4 @@
-// The slide against its equation of motion integrated in 113 bits, and against what symmetry and energy say.
+// The slide against its equation of motion integrated in quad precision, and against what symmetry and energy say.
 #include "afm/contact.h"
 
 #include <gtest/gtest.h>

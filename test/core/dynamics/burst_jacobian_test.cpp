@@ -68,7 +68,7 @@ class Bursts {
       const bool ends = tip_.advance(kEnd) == Outcome::impact && tip_.tip_state().g1 > 0.0;
       if (!ends || tip_.last_impact().count > kMostBounces) continue;
       if (tip_.now() == begin) continue;  // at the threshold of contact: it ends where it began, without a bounce
-      return {unsettle(model_, {guide.phase, guide.X, guide.u}, after), tip_.now() - begin, tip_.last_impact().count};
+      return {leave_surface(model_, {guide.phase, guide.X, guide.u}, after), tip_.now() - begin, tip_.last_impact().count};
     }
   }
   const ChatterLaw& law() const { return tip_.chatter_law(); }

@@ -138,7 +138,7 @@ TEST(SettleJacobian, IsTheDerivativeOfSettling) {
     TipState up = start, down = start;
     up.*parts[j] += kStep;
     down.*parts[j] -= kStep;
-    const Settled high = settle(model, up), low = settle(model, down);
+    const Projection high = project_onto_surface(model, up), low = project_onto_surface(model, down);
     const Eigen::Vector4d column(high.guide.phase - low.guide.phase, high.guide.X - low.guide.X,
                                  high.guide.u - low.guide.u, high.normal_speed - low.normal_speed);
     EXPECT_LE((column / (2.0 * kStep) - J.col(j)).norm(), 1e-8) << j;

@@ -75,7 +75,7 @@ struct Chaotic {
 class Coverage : public testing::TestWithParam<Chaotic> {};
 
 TEST_P(Coverage, IsNineteenInTwenty) {
-  constexpr int kSeeds = 1000;
+  constexpr int kSeeds = 3000;
   const Chaotic& known = GetParam();
   const SweepPoint point{known.eta, 0.7, 0.1 * known.eta};
   int covered = 0;
@@ -97,35 +97,6 @@ TEST(Sweep, AtRestThereIsNoCoefficient) {
   const SweepResult r = sweep_point({0.0, 0.7, 0.05}, settings_of(100.0, 100.0), plain_start(0.0));
   EXPECT_TRUE(std::isnan(r.friction.K_f));
   EXPECT_TRUE(std::isnan(r.friction.K_f_std_error));
-}
-
-bool identical(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-// Rest, contact, bursts, periods, chaos, the hammer, side by side.
-TEST(Sweep, ManyPointsTogetherAreEachAsAlone) {
-  std::vector<SweepTrip> trips;
-  for (int i = 0; i < 60; ++i) {
-    const SweepPoint point{0.125 * i, i % 3 == 0 ? 0.5 : 0.7, i % 4 == 1 ? 0.3 : 0.05,
-                           i % 7 == 4 ? ModelKind::hammer : ModelKind::oscillator};
-    trips.push_back({point, random_start(point, 3, static_cast<std::uint64_t>(i))});
-  }
-  for (const double transient : {0.0, 150.0}) {
-    const SweepSettings settings = settings_of(300.0, transient);
-    const std::vector<SweepResult> together = sweep_points(trips, settings);
-    for (std::size_t i = 0; i < trips.size(); ++i) {
-      const SweepResult &a = together[i], b = sweep_point(trips[i].point, settings, trips[i].start);
-      const FrictionAverage &f = a.friction, &g = b.friction;
-      EXPECT_TRUE(identical(f.K_f, g.K_f) && identical(f.K_f_std_error, g.K_f_std_error) &&
-                  identical(f.impacts_per_tau, g.impacts_per_tau) && identical(f.mean_energy_loss, g.mean_energy_loss) &&
-                  identical(f.mean_flight_time, g.mean_flight_time) && f.search_failures == g.search_failures)
-          << trips[i].point.eta;
-      EXPECT_EQ(a.attractor.name(), b.attractor.name());
-      EXPECT_TRUE(identical(a.attractor.lyapunov.exponents[0], b.attractor.lyapunov.exponents[0]));
-      EXPECT_TRUE(identical(a.end.phase, b.end.phase) && identical(a.end.X, b.end.X) && identical(a.end.u, b.end.u) &&
-                  identical(a.end.g, b.end.g) && identical(a.end.g1, b.end.g1))
-          << trips[i].point.eta;
-    }
-  }
 }
 
 TEST(Sweep, StartsAreAboveTheSurfaceAndTheirOwn) {

@@ -68,8 +68,8 @@ Runs one_by_one(std::vector<Tip> tips, const ModelTime& limit) {
   return {std::move(tips), std::move(impacts)};
 }
 
-Ensemble together(const std::vector<Tip>& tips, int threads, LaneUse use) {
-  Ensemble ensemble(threads, use);
+Ensemble together(const std::vector<Tip>& tips, int threads) {
+  Ensemble ensemble(threads);
   ensemble.reserve(tips.size());
   for (const Tip& tip : tips) ensemble.add(tip);
   return ensemble;
@@ -86,20 +86,18 @@ void expect_identical(Ensemble& ensemble, const std::vector<Impact>& log, const 
   }
 }
 
-// Model and drag velocity mixed in every pack, so that its lanes take different ways.
+// Models and drag velocities mixed.
 class EnsembleBits : public testing::TestWithParam<std::tuple<ModelKind, double>> {};
 
 TEST_P(EnsembleBits, EveryImpactIsThatOfOneTip) {
   const auto tips = mixed_tips(std::get<0>(GetParam()), std::get<1>(GetParam()));
   const ModelTime limit{600, 0.0};  // some have few impacts, or rest
   const Runs runs = one_by_one(tips, limit);
-  for (const LaneUse use : {LaneUse::none, LaneUse::four, LaneUse::widest}) {
-    for (const int threads : {1, 3}) {
-      Ensemble ensemble = together(tips, threads, use);
-      std::vector<Impact> log(runs.impacts.size());
-      ensemble.advance(kEvents, limit, log.data());
-      expect_identical(ensemble, log, runs);
-    }
+  for (const int threads : {1, 3}) {
+    Ensemble ensemble = together(tips, threads);
+    std::vector<Impact> log(runs.impacts.size());
+    ensemble.advance(kEvents, limit, log.data());
+    expect_identical(ensemble, log, runs);
   }
 }
 
@@ -109,67 +107,42 @@ INSTANTIATE_TEST_SUITE_P(ModelsAndTolerances, EnsembleBits,
 
 // Steps, times and commands of every kind change nothing that they would not change for one tip.
 TEST(Ensemble, SplitsAndCommandsAreThoseOfOneTip) {
-  for (const LaneUse use : {LaneUse::none, LaneUse::four, LaneUse::widest}) {
-    std::vector<Tip> tips = mixed_tips(ModelKind::oscillator, kDefaultContactTolerance);
-    Ensemble ensemble = together(tips, 2, use);
-    std::mt19937_64 random(7);
-    std::uniform_real_distribution<double> part(0.0, 1.5);
-    ModelTime now;
-    for (int step = 0; step < 60; ++step) {
-      const ModelTime limit = step % 3 == 2 ? now + 30.0 : (now = now + part(random));
-      const int events = step % 3 == 2 ? 1 : step % 2 == 0 ? 1000000 : 2;
-      ensemble.advance(static_cast<std::uint32_t>(events), limit);
-      for (std::size_t i = 0; i < tips.size(); ++i) {
-        for (int k = 0; k < events; ++k) {
-          if (tips[i].advance(limit) == Outcome::time_limit) break;
-        }
+  std::vector<Tip> tips = mixed_tips(ModelKind::oscillator, kDefaultContactTolerance);
+  Ensemble ensemble = together(tips, 2);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> part(0.0, 1.5);
+  ModelTime now;
+  for (int step = 0; step < 60; ++step) {
+    const ModelTime limit = step % 3 == 2 ? now + 30.0 : (now = now + part(random));
+    const int events = step % 3 == 2 ? 1 : step % 2 == 0 ? 1000000 : 2;
+    ensemble.advance(static_cast<std::uint32_t>(events), limit);
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      for (int k = 0; k < events; ++k) {
+        if (tips[i].advance(limit) == Outcome::time_limit) break;
       }
-      for (std::size_t i = static_cast<std::size_t>(step % 4); i < tips.size(); i += 4) {
-        ASSERT_TRUE(identical(ensemble.tip(i), tips[i])) << "step " << step << ", eta " << tips[i].eta();
-      }
-      for (std::size_t i = static_cast<std::size_t>(step); i < tips.size(); i += 37) {
-        const double eta = tips[i].eta() + part(random) - 0.7;
-        ensemble.drag(i, eta);
-        tips[i].drag(eta);
-      }
+    }
+    for (std::size_t i = static_cast<std::size_t>(step % 4); i < tips.size(); i += 4) {
+      ASSERT_TRUE(identical(ensemble.tip(i), tips[i])) << "step " << step << ", eta " << tips[i].eta();
+    }
+    for (std::size_t i = static_cast<std::size_t>(step); i < tips.size(); i += 37) {
+      const double eta = tips[i].eta() + part(random) - 0.7;
+      ensemble.drag(i, eta);
+      tips[i].drag(eta);
     }
   }
 }
 
 TEST(Ensemble, EachToItsOwnLimit) {
-  for (const LaneUse use : {LaneUse::none, LaneUse::four, LaneUse::widest}) {
-    std::vector<Tip> tips = mixed_tips(ModelKind::oscillator, kDefaultContactTolerance);
-    Ensemble ensemble = together(tips, 2, use);
-    std::vector<ModelTime> limits(tips.size());
-    for (int round = 1; round <= 3; ++round) {
-      for (std::size_t i = 0; i < tips.size(); ++i) limits[i] = limits[i] + 0.37 * static_cast<double>(i % 17);
-      ensemble.advance(1000000, limits.data());
-      for (std::size_t i = 0; i < tips.size(); ++i) {
-        while (tips[i].advance(limits[i]) != Outcome::time_limit) continue;
-        ASSERT_TRUE(identical(ensemble.tip(i), tips[i])) << "round " << round << ", eta " << tips[i].eta();
-      }
+  std::vector<Tip> tips = mixed_tips(ModelKind::oscillator, kDefaultContactTolerance);
+  Ensemble ensemble = together(tips, 2);
+  std::vector<ModelTime> limits(tips.size());
+  for (int round = 1; round <= 3; ++round) {
+    for (std::size_t i = 0; i < tips.size(); ++i) limits[i] = limits[i] + 0.37 * static_cast<double>(i % 17);
+    ensemble.advance(1000000, limits.data());
+    for (std::size_t i = 0; i < tips.size(); ++i) {
+      while (tips[i].advance(limits[i]) != Outcome::time_limit) continue;
+      ASSERT_TRUE(identical(ensemble.tip(i), tips[i])) << "round " << round << ", eta " << tips[i].eta();
     }
-  }
-}
-
-#if defined(__x86_64__)
-TEST(Ensemble, UsesTheLanesTheMachineHas) {
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  EXPECT_EQ(Ensemble(1, LaneUse::four).lanes(), avx2 ? 4 : 1);
-  EXPECT_GE(Ensemble(1).lanes(), Ensemble(1, LaneUse::four).lanes());
-}
-#endif
-
-TEST(Ensemble, OrdinaryFlightsAreFlownInLanes) {
-  Ensemble ensemble(1);
-  if (ensemble.lanes() == 1) GTEST_SKIP() << "this machine has no lanes";
-  for (int i = 0; i < 100; ++i) {
-    ensemble.add(Tip(Model{}, 2.5, FreeState{0.25, 1e-3 * i, 0.2, 2.5, 0.0}, 0.0));
-  }
-  ensemble.advance(500, kNever);
-  for (std::size_t i = 0; i < ensemble.size(); ++i) {
-    EXPECT_EQ(ensemble.events(i), 500u);
-    EXPECT_LE(ensemble.events_alone(i), 10u);  // the start in the air, and single grazes
   }
 }
 

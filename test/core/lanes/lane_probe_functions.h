@@ -26,8 +26,8 @@ void probe_functions(const T& x, const T& y, const T& z, T results[kProbeResults
   add(select(x < y, one, zero)), add(select(x <= y, one, zero)), add(select(!(x < y || x > z) && y >= z, one, zero));
   const SinCos<T> turn = sin_cos_turns(x);
   add(turn.sin), add(turn.cos), add(turn_product(x, y));
-  const SmallTurn<T> small = small_turn(y), tiny = tiny_turn(y);
-  add(small.sin), add(small.sin_minus_angle), add(small.versine), add(tiny.sin), add(tiny.versine);
+  const SmallTurn<T> small = small_turn(y);
+  add(small.sin), add(small.sin_minus_angle), add(small.versine);
   add(over(x, 3.0)), add(over(x, 6.0)), add(over(x, 12.0));
 }
 

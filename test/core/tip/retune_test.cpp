@@ -40,7 +40,7 @@ TEST(Retune, InFlightTheTipIsAsIfLaunchedThere) {
     const TipState state = tip.tip_state();
     if (!(state.g > 0.0)) continue;
     const Model model = random_model(random, 0.05);
-    tip.retune(model);
+    tip.set_parameters(model);
     Tip fresh(model, 3.4, state);
     Tip ahead = tip;
     for (Tip* t : {&fresh, &ahead}) ASSERT_EQ(t->advance(t->now() + 1000.0), Outcome::impact);
@@ -69,7 +69,7 @@ TEST(Retune, KeepsTheHammerAboveTheSurface) {
     const FreeState before = tip.state();
     Model model = random_model(random, 0.005);
     model.kind = ModelKind::hammer;
-    tip.retune(model);
+    tip.set_parameters(model);
     ASSERT_NEAR(tip.state().y, before.y, 1e-5);
     ASSERT_EQ(tip.state().X, 0.0);
     ASSERT_GE(tip.deflection(tip.now()).gap, -1e-13);
@@ -99,8 +99,8 @@ TEST_P(RetuneEnergy, IsConserved) {
     const FreeState before = tip.state();
     const bool free = tip.tip_state().g > 0.0;
     const Model changed = random_model(random, GetParam().v_c);
-    balance.command(tip, [&] { tip.retune(changed); });
-    // in a burst the tip is where its bounces are, not on its guide: beside it by less than the contact tolerance
+    balance.command(tip, [&] { tip.set_parameters(changed); });
+    // in a burst the tip is where its bounces are, not on its reference slide: beside it by less than the contact tolerance
     const double near = free || tip.in_contact() ? 1e-14 : 1e-5;
     ASSERT_NEAR(tip.state().y, before.y, near);
     ASSERT_NEAR(tip.state().X, before.X, near);
@@ -143,7 +143,7 @@ TEST(RetuneContact, GoesOnExactlyWhereTheSurfaceStillPresses) {
     advance_within_arc(random, tip);
     Tip changed = tip;
     const Model model = random_model(random, 0.005);
-    changed.retune(model);
+    changed.set_parameters(model);
     const double pull = Flight<double>(Mechanics<double>(model), tip.eta(), tip.tip_state()).start().g2;
     const Outcome outcome = changed.advance(tip.now());
     ASSERT_EQ(outcome, pull < 0.0 ? Outcome::time_limit : Outcome::released) << pull;
@@ -165,7 +165,7 @@ TEST(RetuneBurst, EndsWithTheBounceItIsAt) {
     if (!is_bursting(tip)) continue;
     advance_within_arc(random, tip);
     Tip changed = tip;
-    changed.retune(random_model(random, 0.005));
+    changed.set_parameters(random_model(random, 0.005));
     ASSERT_EQ(changed.advance(tip.now()), Outcome::impact);
     ASSERT_EQ(changed.last_impact().kind, ImpactKind::burst);
     ASSERT_TRUE(changed.now() == tip.now());

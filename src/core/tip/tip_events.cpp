@@ -1,0 +1,86 @@
+// What happens at the end of an arc: impact, the end of a chatter sequence, contact, release, the end of a search.
+#include "afm/reflection.h"
+#include "afm/tip.h"
+#include "tip_arcs.h"
+
+namespace afm {
+
+Outcome Tip::land() {
+  Bounce b;
+  rebound(model_, mechanics_, eta_, landing_, flight_, b);
+  last_impact_ = {now_, b.phase, b.normal_speed, b.tangential_velocity, b.energy_loss, ImpactKind::impact, 1};
+  begin_flight();
+  leave_or_press();
+  return Outcome::impact;
+}
+
+// All that the bounces lost: what their normal speed was at first, less what it is now, and what the tip gained meanwhile.
+double Tip::burst_loss(double v, double gain) const {
+  return 0.5 * (burst_normal_speed_ - v) * (burst_normal_speed_ + v) + gain;
+}
+
+Outcome Tip::end_burst() {
+  const ChatterRun run = chatter_run_;
+  if (run.end == ChatterEnd::time && !slide_releases_) {
+    burst(leave_guide(run.s, run.chatter), {run.chatter.v, run.chatter.n});
+    return Outcome::flying;
+  }
+  const SlideState<double> guide = leave_guide(run.s, run.chatter);
+  const bool died = run.end == ChatterEnd::died;
+  const TipState bounce = leave_surface(model_, guide, died ? 0.0 : run.chatter.v);
+  const Projection settled = project_onto_surface(model_, bounce);
+  last_impact_ = {now_,
+                  bounce.phase,
+                  burst_normal_speed_,
+                  settled.tangential_velocity,
+                  burst_loss(died ? 0.0 : run.chatter.v, burst_gain_),
+                  ImpactKind::burst,
+                  whole_count(run.chatter.n)};
+  fly(bounce);
+  if (died) mode_ = Mode::touching;
+  return Outcome::impact;
+}
+
+Outcome Tip::touch() {
+  const TipState state = flight_.launch();
+  const double tangential = project_onto_surface(model_, state).tangential_velocity;
+  last_impact_ = {now_, state.phase, 0.0, tangential, 0.0, ImpactKind::contact_begun, 0};
+  slide({state.phase, state.X, state.u});
+  return Outcome::contact;
+}
+
+Outcome Tip::end_slide() {
+  const SlideState<double> q = slide_at(slide_, slide_end_);
+  if (!slide_releases_) {
+    slide(q);
+    return Outcome::flying;
+  }
+  const TipState state{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
+  last_impact_ = {
+      now_, state.phase, 0.0, project_onto_surface(model_, state).tangential_velocity, 0.0, ImpactKind::contact_ended,
+      0};
+  fly(state);
+  return Outcome::released;
+}
+
+Outcome Tip::end_flight() {
+  if (landing_.outcome == SearchOutcome::impact) return land();
+  const bool failed = landing_.outcome == SearchOutcome::cap;
+  fly(state_of(flight_, landing_.s));
+  return failed ? Outcome::search_failed : Outcome::flying;
+}
+
+Outcome Tip::end_arc() {
+  switch (mode_) {
+    case Mode::bursting:
+      return end_burst();
+    case Mode::touching:
+      return touch();
+    case Mode::sliding:
+      return end_slide();
+    default:
+      return end_flight();
+  }
+}
+
+}  // namespace afm
