@@ -45,7 +45,7 @@ class Flight {
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 
-  // The gap at s + step, sooner, from its jet at s near by. Within a few ulp more.
+  // The gap at s + step, faster, from its jet at s near by. Within a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
   // In a time so long every turn is at most 1/8, or 2^-10.

@@ -30,7 +30,7 @@ T wrapped(const T& x) {
   const T phase = x - floor(x);
   return select(phase < T(1.0), phase, T(0.0));
 }
-// Most are there already: a branch that is foreseen is sooner than the rounding.
+// Most are there already: a predicted branch is faster than the rounding.
 AFM_INLINED double wrapped(double x) { return x > 0.0 && x < 1.0 ? x : wrapped<double>(x); }
 inline double wrap_phase(double x) { return wrapped(x); }
 

@@ -104,6 +104,7 @@ class Tip {
   ChatterRide ride(double s, const Chatter& chatter) const;
   double slide_impulse(double s) const;
   double burst_loss(double v, double gain) const;
+  bool sequence_goes_on() const;
   Account account() const;
   Account account_at(double s, const Chatter& chatter) const;
   Account account_at_begin() const;

@@ -31,7 +31,7 @@ struct Mechanics {
 
   T mobility;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
   T ratio, omega_v, omega_h, H, y0;
-  T inverse_omega_v, inverse_omega_h;  // a product is sooner there than a quotient
+  T inverse_omega_v, inverse_omega_h;  // a product is faster than a quotient
 };
 
 // A pull of the surface smaller than this is rounding, not a release: without it the glide at eta = 1, where the

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
-#include <utility>
 
 #include "mechanics.h"
 
@@ -43,23 +41,15 @@ struct SlideSeries {
 
 // Order n of the product of two series, without its first `skip` terms and its last `skip` terms. From the middle outwards:
 // the coefficients that are known last come last, and little waits for them. Precondition: n >= 2 skip - 1.
-template <std::size_t n, std::size_t skip, class T, class A, class B>
-AFM_INLINED T product_order(const A& a, const B& b) {
+template <class T, class A, class B>
+AFM_INLINED T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) {
   using std::fma;
   T low(0.0), high = n % 2 == 0 ? T(a[n / 2] * b[n / 2]) : T(0.0);
-#pragma GCC unroll 16
-  for (std::size_t j = skip; j < (n + 1) / 2; ++j) {
-    const std::size_t i = (n + 1) / 2 - 1 - (j - skip);
+  for (std::size_t i = (n + 1) / 2; i-- > skip;) {
     low = fma(a[i], b[n - i], low);
     high = fma(a[n - i], b[i], high);
   }
   return low + high;
-}
-
-// Calls write(0), write(1) ... with constants, so that the compiler unrolls every order by itself: twice as fast.
-template <class Write, std::size_t... n>
-AFM_INLINED void for_each_order(const Write& write, std::index_sequence<n...>) {
-  (write(std::integral_constant<std::size_t, n>{}), ...);
 }
 
 // With r = -h'(x) and c = -h''(x) along the slide: r' = c u and c' = -(2 pi)^2 r u, as the surface is a cosine. Of a tip
@@ -79,28 +69,26 @@ AFM_INLINED void write_slide_series(const Mechanics<T>& m, const T& eta, const S
   u[0] = start.u, d[0] = T(0.0);
   const T inverse_mass = m.mobility / (T(1.0) + r[0] * r[0]), weight = m.omega_v * m.omega_v * m.y0;
   T X = start.X;  // of order n
-  const auto write_order = [&](auto order) __attribute__((always_inline)) {
-    constexpr std::size_t n = decltype(order)::value;
-    constexpr double next = static_cast<double>(n + 1);
+  for (std::size_t n = 0; n <= kSlideOrder; ++n) {
+    const double next = static_cast<double>(n + 1);
     T pull = -wh2 * X, cu = c[0] * u[0], level = c[n] - weight;  // (c u)[n]
-    if constexpr (n > 0) {
-      pull = fma(r[n], lambda[0], pull) + product_order<n, 1, T>(r, lambda);
-      cu = fma(c[0], u[n], fma(c[n], u[0], product_order<n, 1, T>(c, u)));
+    if (n > 0) {
+      pull = fma(r[n], lambda[0], pull) + product_order<T>(r, lambda, n, 1);
+      cu = fma(c[0], u[n], fma(c[n], u[0], product_order<T>(c, u, n, 1)));
       level = c[n];
     }
-    const T inner = product_order<n + 1, 1, T>(r, u);            // (r u)[n + 1] without r[0] u[n + 1] and r[n + 1] u[0]
+    const T inner = product_order<T>(r, u, n + 1, 1);            // (r u)[n + 1] without r[0] u[n + 1] and r[n + 1] u[0]
     const T rest = fma(-u[0], cu, fma(T(-next), inner, level));  // lambda without x''
     const T x2 = fma(r[0] * inverse_mass, rest, inverse_mass * pull);
     lambda[n] = fma(-r[0], x2, rest);
     X = over(T(u[n] - (n == 0 ? eta : T(0.0))), next);
-    if constexpr (n < kSlideOrder) {
+    if (n < kSlideOrder) {
       d[n + 1] = over(u[n], next);
       r[n + 1] = over(cu, next);
       u[n + 1] = over(x2, next);
       c[n + 2] = over(T(-k2 * fma(r[0], u[n + 1], fma(u[0], r[n + 1], inner))), next + 1.0);
     }
-  };
-  for_each_order(write_order, std::make_index_sequence<kSlideOrder + 1>{});
+  }
 }
 
 }  // namespace afm

@@ -1,4 +1,4 @@
-// The rates of chatter_rates.h, written once for a number and for four side by side (`Four`, or a register of lanes):
+// The rates of chatter_rates.h, written once for a number, for one with derivatives, and for four side by side (`Four`):
 // one for each node of a step of their integrator. All give the same bits.
 #pragma once
 
@@ -107,9 +107,9 @@ AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const Chatter
   const T bent = mul_add(T(-at.c_speed), longer2, T(at.c_speed3 * v2));
   if (flow.geometric) {
     const double g = flow.gamma;
-    const T sooner = mul_add(T(-bounces), longer2, bounces), change = mul_add(T(g - 1.0), sooner, at.c_speed + bent);
+    const T rate = mul_add(T(-bounces), longer2, bounces), change = mul_add(T(g - 1.0), rate, at.c_speed + bent);
     return {on_guide * change,
-            mul_add(sooner, T(flow.inverse_mean), T(T(flow.even) * change)),
+            mul_add(rate, T(flow.inverse_mean), T(T(flow.even) * change)),
             sigma,
             p,
             drift,
@@ -119,8 +119,8 @@ AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const Chatter
   const T per_T = series_1_over_T(w), lost = mul_add(v2, mul_add(w, at.c_loss_w, at.c_loss), series_R(w));
   const T squeezed = T(at.c_speed * per_T) * mul_add(T(-w * w), series_S(w), one);
   const T change = mul_add(bent, later, mul_add(T(-w), T(bounces * lost), squeezed));
-  const T sooner = mul_add(T(-longer2), later, mul_add(T(-per_T), delay, per_T));
-  return {change, mul_add(bounces, sooner, T(T(part) * inverse_v * change)), sigma, p, drift, mul_add(lift, w, lift)};
+  const T rate = mul_add(T(-longer2), later, mul_add(T(-per_T), delay, per_T));
+  return {change, mul_add(bounces, rate, T(T(part) * inverse_v * change)), sigma, p, drift, mul_add(lift, w, lift)};
 }
 
 template <class T>

@@ -31,7 +31,7 @@ class Uniform {
   std::uint64_t state_;
 };
 
-constexpr double kLyapunovDuration = 2000.0;  // [tau] an exponent within a few per cent; dearer than the friction
+constexpr double kLyapunovDuration = 2000.0;  // [tau] an exponent within a few per cent; it costs more than the friction
 
 }  // namespace
 

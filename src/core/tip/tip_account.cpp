@@ -11,6 +11,9 @@ double energy_of(const Mechanics<double>& m, double eta, const FlightState<doubl
   return 0.5 * (u * u + q.W * q.W + spring_h * spring_h + spring_v * spring_v);
 }
 
+// Of the spring that the holder pulls, from the time integral of its extension [a tau].
+double spring_impulse(const Mechanics<double>& m, double stretch) { return -m.omega_h * m.omega_h * stretch; }
+
 // The holder of a held tip balances what the surface pushes along x. Its work is the change of energy; at rest the force
 // is constant.
 double held_impulse(const SlidePiece<double>& slide, double s, double work) {
@@ -21,26 +24,27 @@ double held_impulse(const SlidePiece<double>& slide, double s, double work) {
 }  // namespace
 
 double Tip::slide_impulse(double s) const {
-  if (mechanics_.mobility == 0.0) {
-    return held_impulse(slide_, s,
-                        slide_energy(mechanics_, slide_at(slide_, s)) - slide_energy(mechanics_, slide_.start()));
-  }
-  return -mechanics_.omega_h * mechanics_.omega_h * stretch_integral(slide_, s);
+  if (mechanics_.mobility > 0.0) return spring_impulse(mechanics_, stretch_integral(slide_, s));
+  const double end = slide_energy(mechanics_, slide_at(slide_, s));
+  return held_impulse(slide_, s, end - slide_energy(mechanics_, slide_.start()));
 }
 
 // The end of a piece of the reference slide in a chatter sequence. `gain` is what the sequence loses beyond the fall of
 // v^2/2: the work of the drag, less what the tip stores off the reference slide.
 Tip::ChatterRide Tip::ride(double s, const Chatter& chatter) const {
   const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
-  const double force = -mechanics_.omega_h * mechanics_.omega_h * eta_, work = force * chatter.drift;
-  const bool held = mechanics_.mobility == 0.0;
-  const double before = slide_energy(mechanics_, held ? guide : slide_.start());
-  const double after = slide_energy(mechanics_, moved);
-  ChatterRide r{moved, burst_gain_, burst_impulse_ + slide_impulse(s), after + 0.5 * chatter.v * chatter.v};
-  if (!held) r.gain += force * stretch_integral(slide_, s);
-  r.gain += work - (after - before) + chatter.lift;
-  r.impulse +=
-      held ? held_impulse(slide_, 0.0, chatter.lift) : -mechanics_.omega_h * mechanics_.omega_h * chatter.drift;
+  const double start = slide_energy(mechanics_, slide_.start()), after = slide_energy(mechanics_, moved);
+  ChatterRide r{moved, burst_gain_, burst_impulse_, after + 0.5 * chatter.v * chatter.v};
+  if (mechanics_.mobility > 0.0) {
+    const double stretch = stretch_integral(slide_, s), force = spring_impulse(mechanics_, 1.0) * eta_;
+    r.gain += force * stretch;
+    r.gain += force * chatter.drift - (after - start) + chatter.lift;
+    r.impulse = r.impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
+  } else {
+    const double along = slide_energy(mechanics_, guide);
+    r.gain += chatter.lift - (after - along);
+    r.impulse = r.impulse + held_impulse(slide_, s, along - start) + held_impulse(slide_, 0.0, chatter.lift);
+  }
   return r;
 }
 
@@ -109,7 +113,7 @@ Account Tip::account_at_end() const {
   Chatter chatter = chatter_run_.chatter;
   if (chatter_run_.end == ChatterEnd::died) chatter.v = 0.0;
   Account end = account_at(chatter_run_.s, chatter);
-  if (chatter_run_.end != ChatterEnd::time) end.count = whole_count(chatter.n);
+  end.count = whole_count(chatter.n);
   return end;
 }
 
@@ -128,13 +132,12 @@ Segment Tip::impact_segment(double energy_before) const {
   return s;
 }
 
-// A piece of the reference slide that is followed by another is no segment yet.
+// A piece of the reference slide that another follows is no segment yet.
 Outcome Tip::end_arc(Segments& ended) {
+  if (sequence_goes_on()) return end_arc();
   const Account end = account_at_end();
-  const Segment arc = segment_to(end);
+  ended.add(segment_to(end));
   const Outcome outcome = end_arc();
-  const bool goes_on = arc.kind == SegmentKind::chatter && outcome == Outcome::flying;
-  if (!goes_on) ended.add(arc);
   const bool bounced = outcome == Outcome::impact && last_impact_.kind == ImpactKind::impact;
   if (bounced) ended.add(impact_segment(end.energy));
   return outcome;

@@ -9,7 +9,7 @@
 
 namespace afm {
 
-// A flight shorter than this part of the fastest turn may be rounding: lanes leave it to the tip, which finds out.
+// A flight shorter than this part of the fastest turn may be rounding.
 constexpr double kLeastFlight = 1e-12;
 
 // Of a chatter sequence that is over: at least one, as its first bounce has been.

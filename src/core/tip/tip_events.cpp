@@ -19,9 +19,14 @@ double Tip::burst_loss(double v, double gain) const {
   return 0.5 * (burst_normal_speed_ - v) * (burst_normal_speed_ + v) + gain;
 }
 
+// Only its piece of the reference slide ends.
+bool Tip::sequence_goes_on() const {
+  return mode_ == Mode::bursting && chatter_run_.end == ChatterEnd::time && !slide_releases_;
+}
+
 Outcome Tip::end_burst() {
   const ChatterRun run = chatter_run_;
-  if (run.end == ChatterEnd::time && !slide_releases_) {
+  if (sequence_goes_on()) {
     burst(leave_guide(run.s, run.chatter), {run.chatter.v, run.chatter.n});
     return Outcome::flying;
   }

@@ -28,9 +28,7 @@ afm_emulator::Checkpoint to_checkpoint(const CheckpointContext& context, const M
 
 std::uint64_t digest_of(afm_emulator::Checkpoint checkpoint) {
   checkpoint.state_digest = 0;
-  Digest digest;
-  add_message(checkpoint, digest);
-  return digest.value();
+  return digest_of_message(checkpoint);
 }
 
 std::optional<Emulator> restored(const afm_emulator::Checkpoint& c) {

@@ -39,4 +39,12 @@ void add_message(const Message& message, Digest& digest) {
   digest.add(bytes.data(), bytes.size());
 }
 
+// By itself.
+template <class Message>
+std::uint64_t digest_of_message(const Message& message) {
+  Digest digest;
+  add_message(message, digest);
+  return digest.value();
+}
+
 }  // namespace afm::node

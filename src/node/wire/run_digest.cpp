@@ -3,18 +3,9 @@
 #include "message_bytes.h"
 
 namespace afm::node {
-namespace {
-
-std::uint64_t digest_of(const afm_emulator::Configuration& configuration) {
-  Digest digest;
-  add_message(configuration, digest);
-  return digest.value();
-}
-
-}  // namespace
 
 RunDigest::RunDigest(const afm_emulator::Configuration& configuration)
-    : epoch_(configuration.epoch), configuration_digest_(digest_of(configuration)) {}
+    : epoch_(configuration.epoch), configuration_digest_(digest_of_message(configuration)) {}
 
 RunDigest::RunDigest(const afm_emulator::Digest& told)
     : epoch_(told.epoch),
