@@ -64,7 +64,7 @@ class EnergyBalance {
  private:
   void add(const Segment& segment) {
     lost_ += segment.loss;
-    gross_ += std::abs(segment.loss) + std::abs(segment.work());
+    gross_ += std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
     imbalance_ += segment.imbalance();
     stored_ += segment.stored;
   }

@@ -12,6 +12,7 @@
 #include "afm/contact.h"
 #include "afm/chatter.h"
 #include "afm/segment.h"
+#include "afm/bath.h"
 #include "afm/tip.h"
 #include "afm/friction.h"
 #include "afm/ensemble.h"

@@ -6,10 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "afm/detail/sample_grid.h"
+#include "bath.h"
 #include "friction.h"
 #include "level.h"
 #include "model.h"
-#include "afm/detail/sample_grid.h"
 #include "saved_state.h"
 #include "state.h"
 #include "tip.h"
@@ -25,6 +26,7 @@ struct EmulatorSettings {
   double friction_window = 1000.0;      // [tau]
   std::uint64_t impact_budget = 20000;  // impacts per batch; a batch that spends it ends there
   double contact_tolerance = kDefaultContactTolerance;
+  Bath bath;  // none
 };
 
 // Every fault, named as in EmulatorSettings; natural units.
@@ -36,6 +38,7 @@ struct LiveSettings {
   double sample_period;   // [tau]
   std::uint64_t samples_per_batch;
   double friction_window;  // [tau]
+  Bath bath;
 };
 LiveSettings live_settings(const EmulatorSettings& settings);
 
@@ -64,7 +67,7 @@ class Emulator {
   explicit Emulator(const EmulatorSettings& settings);  // throws the first ParameterError
 
   void drag(double eta);  // from now() on. Precondition: finite and |eta| <= kMaxEta
-  // From now() on, the tip's state kept; what stays the same goes on as if nothing had been said. A new model begins
+  // From now() on, the tip's state kept; what stays the same goes on as if nothing had been said. A new model or bath begins
   // the friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
   // Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
@@ -91,9 +94,9 @@ class Emulator {
 
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
-  FreeState state() const { return tip_.state(); }  // at now()
-  std::uint64_t samples() const { return next_sample_; }  // due so far
-  const SampleGrid& grid() const { return grid_; }        // on which they are taken at present
+  FreeState state() const { return tip_.state(); }         // at now()
+  std::uint64_t samples() const { return next_sample_; }   // due so far
+  const SampleGrid& grid() const { return grid_; }         // on which they are taken at present
   std::uint64_t impacts() const { return impact_index_; }  // so far
   ModelTime estimated_since() const { return friction_.start(); }
   const Counters& counters() const { return counters_; }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "afm/detail/sample_grid.h"
+#include "afm/detail/thermostat.h"
+#include "bath.h"
 #include "chatter.h"
 #include "contact.h"
 #include "flight.h"
@@ -38,8 +40,8 @@ class Tip {
   // at a limit: any sequence of limits gives the same bits as one.
   Outcome advance(const ModelTime& limit);
 
-  // The same, in arcs: it also stops (Outcome::flying) where the search of a long flight has come to. `ended`: the
-  // segments that ended with this arc; they do not depend on the limits.
+  // The same, in arcs: it also stops (Outcome::flying) after a kick and where the search of a long flight has come to.
+  // `ended`: the segments that ended with this arc; they do not depend on the limits.
   Outcome advance_arc(const ModelTime& limit, Segments* ended = nullptr);
   ModelTime arc_end();  // up to here, exclusive, deflection() holds
 
@@ -65,6 +67,13 @@ class Tip {
   // changes: the spring is relaxed, and the tip as fast as its holder. A chatter sequence ends with the bounce that is
   // under way. Contact ends where the hammer's gap rate differs from the oscillator's. Both are reported as events at now().
   double set_model(ModelKind kind, double contact_tolerance);
+
+  // Another heat bath from now() on; none at first. Its kicks (docs/temperature.md) are part of every advance: each splits
+  // the flight, chatter sequence or contact at its own time, and only there. A kick into the surface on which the tip
+  // rides is an impact at once, one away from it leaves. A chatter sequence ends with the bounce that is under way.
+  // Precondition: a bath without faults.
+  void set_bath(const Bath& bath);
+  const Bath& bath() const { return thermostat_.bath(); }
 
   // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip
   // as it is after an impact at that time, which was `last` and from which it launches so.
@@ -104,6 +113,7 @@ class Tip {
   ChatterRide ride(double s, const Chatter& chatter) const;
   double slide_impulse(double s) const;
   double burst_loss(double v, double gain) const;
+  double bounce_impulse(const SlideState<double>& at, double v) const;
   bool sequence_goes_on() const;
   Account account() const;
   Account account_at(double s, const Chatter& chatter) const;
@@ -112,6 +122,9 @@ class Tip {
   Account flight_account(const FlightState<double>& state) const;
   Segment segment_to(const Account& end) const;
   Segment impact_segment(double energy_before) const;
+  Segment kick_segment(const TipState& before, const TipState& after) const;
+  TipState kicked(const Kick& kick, const TipState& state) const;
+  bool stays_after(const Kick& kick) const;
   void split_account();
   void jolt(double eta);
   void end_guide_now();
@@ -127,8 +140,11 @@ class Tip {
   void leave_or_press();
   bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
   void find_landing();
+  ModelTime event_time();
   Outcome end_arc();
   Outcome end_arc(Segments& ended);
+  Outcome end_arc(Segments* ended) { return ended == nullptr ? end_arc() : end_arc(*ended); }
+  Outcome kick(Segments* ended);
   Outcome land();
   Outcome touch();
   Outcome end_flight();
@@ -161,6 +177,7 @@ class Tip {
   Impact last_impact_;
   bool pending_ = false;  // an event at now() that the next advance reports
   Impact pending_impact_;
+  Thermostat thermostat_;
 };
 
 }  // namespace afm

@@ -83,6 +83,23 @@ void print_run(double eta, double cutoff, double contact_tolerance, ModelKind ki
   std::printf("%s: %s\n", name, to_text(digest).c_str());
 }
 
+void print_bath(double eta, double temperature, double quality_factor, ModelKind kind) {
+  char name[100];
+  std::snprintf(name, sizeof name, "bath: %s, eta %g temperature %g quality_factor %g", afm::name(kind), eta,
+                temperature, quality_factor);
+  if (!wanted(name)) return;
+  EmulatorSettings settings;
+  settings.model.kind = kind;
+  settings.eta = settings.initial.u = eta;
+  settings.samples_per_batch = 1000;
+  settings.bath.temperature = temperature;
+  settings.bath.quality_factor = quality_factor;
+  Emulator emulator(settings);
+  Digest digest;
+  run(emulator, eta, digest);
+  std::printf("%s: %s\n", name, to_text(digest).c_str());
+}
+
 // The records of segments, and the mean lateral force that comes of them.
 void print_segments(double eta, double cutoff, ModelKind kind) {
   const std::string name = "segments of the " + std::string(afm::name(kind));
@@ -111,7 +128,7 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
 }
 
 // Every impact of tips that are as different as can be, flown together.
-void print_together(const std::string& name, int threads) {
+void print_together(const std::string& name, int threads, afm::Bath bath = {}) {
   if (!wanted(name)) return;
   constexpr std::uint32_t kTips = 96, kEvents = 60;
   afm::Ensemble tips(threads);
@@ -121,7 +138,10 @@ void print_together(const std::string& name, int threads) {
     model.gamma = i % 3 == 0 ? 0.4 : 0.7;
     model.v_c = i % 2 == 0 ? 0.3 : 0.05;
     const double eta = (i % 7 == 6 ? -0.125 : 0.125) * i, extension = 1e-3 * i;
-    tips.add(afm::Tip(model, eta, afm::FreeState{0.25, extension, 0.2, eta, 0.0}, i % 4 == 0 ? 0.0 : 1e-3));
+    afm::Tip tip(model, eta, afm::FreeState{0.25, extension, 0.2, eta, 0.0}, i % 4 == 0 ? 0.0 : 1e-3);
+    tip.set_bath(bath);
+    bath.stream += 1;
+    tips.add(tip);
   }
   std::vector<afm::Impact> log(kTips * kEvents);
   tips.advance(kEvents, {200, 0.0}, log.data());
@@ -142,5 +162,13 @@ int main(int argc, char** argv) {
   print_segments(-0.3, 0.02, ModelKind::hammer);
   print_together("96 tips one after another", 1);
   print_together("96 tips on three threads", 3);
+  print_bath(3.4, 0.926, 100.0, ModelKind::oscillator);
+  print_bath(0.3, 1e-3, 20.0, ModelKind::oscillator);  // kicks in chatter and contact
+  print_bath(2.0, 0.3, 50.0, ModelKind::hammer);
+  afm::Bath bath;
+  bath.temperature = 0.1;
+  bath.quality_factor = 100.0;
+  for (const int threads : {1, 3})
+    print_together("96 heated tips on " + std::to_string(threads) + " threads", threads, bath);
   return 0;
 }

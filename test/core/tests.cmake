@@ -44,12 +44,15 @@ set(core_tests
   tip/corners
   tip/deflection
   tip/energy
+  tip/equilibrium
   tip/hammer
+  tip/kick
   tip/known_orbits
   tip/relevel
   tip/retune
   tip/segment
   tip/split
+  tip/thermostat
   tip/tip
   units)
 set(dynamics_tests

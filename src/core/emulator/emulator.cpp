@@ -7,6 +7,7 @@ namespace afm {
 
 std::vector<ParameterError> find_faults(const EmulatorSettings& s) {
   std::vector<ParameterError> faults = find_faults(s.model);
+  for (const ParameterError& fault : find_faults(s.bath)) faults.push_back(fault);
   const auto require = [&](bool holds, const char* name, double value, const char* reason) {
     if (!holds) faults.emplace_back(name, value, reason);
   };
@@ -53,6 +54,7 @@ Emulator::Emulator(const EmulatorSettings& settings)
       tip_(settings.model, settings.eta, settings.initial, settings.contact_tolerance),
       friction_(settings.friction_window),
       grid_{settings.sample_period, 0, {}} {
+  tip_.set_bath(settings.bath);
   friction_.restart(now_, eta_);
 }
 
@@ -80,7 +82,7 @@ double Emulator::set_level(const Level& level) {
 }
 
 LiveSettings live_settings(const EmulatorSettings& s) {
-  return {s.model.gamma, s.model.v_c, s.model.y0, s.sample_period, s.samples_per_batch, s.friction_window};
+  return {s.model.gamma, s.model.v_c, s.model.y0, s.sample_period, s.samples_per_batch, s.friction_window, s.bath};
 }
 
 void Emulator::change(const LiveSettings& live) {
@@ -91,6 +93,11 @@ void Emulator::change(const LiveSettings& live) {
     model.v_c = live.v_c;
     model.y0 = live.y0;
     tip_.set_parameters(model);
+    friction_.restart(now_, eta_);
+  }
+  if (live.bath != settings_.bath) {
+    settings_.bath = live.bath;
+    tip_.set_bath(live.bath);
     friction_.restart(now_, eta_);
   }
   if (live.sample_period != settings_.sample_period) grid_ = {live.sample_period, next_sample_, now_};

@@ -89,7 +89,9 @@ class StateFields {
   template <class Archive, class Self>
   static void of_impact(Archive& archive, Self& impact);
   template <class Archive, class Self>
-  static void of_tip(Archive& archive, Self& tip, double contact_tolerance);
+  static void of_tip(Archive& archive, Self& tip, double contact_tolerance, const Bath& bath);
+  template <class Archive, class Self>
+  static void of_kicks(Archive& archive, Self& thermostat);
 };
 
 // An object that is made of doubles and 64-bit numbers alone, and so has no padding: its members in their order.
@@ -127,12 +129,20 @@ void StateFields::of_impact(Archive& archive, Self& i) {
   archive.number(i.count);
 }
 
+// Not the bath, which is one of the settings.
+template <class Archive, class Self>
+void StateFields::of_kicks(Archive& archive, Self& t) {
+  static_assert(!kLp64 || sizeof t == 136);
+  whole(archive, t.grid_);
+  archive.number(t.kicks_);
+}
+
 // Not mechanics_ and law_, which follow from the model, nor what follows from the tolerance, nor the landing, which
 // follows from the flight.
 template <class Archive, class Self>
-void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
-  constexpr std::size_t kParts =
-      sizeof t.flight_ + sizeof t.slide_ + sizeof t.landing_ + sizeof t.law_ + sizeof t.mechanics_;
+void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance, const Bath& bath) {
+  constexpr std::size_t kParts = sizeof t.flight_ + sizeof t.slide_ + sizeof t.landing_ + sizeof t.law_ +
+                                 sizeof t.mechanics_ + sizeof t.thermostat_;
   static_assert(!kLp64 || sizeof t - kParts == 472);
   of_model(archive, t.model_);
   whole(archive, t.eta_);
@@ -156,22 +166,26 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance) {
   of_impact(archive, t.last_impact_);
   choice(archive, t.pending_, true);
   of_impact(archive, t.pending_impact_);
+  of_kicks(archive, t.thermostat_);
   if constexpr (!std::is_const_v<Self>) {
     t.set_tolerance(contact_tolerance);
     t.adopt(Model(t.model_));
     t.landing_known_ = false;
+    t.thermostat_.bath_ = bath;
+    t.thermostat_.prepare(t.model_.frequency_ratio);
   }
 }
 
 template <class Archive, class Settings>
 void StateFields::of_settings(Archive& archive, Settings& s) {
-  static_assert(!kLp64 || sizeof s == 136);
+  static_assert(!kLp64 || sizeof s == 184);
   of_model(archive, s.model);
   whole(archive, s.eta);
   whole(archive, s.initial);
   for (auto* field : {&s.sample_period, &s.friction_window, &s.contact_tolerance}) whole(archive, *field);
   archive.number(s.samples_per_batch);
   archive.number(s.impact_budget);
+  whole(archive, s.bath);
 }
 
 template <class Archive, class Self>
@@ -179,7 +193,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
   static_assert(!kLp64 || sizeof e - sizeof e.settings_ - sizeof e.tip_ - sizeof e.friction_ == 104);
   of_settings(archive, e.settings_);
   whole(archive, e.eta_);
-  of_tip(archive, e.tip_, e.settings_.contact_tolerance);
+  of_tip(archive, e.tip_, e.settings_.contact_tolerance, e.settings_.bath);
   whole(archive, e.friction_);
   whole(archive, e.now_);
   whole(archive, e.grid_);
@@ -188,7 +202,7 @@ void StateFields::of_run(Archive& archive, Self& e) {
 }
 
 std::uint32_t state_layout() {
-  constexpr std::uint32_t kMeaning = 5;  // to be raised whenever the words mean something else
+  constexpr std::uint32_t kMeaning = 6;  // to be raised whenever the words mean something else
   static const std::uint32_t layout = [] {
     SavedState state;
     Emulator(EmulatorSettings{}).save(state);
@@ -215,8 +229,13 @@ bool StateFields::is_possible(const Emulator& e) {
                        e.now_ <= e.grid_.time_or_end(next) && e.grid_.time_or_end(next) < kEndOfTime &&
                        (next == e.grid_.first || e.grid_.time(next - 1) < e.now_);
   const bool ends = std::isfinite(tip.slide_end_) && std::isfinite(tip.chatter_run_.s);
+  const Thermostat& kicks = tip.thermostat_;
+  const bool on_time =
+      !kicks.bath_.is_on() ||
+      (kicks.grid_.period == 1.0 / kicks.bath_.kicks_per_tau && is_time(kicks.grid_.origin) &&
+       kicks.grid_.first <= kicks.kicks_ && kicks.grid_.time_or_end(kicks.kicks_) <= e.now_ && e.now_ <= kicks.next());
   const bool one_model = tip.model_.kind == e.settings_.model.kind && find_faults(tip.model_).empty();
-  return in_time && on_grid && ends && one_model && tip.eta_ == e.eta_ && std::abs(e.eta_) <= kMaxEta &&
+  return in_time && on_grid && on_time && ends && one_model && tip.eta_ == e.eta_ && std::abs(e.eta_) <= kMaxEta &&
          e.friction_.is_possible(e.now_, e.settings_.friction_window);
 }
 

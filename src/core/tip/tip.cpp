@@ -123,8 +123,10 @@ void Tip::leave_or_press() {
     const Projection settled = project_onto_surface(model_, start);
     burst_begin_ = now_;
     burst_normal_speed_ = settled.normal_speed;
-    burst_energy_ = slide_energy(mechanics_, settled.guide) + 0.5 * settled.normal_speed * settled.normal_speed;
-    burst_gain_ = burst_impulse_ = 0.0;
+    const double v = settled.normal_speed, bounce = bounce_impulse(settled.guide, v);
+    burst_energy_ = slide_energy(mechanics_, settled.guide) + 0.5 * v * v + eta_ * bounce;
+    burst_gain_ = 0.0;
+    burst_impulse_ = -bounce;
     is_split_ = false;
     burst(settled.guide, {settled.normal_speed, 0.0});
   }
@@ -159,6 +161,11 @@ void Tip::find_landing() {
 }
 
 ModelTime Tip::arc_end() {
+  const ModelTime event = event_time();
+  return thermostat_.next() < event ? thermostat_.next() : event;
+}
+
+ModelTime Tip::event_time() {
   if (pending_) return now_;
   if (on_guide()) {
     const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
@@ -171,10 +178,16 @@ ModelTime Tip::arc_end() {
 
 Outcome Tip::advance_arc(const ModelTime& limit, Segments* ended) {
   if (ended != nullptr) ended->clear();
-  const ModelTime end = arc_end();
+  const ModelTime event = event_time();
+  const bool kicked = thermostat_.next() < event;
+  const ModelTime end = kicked ? thermostat_.next() : event;
   if (limit < end) {
     now_ = now_ < limit ? limit : now_;
     return Outcome::time_limit;
+  }
+  if (kicked) {
+    now_ = end;
+    return kick(ended);
   }
   if (pending_) {
     pending_ = false;
@@ -182,7 +195,7 @@ Outcome Tip::advance_arc(const ModelTime& limit, Segments* ended) {
     return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
   }
   now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
-  return ended == nullptr ? end_arc() : end_arc(*ended);
+  return end_arc(ended);
 }
 
 Outcome Tip::advance(const ModelTime& limit) {

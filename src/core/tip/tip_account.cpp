@@ -48,6 +48,12 @@ Tip::ChatterRide Tip::ride(double s, const Chatter& chatter) const {
   return r;
 }
 
+// Right after a bounce the tip is faster than its chatter is on average. What that took along x the holder of a held tip
+// has given, and worked for.
+double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
+  return mechanics_.mobility > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
+}
+
 Account Tip::account_at_begin() const {
   if (is_split_) return split_;
   if (mode_ == Mode::bursting) return {burst_begin_, 0.0, 0.0, burst_energy_, 0};
@@ -59,7 +65,8 @@ Account Tip::account_at_begin() const {
 Account Tip::account_at(double s, const Chatter& chatter) const {
   if (mode_ == Mode::bursting) {
     const ChatterRide r = ride(s, chatter);
-    return {now_, r.impulse, burst_loss(chatter.v, r.gain), r.energy, static_cast<std::uint64_t>(chatter.n)};
+    const double bounce = bounce_impulse(r.moved, chatter.v), energy = r.energy + eta_ * bounce;
+    return {now_, r.impulse + bounce, burst_loss(chatter.v, r.gain), energy, static_cast<std::uint64_t>(chatter.n)};
   }
   if (mode_ == Mode::sliding) {
     return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, slide_at(slide_, s)), 0};

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "afm/emulator.h"
-#include "trials/random_launches.h"
 #include "support/recorded_run.h"
+#include "trials/random_launches.h"
 
 namespace afm {
 namespace {
@@ -51,6 +51,11 @@ class Chance {
       if (one_in(3.0)) deed.live.y0 = within(-0.1, 0.05);
       if (one_in(3.0)) deed.live.sample_period = within(0.02, 0.04);
       if (one_in(3.0)) deed.live.friction_window = within(20.0, 60.0);
+      if (one_in(2.0)) {
+        deed.live.bath.temperature = within(0.0, 1.0);
+        deed.live.bath.quality_factor = one_in(4.0) ? 0.0 : within(10.0, 200.0);
+        deed.live.bath.kicks_per_tau = within(1.0, 5.0);
+      }
     } else if (one_in(25.0)) {
       deed.kind = Deed::level;
       deed.to.kind = one_in(2.0) ? ModelKind::hammer : ModelKind::oscillator;

@@ -1,0 +1,36 @@
+// The heat bath of the cantilever, at rest in the frame of the holder: Langevin dynamics of both springs. The motion is split
+// into exact motion for 1/kicks_per_tau and kicks, the exact Ornstein-Uhlenbeck step of both velocities: without drag and
+// with gamma = 1 the Boltzmann distribution above the surface is stationary for every rate of kicks (docs/temperature.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model.h"
+
+namespace afm {
+
+// Energy of a free spring decays like exp(-omega t / Q).
+struct Bath {
+  double temperature = 0.0;             // kT [m a^2/tau^2]; 0: damping alone
+  double quality_factor = 0.0;          // of the vertical spring; 0: neither damped nor heated
+  double lateral_quality_factor = 0.0;  // of the horizontal spring; 0: as the vertical one
+  double kicks_per_tau = 2.0;
+  std::uint64_t seed = 1;    // of the random numbers
+  std::uint64_t stream = 0;  // which of the seed's sequences: many tips have one each
+
+  bool is_on() const { return quality_factor > 0.0 || lateral_quality_factor > 0.0; }
+};
+
+bool operator==(const Bath& a, const Bath& b);
+inline bool operator!=(const Bath& a, const Bath& b) { return !(a == b); }
+
+constexpr double kMaxTemperature = 1000.0;  // [m a^2/tau^2]: mica's tip at 324,000 K
+constexpr double kMinQualityFactor = 0.1;   // overdamped; or 0
+constexpr double kMinKickRate = 0.01;       // [1/tau]
+constexpr double kMaxKickRate = 1000.0;     // [1/tau]
+
+// Every fault, named as in Bath.
+std::vector<ParameterError> find_faults(const Bath& bath);
+
+}  // namespace afm

@@ -1,0 +1,54 @@
+// When a tip is kicked by its bath, and how hard: a function of the bath, the number of the kick and the times at which the
+// bath was changed.
+#pragma once
+
+#include <cstdint>
+
+#include "afm/bath.h"
+#include "sample_grid.h"
+
+namespace afm {
+
+// What a kick makes of a velocity relative to the holder: v -> keep v + noise, noise normally distributed.
+struct VelocityKick {
+  double keep = 1.0;
+  double noise = 0.0;  // [a/tau]
+
+  double change(double v) const { return (keep - 1.0) * v + noise; }
+};
+struct Kick {
+  VelocityKick lateral, vertical;
+};
+
+// Two standard normal deviates, the same bits on every machine; |xi| < 8.6.
+struct NormalPair {
+  double first, second;
+};
+NormalPair normal_pair(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
+
+class Thermostat {
+ public:
+  Thermostat() = default;
+
+  // Another bath from `now` on. Times of kicks stay as they are unless their rate changes or the bath was off: then the
+  // next comes one period after `now`. The count of kicks goes on, so no random number is drawn twice.
+  void set(const Bath& bath, double frequency_ratio, const ModelTime& now);
+
+  const ModelTime& next() const { return next_; }  // kEndOfTime without a bath
+  const Bath& bath() const { return bath_; }
+
+  Kick draw();  // the next kick, which is then past
+
+ private:
+  friend class StateFields;  // saved_state.cpp
+
+  void prepare(double frequency_ratio);
+
+  Bath bath_;
+  SampleGrid grid_{1.0, 0, {}};  // kick n at the time of its n-th sample
+  std::uint64_t kicks_ = 0;      // so far
+  ModelTime next_ = kEndOfTime;
+  Kick scale_;  // with the standard deviations of the noise
+};
+
+}  // namespace afm

@@ -1,0 +1,227 @@
+// With gamma = 1 and without drag the Boltzmann distribution above the surface is stationary, whatever the rate of kicks:
+// moments and quantiles against quadrature, within 4 standard errors. Two wrong thermostats must fail the same checks.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "afm/detail/batch_means.h"
+#include "afm/surface.h"
+#include "afm/tip.h"
+
+namespace afm {
+namespace {
+
+constexpr double kHolder = 0.1;  // xc [a]: on a slope of 0.36
+
+Model elastic() {
+  Model model;
+  model.gamma = 1.0;
+  return model;
+}
+
+Bath bath_of(double temperature, double kicks_per_tau, double quality_factor) {
+  Bath bath;
+  bath.temperature = temperature;
+  bath.quality_factor = quality_factor;
+  bath.kicks_per_tau = kicks_per_tau;
+  return bath;
+}
+
+// Averages over the density proportional to exp(-energy/theta) above the surface; velocities are normal.
+class Boltzmann {
+ public:
+  explicit Boltzmann(double theta)
+      : s_X_(std::sqrt(theta) / (kTwoPi * Model{}.frequency_ratio)), s_Y_(std::sqrt(theta) / kTwoPi) {}
+
+  // Of a function of X times what the vertical direction gives: partial(a), a the height of the surface in widths.
+  double over_X(const std::function<double(double)>& of_X, const std::function<double(double)>& of_height) const {
+    const auto weighted = [&](double t) {
+      const double X = t * s_X_, a = surface_jet(Model{}.H, kHolder + X).h / s_Y_;
+      return std::exp(-0.5 * t * t) * of_X(X) * of_height(a);
+    };
+    double sum = 0.0;
+    for (int i = -16; i < 16; ++i) {
+      sum += boost::math::quadrature::gauss<double, 15>::integrate(weighted, 0.5 * i, 0.5 * (i + 1));
+    }
+    return sum;
+  }
+  static double tail(double a) { return 0.5 * std::erfc(a / std::sqrt(2.0)); }
+  static double density(double a) { return std::exp(-0.5 * a * a) / std::sqrt(kTwoPi); }
+  static double one(double) { return 1.0; }
+
+  double norm() const { return over_X(one, tail); }
+  double mean_X() const {
+    return over_X([](double X) { return X; }, tail) / norm();
+  }
+  double mean_X2() const {
+    return over_X([](double X) { return X * X; }, tail) / norm();
+  }
+  double mean_Y() const { return s_Y_ * over_X(one, density) / norm(); }
+  double mean_Y2() const {
+    return s_Y_ * s_Y_ * over_X(one, [](double a) { return tail(a) + a * density(a); }) / norm();
+  }
+  double below_X(double X0) const {
+    return over_X([X0](double X) { return X < X0 ? 1.0 : 0.0; }, tail) / norm();
+  }
+  double below_Y(double Y0) const {
+    const double b = Y0 / s_Y_;
+    return over_X(one, [b](double a) { return a < b ? tail(a) - tail(b) : 0.0; }) / norm();
+  }
+
+ private:
+  double s_X_, s_Y_;
+};
+
+struct Figure {
+  std::string name;
+  double expected;
+  std::function<double(const FreeState&)> of;
+};
+
+std::vector<Figure> figures(double theta) {
+  const Boltzmann exact(theta);
+  std::vector<Figure> all{{"X", exact.mean_X(), [](const FreeState& s) { return s.X; }},
+                          {"X^2", exact.mean_X2(), [](const FreeState& s) { return s.X * s.X; }},
+                          {"Y", exact.mean_Y(), [](const FreeState& s) { return s.y; }},
+                          {"Y^2", exact.mean_Y2(), [](const FreeState& s) { return s.y * s.y; }},
+                          {"u^2", theta, [](const FreeState& s) { return s.u * s.u; }},
+                          {"w^2", theta, [](const FreeState& s) { return s.w * s.w; }},
+                          {"u w", 0.0, [](const FreeState& s) { return s.u * s.w; }},
+                          {"w^4", 3.0 * theta * theta, [](const FreeState& s) { return s.w * s.w * s.w * s.w; }}};
+  for (const double t : {-1.2815515655446004, 0.0, 0.6744897501960817}) {  // quantiles 0.1, 0.5, 0.75
+    const double v = t * std::sqrt(theta), below = Boltzmann::tail(-t);
+    all.push_back({"P(u)", below, [v](const FreeState& s) { return s.u < v ? 1.0 : 0.0; }});
+    all.push_back({"P(w)", below, [v](const FreeState& s) { return s.w < v ? 1.0 : 0.0; }});
+  }
+  for (const double widths : {0.2, 1.0, 2.0}) {
+    const double Y = surface_jet(Model{}.H, kHolder).h + widths * std::sqrt(theta) / kTwoPi;
+    all.push_back({"P(Y)", exact.below_Y(Y), [Y](const FreeState& s) { return s.y < Y ? 1.0 : 0.0; }});
+  }
+  // at 0 a boundary of the panels of the quadrature
+  all.push_back({"P(X)", exact.below_X(0.0), [](const FreeState& s) { return s.X < 0.0 ? 1.0 : 0.0; }});
+  return all;
+}
+
+// How many standard errors each figure is off, over `batches` batches of 200 tau. `advance` brings the tip to a time.
+using Advance = std::function<FreeState(const ModelTime&)>;
+std::vector<double> deviations(const std::vector<Figure>& all, int batches, const Advance& advance) {
+  constexpr int kSamples = 540;
+  constexpr double kPause = 200.0 / kSamples;
+  std::vector<std::vector<double>> sums(all.size(), std::vector<double>(static_cast<std::size_t>(batches), 0.0));
+  advance({100, 0.0});
+  for (int i = 0; i < batches * kSamples; ++i) {
+    const FreeState state = advance(ModelTime{100, 0.0} + kPause * i);
+    for (std::size_t k = 0; k < all.size(); ++k) sums[k][static_cast<std::size_t>(i / kSamples)] += all[k].of(state);
+  }
+  std::vector<double> result;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    double mean = 0.0;
+    for (const double sum : sums[k]) mean += sum / (batches * kSamples);
+    result.push_back((mean - all[k].expected) / (mean_error(sums[k]).std_error / kSamples));
+  }
+  return result;
+}
+
+const FreeState kStart{kHolder, 0.0, 0.2, 0.0, 0.0};
+
+struct Setting {
+  double theta, kicks_per_tau;
+};
+
+class EquilibriumAt : public testing::TestWithParam<Setting> {};
+
+TEST_P(EquilibriumAt, IsTheBoltzmannDistributionAboveTheSurface) {
+  const auto [theta, kicks_per_tau] = GetParam();
+  Tip tip(elastic(), 0.0, kStart);
+  tip.set_bath(bath_of(theta, kicks_per_tau, 5.0));
+  const std::vector<Figure> all = figures(theta);
+  const std::vector<double> off = deviations(all, 400, [&](const ModelTime& time) {
+    while (tip.advance(time) != Outcome::time_limit) continue;
+    return tip.state();
+  });
+  for (std::size_t k = 0; k < all.size(); ++k) EXPECT_LT(std::abs(off[k]), 4.0) << all[k].name;
+}
+
+std::vector<Setting> settings() {
+  std::vector<Setting> all;
+  for (const double theta : {0.05, 0.3, 0.926}) {
+    for (const double kicks_per_tau : {0.5, 2.0, 8.0}) all.push_back({theta, kicks_per_tau});
+  }
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(Temperatures, EquilibriumAt, testing::ValuesIn(settings()));
+
+// The same run with a thermostat outside the tip, twice a tau, which may be a wrong one.
+using Thermo = std::function<TipState(const TipState&, const NormalPair&)>;
+double worst_deviation(double theta, const Thermo& thermo) {
+  Tip tip(elastic(), 0.0, kStart);
+  ModelTime kicked;  // the tip's time counts from the last kick
+  std::uint64_t kicks = 0;
+  const auto bring_to = [&](const ModelTime& time) {
+    while (tip.advance(ModelTime{} + (time - kicked)) != Outcome::time_limit) continue;
+  };
+  const std::vector<double> off = deviations(figures(theta), 400, [&](const ModelTime& time) {
+    for (ModelTime next; !(time < (next = multiply(kicks + 1, 0.5))); kicked = next) {
+      bring_to(next);
+      tip = Tip(elastic(), 0.0, thermo(tip.tip_state(), normal_pair(3, 0, ++kicks)));
+    }
+    bring_to(time);
+    return tip.state();
+  });
+  double worst = 0.0;
+  for (const double d : off) worst = std::max(worst, std::abs(d));
+  return worst;
+}
+
+// `scale`: of the variance of the noise; `slope`: what of the surface's slope the gap rate is told.
+Thermo thermostat(double theta, double scale, double slope_part) {
+  const double c_v = std::exp(-0.5 * kTwoPi / 5.0), c_h = std::exp(-0.5 * kTwoPi * Model{}.frequency_ratio / 5.0);
+  return [=](const TipState& s, const NormalPair& xi) {
+    const double slope = surface_jet(Model{}.H, s.phase).h1, w = s.g1 + slope * s.u;
+    const double du = (c_h - 1.0) * s.u + std::sqrt((1.0 - c_h * c_h) * theta * scale) * xi.first;
+    const double dw = (c_v - 1.0) * w + std::sqrt((1.0 - c_v * c_v) * theta * scale) * xi.second;
+    return TipState{s.phase, s.X, s.u + du, s.g, s.g1 + dw - slope_part * slope * du};
+  };
+}
+
+TEST(WrongThermostat, FailsWhereTheVarianceOfItsKicksIsWrongOrTheSurfaceForgotten) {
+  EXPECT_LT(worst_deviation(0.3, thermostat(0.3, 1.0, 1.0)), 4.0);  // the right one passes
+  EXPECT_GT(worst_deviation(0.3, thermostat(0.3, 1.05, 1.0)), 4.0);
+  EXPECT_GT(worst_deviation(0.3, thermostat(0.3, 0.95, 1.0)), 4.0);
+  EXPECT_GT(worst_deviation(0.3, thermostat(0.3, 1.0, 0.0)), 4.0);
+}
+
+TEST(Equilibrium, DoesNotDriftInAMillionTau) {
+  constexpr double kTheta = 0.926;
+  constexpr int kBatches = 100;
+  Tip tip(elastic(), 0.0, kStart);
+  tip.set_bath(bath_of(kTheta, 2.0, 20.0));
+  std::vector<double> energy(kBatches, 0.0);
+  for (int i = 0; i < 1000000; ++i) {
+    while (tip.advance({i + 1, 0.3}) != Outcome::time_limit) continue;
+    energy[static_cast<std::size_t>(i / 10000)] += tip.stored_energy() / 10000.0;
+  }
+  // the slope of energy against batch, with its standard error from the spread about it
+  double mean = 0.0, rise = 0.0, spread = 0.0, weight = 0.0;
+  for (int i = 0; i < kBatches; ++i) {
+    const double x = i - 0.5 * (kBatches - 1);
+    mean += energy[static_cast<std::size_t>(i)] / kBatches;
+    rise += x * energy[static_cast<std::size_t>(i)];
+    weight += x * x;
+  }
+  rise /= weight;
+  for (int i = 0; i < kBatches; ++i) {
+    spread +=
+        std::pow(energy[static_cast<std::size_t>(i)] - mean - rise * (i - 0.5 * (kBatches - 1)), 2) / (kBatches - 2);
+  }
+  EXPECT_LT(std::abs(rise), 4.0 * std::sqrt(spread / weight));
+  EXPECT_LT(std::sqrt(spread / kBatches), 0.01 * mean);  // a drift of some parts in a hundred would be seen
+}
+
+}  // namespace
+}  // namespace afm

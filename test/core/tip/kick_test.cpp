@@ -1,0 +1,187 @@
+// Kicks wherever the tip is: in the air, in a chatter sequence, in contact, at rest; the account of heat; and that nothing
+// depends on how an advance is split.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include "afm/tip.h"
+#include "trials/energy_balance.h"
+
+namespace afm {
+namespace {
+
+Bath bath_of(double temperature, double quality_factor, double kicks_per_tau = 2.0) {
+  Bath bath;
+  bath.temperature = temperature;
+  bath.quality_factor = quality_factor;
+  bath.kicks_per_tau = kicks_per_tau;
+  return bath;
+}
+
+Tip tip_of(ModelKind kind, double gamma, double v_c, double eta) {
+  Model model;
+  model.kind = kind;
+  model.gamma = gamma;
+  model.v_c = v_c;
+  return Tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+}
+
+// On the surface, on a slope.
+Tip tip_at_rest() {
+  Tip tip(Model{}, 0.0, TipState{0.1, 0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(tip.advance({}), Outcome::contact);
+  return tip;
+}
+
+struct Setting {
+  ModelKind kind;
+  double gamma, v_c, eta, temperature;
+};
+
+class Kicked : public testing::TestWithParam<Setting> {
+ protected:
+  Tip tip() const {
+    const Setting& r = GetParam();
+    Tip tip = tip_of(r.kind, r.gamma, r.v_c, r.eta);
+    tip.set_bath(bath_of(r.temperature, 50.0));
+    return tip;
+  }
+};
+
+TEST_P(Kicked, WorkIsLossHeatAndStoredEnergyToRounding) {
+  Tip kicked = tip();
+  const double before = kicked.stored_energy();
+  long double work = 0.0L, spent = 0.0L, gross = 0.0L, stored = 0.0L;
+  std::uint64_t impacts = 0, kicks = 0;
+  Segments ended;
+  const auto add = [&](const Segment& s) {
+    work += s.work(), spent += s.loss + s.heat, stored += s.stored;
+    gross += std::abs(s.work()) + s.loss + std::abs(s.heat);
+  };
+  while (impacts < 100000 && kicked.now() < ModelTime{50000, 0.0}) {
+    ASSERT_NE(kicked.advance_arc({50000, 0.0}, &ended), Outcome::search_failed);
+    for (const Segment& s : ended) {
+      add(s);
+      impacts += s.count;
+      kicks += s.kind == SegmentKind::kick ? 1 : 0;
+      ASSERT_LE(std::abs(s.imbalance()), 1e-12 * (before + 1.0 + std::abs(s.loss)));
+    }
+  }
+  add(kicked.segment());
+  const double scale = static_cast<double>(gross) + before;
+  EXPECT_GT(kicks, 5u);
+  EXPECT_LT(std::abs(static_cast<double>(work - spent - stored)), 1e-12 * scale);
+  EXPECT_NEAR(before + static_cast<double>(stored), kicked.stored_energy(), 1e-12 * scale);
+}
+
+TEST_P(Kicked, LimitsChangeNoBit) {
+  Tip whole = tip(), split = tip();
+  while (whole.advance({200, 0.0}) != Outcome::time_limit) continue;
+  for (int i = 0; i < 1709; ++i) {
+    while (split.advance(multiply(static_cast<std::uint64_t>(i), 0.117)) != Outcome::time_limit) continue;
+  }
+  while (split.advance({200, 0.0}) != Outcome::time_limit) continue;
+  const TipState a = whole.tip_state(), b = split.tip_state();
+  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+}
+
+TEST_P(Kicked, TheTipStaysAboveTheSurface) {
+  Tip kicked = tip();
+  for (int i = 0; i < 4000; ++i) {
+    const ModelTime time = multiply(static_cast<std::uint64_t>(i), 0.0173);
+    while (kicked.advance(time) != Outcome::time_limit) continue;
+    ASSERT_GE(kicked.tip_state().g, 0.0);
+    ASSERT_GT(kicked.deflection(time).gap, -1e-12);
+  }
+}
+
+constexpr ModelKind kFree = ModelKind::oscillator, kHeld = ModelKind::hammer;
+INSTANTIATE_TEST_SUITE_P(Runs, Kicked,
+                         testing::Values(Setting{kFree, 0.7, 0.05, 3.4, 0.926}, Setting{kFree, 0.7, 0.05, 2.0, 0.0},
+                                         Setting{kFree, 0.7, 0.01, 0.1, 0.926}, Setting{kFree, 0.7, 0.01, 0.3, 0.0},
+                                         Setting{kFree, 0.7, 0.05, 0.0, 0.3}, Setting{kFree, 0.0, 0.0, 3.4, 0.926},
+                                         Setting{kFree, 0.0, 0.05, 0.5, 1e-6}, Setting{kFree, 1.0, 0.05, 0.0, 0.3},
+                                         Setting{kHeld, 0.7, 0.05, 3.4, 0.926}, Setting{kHeld, 0.7, 0.02, 0.3, 0.1},
+                                         Setting{kHeld, 0.0, 0.05, 0.5, 0.05}, Setting{kHeld, 0.7, 0.02, -0.3, 0.0}));
+
+// At eta = 0.3 chatter, contact and flights follow each other.
+TEST(Kick, ComesInTheAirInChatterAndInContact) {
+  Tip tip = tip_of(ModelKind::oscillator, 0.7, 0.01, 0.3);
+  tip.set_bath(bath_of(1e-3, 50.0));
+  std::set<SegmentKind> split;
+  Segments ended;
+  while (tip.now() < ModelTime{3000, 0.0}) {
+    tip.advance_arc({3000, 0.0}, &ended);
+    const Segment* last = ended.end() - 1;
+    if (last > ended.begin() && last->kind == SegmentKind::kick) split.insert((last - 1)->kind);
+  }
+  EXPECT_EQ(split, (std::set<SegmentKind>{SegmentKind::flight, SegmentKind::chatter, SegmentKind::contact}));
+}
+
+TEST(Kick, IntoTheSurfaceIsAnImpactAtOnceAndAwayFromItLeaves) {
+  int leaves = 0, hits = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Tip tip = tip_at_rest();
+    Bath bath = bath_of(0.3, 50.0);
+    bath.seed = seed;
+    tip.set_bath(bath);
+    const ModelTime kick = tip.now() + 0.5;
+    ASSERT_EQ(tip.advance({10000, 0.0}), Outcome::released);
+    EXPECT_EQ(tip.now(), kick);
+    EXPECT_EQ(tip.last_impact().kind, ImpactKind::contact_ended);
+    const double gap_rate = tip.tip_state().g1;
+    ASSERT_NE(gap_rate, 0.0);
+    if (gap_rate > 0.0) {
+      ++leaves;
+      tip.advance(kick);
+      EXPECT_FALSE(tip.in_contact());
+    } else {
+      ++hits;
+      ASSERT_EQ(tip.advance(kick), Outcome::impact);
+      EXPECT_EQ(tip.now(), kick);
+      EXPECT_GT(tip.last_impact().energy_loss, 0.0);
+    }
+  }
+  EXPECT_GT(leaves, 5);
+  EXPECT_GT(hits, 5);
+}
+
+TEST(Kick, WithoutTemperatureATipAtRestStaysAtRest) {
+  Tip tip = tip_at_rest();
+  tip.set_bath(bath_of(0.0, 20.0));
+  while (tip.advance({3000, 0.0}) != Outcome::time_limit) continue;
+  ASSERT_TRUE(tip.in_contact());
+  const std::int64_t contact = tip.last_impact().time.tau;
+  while (tip.advance({20000, 0.0}) != Outcome::time_limit) continue;
+  EXPECT_EQ(tip.last_impact().time.tau, contact);  // no event since
+  EXPECT_LT(std::abs(tip.state().u), 1e-10);
+}
+
+TEST(Kick, ABathWithoutQualityFactorChangesNoBit) {
+  Tip plain = tip_of(ModelKind::oscillator, 0.7, 0.05, 3.4), bathed = plain;
+  bathed.set_bath(bath_of(0.926, 0.0));
+  for (int i = 0; i < 2000; ++i) {
+    ASSERT_EQ(plain.advance(kEndOfTime), bathed.advance(kEndOfTime));
+    ASSERT_EQ(plain.now(), bathed.now());
+    ASSERT_EQ(plain.last_impact().energy_loss, bathed.last_impact().energy_loss);
+  }
+}
+
+// Commands and another bath between the kicks.
+TEST(Kick, KeepsTheBalanceThroughCommands) {
+  Tip tip = tip_of(ModelKind::oscillator, 0.7, 0.05, 3.4);
+  EnergyBalance balance(tip);
+  for (int i = 0; i < 400; ++i) {
+    balance.command(tip, [&] { tip.set_bath(bath_of(0.1 * (i % 5), i % 7 == 0 ? 0.0 : 30.0, 1.0 + i % 3)); });
+    if (i % 3 == 0) balance.command(tip, [&] { tip.drag(0.37 * (i % 13) - 1.0); });
+    const ModelTime until = tip.now() + 7.77;
+    while (balance.advance_arc(tip, until) != Outcome::time_limit) continue;
+  }
+  EXPECT_LT(balance.imbalance(tip), 1e-11 * balance.turnover(tip));
+}
+
+}  // namespace
+}  // namespace afm

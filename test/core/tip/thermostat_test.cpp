@@ -1,0 +1,159 @@
+// The kicks of the bath: their random numbers, their times, and what they do to a spring that touches nothing.
+#include "afm/detail/thermostat.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "afm/flight.h"
+
+namespace afm {
+namespace {
+
+Bath bath_of(double temperature, double quality_factor, double kicks_per_tau) {
+  Bath bath;
+  bath.temperature = temperature;
+  bath.quality_factor = quality_factor;
+  bath.kicks_per_tau = kicks_per_tau;
+  return bath;
+}
+
+TEST(NormalPair, HasTheMomentsOfANormalDistribution) {
+  constexpr int kPairs = 1000000;
+  double mean = 0.0, square = 0.0, fourth = 0.0, product = 0.0;
+  for (int i = 0; i < kPairs; ++i) {
+    const NormalPair xi = normal_pair(7, 0, static_cast<std::uint64_t>(i));
+    mean += xi.first + xi.second;
+    square += xi.first * xi.first + xi.second * xi.second;
+    fourth += std::pow(xi.first, 4) + std::pow(xi.second, 4);
+    product += xi.first * xi.second;
+  }
+  constexpr double kAll = 2.0 * kPairs;
+  EXPECT_NEAR(mean / kAll, 0.0, 4.0 / std::sqrt(kAll));
+  EXPECT_NEAR(square / kAll, 1.0, 4.0 * std::sqrt(2.0 / kAll));
+  EXPECT_NEAR(fourth / kAll, 3.0, 4.0 * std::sqrt(96.0 / kAll));
+  EXPECT_NEAR(product / kPairs, 0.0, 4.0 / std::sqrt(kPairs));
+}
+
+TEST(NormalPair, IsAFunctionOfSeedStreamAndIndexAndOfNothingElse) {
+  std::set<double> seen;
+  for (const std::uint64_t seed : {1ull, 2ull, 1ull << 40}) {
+    for (const std::uint64_t stream : {0ull, 1ull, 1ull << 40}) {
+      for (const std::uint64_t index : {0ull, 1ull, 1ull << 40}) {
+        const NormalPair a = normal_pair(seed, stream, index), b = normal_pair(seed, stream, index);
+        EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0);
+        seen.insert({a.first, a.second});
+      }
+    }
+  }
+  EXPECT_EQ(seen.size(), 2u * 27u);
+}
+
+TEST(Thermostat, WithoutABathNeverKicks) {
+  Thermostat thermostat;
+  EXPECT_EQ(thermostat.next(), kEndOfTime);
+  thermostat.set(bath_of(1.0, 0.0, 2.0), 6.25, {3, 0.5});
+  EXPECT_EQ(thermostat.next(), kEndOfTime);
+}
+
+TEST(Thermostat, KicksAtWholePeriodsWhateverTheTemperatureBecomes) {
+  Thermostat thermostat;
+  thermostat.set(bath_of(1.0, 100.0, 8.0), 6.25, {3, 0.5});
+  EXPECT_EQ(thermostat.next(), (ModelTime{3, 0.625}));
+  thermostat.draw();
+  thermostat.set(bath_of(0.5, 20.0, 8.0), 6.25, {3, 0.7});
+  EXPECT_EQ(thermostat.next(), (ModelTime{3, 0.75}));
+  thermostat.set(bath_of(0.5, 20.0, 2.0), 6.25, {3, 0.7});
+  EXPECT_EQ(thermostat.next(), (ModelTime{4, 0.7 - 0.5}));
+  thermostat.set(bath_of(0.5, 0.0, 2.0), 6.25, {3, 0.9});
+  EXPECT_EQ(thermostat.next(), kEndOfTime);
+}
+
+TEST(Thermostat, NoRandomNumberIsDrawnTwiceWhenTheRateChanges) {
+  Thermostat thermostat;
+  std::set<double> noises;
+  for (const double rate : {8.0, 2.0, 8.0}) {
+    thermostat.set(bath_of(1.0, 100.0, rate), 6.25, {100, 0.0});
+    for (int i = 0; i < 10; ++i) noises.insert(thermostat.draw().lateral.noise / std::sqrt(rate));
+  }
+  EXPECT_EQ(noises.size(), 30u);
+}
+
+TEST(Bath, ReportsEveryFaultByName) {
+  Bath bath = bath_of(-1.0, 0.01, 1e6);
+  bath.lateral_quality_factor = std::numeric_limits<double>::quiet_NaN();
+  std::set<std::string> names;
+  for (const ParameterError& fault : find_faults(bath)) names.insert(fault.name);
+  EXPECT_EQ(names, (std::set<std::string>{"temperature", "quality_factor", "lateral_quality_factor", "kicks_per_tau"}));
+  EXPECT_TRUE(find_faults(Bath{}).empty());
+}
+
+// Springs that touch nothing, kicked.
+class FreeSprings {
+ public:
+  FreeSprings(const Bath& bath, const FlightState<double>& start) : mechanics_(Model{}), state_(start) {
+    thermostat_.set(bath, Model{}.frequency_ratio, {});
+    period_ = 1.0 / bath.kicks_per_tau;
+  }
+  void step() {
+    const Flight<double> flight(mechanics_, 0.0, TipState{0.0, state_.X, state_.U, state_.Y - Model{}.H, state_.W});
+    state_ = flight.at(period_);
+    const Kick kick = thermostat_.draw();
+    state_.U += kick.lateral.change(state_.U);
+    state_.W += kick.vertical.change(state_.W);
+  }
+  const FlightState<double>& state() const { return state_; }
+  double lateral_energy() const { return 0.5 * (state_.U * state_.U + square(mechanics_.omega_h * state_.X)); }
+  double vertical_energy() const { return 0.5 * (state_.W * state_.W + square(mechanics_.omega_v * state_.Y)); }
+
+ private:
+  static double square(double x) { return x * x; }
+  Mechanics<double> mechanics_;
+  FlightState<double> state_;
+  Thermostat thermostat_;
+  double period_;
+};
+
+TEST(FreeSpring, WithoutTemperatureTheEnergyDecaysAsTheQualityFactorSays) {
+  Bath bath = bath_of(0.0, 200.0, 7.3);
+  bath.lateral_quality_factor = 1000.0;
+  FreeSprings springs(bath, {0.0, 0.01, 0.5, 0.3, 1.0});
+  const double vertical = springs.vertical_energy(), lateral = springs.lateral_energy();
+  constexpr int kSteps = 730;  // 100 tau
+  for (int i = 0; i < kSteps; ++i) springs.step();
+  const double turned = kTwoPi * kSteps / 7.3;
+  EXPECT_NEAR(std::log(vertical / springs.vertical_energy()), turned / 200.0, 0.02);
+  EXPECT_NEAR(std::log(lateral / springs.lateral_energy()), turned * Model{}.frequency_ratio / 1000.0, 0.02);
+}
+
+// The power spectrum of Y near its resonance f = 1 / tau: a Lorentzian of full width f/Q, and of power theta / omega^2.
+TEST(FreeSpring, ItsNoiseIsALorentzianOfWidthFOverQ) {
+  constexpr double kQ = 20.0, kTheta = 0.3, kRate = 8.0, kPi = 0.5 * kTwoPi;
+  constexpr int kRecords = 3000, kSteps = 400 * 8;  // each 20 times as long as the noise remembers
+  FreeSprings springs(bath_of(kTheta, kQ, kRate), {0.0, 0.0, 0.0, 0.0, 0.0});
+  const std::vector<double> offsets{0.0, 0.25 / kQ, 0.5 / kQ, 1.0 / kQ};
+  std::vector<double> power(offsets.size(), 0.0);
+  for (int record = 0; record < kRecords; ++record) {
+    std::vector<std::complex<double>> sums(offsets.size());
+    for (int i = 0; i < kSteps; ++i) {
+      springs.step();
+      for (std::size_t k = 0; k < offsets.size(); ++k) {
+        sums[k] += springs.state().Y * std::polar(1.0, -kTwoPi * (1.0 + offsets[k]) * i / kRate);
+      }
+    }
+    for (std::size_t k = 0; k < offsets.size(); ++k) power[k] += std::norm(sums[k]) / (kRate * kSteps * kRecords);
+  }
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    const double half_width = 0.5 / kQ, x = offsets[k] / half_width;
+    const double expected = kTheta / (kTwoPi * kTwoPi) / (2.0 * kPi * half_width * (1.0 + x * x));
+    EXPECT_NEAR(power[k] / expected, 1.0, 4.0 / std::sqrt(kRecords) + 0.03) << offsets[k];
+  }
+}
+
+}  // namespace
+}  // namespace afm
