@@ -99,6 +99,7 @@ class Emulator {
   const SampleGrid& grid() const { return grid_; }         // on which they are taken at present
   std::uint64_t impacts() const { return impact_index_; }  // so far
   ModelTime estimated_since() const { return friction_.start(); }
+  const Thermostat& thermostat() const { return tip_.thermostat(); }  // of the kicks to come
   const Counters& counters() const { return counters_; }
   const EmulatorSettings& settings() const { return settings_; }
 

@@ -1,5 +1,6 @@
-// Friction from impacts (Eq. 6-8): f = sum dE / (v0 T), K_f = f / v0, running and windowed, with standard errors; and the
-// mean lateral force, whose product with v0 is the power of the drag (Eq. 1).
+// Friction from impacts (Eq. 6-8): f = sum dE / (v0 T), K_f = f / v0, running and windowed, with standard errors; and by its
+// definition (Eq. 1), the mean lateral force, whose product with v0 is the power of the drag. With a heat bath the two
+// differ by the heat that the bath takes.
 #pragma once
 
 #include <array>
@@ -26,6 +27,9 @@ struct FrictionEstimate {
   // Too large in short runs, as bins see the momentum that the tip carries across their ends: at eta = 3.4 by 2.5 after
   // 1000 tau, by 1.2 after 10000.
   double lateral_force_std_error = 0.0;
+  double K_f_work = 0.0;  // from the work of the drag, lateral_force / eta: the definition (Eq. 1) [m / tau]
+  double K_f_work_std_error = 0.0;
+  double heat = 0.0;  // that the bath took, since the last change of drag velocity [m a^2/tau^2]
 };
 
 // Energy or impulse in equal bins of time. When the bins are full neighbours merge, so any run fits in the same memory,
@@ -95,7 +99,7 @@ class Friction {
   double window_tau_;
   ModelTime start_, window_start_;
   double eta_ = 0.0;
-  CompensatedSum energy_, impulse_;
+  CompensatedSum energy_, impulse_, heat_;
   std::uint64_t impact_count_ = 0;
   RateBins energy_bins_, impulse_bins_;
   PowerWindow window_;

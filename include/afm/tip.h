@@ -73,7 +73,7 @@ class Tip {
   // rides is an impact at once, one away from it leaves. A chatter sequence ends with the bounce that is under way.
   // Precondition: a bath without faults.
   void set_bath(const Bath& bath);
-  const Bath& bath() const { return thermostat_.bath(); }
+  const Thermostat& thermostat() const { return thermostat_; }
 
   // For those who fly many at once (ensemble.h): the flight under way, where it is one, and when it began; and the tip
   // as it is after an impact at that time, which was `last` and from which it launches so.

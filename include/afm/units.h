@@ -1,6 +1,7 @@
 // SI <-> natural units (a, tau, m): the only place that knows the size of a lattice cell.
 #pragma once
 
+#include "bath.h"
 #include "model.h"
 
 namespace afm {
@@ -20,6 +21,17 @@ struct SiModel {
 // Every fault, named as in SiModel and in SI.
 std::vector<ParameterError> find_faults(const SiModel& si);
 
+// The heat bath as users give it (bath.h); off by default.
+struct SiBath {
+  double temperature_k = 0.0;
+  double quality_factor = 0.0;
+  double lateral_quality_factor = 0.0;
+  double kicks_per_tau = Bath{}.kicks_per_tau;
+  std::uint64_t seed = Bath{}.seed;
+};
+
+constexpr double kBoltzmann = 1.380649e-23;  // [J/K], exact
+
 // Factors from natural units to SI: value_si = value * factor.
 class Units {
  public:
@@ -32,7 +44,10 @@ class Units {
   double force() const { return energy() / a_; }                  // N
   double friction() const { return m_ / tau_; }                   // kg/s, of K_f
 
+  double temperature() const { return energy() / kBoltzmann; }  // K, of kT
+
   Model to_natural(const SiModel& si) const;
+  Bath to_natural(const SiBath& si) const;
 
  private:
   double a_, tau_, m_;

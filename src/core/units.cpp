@@ -48,4 +48,14 @@ Model Units::to_natural(const SiModel& si) const {
   return model;
 }
 
+Bath Units::to_natural(const SiBath& si) const {
+  Bath bath;
+  bath.temperature = si.temperature_k / temperature();
+  bath.quality_factor = si.quality_factor;
+  bath.lateral_quality_factor = si.lateral_quality_factor;
+  bath.kicks_per_tau = si.kicks_per_tau;
+  bath.seed = si.seed;
+  return bath;
+}
+
 }  // namespace afm

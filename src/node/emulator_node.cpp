@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <sstream>
 #include <stdexcept>
 
 #include "node/wire/topics.h"
@@ -74,6 +74,10 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
   broadcaster_->start(stepper_.scheduler());
   accept_commands(node);
   watch_master();
+  if (parameters.bath.temperature_k > 0.0 && !emulator_settings(parameters).bath.is_on()) {
+    ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip",
+             parameters.bath.temperature_k);
+  }
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
            to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
            static_cast<unsigned long>(samples_per_batch(parameters)), stepper_.scheduler().c_str());
@@ -83,6 +87,7 @@ EmulatorNode::~EmulatorNode() {
   master_watch_.reset();
   control_.close();  // services that wait for an answer return, and can then be shut down
   drag_velocity_.shutdown();
+  rest_height_.shutdown();
   disk_look_.stop();
   reconfigure_->shutdown();
   for (ros::ServiceServer& service : services_) service.shutdown();
@@ -93,6 +98,8 @@ EmulatorNode::~EmulatorNode() {
 void EmulatorNode::accept_commands(ros::NodeHandle& node) {
   drag_velocity_ = node.subscribe(kDragVelocityTopic, kCommandQueueSize, &EmulatorNode::on_drag_velocity, this,
                                   ros::TransportHints().tcpNoDelay());
+  rest_height_ = node.subscribe(kRestHeightTopic, kCommandQueueSize, &EmulatorNode::on_rest_height, this,
+                                ros::TransportHints().tcpNoDelay());
   disk_look_ = node.createWallTimer(ros::WallDuration(kDiskLookSeconds), [this](const auto&) { disk_.measure(); });
   services_.push_back(node.advertiseService(kPauseService, &EmulatorNode::on_pause, this));
   services_.push_back(node.advertiseService(kResetService, &EmulatorNode::on_reset, this));
@@ -110,16 +117,29 @@ void EmulatorNode::watch_master() {
 }
 
 void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
-  Request request;
-  request.kind = Request::Kind::drag;
-  request.value = command.data;
   const bool possible = std::abs(command.data) <= parameters_.max_drag_velocity;  // false for NaN
-  if (possible && stepper_.submit(request)) return;
-  char text[160];
-  std::snprintf(text, sizeof text, "drag_velocity = %g m/s: %s", command.data,
-                possible ? "too many commands are waiting" : "must be finite and within max_drag_velocity");
-  refusals_.add(possible ? Refusal::overload : Refusal::faulty_command, text);
-  ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text);
+  obey(Request::Kind::drag, "drag_velocity", "m/s", command.data,
+       possible ? "" : "must be finite and within max_drag_velocity");
+}
+
+void EmulatorNode::on_rest_height(const std_msgs::Float64& command) {
+  SiModel lifted = parameters_.si;
+  lifted.rest_height_m = command.data;
+  const auto faults = find_faults(lifted);
+  obey(Request::Kind::rest_height, "rest_height", "m", command.data, faults.empty() ? "" : faults.front().reason);
+}
+
+// `fault`: why not, or empty.
+void EmulatorNode::obey(Request::Kind kind, const char* name, const char* unit, double value,
+                        const std::string& fault) {
+  Request request;
+  request.kind = kind;
+  request.value = value;
+  if (fault.empty() && stepper_.submit(request)) return;
+  std::ostringstream text;
+  text << name << " = " << value << ' ' << unit << ": " << (fault.empty() ? "too many commands are waiting" : fault);
+  refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
+  ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
 }
 
 bool EmulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {

@@ -10,6 +10,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "node/wire/broadcaster.h"
@@ -36,6 +37,8 @@ class EmulatorNode {
   void accept_commands(ros::NodeHandle& node);
   void watch_master();
   void on_drag_velocity(const std_msgs::Float64& command);
+  void on_rest_height(const std_msgs::Float64& command);
+  void obey(Request::Kind kind, const char* name, const char* unit, double value, const std::string& fault);
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response);
@@ -54,7 +57,7 @@ class EmulatorNode {
   Control control_;
   std::optional<ReconfigureServer> reconfigure_;  // these advertise, so they are made after all that can fail
   std::optional<Broadcaster> broadcaster_;
-  ros::Subscriber drag_velocity_;
+  ros::Subscriber drag_velocity_, rest_height_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer disk_look_;
   std::optional<MasterWatch> master_watch_;

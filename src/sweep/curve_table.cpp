@@ -16,7 +16,8 @@ std::string row_of(const SweepPoint& point, const SweepResult& r) {
   const FrictionAverage& f = r.friction;
   return join_numbers({point.eta, point.gamma, point.v_c, f.K_f, f.K_f_std_error, f.impacts_per_tau, f.mean_energy_loss,
                        f.mean_flight_time, r.attractor.lyapunov.exponents[0]}) +
-         "," + r.attractor.name();
+         "," + r.attractor.name() + "," +
+         join_numbers({point.y0, point.H, point.frequency_ratio, f.K_f_work, f.K_f_work_std_error});
 }
 
 }  // namespace

@@ -13,7 +13,8 @@
 namespace afm {
 
 constexpr char kCurveHeader[] =
-    "eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor";
+    "eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,"
+    "rest_height,amplitude,frequency_ratio,k_f_work,k_f_work_std_error";
 
 class CurveTable {
  public:

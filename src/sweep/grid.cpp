@@ -37,6 +37,15 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
   for (const double eta : s.eta) add_faults(faults, {eta, good.gamma, good.v_c});
   for (const double gamma : s.gamma) add_faults(faults, {good.eta, gamma, good.v_c});
   for (const double cutoff : s.cutoff) add_faults(faults, {good.eta, good.gamma, cutoff});
+  // a holder above one of the crests hovers there
+  for (const double y0 : s.rest_height) {
+    for (const double H : s.amplitude) add_faults(faults, {good.eta, good.gamma, good.v_c, s.model, y0, H});
+  }
+  for (const double ratio : s.frequency_ratio) {
+    SweepPoint point = good;
+    point.frequency_ratio = ratio;
+    add_faults(faults, point);
+  }
   for (const ParameterError& fault : find_faults(s.sweep)) faults.push_back(fault);
   return faults;
 }
@@ -49,6 +58,13 @@ std::string identity(const CurveSettings& s) {
   add("eta", s.eta);
   add("gamma", s.gamma);
   add("cutoff", s.cutoff);
+  add("rest-height", s.rest_height);
+  add("amplitude", s.amplitude);
+  add("frequency-ratio", s.frequency_ratio);
+  text << "temperature=" << shortest(s.sweep.bath.temperature)
+       << " quality-factor=" << shortest(s.sweep.bath.quality_factor)
+       << " lateral-quality-factor=" << shortest(s.sweep.bath.lateral_quality_factor)
+       << " kicks-per-tau=" << shortest(s.sweep.bath.kicks_per_tau) << " ";
   text << "duration=" << shortest(s.sweep.duration) << " transient=" << shortest(s.sweep.transient)
        << " model=" << name(s.model) << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
   text << " version=" << AFM_EMULATOR_VERSION;
@@ -56,13 +72,27 @@ std::string identity(const CurveSettings& s) {
 }
 
 SweepGrid::SweepGrid(const CurveSettings& s)
-    : eta_(s.eta), gamma_(s.gamma), cutoff_(s.cutoff), kind_(s.model), chained_(s.direction != SweepDirection::fresh) {
+    : eta_(s.eta),
+      axes_(s),
+      size_(s.eta.size() * s.gamma.size() * s.cutoff.size() * s.rest_height.size() * s.amplitude.size() *
+            s.frequency_ratio.size()),
+      chained_(s.direction != SweepDirection::fresh) {
   if (s.direction == SweepDirection::down) std::reverse(eta_.begin(), eta_.end());
 }
 
 SweepPoint SweepGrid::at(std::size_t position) const {
-  const std::size_t row = position / eta_.size();
-  return {eta_[position % eta_.size()], gamma_[row % gamma_.size()], cutoff_[row / gamma_.size()], kind_};
+  const auto next = [&position](const std::vector<double>& axis) {
+    const double value = axis[position % axis.size()];
+    position /= axis.size();
+    return value;
+  };
+  SweepPoint point{next(eta_), 0.0, 0.0, axes_.model};
+  point.gamma = next(axes_.gamma);
+  point.v_c = next(axes_.cutoff);
+  point.y0 = next(axes_.rest_height);
+  point.H = next(axes_.amplitude);
+  point.frequency_ratio = next(axes_.frequency_ratio);
+  return point;
 }
 
 }  // namespace afm

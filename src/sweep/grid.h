@@ -1,4 +1,5 @@
-// The points of a curve or map, in the order of the rows of its table: cutoffs, in each the gammas, in each the etas.
+// The points of a curve or map, in the order of the rows of its table: frequency ratios, in each the amplitudes, then rest
+// heights, cutoffs, gammas, and in each of those the etas.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@ namespace afm {
 enum class SweepDirection { fresh, up, down };
 
 struct CurveSettings {
-  std::vector<double> eta, gamma, cutoff;  // rising
+  std::vector<double> eta, gamma, cutoff;  // rising, as the next three
+  std::vector<double> rest_height{Model{}.y0}, amplitude{Model{}.H}, frequency_ratio{Model{}.frequency_ratio};
   SweepDirection direction = SweepDirection::fresh;
   ModelKind model = ModelKind::oscillator;
   SweepSettings sweep;
@@ -30,14 +32,15 @@ class SweepGrid {
  public:
   explicit SweepGrid(const CurveSettings& settings);
 
-  std::size_t size() const { return cutoff_.size() * gamma_.size() * eta_.size(); }
+  std::size_t size() const { return size_; }
   // Points that must be done one after the other: a whole row of etas, or one.
   std::size_t chain_length() const { return chained_ ? eta_.size() : 1; }
   SweepPoint at(std::size_t position) const;
 
  private:
-  std::vector<double> eta_, gamma_, cutoff_;
-  ModelKind kind_;
+  std::vector<double> eta_;
+  CurveSettings axes_;
+  std::size_t size_;
   bool chained_;
 };
 

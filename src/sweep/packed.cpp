@@ -19,7 +19,9 @@ PackedResult pack(const SweepResult& r) {
                        r.attractor.lyapunov.exponents[0],
                        static_cast<double>(r.attractor.kind),
                        static_cast<double>(r.attractor.impacts),
-                       static_cast<double>(r.attractor.cells)};
+                       static_cast<double>(r.attractor.cells),
+                       f.K_f_work,
+                       f.K_f_work_std_error};
   const PackedState end = pack(r.end);
   std::copy(end.begin(), end.end(), numbers.end() - kPackedState);
   return numbers;
@@ -27,7 +29,7 @@ PackedResult pack(const SweepResult& r) {
 
 SweepResult unpack(const PackedResult& n) {
   SweepResult r;
-  r.friction = {n[0], n[1], n[2], n[3], n[4], static_cast<std::uint64_t>(n[5])};
+  r.friction = {n[0], n[1], n[2], n[3], n[4], static_cast<std::uint64_t>(n[5]), n[10], n[11]};
   r.attractor.lyapunov.exponents[0] = n[6];
   r.attractor.kind = static_cast<AttractorKind>(n[7]);
   r.attractor.impacts = static_cast<int>(n[8]);

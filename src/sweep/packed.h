@@ -9,7 +9,7 @@
 namespace afm {
 
 constexpr std::size_t kPackedState = 5;
-constexpr std::size_t kPackedNumbers = 10 + kPackedState;
+constexpr std::size_t kPackedNumbers = 12 + kPackedState;
 
 using PackedState = std::array<double, kPackedState>;
 using PackedResult = std::array<double, kPackedNumbers>;

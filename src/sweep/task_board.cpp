@@ -9,7 +9,9 @@ void do_work(WorkSource& source, const SweepGrid& grid, const SweepSettings& set
     for (; task->first < task->end; ++task->first) {
       const SweepPoint point = grid.at(task->first);
       if (!task->carried) task->start = random_start(point, settings.seed, task->first);
-      const SweepResult result = sweep_point(point, settings, task->start);
+      SweepSettings own = settings;
+      own.bath.stream = task->first;
+      const SweepResult result = sweep_point(point, own, task->start);
       source.deliver({task->first, result});
       task->start = result.end;
       task->carried = true;

@@ -122,7 +122,7 @@ constexpr std::size_t kHeader = 16;  // sequence number, stamp and an empty name
 
 // Whether this byte of a message tells something of the run.
 bool tells(const Entry& e, std::size_t at) {
-  constexpr std::size_t kBeforeDigest = 116;  // in a checkpoint: the digests in it have a header too, which is empty
+  constexpr std::size_t kBeforeDigest = 148;  // in a checkpoint: the digests in it have a header too, which is empty
   if (e.topic == "/afm/checkpoint") return at >= kHeader && (at < kBeforeDigest || at >= kBeforeDigest + kHeader);
   const bool of_the_run = e.topic == "/afm/deflection" || e.topic == "/afm/impacts" || e.topic == "/afm/friction";
   return of_the_run && at >= kHeader;

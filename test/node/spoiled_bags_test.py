@@ -45,7 +45,7 @@ class SpoiledBags(SpoiledBag):
 
     def test_one_bit_of_one_estimate(self):
         flip_last_bit(self.of('friction')[100], -8)
-        self.assert_told(checks.ALTERED, 'friction.lateral_force_std_error', 'ALTERED')
+        self.assert_told(checks.ALTERED, 'friction.heat', 'ALTERED')
 
     def test_another_command(self):
         self.of('applied_drag')[1].edit(drag_velocity=2.1 * SPEED_UNIT)

@@ -12,15 +12,18 @@ import rospy
 from afm_emulator.srv import StartRecording
 from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
 import checks
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
 
-LIVE = ('restitution_gamma', 'cutoff_speed', 'rest_height_m', 'sample_rate_hz', 'friction_window_tau')
+LIVE = ('restitution_gamma', 'cutoff_speed', 'rest_height_m', 'sample_rate_hz', 'friction_window_tau', 'temperature_k',
+        'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
 AT_START = {'restitution_gamma': 0.7, 'cutoff_speed': 1.66e-7, 'rest_height_m': 0.0, 'sample_rate_hz': 50000.0,
-            'friction_window_tau': 1000.0}
+            'friction_window_tau': 1000.0, 'temperature_k': 0.0, 'quality_factor': 0.0, 'lateral_quality_factor': 0.0,
+            'kicks_per_tau': 4.0}
 
 
 def values(config):
@@ -116,7 +119,9 @@ class Steering(NodeTest):
                   ('cutoff_speed', -1e-9, 'not negative'), ('cutoff_speed', math.inf, 'finite'),
                   ('rest_height_m', 6e-11, 'never touches'), ('rest_height_m', -1.0, 'at most 10 lattice spacings'),
                   ('sample_rate_hz', 50.0, 'hold no sample'), ('sample_rate_hz', 1.1e6, 'between 1 and 1000000'),
-                  ('friction_window_tau', 0.0, 'between 1 and 1000000000'), ('tip_mass_kg', 1e-9, 'cannot be changed live'))
+                  ('friction_window_tau', 0.0, 'between 1 and 1000000000'),
+                  ('temperature_k', -1.0, 'between 0 and'), ('quality_factor', 0.05, 'at least 0.1'),
+                  ('kicks_per_tau', 0.0, 'between 0.01 and 1000'), ('tip_mass_kg', 1e-9, 'cannot be changed live'))
         for name, value, reason in faults:
             # the good part of a faulty change is not taken either
             good = DoubleParameter('friction_window_tau', 500.0) if name != 'friction_window_tau' else \
@@ -135,8 +140,10 @@ class Steering(NodeTest):
         for i in range(60):
             wanted = {'restitution_gamma': rng.uniform(0.1, 0.95), 'cutoff_speed': rng.choice([0.0, 1e-8, 1.66e-7, 1e-6]),
                       'rest_height_m': rng.uniform(-1e-10, 4.9e-11), 'sample_rate_hz': rng.choice([5e4, 61234.5, 2e5]),
-                      'friction_window_tau': rng.choice([100.0, 1000.0])}
-            for name in rng.sample(LIVE, rng.randrange(4)):
+                      'friction_window_tau': rng.choice([100.0, 1000.0]), 'temperature_k': rng.choice([0.0, 77.0, 300.0]),
+                      'quality_factor': rng.choice([0.0, 20.0, 100.0]), 'lateral_quality_factor': rng.choice([0.0, 500.0]),
+                      'kicks_per_tau': rng.choice([2.0, 4.0, 7.3])}
+            for name in rng.sample(LIVE[1:], rng.randrange(len(LIVE) - 1)):
                 del wanted[name]
             if i % 20 == 10:
                 self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
@@ -158,6 +165,41 @@ class Steering(NodeTest):
         for path in paths:  # each can be read without the others
             answer = checks.replay_check(path)
             self.assertEqual(answer.code, checks.SOUND, answer.text)
+
+    def test_a_heated_run_begun_late_is_repeated_and_its_impacts_stand_the_check(self):
+        self.run_emulator(temperature_k=300.0, quality_factor=100.0, seed=7)
+        self.change(temperature_k=77.0, kicks_per_tau=3.0)
+        self.assertTrue(self.emulator.call('stop_recording', Trigger).success)
+        answer = self.emulator.call('start_recording', StartRecording, name='later.bag')
+        self.assertTrue(answer.success, answer.message)
+        self.deflection.wait_for_more(50)
+        self.change(quality_factor=20.0)
+        self.friction.wait_for_more(100)
+        estimate = self.friction.messages[-1]
+        self.assertNotEqual(estimate.heat, 0.0)
+        self.assertAlmostEqual(estimate.k_f_work * estimate.drag_velocity / estimate.lateral_force, 1.0, delta=1e-12)
+        for path in self.end():
+            answer = checks.replay_check(path)
+            self.assertEqual(answer.code, checks.SOUND, answer.text)
+            answer = checks.bag_check(path)
+            self.assertEqual(answer.code, checks.SOUND, answer.text)
+
+    def test_the_rest_height_is_commanded_by_topic_told_and_repeated(self):
+        self.run_emulator()
+        height = rospy.Publisher(NAMESPACE + '/rest_height', Float64, queue_size=100)
+        wait_until(lambda: height.get_num_connections() > 0, 'the node listens')
+        before = len(self.applied.messages)
+        for i in range(20):
+            height.publish(-1e-12 * (i + 1))
+        told = self.applied.wait_for(lambda m: m.rest_height_m == -20e-12, 'the last of them', before)
+        self.assertEqual([m.rest_height_m for m in self.applied.messages[before:]], [-1e-12 * (i + 1) for i in range(20)])
+        for value, reason in ((6e-11, 'never touches'), (math.nan, 'finite'), (-1.0, 'at most 10 lattice spacings')):
+            height.publish(value)
+            wait_until(lambda: reason in self.emulator.output(), reason)
+            time.sleep(1.1)  # refusals are told once a second
+        self.assertEqual(self.in_force()['rest_height_m'], told.rest_height_m)
+        paths = self.end()
+        checks.assert_identical(self, *paths)
 
     def test_begun_in_mid_run_the_history_of_changes_is_recorded(self):
         self.run_emulator()

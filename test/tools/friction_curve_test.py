@@ -16,7 +16,7 @@ import unittest
 
 TOOL, MPIRUN = None, None
 HEADER = ('eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,'
-          'attractor')
+          'attractor,rest_height,amplitude,frequency_ratio,k_f_work,k_f_work_std_error')
 MAP = ['--eta', '1.5:5:0.5', '--gamma', '0.6:0.7:0.1', '--cutoff', '0.1:0.2:0.1', '--duration', '300',
        '--transient', '100']
 HYSTERESIS = '2.3:2.7:0.02'  # two attractors near 2.5

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "lyapunov.h"
 #include "afm/model.h"
 #include "afm/tip.h"
+#include "lyapunov.h"
 
 namespace afm {
 
@@ -14,9 +14,10 @@ enum class AttractorKind : std::uint8_t {
   periodic,
   quasi_periodic,
   chaotic,
-  contact,   // the tip slides, glides or creeps on the surface for more than half of the time
-  rest,      // there is no drag: the tip loses what it has, and ends in a motion that loses nothing
-  undecided  // the budget ran out, or the search for impacts gave up
+  contact,    // the tip slides, glides or creeps on the surface for more than half of the time
+  rest,       // there is no drag: the tip loses what it has, and ends in a motion that loses nothing
+  undecided,  // the budget ran out, or the search for impacts gave up
+  thermal     // kicked by a bath: a distribution, not an orbit
 };
 
 struct AttractorSettings {
@@ -39,7 +40,7 @@ struct Attractor {
       0.0;  // of a quasi-periodic one: turns about the middle of its section by an impact, in [0, 1/2]
   LyapunovSpectrum lyapunov;  // of a periodic orbit: logarithms of its multipliers over its period
 
-  // period-N, quasi-periodic, chaotic, contact, rest, undecided
+  // period-N, quasi-periodic, chaotic, contact, rest, undecided, thermal
   std::string name() const;
 };
 

@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "attractor.h"
+#include "afm/bath.h"
 #include "afm/model.h"
 #include "afm/state.h"
+#include "attractor.h"
 #include "time_average.h"
 
 namespace afm {
@@ -16,18 +17,20 @@ namespace afm {
 struct SweepPoint {
   double eta, gamma, v_c;
   ModelKind kind = ModelKind::oscillator;
+  double y0 = Model{}.y0, H = Model{}.H, frequency_ratio = Model{}.frequency_ratio;
 };
 
 struct SweepSettings {
   double duration = 10000.0;  // of the measurement [tau]
   double transient = 1000.0;  // before it [tau]
   std::uint64_t seed = 1;     // of the starts drawn at random
+  Bath bath;                  // none; its own seed and a stream for every point
 };
 
 struct SweepResult {
   FrictionAverage friction;
-  Attractor attractor;
-  TipState end;  // of the orbit, for the next point to begin with
+  Attractor attractor;  // with a bath there is none to be found: thermal, exponents NaN
+  TipState end;         // of the orbit, for the next point to begin with
 };
 
 // Every fault of the set.

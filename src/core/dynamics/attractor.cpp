@@ -204,6 +204,8 @@ std::string Attractor::name() const {
       return "rest";
     default:
       return "undecided";
+    case AttractorKind::thermal:
+      return "thermal";
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "afm/ensemble.h"
@@ -31,14 +33,21 @@ class Uniform {
   std::uint64_t state_;
 };
 
-constexpr double kLyapunovDuration = 2000.0;  // [tau] an exponent within a few per cent; it costs more than the friction
+constexpr double kLyapunovDuration =
+    2000.0;  // [tau] an exponent within a few per cent; it costs more than the friction
 
 }  // namespace
 
 std::vector<ParameterError> find_faults(const SweepPoint& point) {
   std::vector<ParameterError> faults;
   for (const ParameterError& fault : find_faults(model_of(point))) {
-    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+    const std::string& name = fault.name;
+    faults.emplace_back(name == "v_c"               ? "cutoff"
+                        : name == "y0"              ? "rest-height"
+                        : name == "H"               ? "amplitude"
+                        : name == "frequency_ratio" ? "frequency-ratio"
+                                                    : name,
+                        fault.value, fault.reason);
   }
   if (!(std::abs(point.eta) <= kMaxEta)) {
     faults.emplace_back("eta", point.eta, "the drag velocity must be finite and at most 1000 lattice spacings per tau");
@@ -55,6 +64,11 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings) {
   if (!(settings.transient >= 0.0 && settings.transient <= kLongest)) {
     faults.emplace_back("transient", settings.transient, "must be at least 0 and at most 1e12 tau");
   }
+  for (const ParameterError& fault : find_faults(settings.bath)) {
+    std::string option = fault.name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    faults.emplace_back(option, fault.value, fault.reason);
+  }
   return faults;
 }
 
@@ -63,6 +77,9 @@ Model model_of(const SweepPoint& point) {
   model.gamma = point.gamma;
   model.v_c = point.v_c;
   model.kind = point.kind;
+  model.y0 = point.y0;
+  model.H = point.H;
+  model.frequency_ratio = point.frequency_ratio;
   return model;
 }
 
@@ -83,11 +100,24 @@ AttractorSettings search_settings(const SweepSettings& settings) {
   return search;
 }
 
+// With a bath there are no attractors, only averages.
+SweepResult thermal_point(Tip& tip, const SweepSettings& settings) {
+  tip.set_bath(settings.bath);
+  for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;) continue;
+  SweepResult result;
+  result.attractor.kind = AttractorKind::thermal;
+  result.attractor.lyapunov.exponents.fill(std::numeric_limits<double>::quiet_NaN());
+  result.friction = average_over_time(tip, settings.duration);
+  result.end = tip.tip_state();
+  return result;
+}
+
 }  // namespace
 
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start) {
   const Model model = model_of(point);
   Tip tip(model, point.eta, start);
+  if (settings.bath.is_on()) return thermal_point(tip, settings);
   SweepResult result;
   result.attractor = find_attractor(model, tip, search_settings(settings));
   result.friction = average_over_periods(tip, result.attractor.cells, settings.duration);

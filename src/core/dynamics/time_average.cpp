@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "afm/detail/batch_means.h"
+#include "afm/friction.h"
 
 namespace afm {
 namespace {
@@ -40,128 +41,81 @@ void bring_to(Tip& tip, const ModelTime& end) {
   while (tip.advance(end) != Outcome::time_limit) continue;
 }
 
-// Takes the events of a tip that is brought to limit() time after time until the meter is done.
-class FrictionMeter {
- public:
-  // Of an orbit that repeats itself after `cells` cells, or wanders: 0. The tip is moved to where the meter begins.
-  FrictionMeter(Tip& tip, std::int64_t cells, double duration);
-
-  bool done() const { return windows_left_ == 0; }
-  const ModelTime& limit() const { return end_; }
-  void add(const Impact& event);
-  void add_search_failures(std::uint64_t n) { totals_.search_failures += n; }
-  void reach_limit();                                          // the tip is there
-  const FrictionAverage& average() const { return average_; }  // once done
-
- private:
-  // A sum whose rounding is carried along (Neumaier).
-  class Sum {
-   public:
-    void add(double x);
-    double value() const { return sum_ + rest_; }
-
-   private:
-    double sum_ = 0.0, rest_ = 0.0;
-  };
-  struct Totals {
-    Sum energy;
-    double impacts = 0.0, contact_time = 0.0;
-    std::uint64_t search_failures = 0;
-  };
-
-  void begin_window(const ModelTime& begin);
-  FrictionAverage window_average() const;
-
-  double eta_, length_;  // of a window [tau]
-  int windows_left_;
-  ModelTime begin_, end_, touched_;
-  bool in_contact_;
-  Totals totals_;
-  std::vector<double> batches_;  // of an orbit that wanders: energies lost
-  FrictionAverage average_;
+// What happens in a stretch of time.
+struct Totals {
+  CompensatedSum energy, impulse;  // lost in impacts; of the holder
+  double impacts = 0.0, contact_time = 0.0;
+  std::uint64_t search_failures = 0;
 };
 
-void FrictionMeter::Sum::add(double x) {
-  const double sum = sum_ + x;
-  rest_ += std::abs(sum_) >= std::abs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
-  sum_ = sum;
-}
-
-FrictionMeter::FrictionMeter(Tip& tip, std::int64_t cells, double duration)
-    : eta_(tip.eta()), length_(duration), windows_left_(1), batches_(cells > 0 ? 0 : kBatches) {
-  if (cells > 0) {
-    const double period = static_cast<double>(cells) / std::abs(eta_);
-    length_ = std::max(1.0, std::floor(0.5 * duration / period)) * period;
-    windows_left_ = 2;
-    bring_to(tip, quiet_time(tip, period));
+// Brings the tip to `end`.
+void follow(Tip& tip, const ModelTime& end, Totals& totals) {
+  ModelTime touched = tip.now();
+  totals.impulse.add(-tip.segment().impulse);  // of before
+  Segments ended;
+  for (Outcome outcome; (outcome = tip.advance_arc(end, &ended)) != Outcome::time_limit;) {
+    for (const Segment& segment : ended) totals.impulse.add(segment.impulse);
+    if (outcome == Outcome::search_failed) ++totals.search_failures;
+    if (outcome == Outcome::flying || outcome == Outcome::search_failed) continue;
+    const Impact& event = tip.last_impact();
+    totals.energy.add(event.energy_loss);
+    totals.impacts += event.count;
+    if (event.kind == ImpactKind::contact_begun) touched = event.time;
+    if (event.kind == ImpactKind::contact_ended) totals.contact_time += event.time - touched;
   }
-  in_contact_ = tip.in_contact();
-  begin_window(tip.now());
+  if (tip.in_contact()) totals.contact_time += end - touched;
+  totals.impulse.add(tip.segment().impulse);
 }
 
-void FrictionMeter::begin_window(const ModelTime& begin) {
-  totals_ = {};
-  begin_ = touched_ = begin;
-  end_ = begin + length_;
-}
-
-void FrictionMeter::add(const Impact& event) {
-  totals_.energy.add(event.energy_loss);
-  totals_.impacts += event.count;
-  if (!batches_.empty()) {
-    const double age = event.time - begin_, length = length_ / static_cast<double>(kBatches);
-    batches_[std::min(kBatches - 1, static_cast<std::size_t>(age / length))] += event.energy_loss;
-  }
-  if (event.kind == ImpactKind::contact_begun) touched_ = event.time;
-  if (event.kind == ImpactKind::contact_ended) totals_.contact_time += event.time - touched_;
-  in_contact_ = event.kind == ImpactKind::contact_begun;
-}
-
-FrictionAverage FrictionMeter::window_average() const {
-  const double energy = totals_.energy.value(), time = end_ - begin_;
-  const double contact_time = totals_.contact_time + (in_contact_ ? end_ - touched_ : 0.0);
-  const double per_impact = totals_.impacts > 0.0 ? 1.0 / totals_.impacts : kNaN;
+FrictionAverage average_of(const Totals& totals, double eta, double time) {
+  const double per_impact = totals.impacts > 0.0 ? 1.0 / totals.impacts : kNaN;
+  const double energy = totals.energy.value();
   FrictionAverage a;
-  a.K_f = eta_ == 0.0 ? kNaN : energy / (eta_ * eta_ * time);
-  a.impacts_per_tau = totals_.impacts / time;
+  a.K_f = eta == 0.0 ? kNaN : energy / (eta * eta * time);
+  a.K_f_work = eta == 0.0 ? kNaN : totals.impulse.value() / (eta * time);
+  a.impacts_per_tau = totals.impacts / time;
   a.mean_energy_loss = energy * per_impact;
-  a.mean_flight_time = (time - contact_time) * per_impact;
-  a.search_failures = totals_.search_failures;
+  a.mean_flight_time = (time - totals.contact_time) * per_impact;
+  a.search_failures = totals.search_failures;
   return a;
-}
-
-void FrictionMeter::reach_limit() {
-  const FrictionAverage before = average_;
-  average_ = window_average();
-  --windows_left_;
-  if (!batches_.empty()) {
-    const double length = length_ / static_cast<double>(kBatches);
-    average_.K_f_std_error = eta_ == 0.0 ? kNaN : mean_error(std::move(batches_)).std_error / (length * eta_ * eta_);
-  } else if (windows_left_ == 1) {
-    begin_window(end_);
-  } else {
-    average_.K_f_std_error = std::abs(average_.K_f - before.K_f) + kRounding * average_.K_f;
-    average_.search_failures += before.search_failures;
-  }
-}
-
-FrictionAverage measure(Tip& tip, FrictionMeter& meter) {
-  while (!meter.done()) {
-    for (Outcome outcome; (outcome = tip.advance(meter.limit())) != Outcome::time_limit;) {
-      outcome == Outcome::search_failed ? meter.add_search_failures(1) : meter.add(tip.last_impact());
-    }
-    meter.reach_limit();
-  }
-  return meter.average();
 }
 
 }  // namespace
 
-FrictionAverage average_over_time(Tip& tip, double duration) { return average_over_periods(tip, 0, duration); }
+FrictionAverage average_over_time(Tip& tip, double duration) {
+  const ModelTime begin = tip.now();
+  const double eta = tip.eta(), length = duration / static_cast<double>(kBatches);
+  std::vector<double> energies(kBatches), impulses(kBatches);
+  Totals totals;
+  for (std::size_t i = 0; i < kBatches; ++i) {
+    const double energy = totals.energy.value(), impulse = totals.impulse.value();
+    follow(tip, begin + length * static_cast<double>(i + 1), totals);
+    energies[i] = totals.energy.value() - energy;
+    impulses[i] = totals.impulse.value() - impulse;
+  }
+  FrictionAverage a = average_of(totals, eta, tip.now() - begin);
+  a.K_f_std_error = eta == 0.0 ? kNaN : mean_error(std::move(energies)).std_error / (length * eta * eta);
+  a.K_f_work_std_error = eta == 0.0 ? kNaN : mean_error(std::move(impulses)).std_error / (length * std::abs(eta));
+  return a;
+}
 
 FrictionAverage average_over_periods(Tip& tip, std::int64_t cells, double duration) {
-  FrictionMeter meter(tip, cells, duration);
-  return measure(tip, meter);
+  if (cells == 0) return average_over_time(tip, duration);
+  const double eta = tip.eta(), period = static_cast<double>(cells) / std::abs(eta);
+  const double length = std::max(1.0, std::floor(0.5 * duration / period)) * period;
+  bring_to(tip, quiet_time(tip, period));
+  Totals totals[2];
+  FrictionAverage halves[2];
+  for (int i = 0; i < 2; ++i) {
+    const ModelTime begin = tip.now(), end = begin + length;
+    follow(tip, end, totals[i]);
+    halves[i] = average_of(totals[i], eta, end - begin);
+  }
+  FrictionAverage a = halves[1];
+  a.K_f_std_error = std::abs(a.K_f - halves[0].K_f) + kRounding * a.K_f;
+  a.K_f_work_std_error = std::abs(a.K_f_work - halves[0].K_f_work) + kRounding * std::abs(a.K_f_work);
+  a.search_failures += halves[0].search_failures;
+  return a;
 }
 
 }  // namespace afm

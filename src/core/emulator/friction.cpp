@@ -117,6 +117,7 @@ void Friction::add(const Segment& segment) {
     impulse_.add(segment.impulse);
     impulse_bins_.spread(std::max(0.0, segment.begin - start_), end, segment.impulse);
   }
+  if (segment.kind == SegmentKind::kick) heat_.add(segment.heat);
   if (segment.kind != SegmentKind::impact && segment.kind != SegmentKind::chatter) return;
   energy_.add(segment.loss);
   impact_count_ += segment.count;
@@ -145,6 +146,9 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   e.window_K_f_std_error = to_K_f(window_.std_error(window_age));
   e.lateral_force = age > 0.0 ? (impulse_.value() + open.impulse) / age : kNaN;
   e.lateral_force_std_error = impulse_bins_.std_error(age);
+  e.K_f_work = moving ? e.lateral_force / eta_ : kNaN;
+  e.K_f_work_std_error = moving ? e.lateral_force_std_error / std::abs(eta_) : kNaN;
+  e.heat = heat_.value();
   return e;
 }
 

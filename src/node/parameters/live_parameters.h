@@ -12,6 +12,9 @@ struct LiveParameters {
   double rest_height_m = 0.0;
   double sample_rate_hz = 0.0;       // of model time
   double friction_window_tau = 0.0;
+  double temperature_k = 0.0;
+  double quality_factor = 0.0, lateral_quality_factor = 0.0;
+  double kicks_per_tau = 0.0;
 };
 
 // What a person who changes them must know of one of them.
@@ -28,7 +31,12 @@ constexpr LiveField kLiveFields[] = {
      "[m] of the harmonic centre above mid-surface; below the crest, or the tip hovers"},
     {"sample_rate_hz", &LiveParameters::sample_rate_hz, "[1/s of model time]"},
     {"friction_window_tau", &LiveParameters::friction_window_tau,
-     "[tau] length of the sliding window of the friction estimate"}};
+     "[tau] length of the sliding window of the friction estimate"},
+    {"temperature_k", &LiveParameters::temperature_k, "[K] of the heat bath; without quality_factor of no effect"},
+    {"quality_factor", &LiveParameters::quality_factor, "of the cantilever; 0: no heat bath, no damping"},
+    {"lateral_quality_factor", &LiveParameters::lateral_quality_factor,
+     "of the horizontal spring; 0: as quality_factor"},
+    {"kicks_per_tau", &LiveParameters::kicks_per_tau, "[1/tau] how often the heat bath acts"}};
 
 bool operator==(const LiveParameters& a, const LiveParameters& b);
 

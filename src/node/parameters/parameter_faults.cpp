@@ -16,7 +16,7 @@ constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
 constexpr double kMaxImpactBudget = 1e6;     // 56 MB a batch
 constexpr double kMinReserveMb = 16.0;       // room for the last chunk and the index of a long recording
 constexpr double kMaxReserveMb = 1e9;
-constexpr double kMaxTimeout = 1e6;          // [s]: eleven days
+constexpr double kMaxTimeout = 1e6;                                               // [s]: eleven days
 constexpr double kMinCheckpointInterval = 0.1, kMaxCheckpointInterval = 86400.0;  // [s]: 40 kB/s; a day
 
 std::string text_of(double value) {
@@ -121,7 +121,9 @@ void check_settings(const Parameters& p, Check& check) {
   settings.impact_budget = 1;
   settings.contact_tolerance = 0.0;
   for (const ParameterError& fault : afm::find_faults(settings)) {
-    if (fault.name == "sample_period") {
+    if (fault.name == "temperature") {
+      check.within("temperature_k", p.bath.temperature_k, 0.0, kMaxTemperature * Units(p.si).temperature());
+    } else if (fault.name == "sample_period") {
       check.require(false, "sample_rate_hz", p.sample_rate_hz, "the time between two samples " + fault.reason);
     } else {
       check.add(fault);
@@ -158,8 +160,8 @@ double least_sample_rate(const Parameters& p) {
 }
 
 double most_sample_rate(const Parameters& p) {
-  return std::min({kMaxSampleRate, kMaxWallSampleRate / p.time_scale,
-                   kMaxSamplesPerBatch * p.batch_rate_hz / p.time_scale});
+  return std::min(
+      {kMaxSampleRate, kMaxWallSampleRate / p.time_scale, kMaxSamplesPerBatch * p.batch_rate_hz / p.time_scale});
 }
 
 std::uint64_t samples_per_batch(const Parameters& p) {
@@ -182,6 +184,7 @@ EmulatorSettings emulator_settings(const Parameters& p) {
   EmulatorSettings settings;
   settings.model = units.to_natural(p.si);
   settings.model.kind = full_level(p).kind;
+  settings.bath = units.to_natural(p.bath);
   settings.eta = to_eta(p.drag_velocity, p.si);
   settings.initial = p.initial;
   settings.sample_period = 1.0 / (p.sample_rate_hz * units.time());

@@ -19,6 +19,7 @@ namespace afm::node {
 // Named as on the parameter server. The defaults are those of config/emulator.yaml.
 struct Parameters {
   SiModel si;
+  SiBath bath;
   std::string model = "oscillator";
   double tolerance = 0.0;                         // of model auto: error allowed, relative; 0: none given
   std::string tolerance_of = "friction";          // or deflection

@@ -10,10 +10,10 @@
 namespace afm::node {
 
 struct Request {
-  enum class Kind : std::uint8_t { drag, change, pause, resume, reset, step_time, step_impacts, nothing };
+  enum class Kind : std::uint8_t { drag, rest_height, change, pause, resume, reset, step_time, step_impacts, nothing };
   Kind kind = Kind::drag;
   std::uint64_t ticket = 0;   // names the answer; 0: nobody waits for one
-  double value = 0.0;         // drag velocity [m/s] or time to step [tau]
+  double value = 0.0;         // drag velocity [m/s], height [m] or time to step [tau]
   std::uint64_t impacts = 0;  // to step
   LiveParameters live;        // of kind change
 };

@@ -46,6 +46,7 @@ class Stepper {
   void apply_drag(double drag_velocity);
   void take_level(double eta);
   void apply_change(const LiveParameters& live);
+  void lift(double rest_height);
   void watch_for_commands();
   void look_for_checkpoint();
   bool take_checkpoint();  // false: no room to tell of it

@@ -31,6 +31,9 @@ void Stepper::serve(const Request& request) {
       last_command_ = monotonic_now();
       apply_drag(request.value);
       break;
+    case Request::Kind::rest_height:
+      lift(request.value);
+      break;
     case Request::Kind::change:
       apply_change(request.live);
       break;
@@ -65,6 +68,13 @@ void Stepper::apply_drag(double drag_velocity) {
   publish(Event::Kind::drag_applied);
   ++commands_;
   ++commands_since_saved_;
+}
+
+// The other parameters as they are now, whatever else was asked for meanwhile.
+void Stepper::lift(double rest_height) {
+  LiveParameters live = live_parameters(parameters_);
+  live.rest_height_m = rest_height;
+  apply_change(live);
 }
 
 void Stepper::apply_change(const LiveParameters& live) {

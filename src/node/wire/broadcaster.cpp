@@ -125,8 +125,12 @@ void Broadcaster::publish_batch(const Event& event, const Batch& batch, const La
 }
 
 void Broadcaster::publish_checkpoint(const Event& event, const SavedState& state, const Label& label) {
-  const CheckpointContext context{label.epoch,           event.state.commands, applied_drag_.next_sequence(),
-                                  applied_parameters_.next_sequence(), event.drag_velocity,  event.live};
+  const CheckpointContext context{label.epoch,
+                                  event.state.commands,
+                                  applied_drag_.next_sequence(),
+                                  applied_parameters_.next_sequence(),
+                                  event.drag_velocity,
+                                  event.live};
   auto message = to_checkpoint(context, event.state.time, event.state.impacts, event.state.samples, run_digest_, state);
   message.header.stamp = label.stamp;
   checkpoint_.send(std::move(message));

@@ -17,6 +17,19 @@ void write_model(const SiModel& si, afm_emulator::Configuration& message) {
   message.cutoff_speed = si.cutoff_speed;
 }
 
+void write_bath(const SiBath& bath, afm_emulator::Configuration& message) {
+  message.temperature_k = bath.temperature_k;
+  message.quality_factor = bath.quality_factor;
+  message.lateral_quality_factor = bath.lateral_quality_factor;
+  message.kicks_per_tau = bath.kicks_per_tau;
+  message.seed = bath.seed;
+}
+
+SiBath si_bath(const afm_emulator::Configuration& message) {
+  return {message.temperature_k, message.quality_factor, message.lateral_quality_factor, message.kicks_per_tau,
+          message.seed};
+}
+
 void write_initial_state(const FreeState& initial, afm_emulator::Configuration& message) {
   message.initial_phase = initial.phase;
   message.initial_extension = initial.X;
@@ -40,6 +53,7 @@ afm_emulator::Configuration to_configuration(const Parameters& p, const std::str
   message.tolerance_of = p.tolerance_of;
   message.level_table = p.level_table_digest;
   write_model(p.si, message);
+  write_bath(p.bath, message);
   write_initial_state(p.initial, message);
   message.drag_velocity = p.drag_velocity;
   message.max_drag_velocity = p.max_drag_velocity;
@@ -71,6 +85,7 @@ SiModel si_model(const afm_emulator::Configuration& message) {
 Parameters to_parameters(const afm_emulator::Configuration& c) {
   Parameters p;
   p.si = si_model(c);
+  p.bath = si_bath(c);
   p.model = c.model;
   p.tolerance = c.tolerance;
   p.tolerance_of = c.tolerance_of;
@@ -95,6 +110,7 @@ EmulatorSettings emulator_settings(const afm_emulator::Configuration& message) {
   if (message.model != kAuto && !parse(message.model, settings.model.kind)) {
     throw std::invalid_argument("unknown model: " + message.model);
   }
+  settings.bath = Units(si).to_natural(si_bath(message));
   settings.eta = to_eta(message.drag_velocity, si);
   settings.initial = {message.initial_phase, message.initial_extension, message.initial_height, message.initial_u,
                       message.initial_w};

@@ -38,9 +38,9 @@ void diagnose_pace(const Health& health, Diagnosis& out) {
   troubles.add(status.lag > kTroublingLag && !(status.lag > kHopelessLag), Severity::WARN,
                format("%.1f s behind the wall clock", status.lag));
   troubles.add(health.lost_batch, Severity::ERROR, "batches were lost: publishing does not keep up");
-  troubles.add(health.late_share > kTroublingLateShare, Severity::WARN,
-               format("%.0f %% of the batches are late (scheduler: %s)", 100.0 * health.late_share,
-                      status.scheduler.c_str()));
+  troubles.add(
+      health.late_share > kTroublingLateShare, Severity::WARN,
+      format("%.0f %% of the batches are late (scheduler: %s)", 100.0 * health.late_share, status.scheduler.c_str()));
   out.add("real-time factor", status.real_time_factor);
   out.add("lag [s]", status.lag);
   out.add("worst lag [s]", status.worst_lag);
@@ -52,7 +52,8 @@ void diagnose_pace(const Health& health, Diagnosis& out) {
 
 void diagnose_commands(const Health& health, Diagnosis& out) {
   Troubles troubles(out, "nothing was refused of late");
-  troubles.add(!health.refusal.empty(), health.overload ? Severity::ERROR : Severity::WARN, "refused: " + health.refusal);
+  troubles.add(!health.refusal.empty(), health.overload ? Severity::ERROR : Severity::WARN,
+               "refused: " + health.refusal);
   troubles.add(health.timed_out, Severity::WARN,
                format("the drag was stopped: no command for %g s (command_timeout_s)", health.command_timeout_s));
   out.add("refused drag commands", health.status.refused_commands);
@@ -82,9 +83,9 @@ void diagnose_recording(const Health& health, Diagnosis& out) {
   troubles.add(!status.recorder_error.empty(), Severity::ERROR, "ended early: " + status.recorder_error);
   troubles.add(recording && health.dropped_from_recording > 0, Severity::ERROR,
                "messages are missing in the recording: the disk is too slow");
-  troubles.add(health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb, Severity::WARN,
-               format("%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)", health.free_mb,
-                      health.reserve_mb));
+  troubles.add(
+      health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb, Severity::WARN,
+      format("%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)", health.free_mb, health.reserve_mb));
   out.add("bag", status.recording);
   if (health.free_mb >= 0.0) out.addf("free [MB]", "%.0f", health.free_mb);
   out.add("messages missing in the recording", health.dropped_from_recording);

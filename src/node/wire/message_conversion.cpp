@@ -89,6 +89,9 @@ afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, con
   message.window_k_f_std_error = estimate.window_K_f_std_error * units.friction();
   message.lateral_force = estimate.lateral_force * units.force();
   message.lateral_force_std_error = estimate.lateral_force_std_error * units.force();
+  message.k_f_work = estimate.K_f_work * units.friction();
+  message.k_f_work_std_error = estimate.K_f_work_std_error * units.friction();
+  message.heat = estimate.heat * units.energy();
   return message;
 }
 

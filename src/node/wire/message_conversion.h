@@ -57,7 +57,9 @@ Level level_of(const Applied& applied) {
 // The live parameters that an AppliedParameters or a Checkpoint tells.
 template <class Told>
 LiveParameters to_live(const Told& told) {
-  return {told.restitution_gamma, told.cutoff_speed, told.rest_height_m, told.sample_rate_hz, told.friction_window_tau};
+  return {told.restitution_gamma, told.cutoff_speed, told.rest_height_m, told.sample_rate_hz,
+          told.friction_window_tau, told.temperature_k, told.quality_factor, told.lateral_quality_factor,
+          told.kicks_per_tau};
 }
 template <class Told>
 void write_live(const LiveParameters& live, Told& told) {
@@ -66,6 +68,10 @@ void write_live(const LiveParameters& live, Told& told) {
   told.rest_height_m = live.rest_height_m;
   told.sample_rate_hz = live.sample_rate_hz;
   told.friction_window_tau = live.friction_window_tau;
+  told.temperature_k = live.temperature_k;
+  told.quality_factor = live.quality_factor;
+  told.lateral_quality_factor = live.lateral_quality_factor;
+  told.kicks_per_tau = live.kicks_per_tau;
 }
 
 // Those fields of the status that the stepping thread knows.

@@ -5,7 +5,7 @@
 namespace afm::node {
 namespace {
 
-constexpr double kMarkTau = 100.0;  // impacts are counted over so long: some hundreds of them
+constexpr double kMarkTau = 100.0;              // impacts are counted over so long: some hundreds of them
 constexpr std::uint64_t kMessagesPerBatch = 3;  // deflection, impacts, friction
 
 }  // namespace

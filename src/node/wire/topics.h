@@ -4,6 +4,7 @@
 namespace afm::node {
 
 constexpr char kDragVelocityTopic[] = "drag_velocity";
+constexpr char kRestHeightTopic[] = "rest_height";
 constexpr char kDeflectionTopic[] = "deflection";
 constexpr char kImpactsTopic[] = "impacts";
 constexpr char kFrictionTopic[] = "friction";

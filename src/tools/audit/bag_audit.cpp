@@ -66,6 +66,8 @@ void BagAudit::begin_where_known(const replay::EpochLog& log) {
   level_ = {settings.model.kind, settings.contact_tolerance};
   grid_ = log.emulator().grid();
   last_time_ = log.emulator().now();
+  kicks_ = log.emulator().thermostat();
+  energy_->set_bath(kicks_);
   if (log.start() == nullptr) return;
   energy_->change(settings.model, grid_);
   energy_->add_command(last_time_, log.drag_velocity());
@@ -115,8 +117,12 @@ void BagAudit::follow(const afm_emulator::AppliedParameters& change) {
   const ModelTime time = node::from_message(change.time);
   if (after == before) return follow_level(node::level_of(change), time);
   node::set_live(after, parameters_);
+  const EmulatorSettings settings = node::emulator_settings(parameters_);
+  while (kicks_.next() <= time) kicks_.draw();
+  if (settings.bath != kicks_.bath()) kicks_.set(settings.bath, settings.model.frequency_ratio, time);
   if (after.sample_rate_hz != before.sample_rate_hz) grid_ = {change.sample_period_tau, change.first_sample, time};
-  energy_->change(at_level(node::emulator_settings(parameters_).model, level_), grid_);
+  energy_->change(at_level(settings.model, level_), grid_);
+  energy_->set_bath(kicks_);
   node::LiveParameters same_model = before;  // but for what the tip knows nothing of
   same_model.sample_rate_hz = after.sample_rate_hz;
   same_model.friction_window_tau = after.friction_window_tau;

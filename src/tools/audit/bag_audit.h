@@ -63,6 +63,7 @@ class BagAudit {
   std::optional<std::uint32_t> epoch_, last_batch_;
   std::size_t next_command_ = 0;
   node::Parameters parameters_;  // as they are now, like the next
+  Thermostat kicks_;
   SampleGrid grid_;
   Level level_;
   std::uint64_t changes_ = 0;    // of parameters, beside those that every epoch begins with

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "flight_pair.h"
-#include "node/wire/message_conversion.h"
 #include "node/parameters/parameters.h"
+#include "node/wire/message_conversion.h"
 #include "worst.h"
 
 namespace afm::audit {
@@ -63,15 +63,21 @@ void EnergyAudit::add(const afm_emulator::Deflection& batch) {
 
 void EnergyAudit::add(const afm_emulator::ImpactArray& batch) {
   for (const afm_emulator::Impact& impact : batch.impacts) {
-    events_.push_back({node::from_message(impact.time), impact, eta_});
+    push({node::from_message(impact.time), impact, eta_});
     report_.energy += impact.energy_loss;
     ++report_.events;
     judge_law(impact);
   }
 }
 
+// With the kicks before it.
+void EnergyAudit::push(const Event& event) {
+  for (; kicks_.next() <= event.time; kicks_.draw()) events_.push_back({kicks_.next(), std::nullopt, eta_});
+  events_.push_back(event);
+}
+
 void EnergyAudit::add_command(const ModelTime& time, double drag_velocity) {
-  events_.push_back({time, std::nullopt, eta_});
+  push({time, std::nullopt, eta_});
   eta_ = drag_velocity / units_.velocity();
 }
 
@@ -158,7 +164,8 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   note(report_.position_error, (out.Y - in.Y) / length);
   note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);
   const double u = in.U + event.eta, inverse_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
-  note(report_.speed_error, (std::abs(in.W - slope * u) * inverse_norm - told.normal_speed / units_.velocity()) / speed);
+  note(report_.speed_error,
+       (std::abs(in.W - slope * u) * inverse_norm - told.normal_speed / units_.velocity()) / speed);
   note(report_.speed_error,
        ((u + free * slope * in.W) * inverse_norm - told.tangential_velocity / units_.velocity()) / speed);
   note(report_.allowed, kRoundings * square(conditioning_));

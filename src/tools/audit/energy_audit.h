@@ -13,6 +13,7 @@
 
 #include "afm/model.h"
 #include "afm/detail/sample_grid.h"
+#include "afm/detail/thermostat.h"
 #include "afm/state.h"
 #include "afm/units.h"
 
@@ -36,6 +37,7 @@ class EnergyAudit {
   void add(const afm_emulator::Deflection& batch);
   void add(const afm_emulator::ImpactArray& batch);
   void add_command(const ModelTime& time, double drag_velocity);
+  void set_bath(const Thermostat& kicks) { kicks_ = kicks; }  // from the last event on
   void gap();                                               // something is missing here
   void change(const Model& model, const SampleGrid& grid);  // what is near is not judged
   void judge(const ModelTime& until);                       // all that lies well before
@@ -45,7 +47,7 @@ class EnergyAudit {
  private:
   struct Event {
     ModelTime time;
-    std::optional<afm_emulator::Impact> impact;  // none: a command, or a gap
+    std::optional<afm_emulator::Impact> impact;  // none: a command, or a kick of the bath
     double eta = 0.0;                            // before it
   };
   struct Sample {
@@ -56,6 +58,7 @@ class EnergyAudit {
   };
 
   double conditioning() const;
+  void push(const Event& event);
   void judge_law(const afm_emulator::Impact& impact);
   bool flies_off() const;
   void judge_impact(const Event& before, const Event& event, const Event& after);
@@ -69,6 +72,7 @@ class EnergyAudit {
   const double omega_[2];  // horizontal, vertical [rad/tau]
   double conditioning_;
   double eta_;
+  Thermostat kicks_;
   std::deque<Event> events_;
   std::deque<Sample> samples_;
   std::uint64_t first_sample_ = 0;

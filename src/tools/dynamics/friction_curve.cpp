@@ -11,17 +11,22 @@
 namespace {
 
 const char kDescription[] =
-    "Computes the friction coefficient K_f over ranges of drag velocity, restitution and cutoff (units a, tau, tip\n"
-    "mass). A range is one number or FROM:TO:STEP. The table has the columns eta,gamma,cutoff,k_f,k_f_std_error,\n"
-    "impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor; k_f +- 1.96 k_f_std_error holds "
+    "Computes the friction coefficient K_f over ranges of drag velocity, restitution, cutoff, load and surface (units "
+    "a,\n"
+    "tau, tip mass m). A range is one number or FROM:TO:STEP. The table has the columns eta,gamma,cutoff,k_f,\n"
+    "k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,rest_height,amplitude,"
+    "\n"
+    "frequency_ratio,k_f_work,k_f_work_std_error. k_f comes from the energy lost in impacts (the paper's estimator),\n"
+    "k_f_work from the work of the drag (the definition; with a heat bath only this is friction); the true means are\n"
+    "within 1.96 standard errors 95 times in 100. Beside the table lies OUTPUT.journal: interrupted and started again, "
     "the\n"
-    "true mean 95 times in 100. Beside the table lies OUTPUT.journal: interrupted and started again, the same command\n"
-    "goes on where it was. Under mpirun all ranks work on one table. The numbers depend on nothing but the options "
-    "that\n"
-    "name them: not on threads, ranks or interruptions.";
+    "same command goes on where it was. Under mpirun all ranks work on one table. The numbers depend on nothing but "
+    "the\n"
+    "options that name them: not on threads, ranks or interruptions.";
 
 struct Options {
-  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", sweep = "fresh", model = "oscillator", output = "-";
+  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", rest_height = "0", amplitude, frequency_ratio,
+              sweep = "fresh", model = "oscillator", output = "-";
   std::int64_t seed = 1;
   int threads = 0;
   afm::CurveSettings settings;
@@ -38,13 +43,21 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.option("rest-height", o.rest_height, "height of the holder above mid-surface [a]; the load is -(2 pi)^2 of it");
+  app.option("amplitude", o.amplitude, "of the surface [a]; mica: 0.05/0.52");
+  app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v; mica: 6.25");
+  app.option("temperature", sweep.bath.temperature, "kT of the heat bath [m a^2/tau^2]; at 300 K 0.926");
+  app.option("quality-factor", sweep.bath.quality_factor, "of the cantilever; 0: no bath");
+  app.option("lateral-quality-factor", sweep.bath.lateral_quality_factor,
+             "of the horizontal spring; 0: as the vertical");
+  app.option("kicks-per-tau", sweep.bath.kicks_per_tau, "of the heat bath");
   app.option("duration", sweep.duration, "measured at each point [tau]");
   app.option("transient", sweep.transient, "before it [tau]");
   afm::add_model_option(app, o.model);
   app.option("sweep", o.sweep,
              "fresh: each point from a random start; up, down: each from where the eta before it ended");
   app.option("threads", o.threads, "0: one for each processor; under mpirun one for each rank");
-  app.option("seed", o.seed, "of the random starts");
+  app.option("seed", o.seed, "of the random starts and of the heat bath");
   app.option("output", o.output, "the table; - is standard output");
 }
 
@@ -53,6 +66,9 @@ void check(Options& o) {
   s.eta = afm::range_option("eta", o.eta);
   s.gamma = afm::range_option("gamma", o.gamma);
   s.cutoff = afm::range_option("cutoff", o.cutoff);
+  s.rest_height = afm::range_option("rest-height", o.rest_height);
+  if (!o.amplitude.empty()) s.amplitude = afm::range_option("amplitude", o.amplitude);
+  if (!o.frequency_ratio.empty()) s.frequency_ratio = afm::range_option("frequency-ratio", o.frequency_ratio);
   const auto direction = kDirections.find(o.sweep);
   if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
   s.direction = direction->second;
@@ -60,7 +76,11 @@ void check(Options& o) {
   if (o.threads < 0 || o.threads > 1024)
     refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
   if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");
-  s.sweep.seed = static_cast<std::uint64_t>(o.seed);
+  s.sweep.seed = s.sweep.bath.seed = static_cast<std::uint64_t>(o.seed);
+  if (s.sweep.bath.temperature > 0.0 && !s.sweep.bath.is_on()) {
+    refuse("temperature = " + std::to_string(s.sweep.bath.temperature) +
+           ": needs a quality-factor above 0: without one no heat reaches the tip");
+  }
   const std::vector<afm::ParameterError> faults = afm::find_faults(s);
   if (!faults.empty()) refuse(afm::describe(faults));
 }

@@ -81,14 +81,17 @@ bool fits(const afm_emulator::AppliedParameters& change, const SampleGrid& grid)
 
 std::string to_text(const Applied& applied) {
   const ModelTime time = time_of(applied);
-  char text[256], when[64];
+  char text[512], when[64];
   std::snprintf(when, sizeof when, "%lld + %.17g tau", static_cast<long long>(time.tau), time.phase);
   if (const auto* drag = std::get_if<afm_emulator::AppliedDrag>(&applied)) {
     std::snprintf(text, sizeof text, "%.17g m/s at %s", drag->drag_velocity, when);
   } else {
     const auto& p = std::get<afm_emulator::AppliedParameters>(applied);
-    std::snprintf(text, sizeof text, "gamma %g, cutoff %g m/s, rest height %g m, %g samples/s, window %g tau at %s",
-                  p.restitution_gamma, p.cutoff_speed, p.rest_height_m, p.sample_rate_hz, p.friction_window_tau, when);
+    std::snprintf(text, sizeof text,
+                  "gamma %g, cutoff %g m/s, rest height %g m, %g samples/s, window %g tau, %g K, quality factors %g "
+                  "and %g, %g kicks a tau at %s",
+                  p.restitution_gamma, p.cutoff_speed, p.rest_height_m, p.sample_rate_hz, p.friction_window_tau,
+                  p.temperature_k, p.quality_factor, p.lateral_quality_factor, p.kicks_per_tau, when);
   }
   return text;
 }

@@ -11,6 +11,8 @@
 #include <cstring>
 #include <vector>
 
+#include "node/parameters/live_parameters.h"
+
 namespace afm::replay {
 
 // Walks over a message as it stands in a bag.
@@ -62,10 +64,11 @@ inline bool lengths_fit<afm_emulator::ImpactArray>(const std::vector<std::uint8_
 template <>
 inline bool lengths_fit<afm_emulator::Checkpoint>(const std::vector<std::uint8_t>& bytes) {
   constexpr std::uint64_t kEpoch = 4, kWord = 8, kNumber = 4;
+  constexpr std::uint64_t kInForce = 1 + sizeof(node::LiveParameters) / sizeof(double);  // drag velocity and the rest
   Measure measure(bytes);
   measure.fixed(kBeforeName);
   measure.list(1);
-  measure.fixed(kEpoch + kModelTime + 3 * kWord + 2 * kNumber + 6 * kWord + kBeforeName);
+  measure.fixed(kEpoch + kModelTime + 3 * kWord + 2 * kNumber + kInForce * kWord + kBeforeName);
   measure.list(1);  // of the digests
   measure.fixed(kEpoch + kModelTime + 10 * kWord + kNumber);
   measure.list(kWord);
