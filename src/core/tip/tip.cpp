@@ -155,8 +155,11 @@ TipState Tip::tip_state() const {
   return state;
 }
 
+// To just after the next kick, if that comes first.
 void Tip::find_landing() {
-  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, kSearchHorizon));  // in place (tip_arcs.cpp)
+  constexpr double kBeyondKick = 1e-6;  // [tau] far above rounding, so that a kick comes before the end of its search
+  const double horizon = std::fmin(kSearchHorizon, thermostat_.next() - start_ + kBeyondKick);
+  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, horizon));  // in place (tip_arcs.cpp)
   landing_known_ = true;
 }
 

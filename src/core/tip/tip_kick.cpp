@@ -6,7 +6,10 @@
 
 namespace afm {
 
-void Tip::set_bath(const Bath& bath) { thermostat_.set(bath, model_.frequency_ratio, now_); }
+void Tip::set_bath(const Bath& bath) {
+  thermostat_.set(bath, model_.frequency_ratio, now_);
+  landing_known_ = false;  // the search went to the next kick of the old bath
+}
 
 // Relative to the holder both velocities change; the holder of a held tip takes what is along x.
 TipState Tip::kicked(const Kick& kick, const TipState& state) const {
