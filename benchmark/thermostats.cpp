@@ -1,0 +1,154 @@
+// The mean square deflection of a heated tip at rest against its exact value: exact motion between kicks, and two
+// integrators with a penalty spring in the place of the surface. Each gets the same time. CSV.
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <vector>
+
+#include "afm/detail/batch_means.h"
+#include "afm/surface.h"
+#include "afm/tip.h"
+#include "boltzmann.h"
+#include "common/command_line.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kHolder = 0.1;    // xc [a]: on a slope of the surface
+constexpr double kInterval = 0.1;  // between samples [tau]
+constexpr std::size_t kBatch = 200;
+
+struct Options {
+  double theta = 0.926, quality_factor = 2.0, seconds = 20.0;
+  std::vector<double> kicks{0.5, 2.0, 8.0, 17.944};
+  std::vector<double> steps{0.01, 0.005, 0.002, 0.001, 0.0005, 0.00025};
+};
+
+// Langevin dynamics of both springs: BAOAB, and Euler-Maruyama in its semi-implicit form (the explicit one diverges on
+// the penalty spring). The penalty spring is as stiff as the step allows: omega_p h = 1.
+class Penalty {
+ public:
+  Penalty(const Options& o, double h)
+      : theta_(o.theta), Q_(o.quality_factor), h_(h), steps_(std::lround(kInterval / h)), k_(1.0 / (h * h)) {}
+
+  double baoab() {
+    const double c_v = std::exp(-m_.omega_v * h_ / Q_), c_h = std::exp(-m_.omega_h * h_ / Q_);
+    const double s_v = std::sqrt((1.0 - c_v * c_v) * theta_), s_h = std::sqrt((1.0 - c_h * c_h) * theta_);
+    for (long i = 0; i < steps_; ++i) {
+      kick(0.5 * h_);
+      drift(0.5 * h_);
+      u_ = c_h * u_ + s_h * normal_(random_);
+      w_ = c_v * w_ + s_v * normal_(random_);
+      drift(0.5 * h_);
+      find_force();
+      kick(0.5 * h_);
+    }
+    return Y_;
+  }
+
+  double euler_maruyama() {
+    const double c_v = 1.0 - m_.omega_v * h_ / Q_, c_h = 1.0 - m_.omega_h * h_ / Q_;
+    const double s_v = std::sqrt(2.0 * (1.0 - c_v) * theta_), s_h = std::sqrt(2.0 * (1.0 - c_h) * theta_);
+    for (long i = 0; i < steps_; ++i) {
+      find_force();
+      u_ = c_h * u_ + s_h * normal_(random_);
+      w_ = c_v * w_ + s_v * normal_(random_);
+      kick(h_);
+      drift(h_);
+    }
+    return Y_;
+  }
+
+ private:
+  void drift(double h) {
+    X_ += h * u_;
+    Y_ += h * w_;
+  }
+  void kick(double h) {
+    u_ += h * force_X_;
+    w_ += h * force_Y_;
+  }
+  void find_force() {
+    const afm::SurfaceJet<double> surface = afm::surface_jet(m_.H, kHolder + X_);
+    const double gap = Y_ - surface.h, push = gap < 0.0 ? -k_ * gap : 0.0;
+    force_X_ = -m_.omega_h * m_.omega_h * X_ - surface.h1 * push;
+    force_Y_ = -m_.omega_v * m_.omega_v * Y_ + push;
+  }
+
+  afm::Mechanics<double> m_{afm::Model{}};
+  double theta_, Q_, h_;
+  long steps_;
+  double k_;
+  double X_ = 0.0, Y_ = 0.2, u_ = 0.0, w_ = 0.0, force_X_ = 0.0, force_Y_ = 0.0;
+  boost::random::mt19937_64 random_{1};
+  boost::random::normal_distribution<double> normal_;
+};
+
+// `next` brings the tip one interval on and gives y - y0.
+void measure(const char* method, double knob, const Options& o, const std::function<double()>& next) {
+  const double exact = afm::Boltzmann(o.theta, kHolder).mean_Y2();
+  std::vector<double> batches;
+  for (std::size_t i = 0; i < kBatch; ++i) next();
+  const auto begin = Clock::now();
+  double seconds = 0.0, sum = 0.0;
+  while (seconds < o.seconds || batches.size() < afm::kFewestBatches) {
+    double batch = 0.0;
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      const double Y = next();
+      batch += Y * Y / kBatch;
+    }
+    batches.push_back(batch);
+    sum += batch;
+    seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+  const double n = static_cast<double>(batches.size());
+  std::printf("%s,%g,%.4g,%.2g,%.4g\n", method, knob, sum / n / exact - 1.0, afm::mean_error(batches).std_error / exact,
+              seconds / (n * kBatch * kInterval) * 1e6);
+  std::fflush(stdout);
+}
+
+void measure_kicks(const Options& o, double kicks_per_tau) {
+  afm::Model model;
+  model.gamma = 1.0;
+  afm::Tip tip(model, 0.0, afm::FreeState{kHolder, 0.0, 0.2, 0.0, 0.0});
+  afm::Bath bath;
+  bath.temperature = o.theta;
+  bath.quality_factor = o.quality_factor;
+  bath.kicks_per_tau = kicks_per_tau;
+  tip.set_bath(bath);
+  afm::ModelTime time;
+  measure("exact", kicks_per_tau, o, [&] {
+    time = time + kInterval;
+    while (tip.advance(time) != afm::Outcome::time_limit) continue;
+    return tip.deflection(time).vertical;
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  afm::CommandLine app("thermostats", "Bias of <(y - y0)^2> of a heated tip at rest, relative, and time per tau [us].");
+  app.option("temperature", o.theta, "kT [m a^2/tau^2]", afm::kPositive);
+  app.option("quality-factor", o.quality_factor, "of both springs", afm::kPositive);
+  app.option("seconds", o.seconds, "for each row", afm::kPositive);
+  app.option("kicks", o.kicks, "kicks per tau");
+  app.option("steps", o.steps, "of the integrators [tau]");
+  return app.run(argc, argv, [&] {
+    std::printf("method,knob,bias,std_error,us_per_tau\n");
+    for (const double kicks_per_tau : o.kicks) measure_kicks(o, kicks_per_tau);
+    for (const double h : o.steps) {
+      Penalty tip(o, h);
+      measure("baoab_penalty", h, o, [&] { return tip.baoab(); });
+    }
+    for (const double h : o.steps) {
+      Penalty tip(o, h);
+      measure("euler_maruyama_penalty", h, o, [&] { return tip.euler_maruyama(); });
+    }
+    return 0;
+  });
+}
