@@ -11,8 +11,8 @@
 #include "afm/detail/batch_means.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
-#include "boltzmann.h"
 #include "common/command_line.h"
+#include "trials/boltzmann.h"
 
 namespace {
 
@@ -24,16 +24,21 @@ constexpr std::size_t kBatch = 200;
 
 struct Options {
   double theta = 0.926, quality_factor = 2.0, seconds = 20.0;
-  std::vector<double> kicks{0.5, 2.0, 8.0, 17.944};
+  std::vector<double> kicks{0.5, 2.0, 8.0, 29.034};
+  std::vector<double> stiffness{1.0, 0.25};
   std::vector<double> steps{0.01, 0.005, 0.002, 0.001, 0.0005, 0.00025};
 };
 
 // Langevin dynamics of both springs: BAOAB, and Euler-Maruyama in its semi-implicit form (the explicit one diverges on
-// the penalty spring). The penalty spring is as stiff as the step allows: omega_p h = 1.
+// the penalty spring). `stiffness`: omega_p h of the penalty spring, a contact takes pi / (omega_p h) steps.
 class Penalty {
  public:
-  Penalty(const Options& o, double h)
-      : theta_(o.theta), Q_(o.quality_factor), h_(h), steps_(std::lround(kInterval / h)), k_(1.0 / (h * h)) {}
+  Penalty(const Options& o, double h, double stiffness)
+      : theta_(o.theta),
+        Q_(o.quality_factor),
+        h_(h),
+        steps_(std::lround(kInterval / h)),
+        k_(stiffness * stiffness / (h * h)) {}
 
   double baoab() {
     const double c_v = std::exp(-m_.omega_v * h_ / Q_), c_h = std::exp(-m_.omega_h * h_ / Q_);
@@ -89,7 +94,7 @@ class Penalty {
 };
 
 // `next` brings the tip one interval on and gives y - y0.
-void measure(const char* method, double knob, const Options& o, const std::function<double()>& next) {
+void measure(const char* method, double knob, double stiffness, const Options& o, const std::function<double()>& next) {
   const double exact = afm::Boltzmann(o.theta, kHolder).mean_Y2();
   std::vector<double> batches;
   for (std::size_t i = 0; i < kBatch; ++i) next();
@@ -106,8 +111,8 @@ void measure(const char* method, double knob, const Options& o, const std::funct
     seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   }
   const double n = static_cast<double>(batches.size());
-  std::printf("%s,%g,%.4g,%.2g,%.4g\n", method, knob, sum / n / exact - 1.0, afm::mean_error(batches).std_error / exact,
-              seconds / (n * kBatch * kInterval) * 1e6);
+  std::printf("%s,%g,%g,%.4g,%.2g,%.4g\n", method, knob, stiffness, sum / n / exact - 1.0,
+              afm::mean_error(batches).std_error / exact, seconds / (n * kBatch * kInterval) * 1e6);
   std::fflush(stdout);
 }
 
@@ -121,11 +126,17 @@ void measure_kicks(const Options& o, double kicks_per_tau) {
   bath.kicks_per_tau = kicks_per_tau;
   tip.set_bath(bath);
   afm::ModelTime time;
-  measure("exact", kicks_per_tau, o, [&] {
+  measure("exact", kicks_per_tau, HUGE_VAL, o, [&] {
     time = time + kInterval;
     while (tip.advance(time) != afm::Outcome::time_limit) continue;
     return tip.deflection(time).vertical;
   });
+}
+
+void measure_penalty(const Options& o, double h, double stiffness) {
+  Penalty baoab(o, h, stiffness), euler(o, h, stiffness);
+  measure("baoab_penalty", h, stiffness, o, [&] { return baoab.baoab(); });
+  measure("euler_maruyama_penalty", h, stiffness, o, [&] { return euler.euler_maruyama(); });
 }
 
 }  // namespace
@@ -137,17 +148,13 @@ int main(int argc, char** argv) {
   app.option("quality-factor", o.quality_factor, "of both springs", afm::kPositive);
   app.option("seconds", o.seconds, "for each row", afm::kPositive);
   app.option("kicks", o.kicks, "kicks per tau");
+  app.option("stiffness", o.stiffness, "of the penalty spring, omega_p h");
   app.option("steps", o.steps, "of the integrators [tau]");
   return app.run(argc, argv, [&] {
-    std::printf("method,knob,bias,std_error,us_per_tau\n");
+    std::printf("method,knob,stiffness,bias,std_error,us_per_tau\n");
     for (const double kicks_per_tau : o.kicks) measure_kicks(o, kicks_per_tau);
-    for (const double h : o.steps) {
-      Penalty tip(o, h);
-      measure("baoab_penalty", h, o, [&] { return tip.baoab(); });
-    }
-    for (const double h : o.steps) {
-      Penalty tip(o, h);
-      measure("euler_maruyama_penalty", h, o, [&] { return tip.euler_maruyama(); });
+    for (const double stiffness : o.stiffness) {
+      for (const double h : o.steps) measure_penalty(o, h, stiffness);
     }
     return 0;
   });

@@ -15,7 +15,7 @@ struct Bath {
   double temperature = 0.0;             // kT [m a^2/tau^2]; 0: damping alone
   double quality_factor = 0.0;          // of the vertical spring; 0: neither damped nor heated
   double lateral_quality_factor = 0.0;  // of the horizontal spring; 0: as the vertical one
-  double kicks_per_tau = 17.944;        // sixth power of the golden ratio: locks to no periodic motion
+  double kicks_per_tau = 29.034;        // seventh power of the golden ratio: locks to no periodic motion
   std::uint64_t seed = 1;               // of the random numbers
   std::uint64_t stream = 0;             // which of the seed's sequences: many tips have one each
 

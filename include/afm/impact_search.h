@@ -20,7 +20,7 @@ template <class T>
 struct Landing {
   SearchOutcome outcome;
   T s;
-  GapJet<T> jet;    // incident state at `s`; g is what rounding left
+  GapJet<T> jet;    // of an impact: incident state at `s`; g is what rounding left
   int evaluations;  // of the gap
 };
 
@@ -113,10 +113,10 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   search_detail::Progress<T> now{from, T(0.0), T(0.05)};
   if (on_surface) now = search_detail::take_off(f);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
-    now.s = min(now.s, horizon);
+    if (!(now.s < horizon)) return {SearchOutcome::clear, horizon, f.start(), evaluations - 1};
     now.ahead = min(now.ahead, T(horizon - now.s));
     const T p = now.s + now.ahead, error = f.gap_error(p);
-    const GapJet<T> jet = f.gap(p);
+    const GapJet<T> jet = p > T(0.0) ? f.gap(p) : f.start();
     if (now.ahead > T(0.0) && !positive_behind(f, jet, error, now.ahead)) {
       const RootInterval<T> behind = certify_root_behind(f, jet, error, now.ahead);
       if (behind.certain) return search_detail::finish(f, p, jet, behind, evaluations);
@@ -126,7 +126,6 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
     now.s = p;
     const RootInterval<T> root = certify_root(f, jet, error);
     if (root.certain) return search_detail::finish(f, p, jet, root, evaluations);
-    if (!(p < horizon)) return {SearchOutcome::clear, p, jet, evaluations};
     const T above = time_above_crest(f, jet.state);
     if (above > T(0.0)) {
       now = {p + above, search_detail::descent(f, now.trial), now.trial};

@@ -3,6 +3,7 @@ import csv
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 TOOLS = Path(os.environ.get("AFM_BUILD_DIR", Path(__file__).resolve().parent.parent.parent)) / "devel/lib/afm_emulator"
@@ -35,11 +36,28 @@ class Tables:
         path = self.directory / (name + ".csv")
         if not ((self.keep or name in self.made) and path.exists()):
             part = self.directory / (name + ".part")
+            begin = time.time()
             with open(str(part), "w") as file:
                 self.run(file, tool, *arguments)
+            self.times(name).write_text("%g\n" % (time.time() - begin))
             part.replace(path)
         self.made.add(name)
         return read(path)
+
+    def times(self, name):
+        return self.directory / (name + ".seconds")
+
+    def seconds(self, name):
+        """How long the tool took for this table."""
+        return float(self.times(name).read_text())
+
+    def write(self, name, header, rows):
+        """A table worked out from others."""
+        with open(str(self.directory / (name + ".csv")), "w") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(header)
+            writer.writerows(["%.6g" % field if isinstance(field, float) else field for field in row] for row in rows)
+        self.made.add(name)
 
     def side_table(self, name):
         """Where a tool writes a second table."""

@@ -23,7 +23,11 @@ void Heard::take(const afm_emulator::Configuration& message) {
 
 void Heard::take(const afm_emulator::AppliedParameters& message) {
   holder_.obey(message);
-  if (configuration_) keep(message.sample_rate_hz, message.sample_period_tau, message.samples_per_batch);
+  if (!configuration_) return;
+  configuration_->temperature_k = message.temperature_k;
+  configuration_->quality_factor = message.quality_factor;
+  configuration_->lateral_quality_factor = message.lateral_quality_factor;
+  keep(message.sample_rate_hz, message.sample_period_tau, message.samples_per_batch);
 }
 
 void Heard::keep(double sample_rate_hz, double sample_period_tau, std::uint64_t samples_per_batch) {

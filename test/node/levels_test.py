@@ -56,11 +56,13 @@ class Levels(NodeTest):
         self.emulator.drag(eta * SPEED_UNIT)
         return self.drags.wait_for(lambda m: abs(m.drag_velocity - eta * SPEED_UNIT) < 1e-15, begin=count)
 
-    def set_gamma(self, gamma):
+    def set_parameter(self, name, value):
         count = len(self.changes.messages)
-        config = Config(doubles=[DoubleParameter('restitution_gamma', gamma)])
-        self.emulator.call('set_parameters', Reconfigure, config=config)
-        return self.changes.wait_for(lambda m: m.restitution_gamma == gamma, begin=count)
+        self.emulator.call('set_parameters', Reconfigure, config=Config(doubles=[DoubleParameter(name, value)]))
+        return self.changes.wait_for(lambda m: getattr(m, name) == value, begin=count)
+
+    def set_gamma(self, gamma):
+        return self.set_parameter('restitution_gamma', gamma)
 
     def finish(self):
         self.emulator.assert_alive()
@@ -100,6 +102,8 @@ class Levels(NodeTest):
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         self.assert_same(told(self.drags.wait_for(lambda m: m.epoch == 1)), UNKNOWN)
         self.assert_same(told(self.set_gamma(0.7)), HAMMER)
+        self.assert_same(told(self.set_parameter('quality_factor', 100.0)), UNKNOWN)  # the table was measured without a bath
+        self.assert_same(told(self.set_parameter('quality_factor', 0.0)), HAMMER)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         self.assert_same(told(self.drags.wait_for(lambda m: m.epoch == 2)), HAMMER)
         self.finish()

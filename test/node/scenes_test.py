@@ -54,6 +54,11 @@ class Scenes(NodeTest):
         self.assertLess(error, most)
         self.assertLess(abs(estimate.window_k_f / FRICTION_UNIT - expected), 4 * error)
 
+    def assert_friction_by_work(self, estimate, expected, most):
+        error = estimate.k_f_work_std_error / FRICTION_UNIT
+        self.assertLess(error, most)
+        self.assertLess(abs(estimate.k_f_work / FRICTION_UNIT - expected), 4 * error)
+
     def test_paper_is_chaos_with_the_friction_of_its_attractor(self):
         self.play('paper')
         self.assert_friction(self.after(2.0), 0.2533, 0.01)
@@ -130,6 +135,27 @@ class Scenes(NodeTest):
         up, down = friction[eta.index(5.65)], friction[eta.index(5.65, top)]
         self.assertAlmostEqual(up, 1.257, delta=0.03)
         self.assertAlmostEqual(down, 0.687, delta=0.03)
+
+    def test_room_has_the_friction_of_a_damped_and_heated_tip(self):
+        self.play('room')
+        self.assert_friction_by_work(self.after(2.0), 4.17, 0.1)
+        # heat: no two impacts alike, where the scene resonance repeats itself
+        speeds = {round(i.normal_speed, 12) for i in self.events(0.5) if i.kind == Impact.IMPACT}
+        self.assertGreater(len(speeds), 1000)
+
+    def test_loop_opens_by_twice_the_friction(self):
+        self.play('loop')
+        drags = self.topics['applied_drag']
+        wait_until(lambda: len(drags.messages) > 12, 'six traces and retraces', deadline_s=60.0)
+        self.friction.wait_for(lambda m: m.time.tau > drags.messages[12].time.tau)
+        ends = {}  # the last estimate of each
+        for m in self.friction.messages:
+            ends[sum(d.time.tau < m.time.tau for d in drags.messages) - 1] = m
+        traces = [ends[i] for i in range(1, 12)]
+        self.assertEqual({math.copysign(1, m.lateral_force) for m in traces[::2]}, {math.copysign(1, traces[0].eta)})
+        opening = [(a.lateral_force - b.lateral_force) * math.copysign(1, a.eta) for a, b in zip(traces, traces[1:])]
+        half = 0.5 * sum(opening) / len(opening)
+        self.assertAlmostEqual(half / (4.17 * FRICTION_UNIT * 2 * SPEED_UNIT), 1.0, delta=0.1)
 
     def test_slow_motion_shows_single_impacts(self):
         self.play('slow_motion')

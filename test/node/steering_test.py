@@ -23,7 +23,7 @@ LIVE = ('restitution_gamma', 'cutoff_speed', 'rest_height_m', 'sample_rate_hz', 
         'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
 AT_START = {'restitution_gamma': 0.7, 'cutoff_speed': 1.66e-7, 'rest_height_m': 0.0, 'sample_rate_hz': 50000.0,
             'friction_window_tau': 1000.0, 'temperature_k': 0.0, 'quality_factor': 0.0, 'lateral_quality_factor': 0.0,
-            'kicks_per_tau': 17.944}
+            'kicks_per_tau': 29.034}
 
 
 def values(config):

@@ -56,7 +56,8 @@ Level full_level(const Parameters& p) {
 
 LevelChoice choose_level(const Parameters& p, const Model& model, double eta) {
   const Level full = full_level(p);
-  if (!p.levels) return {full, std::numeric_limits<double>::quiet_NaN()};
+  const bool heated = p.bath.quality_factor > 0.0 || p.bath.lateral_quality_factor > 0.0;
+  if (!p.levels || heated) return {full, std::numeric_limits<double>::quiet_NaN()};
   ToleranceOf of = ToleranceOf::friction;
   parse(p.tolerance_of, of);
   return p.levels->choose(model, eta, p.tolerance, of, full);

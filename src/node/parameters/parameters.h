@@ -83,7 +83,7 @@ EmulatorSettings emulator_settings(const Parameters& parameters);
 Batch roomy_batch(const Parameters& parameters);
 
 // The level that runs at a drag velocity [a/tau]: of auto the cheapest that its tolerance allows, and where the table
-// knows nothing the oscillator at contact_tolerance. Allocates nothing.
+// has no data, or with a heat bath, the oscillator at contact_tolerance. Allocates nothing.
 LevelChoice choose_level(const Parameters& parameters, const Model& model, double eta);
 Level full_level(const Parameters& parameters);  // with which a run begins, before its first drag velocity is applied
 

@@ -38,6 +38,7 @@ std::vector<Finding> BagAudit::run() {
   report_sequence(findings);
   report_digests(findings);
   report_energy(findings);
+  report_balance(findings);
   report_friction(findings);
   report_counters(findings);
   return findings;
@@ -187,6 +188,7 @@ void BagAudit::add(const RecordedBatch& batch) {
   last_time_ = node::from_message(batch.friction->time);
   energy_->add(*batch.deflection);
   energy_->add(*batch.impacts);
+  energy_->add(*batch.friction, friction_->since());
   energy_->judge(last_time_);
   friction_->add(*batch.impacts);
   friction_->judge(*batch.friction);

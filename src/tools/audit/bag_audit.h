@@ -51,6 +51,7 @@ class BagAudit {
   void report_sequence(std::vector<Finding>& findings) const;
   void report_digests(std::vector<Finding>& findings) const;
   void report_energy(std::vector<Finding>& findings) const;
+  void report_balance(std::vector<Finding>& findings) const;
   void report_friction(std::vector<Finding>& findings) const;
   void report_counters(std::vector<Finding>& findings) const;
 
@@ -66,7 +67,7 @@ class BagAudit {
   Thermostat kicks_;
   SampleGrid grid_;
   Level level_;
-  std::uint64_t changes_ = 0;    // of parameters, beside those that every epoch begins with
+  std::uint64_t changes_ = 0;  // of parameters, beside those that every epoch begins with
   std::optional<std::uint64_t> next_sample_, next_impact_;
   ModelTime first_time_, last_time_;
   bool history_known_ = false;

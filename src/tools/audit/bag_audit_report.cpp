@@ -1,4 +1,5 @@
 // What the audit says of what it found: a line a subject.
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -10,7 +11,6 @@ namespace {
 
 constexpr double kSumRounding = 1e-11;  // of thousands of impacts, each rounded to SI
 constexpr double kLawRounding = 1e-12;  // of a handful of products
-
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
   char text[512];
@@ -96,6 +96,19 @@ void BagAudit::report_energy(std::vector<Finding>& findings) const {
                    "in - out = lost within %.1e, place %.1e, speed %.1e (rounding allows %.1e)",
                    number(e.judged), number(e.events), 100.0 * e.judged_energy / e.energy, e.balance_error,
                    e.position_error, e.speed_error, e.allowed)));
+}
+
+void BagAudit::report_balance(std::vector<Finding>& findings) const {
+  const EnergyReport& e = energy_report_;
+  if (e.balanced == 0) {
+    findings.push_back({Finding::Kind::note, "work", "no two estimates of friction end in a flight with samples"});
+    return;
+  }
+  findings.push_back(
+      judge(e.work_error <= std::max(e.allowed, kSumRounding), "work",
+            format("work of the drag = lost in impacts + heat + change of stored energy at %llu estimates "
+                   "of friction, within %.1e",
+                   number(e.balanced), e.work_error)));
 }
 
 void BagAudit::report_friction(std::vector<Finding>& findings) const {

@@ -33,6 +33,8 @@ void EnergyReport::merge(const EnergyReport& other) {
   note(position_error, other.position_error);
   note(speed_error, other.speed_error);
   note(law_error, other.law_error);
+  balanced += other.balanced;
+  note(work_error, other.work_error);
 }
 
 EnergyAudit::EnergyAudit(const afm_emulator::Configuration& configuration)
@@ -84,6 +86,9 @@ void EnergyAudit::add_command(const ModelTime& time, double drag_velocity) {
 void EnergyAudit::gap() {
   events_.clear();
   samples_.clear();
+  estimates_.clear();
+  base_.reset();
+  knows_last_ = false;
 }
 
 // dE = (1 - gamma_eff^2) v^2 / 2, with the restitution rising towards 1 below the cutoff. A bounce that would be slower
@@ -106,6 +111,7 @@ void EnergyAudit::judge(const ModelTime& until) {
     if (events_[1].impact && events_[1].impact->kind == afm_emulator::Impact::IMPACT && flies_off()) {
       judge_impact(events_[0], events_[1], events_[2]);
     }
+    judge_estimates(events_[0], events_[1]);
   }
   if (events_.empty()) return;
   const std::uint64_t wanted = std::max<std::uint64_t>(last_sample_before(events_.front().time), first_sample_);

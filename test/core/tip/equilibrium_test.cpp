@@ -11,7 +11,7 @@
 #include "afm/detail/batch_means.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
-#include "boltzmann.h"
+#include "trials/boltzmann.h"
 
 namespace afm {
 namespace {

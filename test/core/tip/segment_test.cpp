@@ -86,7 +86,7 @@ TEST_P(SegmentsOf, LossesAndCountsAddUpToThoseOfTheEventsWhateverTheCommands) {
     counted += s.count;
     EXPECT_LE(std::abs(s.imbalance()), 3e-14 * scale_of(tip));
   };
-  for (int commands = 0; commands < 10000; ++commands) {
+  for (int commands = 0; commands < 20000; ++commands) {
     const ModelTime next = tip.now() + random.within(0.0, 0.5);
     for (Outcome o = Outcome::flying; o != Outcome::time_limit;) {
       o = tip.advance_arc(next, &ended);

@@ -1,0 +1,42 @@
+"""Friction against load at fixed drag velocity."""
+from . import style
+from .temperature import KELVIN
+
+# one a of the spring is so much force: k_v a and k_h a, k = m omega^2 (mica)
+NEWTON_V = 4.08e-10 * 4e4 ** 2 * 5.2e-10
+TAU = style.TWO_PI / 4e4
+CASES = (("no bath", style.BLUE, "-", ()), ("300 K, Q = 100", style.ORANGE, "--",
+                                            ("--temperature", 300 * KELVIN, "--quality-factor", 100)))
+SPEEDS = (1, 2, 3.4)
+
+
+def newtons(k_f, eta):
+    """Mean lateral force of K_f [m/tau] at eta."""
+    return k_f * eta * 4.08e-10 * 5.2e-10 / TAU ** 2
+
+
+def rows_at(tables, eta, name, bath):
+    return tables.make("load_%g_%s" % (eta, "cold" if not bath else "warm"), "friction_curve", "--eta", eta, "--rest-height",
+                       "-0.6:0.09:0.05" if tables.quick else "-0.6:0.09:0.005", "--duration",
+                       500 if tables.quick else 10000, *bath)
+
+
+def load(tables):
+    figure, axes = style.new(9.0, 9.0, len(SPEEDS), 1, sharex=True)
+    table = []
+    for ax, eta in zip(axes, SPEEDS):
+        for name, colour, line, bath in CASES:
+            rows = rows_at(tables, eta, name, bath)
+            table += [(eta, name, row["rest_height"], row["k_f_work"], row["k_f_work_std_error"]) for row in rows]
+            force = [1e9 * newtons(row["k_f_work"], eta) for row in rows]
+            error = [1.96e9 * newtons(row["k_f_work_std_error"], eta) for row in rows]
+            load_n = [-1e9 * NEWTON_V * row["rest_height"] for row in rows]
+            ax.plot(load_n, force, color=colour, linestyle=line, linewidth=1.2, label=name)
+            ax.fill_between(load_n, [f - e for f, e in zip(force, error)], [f + e for f, e in zip(force, error)],
+                            color=colour, alpha=0.3, linewidth=0)
+        ax.set_ylabel(r"$\eta$ = %g:  lateral force / nN" % eta)
+        ax.grid(color="#dddddd", linewidth=0.6)
+    axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, frameon=False)
+    axes[-1].set_xlabel(r"load $-k_v y_0$ / nN")
+    tables.write("load", ("eta", "bath", "rest_height", "k_f_work", "k_f_work_std_error"), table)
+    return figure
