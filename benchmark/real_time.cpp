@@ -20,6 +20,7 @@ struct Options {
   std::vector<double> eta, cutoff{0.1, 0.05, 0.01, 0.001};
   double step = 0.05, highest = 9.0, tolerance = afm::kDefaultContactTolerance;
   std::int64_t tau = 1000, transient = 200;
+  afm::Bath bath;
 };
 
 struct Figures {
@@ -74,7 +75,8 @@ double slowest_tau(afm::Tip tip, const Options& o) {
 Figures measure(double eta, double cutoff, const Options& o) {
   afm::Model model;
   model.v_c = cutoff;
-  const afm::Tip start(model, eta, afm::FreeState{0.25, 0.0, 0.2, eta, 0.0}, o.tolerance);
+  afm::Tip start(model, eta, afm::FreeState{0.25, 0.0, 0.2, eta, 0.0}, o.tolerance);
+  start.set_bath(o.bath);
   afm::Tip tip = start;
   Figures f{0.0, 0.0, 0.0, 0.0, 0};
   Tau sum;
@@ -104,6 +106,8 @@ int main(int argc, char** argv) {
   app.option("highest", o.highest, "");
   app.option("cutoff", o.cutoff, "v_c [a/tau]");
   app.option("tolerance", o.tolerance, "contact tolerance");
+  app.option("temperature", o.bath.temperature, "kT of the heat bath [m a^2/tau^2]", {0.0, afm::kMaxTemperature});
+  app.option("quality-factor", o.bath.quality_factor, "of the cantilever; 0: no bath", {0.0, 1e12});
   app.option("tau", o.tau, "measured time each");
   app.option("transient", o.transient, "time before that");
   return app.run(argc, argv, [&] {

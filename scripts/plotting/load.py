@@ -7,7 +7,7 @@ NEWTON_V = 4.08e-10 * 4e4 ** 2 * 5.2e-10
 TAU = style.TWO_PI / 4e4
 CASES = (("no bath", style.BLUE, "-", ()), ("300 K, Q = 100", style.ORANGE, "--",
                                             ("--temperature", 300 * KELVIN, "--quality-factor", 100)))
-SPEEDS = (1, 2, 3.4)
+SPEEDS = (0.5, 2, 3.4)
 
 
 def newtons(k_f, eta):
@@ -15,9 +15,14 @@ def newtons(k_f, eta):
     return k_f * eta * 4.08e-10 * 5.2e-10 / TAU ** 2
 
 
+def liftoff(eta):
+    """The load above which the tip follows the surface over its crests, without friction [nN]."""
+    return 1e9 * NEWTON_V * style.AMPLITUDE * (eta ** 2 - 1)
+
+
 def rows_at(tables, eta, name, bath):
     return tables.make("load_%g_%s" % (eta, "cold" if not bath else "warm"), "friction_curve", "--eta", eta, "--rest-height",
-                       "-0.6:0.09:0.05" if tables.quick else "-0.6:0.09:0.005", "--duration",
+                       "-1.1:0.09:0.1" if tables.quick else "-1.1:0.09:0.01", "--duration",
                        500 if tables.quick else 10000, *bath)
 
 
@@ -34,9 +39,11 @@ def load(tables):
             ax.plot(load_n, force, color=colour, linestyle=line, linewidth=1.2, label=name)
             ax.fill_between(load_n, [f - e for f, e in zip(force, error)], [f + e for f, e in zip(force, error)],
                             color=colour, alpha=0.3, linewidth=0)
+        if eta > 1:
+            ax.axvline(liftoff(eta), color="black", linestyle=":", linewidth=1.2, label=r"$k_v H (\eta^2 - 1)$")
         ax.set_ylabel(r"$\eta$ = %g:  lateral force / nN" % eta)
         ax.grid(color="#dddddd", linewidth=0.6)
-    axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2, frameon=False)
+    axes[1].legend(loc="upper right", frameon=False)
     axes[-1].set_xlabel(r"load $-k_v y_0$ / nN")
     tables.write("load", ("eta", "bath", "rest_height", "k_f_work", "k_f_work_std_error"), table)
     return figure

@@ -70,7 +70,7 @@ def publish_peaks(tables, curves):
         peaks = [at(curve_rows, eta) for eta in (2, 4, 6)]
         troughs = [at(curve_rows, eta) for eta in (3, 5, 7)]
         rows.append([kelvin, quality or "no bath"] + ["%.3f" % row["k_f_work"] for row in peaks + troughs]
-                    + ["%.2g" % max(averaging_time(peaks[2], trough, duration) for trough in troughs[1:])])
+                    + ["%.2g" % max(averaging_time(peaks[2], trough, duration) for trough in troughs[1:]) if kelvin else ""])
     tables.write("thermal_peaks", ("T / K", "Q", "eta = 2", "eta = 4", "eta = 6", "eta = 3", "eta = 5", "eta = 7",
                                      "averaging time / tau"), rows)
 
@@ -146,6 +146,8 @@ def draw_thermostats(axes, rows):
 
 def accuracy(tables):
     rows = kick_rows(tables)
+    tables.make("thermal_real_time", "real_time", "--temperature", 0.926, "--quality-factor", 100, "--cutoff", 0.05,
+                "--step", 1 if tables.quick else 0.05, "--tau", 100 if tables.quick else 5000)
     thermostats = tables.make("thermostats", "thermostats", "--seconds", 0.2 if tables.quick else 12)
     figure, (left, right) = style.new(13.0, 5.5, 1, 2)
     draw_kicks(left, rows)

@@ -48,6 +48,21 @@ def rates(tables):
     return rows
 
 
+def merge(tables):
+    """Do tips from many starts end alike? The least and the greatest mean, and the standard error of each."""
+    rows = []
+    for eta in (2, 3.75, 6.5):
+        for quality in (500, 100):
+            for kelvin in (0, 4, 77, 300):
+                tips = windows(tables, eta, kelvin * KELVIN, quality, 50, 5000)
+                means = sorted(sum(values) / len(values) for values in tips.values())
+                spread = [sum((v - sum(values) / len(values)) ** 2 for v in values) for values in tips.values()]
+                n = len(tips[0.0])
+                error = (sum(spread) / len(tips) / n) ** 0.5 / n ** 0.5
+                rows.append((eta, quality, kelvin, "%.4f" % means[0], "%.4f" % means[-1], "%.4f" % error if kelvin else ""))
+    tables.write("thermal_merge", ("eta", "Q", "T / K", "least K_f", "greatest K_f", "standard error of each"), rows)
+
+
 def draw_rates(axes, rows):
     looks = {(2, "upper"): (style.ORANGE, "s"), (2, "lower"): (style.ORANGE, "o"), (6.5, "upper"): (style.BLUE, "s"),
              (6.5, "lower"): (style.BLUE, "o")}
@@ -68,7 +83,7 @@ def draw_rates(axes, rows):
 def draw_traces(axes, tables):
     for i, theta in enumerate((0.025, 0.08, 0.2377, 0.926)):
         tips = windows(tables, 6.5, theta, window=50)
-        values = tips[0.0][:100]
+        values = tips[0.0][:400]
         axes[i].plot([50 * k for k in range(len(values))], values, color=style.BLUE, linewidth=0.8)
         axes[i].set_ylabel("%.3g K" % (theta / KELVIN))
         for level in CASES[6.5][0]:
@@ -79,6 +94,7 @@ def draw_traces(axes, tables):
 
 
 def hops(tables):
+    merge(tables)
     figure = style.pyplot.figure(figsize=(13.0, 6.0), constrained_layout=True)
     grid = figure.add_gridspec(4, 2)
     draw_rates(figure.add_subplot(grid[:, 0]), rates(tables))

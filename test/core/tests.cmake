@@ -63,6 +63,7 @@ set(dynamics_tests
   dynamics/cycle_expansion
   dynamics/hammer_jacobian
   dynamics/hammer_orbits
+  dynamics/heated_sweep
   dynamics/jacobian
   dynamics/lyapunov
   dynamics/periodic_orbit

@@ -31,6 +31,8 @@ SUBSTITUTIONS = [
     (r'--gamma 0\.6:0\.8:0\.05 --cutoff 0\.02,0\.1', '--eta 2 --gamma 0.6:0.7:0.1 --cutoff 0.1'),
     (r'--eta 0\.25:8\.95:0\.3', '--eta 2.05 --gamma 0.7 --cutoff 0.1'),
     (r'(scripts/figures)$', r'\1 --quick --only fig1_friction'),
+    (r'--eta 0\.05:9:0\.05', '--eta 2:2.5:0.5'),
+    (r'(scripts/figures) --only thermal_friction.*?(\s+#.*)?$', r'\1 --quick --only load'),
     (r'(scripts/figures --only) hammer_friction.*', r'\1 hammer_friction --quick'),
     (r'(scripts/plot_friction_curve)', r'\1 --eta 2:3:0.5 --duration 100 --data curves'),
     (r'(scripts/plot_scenes)', r'\1 glide'),

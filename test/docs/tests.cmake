@@ -15,3 +15,6 @@ if(NOT AFM_SANITIZE)  # what these run, other tests run under sanitizers
     friction_curve next_impact replay_check)
   set_tests_properties(rosrun PROPERTIES TIMEOUT 60 SKIP_RETURN_CODE 77)
 endif()
+
+add_test(NAME document_tables COMMAND ${PROJECT_SOURCE_DIR}/scripts/tables --check)
+set_tests_properties(document_tables PROPERTIES TIMEOUT 30)

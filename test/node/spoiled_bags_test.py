@@ -154,6 +154,10 @@ class SpoiledBags(SpoiledBag):
             message = self.of('deflection')[100].message()
             message.vertical = [y * (1 + 1e-9) for y in message.vertical]
             self.of('deflection')[100].put(message)
+
+        def heat():
+            for entry in self.of('friction')[60:]:
+                entry.edit(heat=1e-6 * entry.message().energy_loss)
         spoils = [
             ((), lambda: None),
             (('impact law', 'energy balance', 'energy lost', 'K_f'), lambda: self.edit_impact(energy_loss=1 + 1e-6)),
@@ -161,6 +165,7 @@ class SpoiledBags(SpoiledBag):
             (('energy balance',), lambda: self.edit_impact(tangential_velocity=1 + 1e-6)),
             (('energy balance',), sample),
             (('K_f',), lambda: self.of('friction')[100].edit(k_f=self.of('friction')[100].message().k_f * (1 + 1e-9))),
+            (('work',), heat),
             (('energy lost',), lambda: self.of('friction')[100].edit(
                 energy_loss=self.of('friction')[100].message().energy_loss * (1 + 1e-9)))]
         for subjects, spoil in spoils:

@@ -183,6 +183,7 @@ class Steering(NodeTest):
             self.assertEqual(answer.code, checks.SOUND, answer.text)
             answer = checks.bag_check(path)
             self.assertEqual(answer.code, checks.SOUND, answer.text)
+            self.assertRegex(answer.text, r'ok  work .* at [1-9]\d* estimates of friction')
 
     def test_the_rest_height_is_commanded_by_topic_told_and_repeated(self):
         self.run_emulator()

@@ -20,15 +20,26 @@ EmulatorSettings settings_at(double eta, std::uint64_t samples_per_batch = 200) 
   return settings;
 }
 
-TEST(Emulator, BatchesOfAnySizeAreOneLongRun) {
-  Emulator whole(settings_at(3.4, 12000));
+// 0: no bath
+class EmulatorAt : public testing::TestWithParam<double> {
+ protected:
+  static EmulatorSettings settings(std::uint64_t samples_per_batch) {
+    EmulatorSettings settings = settings_at(3.4, samples_per_batch);
+    settings.bath.temperature = GetParam();
+    settings.bath.quality_factor = GetParam() > 0.0 ? 50.0 : 0.0;
+    return settings;
+  }
+};
+
+TEST_P(EmulatorAt, BatchesOfAnySizeAreOneLongRun) {
+  Emulator whole(settings(12000));
   RecordedRun truth;
   Batch batch;
   ASSERT_EQ(whole.run_batch(batch), Outcome::time_limit);
   truth.append(batch);
   ASSERT_EQ(truth.vertical.size(), 12000u);
   for (const std::uint64_t size : {1u, 7u, 100u, 3000u}) {
-    Emulator emulator(settings_at(3.4, size));
+    Emulator emulator(settings(size));
     RecordedRun run;
     while (run.vertical.size() < 12000 - size) {
       ASSERT_EQ(emulator.run_batch(batch), Outcome::time_limit);
@@ -39,8 +50,8 @@ TEST(Emulator, BatchesOfAnySizeAreOneLongRun) {
   }
 }
 
-TEST(Emulator, StoppingAnywhereChangesNothing) {
-  Emulator whole(settings_at(3.4, 4000)), stopped(settings_at(3.4, 4000));
+TEST_P(EmulatorAt, StoppingAnywhereChangesNothing) {
+  Emulator whole(settings(4000)), stopped(settings(4000));
   RecordedRun truth, run;
   Batch batch;
   whole.run_batch(batch);
@@ -58,6 +69,8 @@ TEST(Emulator, StoppingAnywhereChangesNothing) {
   expect_first_of(run, truth);
   EXPECT_EQ(run.impacts.size(), truth.impacts.size());
 }
+
+INSTANTIATE_TEST_SUITE_P(Temperatures, EmulatorAt, testing::Values(0.0, 0.926));
 
 TEST(Emulator, SamplesAndImpactsFollowWithoutAGap) {
   const EmulatorSettings settings = settings_at(5.0, 333);

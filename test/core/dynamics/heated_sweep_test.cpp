@@ -1,0 +1,53 @@
+// K_f by the work of the drag does not depend on the rate of kicks: the default against four times as many.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "afm/dynamics/sweep.h"
+
+namespace afm {
+namespace {
+
+struct Measured {
+  double K_f, error;
+};
+
+Measured measure(double eta, double quality_factor, double temperature, double kicks_per_tau) {
+  const SweepPoint point{eta, 0.7, 0.05};
+  SweepSettings settings;
+  settings.duration = 20000.0;
+  settings.transient = 500.0;
+  settings.bath.temperature = temperature;
+  settings.bath.quality_factor = quality_factor;
+  settings.bath.kicks_per_tau = kicks_per_tau;
+  const FrictionAverage friction = sweep_point(point, settings, random_start(point, 1, 0)).friction;
+  return {friction.K_f_work, friction.K_f_work_std_error};
+}
+
+constexpr double kBias = 0.005;  // allowed, relative
+
+double bias_beyond_noise(double eta, double quality_factor, double temperature, double kicks_per_tau) {
+  const Measured many = measure(eta, quality_factor, temperature, 4.0 * Bath{}.kicks_per_tau),
+                 few = measure(eta, quality_factor, temperature, kicks_per_tau);
+  return std::fmax(0.0, std::abs(few.K_f - many.K_f) - 4.0 * std::hypot(few.error, many.error)) / many.K_f;
+}
+
+struct Setting {
+  double eta, quality_factor, temperature;
+};
+class HeatedSweep : public testing::TestWithParam<Setting> {};
+
+TEST_P(HeatedSweep, TheDefaultRateOfKicksIsEnough) {
+  const auto [eta, quality_factor, temperature] = GetParam();
+  EXPECT_LT(bias_beyond_noise(eta, quality_factor, temperature, Bath{}.kicks_per_tau), kBias);
+}
+INSTANTIATE_TEST_SUITE_P(Settings, HeatedSweep,
+                         testing::Values(Setting{2.0, 100.0, 0.926}, Setting{2.0, 20.0, 0.926}, Setting{2.0, 20.0, 0.0},
+                                         Setting{3.4, 20.0, 0.926}, Setting{6.0, 100.0, 0.0},
+                                         Setting{6.0, 500.0, 0.926}));
+
+// Strobing: kicks at a whole rate come always at the same phases of an orbit of even eta.
+TEST(HeatedSweep, AWholeRateIsNot) { EXPECT_GT(bias_beyond_noise(2.0, 100.0, 0.926, 2.0), 10.0 * kBias); }
+
+}  // namespace
+}  // namespace afm
