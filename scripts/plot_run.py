@@ -54,8 +54,8 @@ class Run:
             self.impacts.append((self.seconds(i.time), i.normal_speed * 1e6, i.kind))
 
     def add_friction(self, message):
-        per_unit = message.k_f_tau_per_m / message.k_f if message.k_f else NAN
-        self.friction.append((self.seconds(message.time), message.k_f_tau_per_m, message.k_f_std_error * per_unit,
+        per_unit = message.k_f_natural / message.k_f if message.k_f else NAN
+        self.friction.append((self.seconds(message.time), message.k_f_natural, message.k_f_std_error * per_unit,
                               message.window_k_f * per_unit))
 
     def add_drag(self, message):

@@ -23,13 +23,13 @@ struct FrictionEstimate {
   double window_force = 0.0;  // over the sliding window
   double window_K_f = 0.0;
   double window_K_f_std_error = 0.0;
-  double lateral_force = 0.0;  // of the holder on the tip, exact over all the time so far [m a / tau^2]
+  double mean_lateral_force = 0.0;  // of the holder on the tip, exact over all the time so far [m a / tau^2]
   // Too large in short runs, as bins see the momentum that the tip carries across their ends: at eta = 3.4 by 2.5 after
   // 1000 tau, by 1.2 after 10000.
-  double lateral_force_std_error = 0.0;
-  double K_f_work = 0.0;  // from the work of the drag, lateral_force / eta: the definition (Eq. 1) [m / tau]
+  double mean_lateral_force_std_error = 0.0;
+  double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m / tau]
   double K_f_work_std_error = 0.0;
-  double heat = 0.0;  // that the bath took, since the last change of drag velocity [m a^2/tau^2]
+  double heat_to_bath = 0.0;  // since the last change of drag velocity [m a^2/tau^2]
 };
 
 // Energy or impulse in equal bins of time. When the bins are full neighbours merge, so any run fits in the same memory,

@@ -121,8 +121,8 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
   }
   for (int i = 0; i < 20; ++i) {
     emulator.run_batch(batch);
-    digest.add(batch.friction.lateral_force);
-    digest.add(batch.friction.lateral_force_std_error);
+    digest.add(batch.friction.mean_lateral_force);
+    digest.add(batch.friction.mean_lateral_force_std_error);
   }
   std::printf("%s: %s\n", name.c_str(), to_text(digest).c_str());
 }

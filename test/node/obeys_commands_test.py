@@ -29,7 +29,7 @@ class ObeysCommands(EmulatorTest):
     def assert_friction(self, eta, expected, tolerance):
         friction = self.settled_friction(eta)
         window = friction.window_k_f / FRICTION_UNIT
-        for k_f in (friction.k_f_tau_per_m, friction.k_f / FRICTION_UNIT):
+        for k_f in (friction.k_f_natural, friction.k_f / FRICTION_UNIT):
             self.assertAlmostEqual(k_f / expected, 1.0, delta=tolerance)
         self.assertAlmostEqual(window / expected, 1.0, delta=5 * tolerance)
         self.assertAlmostEqual(friction.eta, eta, delta=1e-12)

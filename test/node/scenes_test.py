@@ -128,7 +128,7 @@ class Scenes(NodeTest):
         ends = {}  # the last estimate of each
         for m in self.friction.messages:
             index = sum(d.time.tau < m.time.tau for d in drags.messages) - 1
-            ends[index] = m.k_f_tau_per_m
+            ends[index] = m.k_f_natural
         friction = [ends[begin + i] for i in range(len(eta))]
         top = eta.index(max(eta))
         self.assertAlmostEqual(friction[eta.index(6.0)], PEAK, delta=0.02 * PEAK)
@@ -152,8 +152,8 @@ class Scenes(NodeTest):
         for m in self.friction.messages:
             ends[sum(d.time.tau < m.time.tau for d in drags.messages) - 1] = m
         traces = [ends[i] for i in range(1, 12)]
-        self.assertEqual({math.copysign(1, m.lateral_force) for m in traces[::2]}, {math.copysign(1, traces[0].eta)})
-        opening = [(a.lateral_force - b.lateral_force) * math.copysign(1, a.eta) for a, b in zip(traces, traces[1:])]
+        self.assertEqual({math.copysign(1, m.mean_lateral_force) for m in traces[::2]}, {math.copysign(1, traces[0].eta)})
+        opening = [(a.mean_lateral_force - b.mean_lateral_force) * math.copysign(1, a.eta) for a, b in zip(traces, traces[1:])]
         half = 0.5 * sum(opening) / len(opening)
         self.assertAlmostEqual(half / (4.17 * FRICTION_UNIT * 2 * SPEED_UNIT), 1.0, delta=0.1)
 

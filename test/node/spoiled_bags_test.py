@@ -45,7 +45,7 @@ class SpoiledBags(SpoiledBag):
 
     def test_one_bit_of_one_estimate(self):
         flip_last_bit(self.of('friction')[100], -8)
-        self.assert_told(checks.ALTERED, 'friction.heat', 'ALTERED')
+        self.assert_told(checks.ALTERED, 'friction.heat_to_bath', 'ALTERED')
 
     def test_another_command(self):
         self.of('applied_drag')[1].edit(drag_velocity=2.1 * SPEED_UNIT)
@@ -157,7 +157,7 @@ class SpoiledBags(SpoiledBag):
 
         def heat():
             for entry in self.of('friction')[60:]:
-                entry.edit(heat=1e-6 * entry.message().energy_loss)
+                entry.edit(heat_to_bath=1e-6 * entry.message().energy_loss)
         spoils = [
             ((), lambda: None),
             (('impact law', 'energy balance', 'energy lost', 'K_f'), lambda: self.edit_impact(energy_loss=1 + 1e-6)),

@@ -12,7 +12,7 @@ class Standstill(EmulatorTest):
     def assert_no_friction(self):
         friction = self.friction.wait_for_next(lambda m: m.drag_velocity == 0.0, 'standing')
         self.assertEqual((friction.force, friction.eta), (0.0, 0.0))
-        for k_f in (friction.k_f, friction.k_f_tau_per_m, friction.window_k_f):
+        for k_f in (friction.k_f, friction.k_f_natural, friction.window_k_f):
             self.assertTrue(math.isnan(k_f))
 
     def assert_publishes(self, batches=20):

@@ -176,14 +176,15 @@ class Steering(NodeTest):
         self.change(quality_factor=20.0)
         self.friction.wait_for_more(100)
         estimate = self.friction.messages[-1]
-        self.assertNotEqual(estimate.heat, 0.0)
-        self.assertAlmostEqual(estimate.k_f_work * estimate.drag_velocity / estimate.lateral_force, 1.0, delta=1e-12)
+        self.assertNotEqual(estimate.heat_to_bath, 0.0)
+        self.assertAlmostEqual(estimate.k_f_work * estimate.drag_velocity / estimate.mean_lateral_force, 1.0, delta=1e-12)
         for path in self.end():
             answer = checks.replay_check(path)
             self.assertEqual(answer.code, checks.SOUND, answer.text)
             answer = checks.bag_check(path)
             self.assertEqual(answer.code, checks.SOUND, answer.text)
-            self.assertRegex(answer.text, r'ok  work .* at [1-9]\d* estimates of friction')
+        # the last path: with 3 kicks a tau there are pairs of samples without one between them
+        self.assertRegex(answer.text, r'ok  work .* at [1-9]\d* estimates of friction')
 
     def test_the_rest_height_is_commanded_by_topic_told_and_repeated(self):
         self.run_emulator()

@@ -19,7 +19,7 @@ from topics import TOPICS, Topic, tau_between, wait_until
 
 SLOW = {'time_scale': 3e-4, 'sample_rate_hz': 1e6, 'batch_rate_hz': 50.0}
 EXACT = 1e-6          # cells: the exact place, after sums over some hundred tau
-PLOTTED = {Friction: ('drag_velocity', 'eta', 'force', 'k_f', 'k_f_std_error', 'k_f_tau_per_m', 'window_k_f'),
+PLOTTED = {Friction: ('drag_velocity', 'eta', 'force', 'k_f', 'k_f_std_error', 'k_f_natural', 'window_k_f'),
            AppliedDrag: ('drag_velocity',),
            EmulatorStatus: ('real_time_factor', 'lag', 'impacts_per_tau', 'late_batches')}
 
@@ -120,7 +120,7 @@ class ViewTest(NodeTest):
         shown = re.match(r'K_f ([\d.]+) \+- ([\d.]+) m/tau$', Picture(self.view.markers.messages[-1]).text('friction'))
         return shown and all(
             float(number) > 0.0 and abs(float(number) - right) < 0.51 * 10.0 ** -len(number.split('.')[1])
-            for number, right in zip(shown.groups(), (friction.k_f_tau_per_m, friction.k_f_std_error / FRICTION_UNIT)))
+            for number, right in zip(shown.groups(), (friction.k_f_natural, friction.k_f_std_error / FRICTION_UNIT)))
 
     def assert_shows_all(self):
         picture, told, time = self.picture_of_now()

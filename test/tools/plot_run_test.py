@@ -41,7 +41,7 @@ class PlotRun(unittest.TestCase):
                     bag.write('/tip/deflection', deflection)
                     bag.write('/tip/impacts', ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k)
                                                                               for k in range(4)]))
-                    bag.write('/tip/friction', Friction(epoch=epoch, k_f=1e-6, k_f_tau_per_m=0.4))
+                    bag.write('/tip/friction', Friction(epoch=epoch, k_f=1e-6, k_f_natural=0.4))
         return path
 
     def test_draws_beside_the_bag_or_where_told(self):

@@ -144,11 +144,11 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   e.window_force = to_force(window_power);
   e.window_K_f = to_K_f(window_power);
   e.window_K_f_std_error = to_K_f(window_.std_error(window_age));
-  e.lateral_force = age > 0.0 ? (impulse_.value() + open.impulse) / age : kNaN;
-  e.lateral_force_std_error = impulse_bins_.std_error(age);
-  e.K_f_work = moving ? e.lateral_force / eta_ : kNaN;
-  e.K_f_work_std_error = moving ? e.lateral_force_std_error / std::abs(eta_) : kNaN;
-  e.heat = heat_.value();
+  e.mean_lateral_force = age > 0.0 ? (impulse_.value() + open.impulse) / age : kNaN;
+  e.mean_lateral_force_std_error = impulse_bins_.std_error(age);
+  e.K_f_work = moving ? e.mean_lateral_force / eta_ : kNaN;
+  e.K_f_work_std_error = moving ? e.mean_lateral_force_std_error / std::abs(eta_) : kNaN;
+  e.heat_to_bath = heat_.value();
   return e;
 }
 

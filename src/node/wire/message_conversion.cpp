@@ -81,17 +81,17 @@ afm_emulator::Friction to_friction(const Batch& batch, double drag_velocity, con
   message.force_std_error = estimate.force_std_error * units.force();
   message.k_f = estimate.K_f * units.friction();
   message.k_f_std_error = estimate.K_f_std_error * units.friction();
-  message.k_f_tau_per_m = estimate.K_f;
+  message.k_f_natural = estimate.K_f;
   message.energy_loss = estimate.energy_loss * units.energy();
   message.impact_count = estimate.impact_count;
   message.window_force = estimate.window_force * units.force();
   message.window_k_f = estimate.window_K_f * units.friction();
   message.window_k_f_std_error = estimate.window_K_f_std_error * units.friction();
-  message.lateral_force = estimate.lateral_force * units.force();
-  message.lateral_force_std_error = estimate.lateral_force_std_error * units.force();
+  message.mean_lateral_force = estimate.mean_lateral_force * units.force();
+  message.mean_lateral_force_std_error = estimate.mean_lateral_force_std_error * units.force();
   message.k_f_work = estimate.K_f_work * units.friction();
   message.k_f_work_std_error = estimate.K_f_work_std_error * units.friction();
-  message.heat = estimate.heat * units.energy();
+  message.heat_to_bath = estimate.heat_to_bath * units.energy();
   return message;
 }
 

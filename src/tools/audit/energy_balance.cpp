@@ -12,16 +12,16 @@ void EnergyAudit::add(const afm_emulator::Friction& estimate, const ModelTime& s
   const ModelTime time = node::from_message(estimate.time);
   const double K_f = estimate.eta == 0.0 ? 0.0 : estimate.k_f_work / units_.friction();
   const double work = K_f * estimate.eta * estimate.eta * (time - since), loss = estimate.energy_loss / units_.energy(),
-               heat = estimate.heat / units_.energy();
+               heat = estimate.heat_to_bath / units_.energy();
   estimates_.push_back({time, since, work - loss - heat, std::abs(work) + loss + std::abs(heat)});
 }
 
-// Between two events that follow each other.
+// Between two events that follow each other. Not at the very time of the first: a command may have jolted the hammer.
 void EnergyAudit::judge_estimates(const Event& before, const Event& after) {
   const bool flies = flies_between(before, after);
   for (; !estimates_.empty() && estimates_.front().time < after.time; estimates_.pop_front()) {
     const Estimate& estimate = estimates_.front();
-    if (!flies || estimate.time < before.time || conditioning_ > 100.0) continue;
+    if (!flies || !(before.time < estimate.time) || conditioning_ > 100.0) continue;
     const std::uint64_t last = last_sample_before(estimate.time);
     for (const std::uint64_t first : {last - 1, last}) {
       if (!is_heard(first) || !is_heard(first + 1)) continue;

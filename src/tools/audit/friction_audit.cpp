@@ -98,12 +98,12 @@ void FrictionAudit::judge_figures(const afm_emulator::Friction& estimate, double
   note(report_.k_f_error, mismatch(estimate.drag_velocity, v0));
   note(report_.k_f_error, mismatch(estimate.eta, v0 / units_.velocity()));
   note(report_.k_f_error, mismatch(estimate.k_f, k_f));
-  note(report_.k_f_error, mismatch(estimate.k_f_tau_per_m, k_f / units_.friction()));
+  note(report_.k_f_error, mismatch(estimate.k_f_natural, k_f / units_.friction()));
   note(report_.k_f_error, mismatch(estimate.force, moving ? k_f * v0 : 0.0));
   last_ = Stretch{v0,
                   estimate.eta,
                   age / units_.time(),
-                  estimate.k_f_tau_per_m,
+                  estimate.k_f_natural,
                   estimate.k_f_std_error / units_.friction(),
                   k_f / units_.friction()};
 }

@@ -255,7 +255,7 @@ TEST(Emulator, TheMeanLateralForceIsThePowerOfTheDragOverItsVelocity) {
     while (emulator.run_impacts(1, batch) != Outcome::impact) continue;
     const double work = batch.friction.energy_loss + lab_energy(emulator) - stored;
     const double force = work / (emulator.eta() * (emulator.now() - begin));
-    EXPECT_NEAR(batch.friction.lateral_force, force, 1e-12 * std::abs(eta) * std::abs(eta)) << eta;
+    EXPECT_NEAR(batch.friction.mean_lateral_force, force, 1e-12 * std::abs(eta) * std::abs(eta)) << eta;
   }
 }
 
@@ -272,9 +272,9 @@ TEST(Emulator, TheErrorOfTheMeanLateralForceIsThatOfRepeatedRuns) {
     emulator.run_until({10000, 0.0}, batch);
     while (emulator.now() < ModelTime{10000, 0.0}) emulator.run_until({10000, 0.0}, batch);
     const FrictionEstimate& e = batch.friction;
-    mean += e.lateral_force / kRuns;
-    square += e.lateral_force * e.lateral_force / kRuns;
-    variance += e.lateral_force_std_error * e.lateral_force_std_error / kRuns;
+    mean += e.mean_lateral_force / kRuns;
+    square += e.mean_lateral_force * e.mean_lateral_force / kRuns;
+    variance += e.mean_lateral_force_std_error * e.mean_lateral_force_std_error / kRuns;
   }
   const double told_over_found = std::sqrt(variance / (square - mean * mean));
   EXPECT_GT(told_over_found, 0.9);
