@@ -1,4 +1,5 @@
 """Shared by the tests of the node: the emulator as a process of its own, which is cleaned up after every test."""
+import contextlib
 import os
 import signal
 import subprocess
@@ -90,6 +91,14 @@ class NodeTest(unittest.TestCase):
 
     def setUp(self):
         self.addCleanup(Topic.close_all)
+
+    @contextlib.contextmanager
+    def subTest(self, **of):
+        """The first that fails ends the test: rosunit does not print the failure of a subtest."""
+        try:
+            yield
+        except AssertionError as error:
+            raise AssertionError('%s: %s' % (of, error)) from error
 
     def start(self, process):
         self.addCleanup(process.clean_up)

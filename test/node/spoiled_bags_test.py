@@ -158,6 +158,10 @@ class SpoiledBags(SpoiledBag):
         def heat():
             for entry in self.of('friction')[60:]:
                 entry.edit(heat_to_bath=1e-6 * entry.message().energy_loss)
+
+        def loss():
+            for entry in self.of('friction')[60:]:
+                entry.edit(energy_loss=(1 + 1e-9) * entry.message().energy_loss)
         spoils = [
             ((), lambda: None),
             (('impact law', 'energy balance', 'energy lost', 'K_f'), lambda: self.edit_impact(energy_loss=1 + 1e-6)),
@@ -166,8 +170,7 @@ class SpoiledBags(SpoiledBag):
             (('energy balance',), sample),
             (('K_f',), lambda: self.of('friction')[100].edit(k_f=self.of('friction')[100].message().k_f * (1 + 1e-9))),
             (('work',), heat),
-            (('energy lost',), lambda: self.of('friction')[100].edit(
-                energy_loss=self.of('friction')[100].message().energy_loss * (1 + 1e-9)))]
+            (('work', 'energy lost'), loss)]
         for subjects, spoil in spoils:
             with self.subTest(subjects=subjects):
                 self.setUp()
