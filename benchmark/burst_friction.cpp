@@ -33,7 +33,7 @@ Result run(double eta, double cutoff, double tolerance, const Options& o) {
   Result r{true, 0.0, {}};
   afm::Segments ended;
   for (bool counting = false;;) {
-    const afm::Outcome outcome = tip.advance_arc(counting ? end : begin, &ended);
+    const afm::Outcome outcome = tip.advance_segment(counting ? end : begin, &ended);
     if (outcome == afm::Outcome::time_limit) {
       if (counting) break;
       friction.restart(begin, eta);

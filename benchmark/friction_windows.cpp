@@ -33,7 +33,7 @@ class Work {
  public:
   explicit Work(afm::Tip& tip) : tip_(tip) {}
   double up_to(const afm::ModelTime& time) {
-    while (tip_.advance_arc(time, &ended_) != afm::Outcome::time_limit) {
+    while (tip_.advance_segment(time, &ended_) != afm::Outcome::time_limit) {
       for (const afm::Segment& segment : ended_) done_ += segment.work();
     }
     return done_ + tip_.segment().work();

@@ -23,7 +23,7 @@ TipState settled(const Model& model, double eta, std::int64_t tau) {
   while (tip.now().tau < tau) tip.advance({tau, 0.0});
   for (;;) {
     const ModelTime begin = tip.now();
-    const double flight = tip.arc_end() - begin;
+    const double flight = tip.segment_end() - begin;
     if (!tip.in_contact() && tip.last_impact().kind == ImpactKind::impact && flight > kLong) {
       tip.advance(begin + 0.5 * flight);
       return tip.tip_state();

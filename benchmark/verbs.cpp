@@ -10,7 +10,7 @@
 #include "afm/detail/multiversion.h"
 #include "afm/reflection.h"
 #include "afm/tip.h"
-#include "core/tip/tip_arcs.h"
+#include "core/tip/tip_motion.h"
 
 namespace {
 
@@ -117,7 +117,7 @@ BENCHMARK(MicroBounce);
 void Slide(benchmark::State& state) {
   const Mechanics<double> mechanics{Model{}};
   double phase = 0.4;
-  SlidePiece<double> slide(mechanics, 3.0, {phase, 0.001, 3.0});
+  SlideSegment<double> slide(mechanics, 3.0, {phase, 0.001, 3.0});
   for (auto _ : state) {
     slide_from(mechanics, 3.0, {phase, 0.001, 3.0}, kSlideBits, slide);
     benchmark::DoNotOptimize(release_of(slide));
@@ -146,7 +146,7 @@ BENCHMARK(OneTau)->Arg(0)->Arg(20)->Arg(50)->Arg(100)->Arg(200)->Arg(300)->Arg(3
 void Sample(benchmark::State& state) {
   Tip tip(Model{}, 3.4, FreeState{0.25, 0.0, 0.2, 3.4, 0.0});
   while (tip.now().tau < 300) tip.advance({300, 0.0});
-  const double length = tip.arc_end() - tip.now();
+  const double length = tip.segment_end() - tip.now();
   int i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(tip.deflection(tip.now() + 1e-3 * i * length));
@@ -161,7 +161,7 @@ void SampleRow(benchmark::State& state) {
   while (tip.now().tau < 300) tip.advance({300, 0.0});
   const std::size_t n = static_cast<std::size_t>(state.range(0));
   std::vector<double> vertical(n), lateral(n);
-  const SampleGrid grid{(tip.arc_end() - tip.now()) / static_cast<double>(n), 0, tip.now()};
+  const SampleGrid grid{(tip.segment_end() - tip.now()) / static_cast<double>(n), 0, tip.now()};
   for (auto _ : state) benchmark::DoNotOptimize(tip.deflections(grid, 0, n, vertical.data(), lateral.data()));
   state.counters["per_sample"] = benchmark::Counter(
       static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);

@@ -68,11 +68,11 @@ class BurstTrials {
     for (;;) {
       if (tip_.advance(end_) == Outcome::time_limit) tip_ = fresh();
       const Impact& impact = tip_.last_impact();
-      const TipState guide = tip_.tip_state();
-      if (impact.kind != ImpactKind::impact || guide.g != 0.0 || guide.g1 != 0.0) continue;
+      const TipState slide = tip_.tip_state();
+      if (impact.kind != ImpactKind::impact || slide.g != 0.0 || slide.g1 != 0.0) continue;
       const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
       if (!(after > 0.0)) continue;
-      return leave_surface(model_, {guide.phase, guide.X, guide.u}, after);
+      return leave_surface(model_, {slide.phase, slide.X, slide.u}, after);
     }
   }
 

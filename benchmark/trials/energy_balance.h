@@ -27,10 +27,10 @@ class EnergyBalance {
  public:
   explicit EnergyBalance(const Tip& tip) : stored_(tip.stored_energy()) {}
 
-  // Tip::advance_arc, its segments added.
-  Outcome advance_arc(Tip& tip, const ModelTime& limit) {
+  // Tip::advance_segment, its segments added.
+  Outcome advance_segment(Tip& tip, const ModelTime& limit) {
     Segments ended;
-    const Outcome outcome = tip.advance_arc(limit, &ended);
+    const Outcome outcome = tip.advance_segment(limit, &ended);
     for (const Segment& segment : ended) add(segment);
     return outcome;
   }
@@ -52,7 +52,7 @@ class EnergyBalance {
     if (tip.model().kind == ModelKind::hammer) return sum;
     const double now = tip.stored_energy(), by_records = stored_ + tip.segment().stored;
     // in a chatter sequence the state is that of the reference slide, without the bounces
-    const double of_state = tip.in_burst() ? now : afm::stored_energy(tip.model(), tip.state());
+    const double of_state = tip.in_chatter() ? now : afm::stored_energy(tip.model(), tip.state());
     return std::max({sum, std::abs(by_records - now), std::abs(of_state - now)});
   }
   // What it is to be compared with: all that has been turned over.

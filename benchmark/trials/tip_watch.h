@@ -28,11 +28,11 @@ class TipWatch {
       : model_(model), tip_(model, eta, start, contact_tolerance), balance_(tip_) {}
 
   // One arc, or to the limit. False: what violation() tells has happened.
-  bool advance_arc(const ModelTime& limit, Outcome& outcome) {
-    const ModelTime begin = tip_.now(), arc_end = tip_.arc_end(), end = arc_end < limit ? arc_end : limit;
-    if (arc_end < begin) return violated("an arc ends before it begins");
+  bool advance_segment(const ModelTime& limit, Outcome& outcome) {
+    const ModelTime begin = tip_.now(), segment_end = tip_.segment_end(), end = segment_end < limit ? segment_end : limit;
+    if (segment_end < begin) return violated("an arc ends before it begins");
     if (!check_depths(begin, end)) return false;
-    outcome = balance_.advance_arc(tip_, limit);
+    outcome = balance_.advance_segment(tip_, limit);
     enter(outcome);
     if (outcome == Outcome::search_failed) return violated("the search failed");
     if (tip_.now() < begin) return violated("time ran backwards");
@@ -44,7 +44,7 @@ class TipWatch {
   bool advance(const ModelTime& limit) {
     Outcome outcome = Outcome::flying;
     while (outcome != Outcome::time_limit) {
-      if (!advance_arc(limit, outcome)) return false;
+      if (!advance_segment(limit, outcome)) return false;
     }
     return true;
   }
@@ -66,7 +66,7 @@ class TipWatch {
          << " eta " << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 "
          << s.g1
          << (tip_.in_contact() ? " in contact"
-             : tip_.in_burst() ? " in a burst"
+             : tip_.in_chatter() ? " in a burst"
                                : "");
     return text.str();
   }

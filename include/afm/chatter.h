@@ -35,31 +35,31 @@ class ChatterLaw {
   bool holds(const Flight<double>& bounce) const;
 
   // From one time of the reference slide to another, `until`, or to the end of the chatter.
-  ChatterRun run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const;
+  ChatterRun run(const SlideSegment<double>& reference, double from, double until, const Chatter& start) const;
 
   // From the start of the reference slide to a time before that end.
-  Chatter at(const SlidePiece<double>& guide, double s, const Chatter& start) const;
+  Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;
 
   // Whether bounces at v lose too large a part of it for the averages, and are made one by one.
-  bool descends(double v) const { return most_loss_ >= kLeastDescent && steep(v); }
+  bool takes_single_bounces(double v) const { return most_loss_ >= kLeastSingleLoss && loses_too_much(v); }
   double most_loss() const { return most_loss_; }  // 1 - gamma
   const ChatterRates& rates() const { return rates_; }
 
  private:
-  bool steep(double v) const;
+  bool loses_too_much(double v) const;
   double adiabaticity(const ChatterSurroundings& at, double v, bool within) const;
   double step_length(const ChatterPlace& at) const;
   double step_towards_end(const ChatterPlace& at, double dt) const;
   double time_until_limit(const ChatterPlace& at, double ratio) const;
-  ChatterRun descend(const SlidePiece<double>& guide, double from, double until, const Chatter& start,
+  ChatterRun follow_single_bounces(const SlideSegment<double>& reference, double from, double until, const Chatter& start,
                      bool exits) const;
-  ChatterRun follow(const SlidePiece<double>& guide, double from, double until, const Chatter& start, bool exits) const;
+  ChatterRun follow(const SlideSegment<double>& reference, double from, double until, const Chatter& start, bool exits) const;
   ChatterRun exit_at(double n, const ChatterPlace& at) const;
-  ChatterRun whole_bounce(const SlidePiece<double>& guide, const ChatterPlace& from, const ChatterPlace& to,
+  ChatterRun whole_bounce(const SlideSegment<double>& reference, const ChatterPlace& from, const ChatterPlace& to,
                           double last_ratio) const;
 
   // Where bounces above the cutoff lose less than this part of v there are too many to be made one by one.
-  static constexpr double kLeastDescent = 0.05;
+  static constexpr double kLeastSingleLoss = 0.05;
 
   double v_c_, threshold_, most_loss_;
   ChatterRates rates_;
@@ -69,11 +69,11 @@ class ChatterLaw {
 
 // The tip at a bounce with its normal velocity taken out, and put back: tangential velocity kept.
 struct Projection {
-  SlideState<double> guide;
+  SlideState<double> reference;
   double normal_speed;         // |n.v| of the gap rate taken out [a/tau]
   double tangential_velocity;  // [a/tau]
 };
 Projection project_onto_surface(const Model& model, const TipState& state);
-TipState leave_surface(const Model& model, const SlideState<double>& guide, double normal_speed);
+TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed);
 
 }  // namespace afm

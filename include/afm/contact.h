@@ -15,10 +15,10 @@ namespace afm {
 constexpr int kSlideBits = 48;
 
 template <class T>
-class SlidePiece {
+class SlideSegment {
  public:
   // At length() the last terms are at most about three times 2^-bits: at 48 the velocity is good to 1e-14 up to there.
-  SlidePiece(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
+  SlideSegment(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
       : m_(mechanics), eta_(eta), start_(start) {
     write_slide_series(mechanics, eta, start, series_);
     length_ = choose_length(bits);
@@ -54,9 +54,9 @@ class SlidePiece {
 // three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they
 // are divided as such, which is quick, and the same on every machine.
 template <class T>
-T SlidePiece<T>::choose_length(int bits) const {
+T SlideSegment<T>::choose_length(int bits) const {
   constexpr std::int64_t kBit = std::int64_t{1} << 52, kOne = 1023 * kBit;
-  const Series<T>& c = static_cast<double>(m_.mobility) == 0.0 ? series_.lambda : series_.u;
+  const Series<T>& c = static_cast<double>(m_.is_free_along_x) == 0.0 ? series_.lambda : series_.u;
   double longest = 8.0;  // [tau]
 #pragma GCC unroll 2
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
@@ -73,13 +73,13 @@ T SlidePiece<T>::choose_length(int bits) const {
 }
 
 template <class T>
-SlideState<T> SlidePiece<T>::at(const T& s) const {
+SlideState<T> SlideSegment<T>::at(const T& s) const {
   const T d = horner(series_.d, s);
   return {start_.phase + d, start_.X + (d - eta_ * s), horner(series_.u, s)};
 }
 
 template <class T>
-T SlidePiece<T>::displacement_integral(const T& s) const {
+T SlideSegment<T>::displacement_integral(const T& s) const {
   Series<T> mean = series_.d;
 #pragma GCC unroll 32
   for (std::size_t k = 1; k <= kSlideOrder; ++k) mean[k] = series_.d[k] * T(1.0 / static_cast<double>(k + 1));
@@ -87,7 +87,7 @@ T SlidePiece<T>::displacement_integral(const T& s) const {
 }
 
 template <class T>
-std::array<T, 4> SlidePiece<T>::pressure_jet(const T& s) const {
+std::array<T, 4> SlideSegment<T>::pressure_jet(const T& s) const {
   using std::fma;
   std::array<T, 4> c{};  // Horner's scheme for the function and, over k!, its derivatives
   for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
@@ -114,7 +114,7 @@ T largest_change(const Series<T>& series, const T& s) {
 }
 
 template <class T>
-T SlidePiece<T>::find_release() const {
+T SlideSegment<T>::find_release() const {
   constexpr double kPart = 1.0 / 1024.0;
   const T noise = release_noise(m_, start_.u, start_.X), pressed = series_.lambda[0] + noise;
   if (pressed > largest_change(series_.lambda, length_)) return T(-1.0);

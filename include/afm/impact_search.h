@@ -91,7 +91,7 @@ struct Progress {
 template <class T>
 Progress<T> take_off(const Flight<T>& f) {
   using std::max;
-  const T first = time_to_leave(f), aloft = time_aloft(f, first), trial = T(2.0) * first;
+  const T first = time_to_leave(f), aloft = time_above_crest_from_launch(f, first), trial = T(2.0) * first;
   if (aloft > first) return {aloft, descent(f, first), trial};
   // where the root of the parabola is near, the impact is nearly there
   const bool returns = f.start().g2 * first < T(-1.6) * f.start().g1;

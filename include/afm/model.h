@@ -40,7 +40,7 @@ bool parse(const std::string& name, ModelKind& kind);
 const char* name(ModelKind kind);
 
 // 1 where the tip is free along the surface, 0 where it is held.
-inline double mobility(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
+inline double is_free_along_x(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
 
 // Of the section of impacts: a held tip has its phase and gap rate only.
 inline int section_dimension(const Model& model) { return model.kind == ModelKind::hammer ? 2 : 4; }

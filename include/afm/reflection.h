@@ -25,7 +25,7 @@ struct Reflection {
 // `incident`: on the surface; a gap rate above 0 is rounding, and taken for 0. Below the cutoff the law gives the small
 // difference 1 - gamma_eff itself, so that no digits cancel.
 inline Reflection reflect(const Model& model, double eta, const GapJet<double>& incident) {
-  const double g1 = std::min(0.0, incident.g1), h1 = incident.h1, slope = mobility(model) * h1;
+  const double g1 = std::min(0.0, incident.g1), h1 = incident.h1, slope = is_free_along_x(model) * h1;
   const double n2 = std::fma(slope, h1, 1.0), inverse_n2 = 1.0 / n2, inverse_n = std::sqrt(n2) * inverse_n2;
   const double u = eta + incident.state.U, speed = -g1 * inverse_n;
   const bool fast = speed >= model.v_c;

@@ -42,8 +42,8 @@ class Tip {
 
   // The same, in arcs: it also stops (Outcome::flying) after a kick and where the search of a long flight has come to.
   // `ended`: the segments that ended with this arc; they do not depend on the limits.
-  Outcome advance_arc(const ModelTime& limit, Segments* ended = nullptr);
-  ModelTime arc_end();  // up to here, exclusive, deflection() holds
+  Outcome advance_segment(const ModelTime& limit, Segments* ended = nullptr);
+  ModelTime segment_end();  // up to here, exclusive, deflection() holds
 
   // The segment under way up to now(). Ask before a command: one that changes something ends it, and no advance yields it.
   // What the command itself changes (a lifted holder, a jolted hammer) is in no segment.
@@ -83,12 +83,12 @@ class Tip {
   void resume(const TipState& launched, const ModelTime& start, const Impact& last);
   const Model& model() const { return model_; }
   const ChatterLaw& chatter_law() const { return law_; }
-  double burst_gap_rate() const { return burst_gap_rate_; }  // slower bounces may be the first of a burst [a/tau]
+  double entry_speed() const { return entry_speed_; }  // slower bounces may be the first of a burst [a/tau]
 
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   bool in_contact() const { return mode_ == Mode::sliding; }
-  bool in_burst() const { return mode_ == Mode::bursting; }
+  bool in_chatter() const { return mode_ == Mode::chattering; }
   const Impact& last_impact() const { return last_impact_; }
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
@@ -101,18 +101,18 @@ class Tip {
  private:
   friend class StateFields;  // saved_state.cpp
 
-  enum class Mode : std::uint8_t { flying, bursting, touching, sliding };  // touching: contact begins now
+  enum class Mode : std::uint8_t { flying, chattering, touching, sliding };  // touching: contact begins now
 
   TipState held(const TipState& state) const;
-  struct ChatterRide {
+  struct SequenceState {
     SlideState<double> moved;
     double gain, impulse, energy;  // of the sequence so far; energy: stored
   };
 
   Chatter chatter_now() const;
-  ChatterRide ride(double s, const Chatter& chatter) const;
+  SequenceState sequence_state(double s, const Chatter& chatter) const;
   double slide_impulse(double s) const;
-  double burst_loss(double v, double gain) const;
+  double chatter_loss(double v, double gain) const;
   double bounce_impulse(const SlideState<double>& at, double v) const;
   bool sequence_goes_on() const;
   Account account() const;
@@ -127,28 +127,28 @@ class Tip {
   bool stays_after(const Kick& kick) const;
   void split_account();
   void jolt(double eta);
-  void end_guide_now();
+  void end_slide_now();
   void leave_now();
   void set_tolerance(double contact_tolerance);
-  void adopt(const Model& model);
+  void set_laws(const Model& model);
   void fly(const TipState& start);
   void slide(const SlideState<double>& start);
   void slide(const SlideState<double>& start, int bits);
-  void burst(const SlideState<double>& guide, const Chatter& chatter);
-  SlideState<double> leave_guide(double s, const Chatter& chatter);
+  void burst(const SlideState<double>& reference, const Chatter& chatter);
+  SlideState<double> leave_reference(double s, const Chatter& chatter);
   void begin_flight();
   void leave_or_press();
-  bool on_guide() const { return mode_ == Mode::sliding || mode_ == Mode::bursting; }
+  bool on_slide() const { return mode_ == Mode::sliding || mode_ == Mode::chattering; }
   void find_landing();
   ModelTime event_time();
-  Outcome end_arc();
-  Outcome end_arc(Segments& ended);
-  Outcome end_arc(Segments* ended) { return ended == nullptr ? end_arc() : end_arc(*ended); }
+  Outcome end_segment();
+  Outcome end_segment(Segments& ended);
+  Outcome end_segment(Segments* ended) { return ended == nullptr ? end_segment() : end_segment(*ended); }
   Outcome kick(Segments* ended);
   Outcome land();
   Outcome touch();
   Outcome end_flight();
-  Outcome end_burst();
+  Outcome end_chatter();
   Outcome end_slide();
 
   Model model_;
@@ -156,9 +156,9 @@ class Tip {
   double eta_;
   double slowest_chatter_;  // [a/tau] below it, contact
   ChatterLaw law_;
-  double burst_gap_rate_;  // slower chatter moves the tip along the surface by less than the tolerance
+  double entry_speed_;  // slower chatter moves the tip along the surface by less than the tolerance
   Flight<double> flight_;
-  SlidePiece<double> slide_;
+  SlideSegment<double> slide_;
   Mode mode_ = Mode::flying;
   ModelTime start_, now_;  // of the present arc; the present
   Landing<double> landing_{};
@@ -167,11 +167,11 @@ class Tip {
   bool slide_releases_ = false;
   Chatter chatter_{};                // at the start of the present piece of a burst
   ChatterRun chatter_run_{};         // over it
-  ModelTime burst_begin_;            // of the chatter sequence, as the next four
-  double burst_normal_speed_ = 0.0;  // with which it began
-  double burst_energy_ = 0.0;        // stored then
-  double burst_gain_ = 0.0;          // since then: lost beyond the fall of v^2/2
-  double burst_impulse_ = 0.0;       // of the holder
+  ModelTime sequence_begin_;            // of the chatter sequence, as the next four
+  double sequence_normal_speed_ = 0.0;  // with which it began
+  double sequence_energy_ = 0.0;        // stored then
+  double sequence_gain_ = 0.0;          // since then: lost beyond the fall of v^2/2
+  double sequence_impulse_ = 0.0;       // of the holder
   Account split_;                    // at the last command within an arc or a sequence
   bool is_split_ = false;
   Impact last_impact_;

@@ -114,7 +114,7 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
   Batch batch;
   Digest digest;
   for (int arcs = 0; arcs < 5000; ++arcs) {
-    tip.advance_arc(afm::kEndOfTime, &ended);
+    tip.advance_segment(afm::kEndOfTime, &ended);
     for (const afm::Segment& s : ended) {
       for (const double figure : {s.impulse, s.loss, s.stored}) digest.add(figure);
     }

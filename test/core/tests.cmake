@@ -12,7 +12,7 @@ endfunction()
 
 set(core_tests
   contact/chatter
-  contact/chatter_descent
+  contact/chatter_single_bounces
   contact/chatter_end
   contact/contact
   contact/contact_energy
@@ -48,8 +48,8 @@ set(core_tests
   tip/hammer
   tip/kick
   tip/known_orbits
-  tip/relevel
-  tip/retune
+  tip/set_model
+  tip/set_parameters
   tip/segment
   tip/split
   tip/thermostat
@@ -57,7 +57,7 @@ set(core_tests
   units)
 set(dynamics_tests
   dynamics/attractor
-  dynamics/burst_jacobian
+  dynamics/chatter_jacobian
   dynamics/contact_jacobian
   dynamics/continuation
   dynamics/cycle_expansion

@@ -51,7 +51,7 @@ void run_to(afm::TipWatch& watch, const afm::ModelTime& end, bool accumulates) {
   afm::Outcome outcome = afm::Outcome::flying;
   while (outcome != afm::Outcome::time_limit && watch.count().arcs < kMostArcs) {
     const afm::ModelTime before = watch.tip().now();
-    if (!watch.advance_arc(end, outcome)) require(false, watch.violation());
+    if (!watch.advance_segment(end, outcome)) require(false, watch.violation());
     at_once = before < watch.tip().now() ? 0 : at_once + 1;
     require(accumulates || at_once < kMostAtOnce, "time stands still" + watch.violation());
   }

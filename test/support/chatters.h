@@ -1,4 +1,4 @@
-// Chatter for tests: a bounce on a pressed guide, and every bounce that follows, one by one.
+// Chatter for tests: a bounce on a pressed slide, and every bounce that follows, one by one.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@ namespace afm {
 struct RandomChatter {
   Model model;
   double v;  // normal speed after the first bounce
-  SlidePiece<double> guide;
+  SlideSegment<double> reference;
 
-  Tip every_bounce() const { return {model, guide.eta(), leave_surface(model, guide.start(), v), 0.0}; }
+  Tip every_bounce() const { return {model, reference.eta(), leave_surface(model, reference.start(), v), 0.0}; }
 
   // How long a bounce is, at most, against every change around it.
   double shortness(double s) const {
-    const double a = guide.pressure(s);
+    const double a = reference.pressure(s);
     return 2.0 * v / a *
-           std::max({std::abs(guide.pressure_rate(s)) / a, std::abs(guide.at(s).u), model.frequency_ratio});
+           std::max({std::abs(reference.pressure_rate(s)) / a, std::abs(reference.at(s).u), model.frequency_ratio});
   }
 };
 
@@ -29,10 +29,10 @@ inline RandomChatter random_chatter(const Model& model, const ChatterLaw& law, R
                                     double to) {
   const Mechanics<double> mechanics(model);
   for (;;) {
-    const Piece guide = random_piece(random);
+    const Piece slide = random_piece(random);
     const double v = std::pow(10.0, random.within(from, to));
-    const Flight<double> bounce(mechanics, guide.eta(), leave_surface(model, guide.start(), v));
-    if (guide.pressure(0.0) > 0.5 && law.holds(bounce)) return {model, v, guide};
+    const Flight<double> bounce(mechanics, slide.eta(), leave_surface(model, slide.start(), v));
+    if (slide.pressure(0.0) > 0.5 && law.holds(bounce)) return {model, v, slide};
   }
 }
 

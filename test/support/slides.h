@@ -7,7 +7,7 @@
 
 namespace afm {
 
-using Piece = SlidePiece<double>;
+using Piece = SlideSegment<double>;
 
 // Minus what the gap's acceleration would be in free flight, over 1 + h'^2.
 template <class T>

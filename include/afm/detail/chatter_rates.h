@@ -10,7 +10,7 @@
 // algebra (docs/derive_chatter_law.py); of what moves it off the reference slide, and without a cutoff, those of the second.
 #pragma once
 
-#include "chatter_view.h"
+#include "chatter_geometry.h"
 
 namespace afm {
 
@@ -29,17 +29,17 @@ using Chatter = ChatterOf<double>;
 // grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; where v hardly falls in a step
 // but with the pressure, n = rest. Without a cutoff v falls evenly, x = v, and n goes like its logarithm.
 template <class T>
-struct EvenChatterOf {
+struct SmoothChatterOf {
   T x, rest, sigma, p, drift, lift;
 };
-using EvenChatter = EvenChatterOf<double>;
+using SmoothChatter = SmoothChatterOf<double>;
 
 template <class T>
-EvenChatterOf<T> operator+(const EvenChatterOf<T>& a, const EvenChatterOf<T>& b) {
+SmoothChatterOf<T> operator+(const SmoothChatterOf<T>& a, const SmoothChatterOf<T>& b) {
   return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift, a.lift + b.lift};
 }
 template <class T>
-EvenChatterOf<T> operator*(const T& k, const EvenChatterOf<T>& c) {
+SmoothChatterOf<T> operator*(const T& k, const SmoothChatterOf<T>& c) {
   return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift, k * c.lift};
 }
 
@@ -47,7 +47,7 @@ EvenChatterOf<T> operator*(const T& k, const EvenChatterOf<T>& c) {
 struct ChatterPlace {
   double s;  // time of the guide
   ChatterSurroundings around;
-  EvenChatter even, rate;
+  SmoothChatter even, rate;
   Chatter plain;
   double part;  // times 1/v, of n: what `even` and `rate` are without
 };
@@ -70,15 +70,15 @@ class ChatterRates {
   ChatterRates(const Model& model, bool geometric);
 
   ChatterSurroundings surroundings(const Flight<double>& bounce) const;
-  ChatterSurroundings surroundings(const SlidePiece<double>& guide, double s) const;
-  bool outlasts(const Flight<double>& bounce, double part) const;  // as ChatterView
+  ChatterSurroundings surroundings(const SlideSegment<double>& reference, double s) const;
+  bool certainly_outlasts(const Flight<double>& bounce, double part) const;  // as ChatterView
 
-  ChatterPlace begin(const SlidePiece<double>& guide, double s, const Chatter& start) const;
+  ChatterPlace begin(const SlideSegment<double>& reference, double s, const Chatter& start) const;
   // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may
   // be none.
-  ChatterPlace step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;
+  ChatterPlace step(const SlideSegment<double>& reference, const ChatterPlace& from, double dt) const;
   // The same over no more than a bounce or two, forwards or back, by the mean of two rates: good to the second order.
-  ChatterPlace brief_step(const SlidePiece<double>& guide, const ChatterPlace& from, double dt) const;
+  ChatterPlace brief_step(const SlideSegment<double>& reference, const ChatterPlace& from, double dt) const;
   // By so little that what the rates change by in it is nothing.
   Chatter after(const ChatterPlace& from, double dt) const;
 
@@ -88,17 +88,17 @@ class ChatterRates {
 
   double loss(double v) const { return flow_.loss * v; }  // w
   const ChatterFlow& flow() const { return flow_; }
-  const ChatterView& view() const { return view_; }
+  const ChatterGeometry& view() const { return view_; }
   bool held() const { return view_.held(); }
 
  private:
-  void take_part(double more, EvenChatter& even, EvenChatter& rate) const;
+  void take_part(double more, SmoothChatter& even, SmoothChatter& rate) const;
 
-  ChatterView view_;
+  ChatterGeometry view_;
   ChatterFlow flow_;
 };
 
 // The guide with what the chatter has moved it by.
-SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide, const Chatter& chatter);
+SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
 
 }  // namespace afm

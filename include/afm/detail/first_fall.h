@@ -11,7 +11,7 @@
 namespace afm {
 namespace fall_detail {
 
-constexpr std::array<double, kSlideOrder + 1> per_binomials() {
+constexpr std::array<double, kSlideOrder + 1> inverse_binomials() {
   std::array<double, kSlideOrder + 1> per{};
   double binomial = 1.0;
   for (std::size_t k = 0; k <= kSlideOrder; ++k) {
@@ -20,7 +20,7 @@ constexpr std::array<double, kSlideOrder + 1> per_binomials() {
   }
   return per;
 }
-constexpr std::array<double, kSlideOrder + 1> kPerBinomial = per_binomials();
+constexpr std::array<double, kSlideOrder + 1> kInverseBinomial = inverse_binomials();
 
 // On [0, length]: by Pascal's triangle from what the terms come to there.
 template <class T>
@@ -29,7 +29,7 @@ Series<T> bernstein_coefficients(const Series<T>& powers, const T& length) {
   T power(1.0);
 #pragma GCC unroll 32
   for (std::size_t k = 0; k <= kSlideOrder; ++k) {
-    b[k] = powers[k] * power * T(kPerBinomial[k]);
+    b[k] = powers[k] * power * T(kInverseBinomial[k]);
     power = power * length;
   }
 #pragma GCC unroll 32

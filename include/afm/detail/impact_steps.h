@@ -170,7 +170,7 @@ T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
 
 // Lemma 4, from the surface: the tip has left it up to `s` (Lemma 5), and is certainly above the crest at `s`.
 template <class T>
-T time_aloft(const Flight<T>& f, const T& s) {
+T time_above_crest_from_launch(const Flight<T>& f, const T& s) {
   const Mechanics<T>& m = f.mechanics();
   const FlightState<T>& q = f.start().state;
   const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * f.amplitude_Y() / T(2.0)));

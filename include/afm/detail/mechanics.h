@@ -15,21 +15,21 @@ template <class T>
 struct Mechanics {
   Mechanics() = default;
   explicit Mechanics(const Model& model)
-      : mobility(afm::mobility(model)),
-        ratio(mobility * T(model.frequency_ratio)),
+      : is_free_along_x(afm::is_free_along_x(model)),
+        ratio(is_free_along_x * T(model.frequency_ratio)),
         omega_v(two_pi<T>()),
         omega_h(omega_v * ratio),
         H(model.H),
         y0(model.y0),
         inverse_omega_v(T(1.0) / omega_v),
-        inverse_omega_h(afm::mobility(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
+        inverse_omega_h(afm::is_free_along_x(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
 
   // w / omega to more than the last digit: w times a rounded 1 / omega would add energy at every turn, or take it away.
   static T turned(const T& w, const T& omega, const T& per) {
     return mul_add(w, per, T((w * per) * mul_add(T(-omega), per, T(1.0))));
   }
 
-  T mobility;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
+  T is_free_along_x;  // 0: held along x, as if there were no horizontal spring and nothing to stretch it
   T ratio, omega_v, omega_h, H, y0;
   T inverse_omega_v, inverse_omega_h;  // a product is faster than a quotient
 };

@@ -67,7 +67,7 @@ AFM_INLINED void write_slide_series(const Mechanics<T>& m, const T& eta, const S
   auto &d = series.d, &u = series.u, &lambda = series.lambda;
   r[0] = k * m.H * turn.sin, c[0] = k2 * m.H * turn.cos, c[1] = -k2 * (r[0] * start.u);
   u[0] = start.u, d[0] = T(0.0);
-  const T inverse_mass = m.mobility / (T(1.0) + r[0] * r[0]), weight = m.omega_v * m.omega_v * m.y0;
+  const T inverse_mass = m.is_free_along_x / (T(1.0) + r[0] * r[0]), weight = m.omega_v * m.omega_v * m.y0;
   T X = start.X;  // of order n
   for (std::size_t n = 0; n <= kSlideOrder; ++n) {
     const double next = static_cast<double>(n + 1);

@@ -23,13 +23,13 @@ SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<do
 Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<double>& q);
 
 // The guide and the normal speed (project_onto_surface() of chatter.h) by the state after a bounce: by dx, dX, du, dg1.
-Eigen::Matrix4d settle_jacobian(const Model& model, const TipState& bounce);
+Eigen::Matrix4d projection_jacobian(const Model& model, const TipState& bounce);
 
 // From after the first bounce of a burst, `start`, to after its last, `duration` later [tau], which leaves a normal
 // speed. The derivative of the law by which the tip makes the burst. Against the exact chain of
 // its bounces half of all bursts are good to 2e-4, and all that were tried, of up to 3000 bounces, to 8e-3: what the
 // law leaves out of each bounce adds up.
-SectionJacobian<double> burst_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
+SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
                                        double duration);
 
 }  // namespace afm

@@ -23,8 +23,8 @@ using SectionJacobian = Eigen::Matrix<T, 4, 4>;
 
 // On the section, or in a slide (dx, dX, du), what a tip held along x cannot do taken out.
 template <class T, int N>
-Eigen::Matrix<T, N, N> held(const T& mobility, const Eigen::Matrix<T, N, N>& J) {
-  if (mobility != T(0.0)) return J;
+Eigen::Matrix<T, N, N> held(const T& is_free_along_x, const Eigen::Matrix<T, N, N>& J) {
+  if (is_free_along_x != T(0.0)) return J;
   Eigen::Matrix<T, N, N> H = J;
   for (const int i : {1, 2}) {
     H.row(i).setZero();
@@ -102,7 +102,7 @@ struct Incidence {
   Incidence(const Mechanics<T>& m, const T& eta, const FlightState<T>& q, const T& g1)
       : surface(surface_jet(m.H, q.phase)) {
     using std::sqrt;
-    const T slope = m.mobility * surface.h1, N = sqrt(T(1.0) + slope * slope), u = eta + q.U;
+    const T slope = m.is_free_along_x * surface.h1, N = sqrt(T(1.0) + slope * slope), u = eta + q.U;
     normal_speed = -g1 / N;
     tangential_velocity = (u + slope * (g1 + slope * u)) / N;
   }
@@ -187,13 +187,13 @@ SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight,
   const Incidence<T> in(m, flight.eta(), end, landing.g1);
   const T u_start = flight.eta() + start.U, u_end = flight.eta() + end.U, h1 = in.surface.h1;
   const RestitutionJet<T> law = restitution_jet(model, in.normal_speed);
-  const T u_after = u_end + m.mobility * ((T(1.0) + law.restitution) * h1 * landing.g1 / (T(1.0) + h1 * h1));
+  const T u_after = u_end + m.is_free_along_x * ((T(1.0) + law.restitution) * h1 * landing.g1 / (T(1.0) + h1 * h1));
   const Eigen::Matrix<T, 5, 4> flown = flight_jacobian(m, s) * off_section(surface_jet(m.H, start.phase), u_start);
   const FlowVector<T> F = flight_velocity(m, flight.eta(), end), G = gap_gradient(in.surface);
   const Eigen::Matrix<T, 1, 4> gap = G.transpose() * flown;
   const Eigen::Matrix<T, 5, 4> met = flown - F * (gap / landing.g1);
   const SectionJacobian<T> J = to_section(in.surface, u_after) * (reflection_derivative(model, in) * met);
-  return held(m.mobility, J);
+  return held(m.is_free_along_x, J);
 }
 
 }  // namespace afm

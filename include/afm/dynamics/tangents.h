@@ -38,7 +38,7 @@ class Tangents {
  private:
   void restart(const TipState& bounce);
   void carry_bounce(double dt);
-  void carry_burst(double dt);
+  void carry_chatter(double dt);
   void carry_slide(double dt);
   void begin_contact();
   void carry(const SectionJacobian<double>& J);

@@ -59,7 +59,7 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
 }
 
 // For the averages.
-bool ChatterLaw::steep(double v) const { return v_c_ > threshold_ && (v > v_c_ || rates_.loss(v) > Limit::kLoss); }
+bool ChatterLaw::loses_too_much(double v) const { return v_c_ > threshold_ && (v > v_c_ || rates_.loss(v) > Limit::kLoss); }
 
 // The adiabaticity ratio: how long a bounce lasts over how long it may last (1: the limit). The averages leave out terms of
 // the third and fourth order of the bounce's duration against all changes. `within` a sequence, or at its entry.
@@ -72,10 +72,10 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const double v = bounce.start().g1;
   if (v <= threshold_) return true;
   if (!(bounce.start().g2 < 0.0)) return false;
-  if (steep(v) && !descends(v)) return false;
+  if (loses_too_much(v) && !takes_single_bounces(v)) return false;
   // most that are asked for are refused
-  if (rates_.outlasts(bounce, Limit::kShortness * fineness_)) return false;
-  return adiabaticity(rates_.surroundings(bounce), v, false) <= (steep(v) ? Limit::kSteepRatio : 1.0);
+  if (rates_.certainly_outlasts(bounce, Limit::kShortness * fineness_)) return false;
+  return adiabaticity(rates_.surroundings(bounce), v, false) <= (loses_too_much(v) ? Limit::kSteepRatio : 1.0);
 }
 
 // Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
@@ -105,14 +105,14 @@ double ChatterLaw::step_towards_end(const ChatterPlace& at, double dt) const {
 
 // A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the
 // middle of a burst, it is not asked.
-AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, double from, double until,
+AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlideSegment<double>& reference, double from, double until,
                                                const Chatter& start, bool exits) const {
   constexpr double kFewBounces = 2.0;  // are not worth a step
   ChatterRun first{ChatterEnd::time, from, start};
-  if (descends(start.v)) first = descend(guide, from, until, start, exits);
-  if (first.end != ChatterEnd::time || descends(first.chatter.v)) return first;
+  if (takes_single_bounces(start.v)) first = follow_single_bounces(reference, from, until, start, exits);
+  if (first.end != ChatterEnd::time || takes_single_bounces(first.chatter.v)) return first;
   // made in place, in turn: a copy of what has just been written would wait until it is in memory
-  ChatterPlace places[2] = {rates_.begin(guide, first.s, first.chatter), {}};
+  ChatterPlace places[2] = {rates_.begin(reference, first.s, first.chatter), {}};
   ChatterPlace *now = &places[0], *next = &places[1];
   double until_limit = until;
   while (now->s < until && now->plain.v > threshold_) {
@@ -124,38 +124,38 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlidePiece<double>& guide, 
     if (!(now->s + dt > now->s) || 2.0 * now->plain.v * now->around.relative_rate > now->around.P)
       return {ChatterEnd::exits, now->s, now->plain};
     dt = std::min(dt, until_limit);
-    new (next) ChatterPlace(rates_.step(guide, *now, dt));
+    new (next) ChatterPlace(rates_.step(reference, *now, dt));
     while (goes_too_far(*now, *next)) {
       dt *= 0.5;
       if (!(now->s + dt > now->s)) return {ChatterEnd::exits, now->s, now->plain};
-      new (next) ChatterPlace(rates_.step(guide, *now, dt));
+      new (next) ChatterPlace(rates_.step(reference, *now, dt));
     }
     until_limit = until;
     if (exits && next->plain.n >= std::floor(now->plain.n) + 1.0) {
       const double ratio = adiabaticity(next->around, next->plain.v, true);
       if (ratio <= 1.0) until_limit = time_until_limit(*next, ratio);
-      if (ratio > 1.0 || until_limit < kFewBounces * duration(*next)) return whole_bounce(guide, *now, *next, ratio);
+      if (ratio > 1.0 || until_limit < kFewBounces * duration(*next)) return whole_bounce(reference, *now, *next, ratio);
     }
     std::swap(now, next);
   }
   return {now->plain.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, now->s, now->plain};
 }
 
-ChatterRun ChatterLaw::run(const SlidePiece<double>& guide, double from, double until, const Chatter& start) const {
-  return follow(guide, from, until, start, true);
+ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, double until, const Chatter& start) const {
+  return follow(reference, from, until, start, true);
 }
 
-Chatter ChatterLaw::at(const SlidePiece<double>& guide, double s, const Chatter& start) const {
-  return follow(guide, 0.0, s, start, false).chatter;
+Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Chatter& start) const {
+  return follow(reference, 0.0, s, start, false).chatter;
 }
 
 AFM_MULTIVERSION Projection project_onto_surface(const Model& model, const TipState& state) {
-  const auto p = projected<double>(mobility(model), model.H, {state.phase, state.X, state.u, state.g1});
-  return {p.guide, p.normal_speed, p.tangential_velocity};
+  const auto p = projected<double>(is_free_along_x(model), model.H, {state.phase, state.X, state.u, state.g1});
+  return {p.reference, p.normal_speed, p.tangential_velocity};
 }
 
-AFM_MULTIVERSION TipState leave_surface(const Model& model, const SlideState<double>& guide, double normal_speed) {
-  const Bounce4<double> b = launched<double>(mobility(model), model.H, guide, normal_speed);
+AFM_MULTIVERSION TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed) {
+  const Bounce4<double> b = launched<double>(is_free_along_x(model), model.H, reference, normal_speed);
   return {wrap_phase(b.phase), b.X, b.u, 0.0, b.g1};
 }
 

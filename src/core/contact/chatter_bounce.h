@@ -37,10 +37,10 @@ AFM_INLINED BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsO
   const T q = T(2.0) * v * r.inverse_P, p1 = r.p1, p2 = r.p2, p1_2 = p1 * p1, K = at.bend;
   const T longer2 = mul_add(T(8.0), p1_2, T(T(-3.0) * (p2 + K))) * T(1.0 / 36), longer1 = T(-kThird) * p1;
   const T inner = p1 * mul_add(T(100.0), p1_2, mul_add(T(-75.0), p2, T(T(-54.0) * K)));
-  const T longer3 = -(mul_add(T(18.0), at.bend1, inner) + T(9.0) * r.p3) / T(540.0);
+  const T longer3 = -(mul_add(T(18.0), at.K1, inner) + T(9.0) * r.p3) / T(540.0);
   const T faster2 = mul_add(T(-2.0 / 9), p1_2, T(p2 * T(1.0 / 6)));
   const T faster3 = mul_add(p1, mul_add(T(5.0 / 27), p1_2, mul_add(T(-2.0 / 9), p2, T(T(-0.05) * K))),
-                            mul_add(T(1.0 / 60), at.bend1, T(T(0.05) * r.p3)));
+                            mul_add(T(1.0 / 60), at.K1, T(T(0.05) * r.p3)));
   return {q * mul_add(q, mul_add(q, mul_add(q, longer3, longer2), longer1), T(1.0)),
           v * mul_add(q, mul_add(q, mul_add(q, faster3, faster2), T(T(kThird) * p1)), T(1.0))};
 }

@@ -18,15 +18,15 @@ constexpr double kThird = 1.0 / 3.0;
 // What follows from the reaction, its derivatives and K.
 template <class T>
 AFM_INLINED void set_reaction_terms(ChatterSurroundingsOf<T>& at) {
-  const T inverse_P = T(1.0) / at.P, per_P2 = inverse_P * inverse_P, K = at.bend;
+  const T inverse_P = T(1.0) / at.P, inverse_P2 = inverse_P * inverse_P, K = at.bend;
   const T p1 = at.P1 * inverse_P, p2 = at.P2 * inverse_P, p3 = at.P3 * inverse_P, p1_2 = p1 * p1;
   at.inverse_P = inverse_P;
   at.c_speed = T(kThird) * p1;
-  at.c_duration = mul_add(T(3.0 / 27), p2, mul_add(T(-4.0 / 27), p1_2, T(T(-kThird) * K))) * per_P2;
-  const T bent = mul_add(T(T(-0.2) * K), p1, T(at.bend1 * T(1.0 / 15)));
-  at.c_speed3 = mul_add(T(-3.0 / 135), p3, mul_add(T(T(20.0 / 135) * p1), T(p2 - p1_2), bent)) * per_P2;
-  at.c_loss = T(T(kThird) * K) * per_P2;
-  at.c_loss_w = mul_add(T(0.5), K, T(mul_add(T(-2.0 / 3), p1_2, p2) * T(1.0 / 9))) * per_P2;
+  at.c_duration = mul_add(T(3.0 / 27), p2, mul_add(T(-4.0 / 27), p1_2, T(T(-kThird) * K))) * inverse_P2;
+  const T bent = mul_add(T(T(-0.2) * K), p1, T(at.K1 * T(1.0 / 15)));
+  at.c_speed3 = mul_add(T(-3.0 / 135), p3, mul_add(T(T(20.0 / 135) * p1), T(p2 - p1_2), bent)) * inverse_P2;
+  at.c_loss = T(T(kThird) * K) * inverse_P2;
+  at.c_loss_w = mul_add(T(0.5), K, T(mul_add(T(-2.0 / 3), p1_2, p2) * T(1.0 / 9))) * inverse_P2;
 }
 
 // At every node of a step of which both ends are known, without relative_rate and speeds. The reaction is interpolated to
@@ -41,7 +41,7 @@ AFM_INLINED ChatterSurroundingsOf<T> between(const ChatterSurroundings& first, c
   ChatterSurroundingsOf<T> at;
   at.P = P.value, at.P1 = P.slope, at.P2 = P.bend;
   at.P3 = at_nodes(first.P3, last.P3);
-  at.bend = at_nodes(first.bend, last.bend), at.bend1 = at_nodes(first.bend1, last.bend1);
+  at.bend = at_nodes(first.bend, last.bend), at.K1 = at_nodes(first.K1, last.K1);
   set_reaction_terms(at);
   at.turn = at_nodes(first.turn, last.turn);
   at.c_height = at_nodes(first.c_height, last.c_height), at.stiffness = at_nodes(first.stiffness, last.stiffness);
@@ -91,10 +91,10 @@ AFM_INLINED T chatter_speed(const ChatterFlow& flow, const T& x) {
 // d/dt. In `c` v stands for what it would be on the reference slide itself. Products of two terms of the second order are of the
 // fourth, and left out.
 template <class T>
-AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
-                                          const EvenChatterOf<T>& c) {
-  const T one(1.0), third(kThird), half(0.5), on_guide = chatter_speed(flow, c.x), inverse_v = one / on_guide;
-  const T more = disturbance(at, c.sigma, c.p), v = mul_add(on_guide, T(third * more), on_guide), v2 = v * v;
+AFM_INLINED SmoothChatterOf<T> chatter_rate(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
+                                          const SmoothChatterOf<T>& c) {
+  const T one(1.0), third(kThird), half(0.5), on_slide = chatter_speed(flow, c.x), inverse_v = one / on_slide;
+  const T more = disturbance(at, c.sigma, c.p), v = mul_add(on_slide, T(third * more), on_slide), v2 = v * v;
   const T height = v2 * (third * at.inverse_P), longer = at.c_duration * v2,
           longer2 = mul_add(T(-longer), longer, longer);
   const T even = half * at.P, bounces = inverse_v * mul_add(even, T(T(2.0 * kThird) * more), even);
@@ -108,7 +108,7 @@ AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const Chatter
   if (flow.geometric) {
     const double g = flow.gamma;
     const T rate = mul_add(T(-bounces), longer2, bounces), change = mul_add(T(g - 1.0), rate, at.c_speed + bent);
-    return {on_guide * change,
+    return {on_slide * change,
             mul_add(rate, T(flow.inverse_mean), T(T(flow.even) * change)),
             sigma,
             p,
@@ -116,15 +116,15 @@ AFM_INLINED EvenChatterOf<T> chatter_rate(const ChatterFlow& flow, const Chatter
             lift * T(3.0 / (1.0 + g + g * g))};
   }
   const T w = T(flow.loss) * v, later = mul_add(half, w, one), delay = at.c_speed * at.inverse_P * v * w * series_D(w);
-  const T per_T = series_1_over_T(w), lost = mul_add(v2, mul_add(w, at.c_loss_w, at.c_loss), series_R(w));
-  const T squeezed = T(at.c_speed * per_T) * mul_add(T(-w * w), series_S(w), one);
+  const T inverse_T = series_1_over_T(w), lost = mul_add(v2, mul_add(w, at.c_loss_w, at.c_loss), series_R(w));
+  const T squeezed = T(at.c_speed * inverse_T) * mul_add(T(-w * w), series_S(w), one);
   const T change = mul_add(bent, later, mul_add(T(-w), T(bounces * lost), squeezed));
-  const T rate = mul_add(T(-longer2), later, mul_add(T(-per_T), delay, per_T));
+  const T rate = mul_add(T(-longer2), later, mul_add(T(-inverse_T), delay, inverse_T));
   return {change, mul_add(bounces, rate, T(T(part) * inverse_v * change)), sigma, p, drift, mul_add(lift, w, lift)};
 }
 
 template <class T>
-AFM_INLINED T even_speed(const ChatterFlow& flow, const T& v) {
+AFM_INLINED T smooth_speed(const ChatterFlow& flow, const T& v) {
   return flow.geometric ? v : portable_log(v);
 }
 
@@ -136,14 +136,14 @@ AFM_INLINED T bounces_at(const ChatterFlow& flow, double part, const T& v) {
 
 // The variables that change evenly, and back.
 template <class T>
-AFM_INLINED EvenChatterOf<T> even_of(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
+AFM_INLINED SmoothChatterOf<T> to_smooth(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
                                      const ChatterOf<T>& c) {
   const T v = c.v * mul_add(T(-kThird), disturbance(at, c.sigma, c.p), T(1.0));
-  return {even_speed(flow, v), c.n - bounces_at(flow, part, v), c.sigma, c.p, c.drift, c.lift};
+  return {smooth_speed(flow, v), c.n - bounces_at(flow, part, v), c.sigma, c.p, c.drift, c.lift};
 }
 template <class T>
-AFM_INLINED ChatterOf<T> plain_of(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
-                                  const EvenChatterOf<T>& c) {
+AFM_INLINED ChatterOf<T> to_plain(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double part,
+                                  const SmoothChatterOf<T>& c) {
   const T v = chatter_speed(flow, c.x);
   return {v * mul_add(T(kThird), disturbance(at, c.sigma, c.p), T(1.0)),
           c.rest + bounces_at(flow, part, v),
@@ -155,9 +155,9 @@ AFM_INLINED ChatterOf<T> plain_of(const ChatterFlow& flow, const ChatterSurround
 
 // start and the integrals over dt to each node: of the rates at the beginning and at the nodes.
 template <class T>
-AFM_INLINED EvenChatterOf<T> collocated(double dt, const EvenChatter& start, const EvenChatter& first,
-                                        const EvenChatterOf<T>& rates) {
-  const auto sum = [&](double EvenChatter::*of, const T& rate) {
+AFM_INLINED SmoothChatterOf<T> collocated(double dt, const SmoothChatter& start, const SmoothChatter& first,
+                                        const SmoothChatterOf<T>& rates) {
+  const auto sum = [&](double SmoothChatter::*of, const T& rate) {
     const auto weight = [&](std::size_t k) { return T(T(dt) * at_every_node<T>(kLobatto[k])); };
     T x = mul_add(weight(0), T(first.*of), T(start.*of));
     x = mul_add(weight(1), first_of(rate), x);
@@ -165,8 +165,8 @@ AFM_INLINED EvenChatterOf<T> collocated(double dt, const EvenChatter& start, con
     x = mul_add(weight(3), third_of(rate), x);
     return mul_add(weight(4), last_of(rate), x);
   };
-  return {sum(&EvenChatter::x, rates.x), sum(&EvenChatter::rest, rates.rest),   sum(&EvenChatter::sigma, rates.sigma),
-          sum(&EvenChatter::p, rates.p), sum(&EvenChatter::drift, rates.drift), sum(&EvenChatter::lift, rates.lift)};
+  return {sum(&SmoothChatter::x, rates.x), sum(&SmoothChatter::rest, rates.rest),   sum(&SmoothChatter::sigma, rates.sigma),
+          sum(&SmoothChatter::p, rates.p), sum(&SmoothChatter::drift, rates.drift), sum(&SmoothChatter::lift, rates.lift)};
 }
 
 // From what `to` begins with at `from`, without its own part of n, to what that changes to, and how fast it goes on;
@@ -176,17 +176,17 @@ template <class T>
 AFM_INLINED void node_step(const ChatterFlow& flow, const ChatterPlace& from, double dt, ChatterPlace& to) {
   const ChatterSurroundingsOf<T> at = between<T>(from.around, to.around, dt);
   const T time = at_every_node<T>(kNodes) * T(dt);
-  const auto foretold = [&](double start, double rate) { return T(T(start) + time * T(rate)); };
-  const EvenChatter e = to.even, r = to.rate;
-  const EvenChatterOf<T> soon{foretold(e.x, r.x), foretold(e.rest, r.rest),   foretold(e.sigma, r.sigma),
-                              foretold(e.p, r.p), foretold(e.drift, r.drift), foretold(e.lift, r.lift)};
-  const auto again = [&](const EvenChatterOf<T>& rates) {
+  const auto extrapolated = [&](double start, double rate) { return T(T(start) + time * T(rate)); };
+  const SmoothChatter e = to.even, r = to.rate;
+  const SmoothChatterOf<T> soon{extrapolated(e.x, r.x), extrapolated(e.rest, r.rest),   extrapolated(e.sigma, r.sigma),
+                              extrapolated(e.p, r.p), extrapolated(e.drift, r.drift), extrapolated(e.lift, r.lift)};
+  const auto again = [&](const SmoothChatterOf<T>& rates) {
     return chatter_rate(flow, at, to.part, collocated(dt, e, r, rates));
   };
-  const EvenChatterOf<T> rates = again(again(chatter_rate(flow, at, to.part, soon)));
-  const EvenChatterOf<T> end = collocated(dt, e, r, rates);
-  const auto last = [](const EvenChatterOf<T>& c) {
-    return EvenChatter{last_number(c.x), last_number(c.rest),  last_number(c.sigma),
+  const SmoothChatterOf<T> rates = again(again(chatter_rate(flow, at, to.part, soon)));
+  const SmoothChatterOf<T> end = collocated(dt, e, r, rates);
+  const auto last = [](const SmoothChatterOf<T>& c) {
+    return SmoothChatter{last_number(c.x), last_number(c.rest),  last_number(c.sigma),
                        last_number(c.p), last_number(c.drift), last_number(c.lift)};
   };
   to.even = last(end), to.rate = last(rates);

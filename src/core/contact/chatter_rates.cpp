@@ -6,7 +6,7 @@
 
 #include "afm/detail/multiversion.h"
 #include "chatter_flow.h"
-#include "chatter_look.h"
+#include "chatter_geometry.h"
 #include "four.h"
 #include "portable_exp.h"
 #include "projection.h"
@@ -22,10 +22,10 @@ double mean_over_first(double gamma) {
 
 }  // namespace
 
-ChatterView::ChatterView(const Model& model)
+ChatterGeometry::ChatterGeometry(const Model& model)
     : H_(model.H),
       wv2_(square(kTwoPi)),
-      free_(mobility(model)),
+      free_(is_free_along_x(model)),
       wh2_(free_ * square(kTwoPi * model.frequency_ratio)),
       slow_rate_(std::max(1.0, free_ * model.frequency_ratio)) {}
 
@@ -39,10 +39,10 @@ ChatterRates::ChatterRates(const Model& model, bool geometric)
   flow_.even = loss > kLeastLoss ? (geometric ? flow_.inverse_mean : 1.0) / loss : 0.0;
 }
 
-double ChatterRates::x_of(double v) const { return even_speed(flow_, v); }
+double ChatterRates::x_of(double v) const { return smooth_speed(flow_, v); }
 
 // n without that much more of its part in 1/v.
-AFM_INLINED void ChatterRates::take_part(double more, EvenChatter& even, EvenChatter& rate) const {
+AFM_INLINED void ChatterRates::take_part(double more, SmoothChatter& even, SmoothChatter& rate) const {
   if (flow_.geometric || more == 0.0) return;
   const double bounces = more / chatter_speed(flow_, even.x);
   even.rest -= bounces, rate.rest += bounces * rate.x;
@@ -56,55 +56,55 @@ AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const Flight<dou
   return view_.look(bounce);
 }
 
-AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlidePiece<double>& guide, double s) const {
-  return view_.look(guide, s);
+AFM_MULTIVERSION ChatterSurroundings ChatterRates::surroundings(const SlideSegment<double>& reference, double s) const {
+  return view_.look(reference, s);
 }
 
-AFM_MULTIVERSION bool ChatterRates::outlasts(const Flight<double>& bounce, double part) const {
-  return view_.outlasts(bounce, part);
+AFM_MULTIVERSION bool ChatterRates::certainly_outlasts(const Flight<double>& bounce, double part) const {
+  return view_.certainly_outlasts(bounce, part);
 }
 
-AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlidePiece<double>& guide, double s,
+AFM_MULTIVERSION ChatterPlace ChatterRates::begin(const SlideSegment<double>& reference, double s,
                                                   const Chatter& start) const {
-  ChatterPlace at{s, view_.look(guide, s), {}, {}, start, flow_.even};
-  at.even = even_of(flow_, at.around, at.part, start);
+  ChatterPlace at{s, view_.look(reference, s), {}, {}, start, flow_.even};
+  at.even = to_smooth(flow_, at.around, at.part, start);
   at.rate = chatter_rate(flow_, at.around, at.part, at.even);
   return at;
 }
 
-AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlidePiece<double>& guide, const ChatterPlace& from,
+AFM_MULTIVERSION ChatterPlace ChatterRates::step(const SlideSegment<double>& reference, const ChatterPlace& from,
                                                  double dt) const {
   constexpr double kMuchFall = 1.5;  // of ln v, over which n grows too unevenly
   constexpr double kBrief = 1e-5;    // differences over dt of what is seen at its ends would be noise
   // two functions, as one that returns either would copy what it has just written
   const auto by_nodes = [&] {
     const double part = dt > kMuchFall * fall_time(from.around, from.plain.v) ? flow_.even : 0.0;
-    ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), from.even, from.rate, {}, part};
+    ChatterPlace to{from.s + dt, view_.look(reference, from.s + dt), from.even, from.rate, {}, part};
     take_part(part - from.part, to.even, to.rate);
     node_step<Four>(flow_, from, dt, to);
-    to.plain = plain_of(flow_, to.around, to.part, to.even);
+    to.plain = to_plain(flow_, to.around, to.part, to.even);
     return to;
   };
   const bool brief = dt * std::max(from.around.relative_rate, from.around.slow_rate) < kBrief;
-  return brief ? brief_step(guide, from, dt) : by_nodes();
+  return brief ? brief_step(reference, from, dt) : by_nodes();
 }
 
-AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlidePiece<double>& guide, const ChatterPlace& from,
+AFM_MULTIVERSION ChatterPlace ChatterRates::brief_step(const SlideSegment<double>& reference, const ChatterPlace& from,
                                                        double dt) const {
-  ChatterPlace to{from.s + dt, view_.look(guide, from.s + dt), {}, {}, {}, from.part};
+  ChatterPlace to{from.s + dt, view_.look(reference, from.s + dt), {}, {}, {}, from.part};
   to.rate = chatter_rate(flow_, to.around, to.part, from.even + dt * from.rate);
   to.even = from.even + 0.5 * dt * (from.rate + to.rate);
-  to.plain = plain_of(flow_, to.around, to.part, to.even);
+  to.plain = to_plain(flow_, to.around, to.part, to.even);
   return to;
 }
 
 AFM_MULTIVERSION Chatter ChatterRates::after(const ChatterPlace& from, double dt) const {
-  return plain_of(flow_, from.around, from.part, from.even + dt * from.rate);
+  return to_plain(flow_, from.around, from.part, from.even + dt * from.rate);
 }
 
-AFM_MULTIVERSION SlideState<double> moved_guide(const Model& model, const SlideState<double>& guide,
+AFM_MULTIVERSION SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference,
                                                 const Chatter& chatter) {
-  return moved_guide_of(model.H, guide, chatter);
+  return moved_reference_of(model.H, reference, chatter);
 }
 
 }  // namespace afm

@@ -59,7 +59,7 @@ struct HermiteOf {
 // The value and two derivatives at each point, from the value and three derivatives at both ends.
 template <class T>
 AFM_INLINED HermiteOf<T> hermite(double dt, const double (&first)[4], const double (&last)[4]) {
-  const double dt2 = dt * dt, dt3 = dt2 * dt, per_dt = 1.0 / dt;
+  const double dt2 = dt * dt, dt3 = dt2 * dt, inverse_dt = 1.0 / dt;
   const double a[4] = {first[0], dt * first[1], dt2 * first[2], dt3 * first[3]};
   const double b[4] = {last[0], -dt * last[1], dt2 * last[2], -dt3 * last[3]};
   T value(0.0), slope(0.0), bend(0.0);
@@ -72,7 +72,7 @@ AFM_INLINED HermiteOf<T> hermite(double dt, const double (&first)[4], const doub
         mul_add(at_every_node<T>(f.slope[k]), from_first, mul_add(T(-at_every_node<T>(g.slope[k])), from_last, slope));
     bend = mul_add(at_every_node<T>(f.bend[k]), from_first, mul_add(at_every_node<T>(g.bend[k]), from_last, bend));
   }
-  return {value, slope * T(per_dt), bend * T(per_dt) * T(per_dt)};
+  return {value, slope * T(inverse_dt), bend * T(inverse_dt) * T(inverse_dt)};
 }
 
 }  // namespace afm

@@ -19,7 +19,7 @@ struct Bounce4 {
 
 template <class T>
 struct ProjectedOf {
-  SlideState<T> guide;
+  SlideState<T> reference;
   T normal_speed, tangential_velocity;  // [a/tau]
 };
 
@@ -34,22 +34,22 @@ AFM_INLINED ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>
 
 // Puts a normal velocity back.
 template <class T>
-AFM_INLINED Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& guide, const T& normal_speed) {
+AFM_INLINED Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& reference, const T& normal_speed) {
   using std::sqrt;
-  const T slope = free * surface_jet(H, guide.phase).h1, N = sqrt(T(1.0) + slope * slope);
-  return {guide.phase, guide.X, guide.u - slope * normal_speed / N, normal_speed * N};
+  const T slope = free * surface_jet(H, reference.phase).h1, N = sqrt(T(1.0) + slope * slope);
+  return {reference.phase, reference.X, reference.u - slope * normal_speed / N, normal_speed * N};
 }
 
 // The reference slide with what the chatter has moved it by: sigma along the surface, and p faster along it.
 template <class T>
-AFM_INLINED SlideState<T> moved_guide_of(const T& H, const SlideState<T>& guide, const ChatterOf<T>& chatter) {
+AFM_INLINED SlideState<T> moved_reference_of(const T& H, const SlideState<T>& reference, const ChatterOf<T>& chatter) {
   using std::sqrt;
   const auto N = [&](const T& phase) {
     const T slope = surface_jet(H, phase).h1;
     return T(sqrt(T(1.0) + slope * slope));
   };
-  const T here = N(guide.phase), dx = chatter.sigma / here, phase = guide.phase + dx;
-  return {phase, guide.X + dx, (guide.u * here + chatter.p) / N(phase)};
+  const T here = N(reference.phase), dx = chatter.sigma / here, phase = reference.phase + dx;
+  return {phase, reference.X + dx, (reference.u * here + chatter.p) / N(phase)};
 }
 
 }  // namespace afm

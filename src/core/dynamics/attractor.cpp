@@ -79,7 +79,7 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
   return s;
 }
 
-bool draws(const PeriodicOrbit& orbit, const TipState& from) {
+bool attracts(const PeriodicOrbit& orbit, const TipState& from) {
   constexpr double kNear = 0.2;  // [a, a/tau]
   double nearest = kInfinity;
   for (const TipState& point : orbit.points) nearest = std::min(nearest, distance(point, from));
@@ -111,7 +111,7 @@ bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const Mo
     ++attempts;
     const OrbitResult r =
         find_orbit(PoincareMap(model, tip.eta()), {run.begin(), run.begin() + static_cast<std::ptrdiff_t>(n)});
-    if (r.outcome == OrbitOutcome::found && is_prime(r.orbit) && draws(r.orbit, run[0])) {
+    if (r.outcome == OrbitOutcome::found && is_prime(r.orbit) && attracts(r.orbit, run[0])) {
       describe(r.orbit, found);
       return true;
     }
@@ -153,7 +153,7 @@ AttractorKind kind_of(const LyapunovSpectrum& s) {
   return s.exponents[0] > -kNoGrowth ? AttractorKind::quasi_periodic : AttractorKind::undecided;
 }
 
-Period look_for_period(Observer& observer, const Tip& tip, const AttractorSettings& settings) {
+Period search_period(Observer& observer, const Tip& tip, const AttractorSettings& settings) {
   const ModelTime end = tip.now() + settings.duration;
   Period period;
   while (tip.now() < end && !observer.stopped() && period.marks == 0) {
@@ -184,7 +184,7 @@ void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const
   constexpr double kFolds = 25.0;  // until a displacement is e^-25 of itself
   if (!std::isfinite(found.lyapunov.exponents[0])) return;
   observer.run_until(tip.now() + kFolds / -found.lyapunov.exponents[0]);
-  const Period period = look_for_period(observer, tip, settings);
+  const Period period = search_period(observer, tip, settings);
   if (period.marks > 0) describe(model, tip, period, found);
 }
 
@@ -220,7 +220,7 @@ Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& 
   observer.take_contact_time();
   const ModelTime begin = tip.now();
   const int impacts_before = observer.mark().impacts;
-  const Period period = look_for_period(observer, tip, settings);
+  const Period period = search_period(observer, tip, settings);
   const double seen = tip.now() - begin;
   if (observer.stopped() || !(seen > 0.0)) return found;
   found.contact_share = observer.take_contact_time() / seen;

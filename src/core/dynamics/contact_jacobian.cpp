@@ -19,11 +19,11 @@ struct Ride {
 
 // (1 + h'^2) x'' = -omega_h^2 X - h' q, as in slide_series.h; the hammer's x'' is 0 and its normal the vertical.
 template <class T>
-Ride<T> ride(const Mechanics<T>& m, const SlideState<T>& s) {
+Ride<T> sequence_state(const Mechanics<T>& m, const SlideState<T>& s) {
   using std::sqrt;
   const SurfaceJet<T> surface = surface_jet(m.H, s.phase);
   const T q = m.omega_v * m.omega_v * (surface.h - m.y0) + surface.h2 * s.u * s.u;
-  if (static_cast<double>(m.mobility) == 0.0) return {T(0.0), q};
+  if (static_cast<double>(m.is_free_along_x) == 0.0) return {T(0.0), q};
   const T N2 = T(1.0) + surface.h1 * surface.h1, spring = m.omega_h * m.omega_h * s.X;
   return {-(spring + surface.h1 * q) / N2, (q - surface.h1 * spring) / sqrt(N2)};
 }
@@ -33,10 +33,10 @@ Ride<T> ride(const Mechanics<T>& m, const SlideState<T>& s) {
 SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s) {
   const Mechanics<Dual3> mechanics(model);
   SlideState<Dual3> q{Dual3::variable(start.phase, 0), Dual3::variable(start.X, 1), Dual3::variable(start.u, 2)};
-  constexpr int kMostPieces = 100000;
+  constexpr int kMaxSegments = 100000;
   double left = s;
-  for (int i = 0; i < kMostPieces && left > 0.0; ++i) {
-    const SlidePiece<Dual3> piece(mechanics, Dual3(eta), q);
+  for (int i = 0; i < kMaxSegments && left > 0.0; ++i) {
+    const SlideSegment<Dual3> piece(mechanics, Dual3(eta), q);
     const double step = std::min(left, piece.length().value);
     q = piece.at(Dual3(step));
     left -= step;
@@ -45,14 +45,14 @@ SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<do
   for (std::size_t i = 0; i < 3; ++i) {
     J.row(static_cast<Eigen::Index>(i)) << q.phase.by[i], q.X.by[i], q.u.by[i];
   }
-  return held(mobility(model), SlideJacobian(J.transpose()));
+  return held(is_free_along_x(model), SlideJacobian(J.transpose()));
 }
 
 Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<double>& q) {
-  return {q.u, q.u - eta, ride(Mechanics<double>(model), q).acceleration};
+  return {q.u, q.u - eta, sequence_state(Mechanics<double>(model), q).acceleration};
 }
 
-Eigen::Matrix4d settle_jacobian(const Model& model, const TipState& s) {
+Eigen::Matrix4d projection_jacobian(const Model& model, const TipState& s) {
   const SurfaceJet<double> surface = surface_jet(model.H, s.phase);
   const double N2 = 1.0 + surface.h1 * surface.h1, N = std::sqrt(N2);
   Eigen::Matrix4d J = Eigen::Matrix4d::Identity();

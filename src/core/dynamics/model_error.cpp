@@ -10,7 +10,7 @@ constexpr double kGolden = 0.6180339887498949;  // [tau]
 
 // The deflection at `t`, events on the way taken. Precondition: t is not before now.
 Deflection deflection_at(Tip& tip, const ModelTime& t) {
-  while (tip.arc_end() <= t) tip.advance_arc(t);
+  while (tip.segment_end() <= t) tip.advance_segment(t);
   return tip.deflection(t);
 }
 
@@ -92,7 +92,7 @@ double tracking_error(const Model& model, const Level& level, Tip& reference, co
   for (int pair = 0; pair < settings.pairs; ++pair) {
     const ModelTime begin = reference.now() + kGolden * 3.0;
     deflection_at(reference, begin);
-    reference.advance_arc(begin);
+    reference.advance_segment(begin);
     Tip tip(at_level(model, level), reference.eta(), reference.tip_state(), level.contact_tolerance);
     const ModelTime tip_begin = tip.now();
     for (int i = 1; i <= kPoints; ++i) {
@@ -101,7 +101,7 @@ double tracking_error(const Model& model, const Level& level, Tip& reference, co
           deflection_at(tip, tip_begin + age).vertical - deflection_at(reference, begin + age).vertical;
       squares += difference * difference;
     }
-    reference.advance_arc(begin + 1.0);
+    reference.advance_segment(begin + 1.0);
   }
   return std::sqrt(squares / (static_cast<double>(settings.pairs) * kPoints));
 }

@@ -24,7 +24,7 @@ inline double distance(const TipState& a, const TipState& b) {
 }
 
 // A bounce that does not lift the tip: by less than 1e-5 a where the surface presses as it mostly does.
-inline bool creeping(const Impact& impact) {
+inline bool is_creeping(const Impact& impact) {
   constexpr double kSlow = 1e-2;  // [a/tau]
   return impact.kind == ImpactKind::burst || impact.normal_speed < kSlow;
 }
@@ -41,7 +41,7 @@ class Observer {
       const ModelTime before = tip_.now();
       const Outcome outcome = tip_.advance(limit);
       --left_;
-      held = held || (outcome == Outcome::impact && creeping(tip_.last_impact()));
+      held = held || (outcome == Outcome::impact && is_creeping(tip_.last_impact()));
       if (held) in_contact_ += tip_.now() - before;
       if (outcome == Outcome::time_limit) return false;
       failed_ = outcome == Outcome::search_failed;

@@ -59,12 +59,12 @@ class Search {
   }
 
   OrbitSearchResult all() {
-    for (int n = 1; n <= settings_.longest; ++n) look_for(static_cast<std::size_t>(n));
+    for (int n = 1; n <= settings_.longest; ++n) search_length(static_cast<std::size_t>(n));
     return std::move(result_);
   }
 
  private:
-  void look_for(std::size_t n) {
+  void search_length(std::size_t n) {
     report_ = {static_cast<int>(n), 0, 0, 0, 0.0, 0.0};
     found_.clear();
     for (const std::size_t i : returns(run_, n, static_cast<std::size_t>(settings_.guesses), report_.closest_return)) {

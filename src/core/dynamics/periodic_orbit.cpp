@@ -121,7 +121,7 @@ PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot&
 }
 
 // Cuts the step until the error falls; 0 where no part of it makes it fall.
-double find_share(const PoincareMap& map, const Points& points, const Eigen::VectorXd& step, const Shot& now,
+double damped_step(const PoincareMap& map, const Points& points, const Eigen::VectorXd& step, const Shot& now,
                   double smallest, Shot& next) {
   for (double share = 1.0; share >= smallest; share *= 0.5) {
     next = shoot(map, moved(points, step, share));
@@ -139,7 +139,7 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
   for (int i = 0; i < settings.most_steps && outcome == OrbitOutcome::slow; ++i) {
     const Eigen::VectorXd step = newton_step(shot, shot.error);
     Shot next;
-    const double share = step.allFinite() ? find_share(map, points, step, shot, settings.smallest_share, next) : 0.0;
+    const double share = step.allFinite() ? damped_step(map, points, step, shot, settings.smallest_share, next) : 0.0;
     if (share > 0.0) {
       points = moved(points, step, share);
       shot = std::move(next);

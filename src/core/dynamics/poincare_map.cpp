@@ -6,7 +6,7 @@
 
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
-#include "core/tip/tip_arcs.h"
+#include "core/tip/tip_motion.h"
 
 namespace afm {
 

@@ -84,7 +84,7 @@ std::size_t band(const std::vector<double>& begins, double phase) {
   return after == begins.begin() ? begins.size() - 1 : static_cast<std::size_t>(after - begins.begin()) - 1;
 }
 
-double left_unsaid(const Partition& partition, const std::vector<TipState>& points) {
+double unresolved_spread(const Partition& partition, const std::vector<TipState>& points) {
   constexpr int kLetters = 10;
   return word_spread(word_of(partition, points), points, kLetters).mean;
 }
@@ -100,7 +100,7 @@ void improve(Partition& partition, std::size_t k, const std::vector<TipState>& p
   double best = INFINITY, best_cut = partition.cuts[k];
   for (std::size_t i = 1; i < kTrials; ++i) {
     partition.cuts[k] = rates.front() + (rates.back() - rates.front()) * static_cast<double>(i) / kTrials;
-    const double value = left_unsaid(partition, points);
+    const double value = unresolved_spread(partition, points);
     if (value < best) best = value, best_cut = partition.cuts[k];
   }
   partition.cuts[k] = best_cut;

@@ -64,7 +64,7 @@ Outcome Tangents::advance(const ModelTime& limit) {
   if (outcome == Outcome::time_limit) {
     if (tip_.in_contact()) carry_slide(dt);  // the other arcs are carried when they end
   } else if (outcome == Outcome::impact) {
-    tip_.last_impact().kind == ImpactKind::burst ? carry_burst(dt) : carry_bounce(dt);
+    tip_.last_impact().kind == ImpactKind::burst ? carry_chatter(dt) : carry_bounce(dt);
   } else if (outcome == Outcome::contact) {
     begin_contact();
   } else if (outcome == Outcome::released) {
@@ -91,16 +91,16 @@ void Tangents::restart(const TipState& bounce) {
 }
 
 // A burst that dies has carried the reference slide, and leaves it to the contact that follows; its normal velocity is gone.
-void Tangents::carry_burst(double dt) {
+void Tangents::carry_chatter(double dt) {
   const TipState end = tip_.tip_state();
   stretch_.volume = std::numeric_limits<double>::quiet_NaN();
   if (end.g1 > 0.0) {
-    carry(burst_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
+    carry(chatter_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
   } else {
-    SectionJacobian<double> J = settle_jacobian(model_, start_);
-    J.topRows<3>() = slide_jacobian(model_, tip_.eta(), project_onto_surface(model_, start_).guide, dt) * J.topRows<3>().eval();
+    SectionJacobian<double> J = projection_jacobian(model_, start_);
+    J.topRows<3>() = slide_jacobian(model_, tip_.eta(), project_onto_surface(model_, start_).reference, dt) * J.topRows<3>().eval();
     J.row(3).setZero();
-    J = held(mechanics_.mobility, J);
+    J = held(mechanics_.is_free_along_x, J);
     columns_ = J * columns_;
     jacobian_ = J;
   }
@@ -109,10 +109,10 @@ void Tangents::carry_burst(double dt) {
 }
 
 void Tangents::begin_contact() {
-  const SlideState<double> guide = project_onto_surface(model_, start_).guide;
-  SectionJacobian<double> J = held(mechanics_.mobility, settle_jacobian(model_, start_));
+  const SlideState<double> reference = project_onto_surface(model_, start_).reference;
+  SectionJacobian<double> J = held(mechanics_.is_free_along_x, projection_jacobian(model_, start_));
   J.row(3).setZero();
-  const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), guide).normalized();
+  const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), reference).normalized();
   columns_ = J * columns_;
   columns_.topRows<3>() -= F * (F.transpose() * columns_.topRows<3>()).eval();
   jacobian_ = J;

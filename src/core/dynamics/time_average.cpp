@@ -53,7 +53,7 @@ void follow(Tip& tip, const ModelTime& end, Totals& totals) {
   ModelTime touched = tip.now();
   totals.impulse.add(-tip.segment().impulse);  // of before
   Segments ended;
-  for (Outcome outcome; (outcome = tip.advance_arc(end, &ended)) != Outcome::time_limit;) {
+  for (Outcome outcome; (outcome = tip.advance_segment(end, &ended)) != Outcome::time_limit;) {
     for (const Segment& segment : ended) totals.impulse.add(segment.impulse);
     if (outcome == Outcome::search_failed) ++totals.search_failures;
     if (outcome == Outcome::flying || outcome == Outcome::search_failed) continue;

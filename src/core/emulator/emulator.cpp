@@ -172,9 +172,9 @@ Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& b
   constexpr std::uint64_t kFailureCost = 100;  // a failed search takes about as long as so many impacts
   Segments ended;
   for (std::uint64_t spent = 0; spent < impacts;) {
-    const ModelTime arc_end = tip_.arc_end();
-    if (sampling_) sample_until(arc_end < end ? arc_end : end, batch);
-    const Outcome outcome = tip_.advance_arc(end, &ended);
+    const ModelTime segment_end = tip_.segment_end();
+    if (sampling_) sample_until(segment_end < end ? segment_end : end, batch);
+    const Outcome outcome = tip_.advance_segment(end, &ended);
     if (outcome == Outcome::time_limit) return outcome;
     for (const Segment& segment : ended) friction_.add(segment);
     if (outcome == Outcome::search_failed) {

@@ -11,18 +11,18 @@ namespace {
 // Calls work(i) for all i < n. The threads take pieces small enough that none is left with much when the others end.
 template <class Work>
 void on_threads(int threads, std::size_t n, const Work& work) {
-  constexpr std::size_t kPiecesPerThread = 8;
+  constexpr std::size_t kSharesPerThread = 8;
   const std::size_t all = static_cast<std::size_t>(std::max(1, threads));
-  const std::size_t piece = std::max<std::size_t>(1, n / (all * kPiecesPerThread));
+  const std::size_t piece = std::max<std::size_t>(1, n / (all * kSharesPerThread));
   std::atomic<std::size_t> next{0};
-  const auto take_pieces = [&] {
+  const auto take_shares = [&] {
     for (std::size_t from; (from = next.fetch_add(piece)) < n;) {
       for (std::size_t i = from; i < std::min(from + piece, n); ++i) work(i);
     }
   };
   std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < all && i * piece < n; ++i) helpers.emplace_back(take_pieces);
-  take_pieces();
+  for (std::size_t i = 1; i < all && i * piece < n; ++i) helpers.emplace_back(take_shares);
+  take_shares();
   for (std::thread& helper : helpers) helper.join();
 }
 

@@ -41,30 +41,30 @@ class Reader {
     std::uint64_t word = 0;
     whole(word);
     value = static_cast<T>(word);
-    sound_ = sound_ && static_cast<std::uint64_t>(value) == word;
+    valid_ = valid_ && static_cast<std::uint64_t>(value) == word;
   }
   // of enumerations and booleans: no more than `most`
   template <class T>
   void choice(T& value, T most) {
     std::uint64_t word = 0;
     whole(word);
-    sound_ = sound_ && word <= static_cast<std::uint64_t>(most);
-    if (sound_) value = static_cast<T>(word);
+    valid_ = valid_ && word <= static_cast<std::uint64_t>(most);
+    if (valid_) value = static_cast<T>(word);
   }
   template <class T>
   void whole(T& object) {
     constexpr std::size_t kWords = sizeof object / sizeof(std::uint64_t);
-    sound_ = sound_ && in_.size <= SavedState::kMostWords && kWords <= in_.size - at_;
-    if (!sound_) return;
+    valid_ = valid_ && in_.size <= SavedState::kMostWords && kWords <= in_.size - at_;
+    if (!valid_) return;
     std::memcpy(static_cast<void*>(&object), in_.words.data() + at_, sizeof object);
     at_ += kWords;
   }
-  bool sound() const { return sound_ && at_ == in_.size; }
+  bool valid() const { return valid_ && at_ == in_.size; }
 
  private:
   const SavedState& in_;
   std::size_t at_ = 0;
-  bool sound_ = true;
+  bool valid_ = true;
 };
 
 }  // namespace
@@ -157,8 +157,8 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance, co
   choice(archive, t.chatter_run_.end, ChatterEnd::exits);
   whole(archive, t.chatter_run_.s);
   whole(archive, t.chatter_run_.chatter);
-  whole(archive, t.burst_begin_);
-  for (auto* field : {&t.burst_normal_speed_, &t.burst_energy_, &t.burst_gain_, &t.burst_impulse_}) {
+  whole(archive, t.sequence_begin_);
+  for (auto* field : {&t.sequence_normal_speed_, &t.sequence_energy_, &t.sequence_gain_, &t.sequence_impulse_}) {
     whole(archive, *field);
   }
   whole(archive, t.split_);
@@ -169,7 +169,7 @@ void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance, co
   of_kicks(archive, t.thermostat_);
   if constexpr (!std::is_const_v<Self>) {
     t.set_tolerance(contact_tolerance);
-    t.adopt(Model(t.model_));
+    t.set_laws(Model(t.model_));
     t.landing_known_ = false;
     t.thermostat_.bath_ = bath;
     t.thermostat_.prepare(t.model_.frequency_ratio);
@@ -253,7 +253,7 @@ std::optional<Emulator> Emulator::restored(const SavedState& state) {
   if (!find_faults(settings).empty()) return {};
   Emulator emulator(settings);
   StateFields::of_run(reader, emulator);
-  if (!reader.sound() || !StateFields::is_possible(emulator)) return {};
+  if (!reader.valid() || !StateFields::is_possible(emulator)) return {};
   return emulator;
 }
 

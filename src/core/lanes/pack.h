@@ -52,7 +52,7 @@ constexpr unsigned kAllLanes = (1u << kLanes) - 1u;
 AFM_LANE_INLINE Pack select(M m, P yes, P no) { return Pack(blended(m.r, yes.r, no.r)); }
 
 template <class F, class G>
-AFM_LANE_INLINE auto either(M m, const F& yes, const G& no) {
+AFM_LANE_INLINE auto branch(M m, const F& yes, const G& no) {
   const unsigned lanes = bits(m);
   decltype(yes()) value{};
   if (lanes != kAllLanes) value = no();

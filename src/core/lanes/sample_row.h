@@ -22,7 +22,7 @@ struct SampleRow {
   std::size_t n;
   double* vertical;
   double* lateral;
-  bool on_guide;
+  bool on_slide;
   // the arc: its start, and of a reference slide the series of its displacement
   double phase, X, U, Y, W, g, g1, h, h1, fastest;
   double ratio, omega_h, inverse_omega_h, H, y0, eta;

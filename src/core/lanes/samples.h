@@ -73,14 +73,14 @@ AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
 }
 
 AFM_LANE_INLINE double sample(const SampleRow& row) {
-  if (!row.on_guide) {
+  if (!row.on_slide) {
     const Flight<Pack> flight = flight_of(row);
     return sample_all(row, [&](P s) { return flight_deflection(flight, s); });
   }
   Series<Pack> displacement;
   for (std::size_t k = 0; k < displacement.size(); ++k) displacement[k] = Pack(row.displacement[k]);
-  const Guide<Pack> guide{Pack(row.phase), Pack(row.X), Pack(row.eta), Pack(row.H), Pack(row.y0), displacement};
-  return sample_all(row, [&](P s) { return guide_deflection(guide, s); });
+  const SlidePath<Pack> reference{Pack(row.phase), Pack(row.X), Pack(row.eta), Pack(row.H), Pack(row.y0), displacement};
+  return sample_all(row, [&](P s) { return slide_deflection(reference, s); });
 }
 
 }  // namespace

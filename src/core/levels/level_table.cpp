@@ -106,7 +106,7 @@ std::vector<LevelTable::Row> LevelTable::read(std::istream& csv) {
     const std::string& model = fields[position["model"]];
     if (!parse(model, row.level.kind)) fail(line, "model = '" + model + "' is neither oscillator nor hammer");
     row.level.contact_tolerance = value("contact_tolerance");
-    if (!has_sound_tolerance(row.level)) fail(line, "contact_tolerance must be 0, or between 1e-9 and 0.01");
+    if (!has_valid_tolerance(row.level)) fail(line, "contact_tolerance must be 0, or between 1e-9 and 0.01");
     row.error = {value("k_f_error"), value("deflection_error"), value("cost")};
     if (!(row.error.friction >= 0.0 && row.error.deflection >= 0.0 && row.error.cost > 0.0)) {
       fail(line, "errors must not be negative, and the cost above 0");

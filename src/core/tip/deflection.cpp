@@ -9,13 +9,13 @@
 namespace afm {
 namespace {
 
-Guide<double> guide_of(const SlidePiece<double>& slide) {
+SlidePath<double> guide_of(const SlideSegment<double>& slide) {
   const Mechanics<double>& m = slide.mechanics();
   return {slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()};
 }
 
 AFM_MULTIVERSION Deflection at(const Flight<double>& flight, double s) { return flight_deflection(flight, s); }
-AFM_MULTIVERSION Deflection at(const Guide<double>& guide, double s) { return guide_deflection(guide, s); }
+AFM_MULTIVERSION Deflection at(const SlidePath<double>& reference, double s) { return slide_deflection(reference, s); }
 
 // Whether lanes count the times of these samples exactly.
 bool exact(const lanes::SampleClock& clock, double last) {
@@ -28,7 +28,7 @@ lanes::SampleRow row_of(const Flight<double>& flight) {
   const GapJet<double>& o = flight.start();
   const Mechanics<double>& m = flight.mechanics();
   lanes::SampleRow row;
-  row.on_guide = false;
+  row.on_slide = false;
   row.phase = o.state.phase, row.X = o.state.X, row.U = o.state.U, row.Y = o.state.Y, row.W = o.state.W;
   row.g = o.g, row.g1 = o.g1, row.h = o.h, row.h1 = o.h1, row.fastest = flight.bounds().fastest;
   row.ratio = m.ratio, row.omega_h = m.omega_h, row.inverse_omega_h = m.inverse_omega_h, row.H = m.H, row.y0 = m.y0;
@@ -36,30 +36,30 @@ lanes::SampleRow row_of(const Flight<double>& flight) {
   return row;
 }
 
-lanes::SampleRow row_of(const SlidePiece<double>& slide) {
-  const Guide<double> guide = guide_of(slide);
+lanes::SampleRow row_of(const SlideSegment<double>& slide) {
+  const SlidePath<double> reference = guide_of(slide);
   lanes::SampleRow row;
-  row.on_guide = true;
-  row.phase = guide.phase, row.X = guide.X, row.H = guide.H, row.y0 = guide.y0, row.eta = guide.eta;
-  row.displacement = guide.displacement.data();
+  row.on_slide = true;
+  row.phase = reference.phase, row.X = reference.X, row.H = reference.H, row.y0 = reference.y0, row.eta = reference.eta;
+  row.displacement = reference.displacement.data();
   return row;
 }
 
 Deflection Tip::deflection(const ModelTime& t) const {
-  if (on_guide()) return at(guide_of(slide_), t - start_);
+  if (on_slide()) return at(guide_of(slide_), t - start_);
   return at(flight_, t - start_);
 }
 
 double Tip::deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
                         double* lateral) const {
-  constexpr std::size_t kFewest = 3;  // a pack costs as much as a few numbers by themselves
+  constexpr std::size_t kMinInLanes = 3;  // a pack costs as much as a few numbers by themselves
   constexpr int kWidest = 8;
   const lanes::SampleClock clock{grid.period, static_cast<double>(grid.origin.tau - start_.tau), grid.origin.phase,
                                  start_.phase};
   const double count = static_cast<double>(first - grid.first);
-  const lanes::Sampler in_lanes = n < kFewest ? nullptr : lanes::sampler_in(kWidest);
+  const lanes::Sampler in_lanes = n < kMinInLanes ? nullptr : lanes::sampler_in(kWidest);
   if (in_lanes != nullptr && exact(clock, count + static_cast<double>(n))) {
-    lanes::SampleRow row = on_guide() ? row_of(slide_) : row_of(flight_);
+    lanes::SampleRow row = on_slide() ? row_of(slide_) : row_of(flight_);
     row.clock = clock;
     row.first = count, row.n = n, row.vertical = vertical, row.lateral = lateral;
     return in_lanes(row);

@@ -9,7 +9,7 @@ namespace afm {
 
 // Of a number a plain branch. A pack (src/core/lanes/pack.h) leaves out a way that none of its numbers goes.
 template <class F, class G>
-auto either(bool condition, const F& yes, const G& no) {
+auto branch(bool condition, const F& yes, const G& no) {
   return condition ? yes() : no();
 }
 
@@ -25,25 +25,25 @@ DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
     const Mechanics<T>& m = flight.mechanics();
     return DeflectionOf<T>{q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
   };
-  return either(flight.is_small(s), near, far);
+  return branch(flight.is_small(s), near, far);
 }
 
 // Along a piece of contact, or of the reference slide of a burst.
 template <class T>
-struct Guide {
+struct SlidePath {
   T phase, X;  // at its start
   T eta, H, y0;
   const Series<T>& displacement;
 };
 
 template <class T>
-DeflectionOf<T> guide_deflection(const Guide<T>& guide, const T& s) {
-  const T d = horner(guide.displacement, s);
-  return {surface_jet(guide.H, T(guide.phase + d)).h - guide.y0, guide.X + (d - guide.eta * s), T(0.0)};
+DeflectionOf<T> slide_deflection(const SlidePath<T>& reference, const T& s) {
+  const T d = horner(reference.displacement, s);
+  return {surface_jet(reference.H, T(reference.phase + d)).h - reference.y0, reference.X + (d - reference.eta * s), T(0.0)};
 }
 
 // What lanes need of an arc, but for which samples.
 lanes::SampleRow row_of(const Flight<double>& flight);
-lanes::SampleRow row_of(const SlidePiece<double>& slide);
+lanes::SampleRow row_of(const SlideSegment<double>& slide);
 
 }  // namespace afm

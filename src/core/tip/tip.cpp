@@ -4,7 +4,7 @@
 #include <cmath>
 #include <new>
 
-#include "tip_arcs.h"
+#include "tip_motion.h"
 
 namespace afm {
 namespace {
@@ -21,17 +21,17 @@ const TipState& checked(const TipState& start) {
 }
 
 // The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
-constexpr double kGrowth = 100.0;
+constexpr double kErrorGrowth = 100.0;
 // Bounces slower than this may become a burst [a/tau]: what the averages leave out of the first of them is the most of
 // a burst's error. 0.027 at the default. By square roots, which every machine rounds alike.
-double entry_gap_rate(double contact_tolerance) {
+double entry_speed_for(double contact_tolerance) {
   constexpr double kEntry = 2.0;
   return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
 
 // The reference slide of a chatter sequence need be no better than a 2500th of the tolerance. Its pieces are 2.7 times as long
 // for it. The energy account of the sequence holds all the same.
-int guide_bits(double contact_tolerance) {
+int reference_bits(double contact_tolerance) {
   constexpr double kPart = 4e-4, kLeast = 1e-15;
   return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
 }
@@ -48,9 +48,9 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
     : model_(checked(model)),
       mechanics_(model),
       eta_(eta),
-      slowest_chatter_(contact_tolerance / kGrowth),
+      slowest_chatter_(contact_tolerance / kErrorGrowth),
       law_(model, slowest_chatter_),
-      burst_gap_rate_(entry_gap_rate(contact_tolerance)),
+      entry_speed_(entry_speed_for(contact_tolerance)),
       flight_(mechanics_, eta, held(checked(start))),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
   const TipState& launched = flight_.launch();
@@ -97,18 +97,18 @@ void Tip::slide(const SlideState<double>& start, int bits) {
   slide_end_ = slide_releases_ ? release : slide_.length();
 }
 
-void Tip::burst(const SlideState<double>& guide, const Chatter& chatter) {
-  slide(guide, guide_bits(kGrowth * slowest_chatter_));
-  mode_ = Mode::bursting;
+void Tip::burst(const SlideState<double>& reference, const Chatter& chatter) {
+  slide(reference, reference_bits(kErrorGrowth * slowest_chatter_));
+  mode_ = Mode::chattering;
   chatter_ = chatter;
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
 }
 
 // To where the chatter has moved the tip.
-SlideState<double> Tip::leave_guide(double s, const Chatter& chatter) {
-  const ChatterRide r = ride(s, chatter);
-  burst_gain_ = r.gain;
-  burst_impulse_ = r.impulse;
+SlideState<double> Tip::leave_reference(double s, const Chatter& chatter) {
+  const SequenceState r = sequence_state(s, chatter);
+  sequence_gain_ = r.gain;
+  sequence_impulse_ = r.impulse;
   return r.moved;
 }
 
@@ -119,16 +119,16 @@ void Tip::leave_or_press() {
   if (!(start.g1 > 0.0)) {
     // also where the surface does not press, but only rounding pulls: on the glide at eta = 1 for ever
     if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
-  } else if (g2 < 0.0 && start.g1 <= burst_gap_rate_ && law_.holds(flight_)) {
-    const Projection settled = project_onto_surface(model_, start);
-    burst_begin_ = now_;
-    burst_normal_speed_ = settled.normal_speed;
-    const double v = settled.normal_speed, bounce = bounce_impulse(settled.guide, v);
-    burst_energy_ = slide_energy(mechanics_, settled.guide) + 0.5 * v * v + eta_ * bounce;
-    burst_gain_ = 0.0;
-    burst_impulse_ = -bounce;
+  } else if (g2 < 0.0 && start.g1 <= entry_speed_ && law_.holds(flight_)) {
+    const Projection projected_tip = project_onto_surface(model_, start);
+    sequence_begin_ = now_;
+    sequence_normal_speed_ = projected_tip.normal_speed;
+    const double v = projected_tip.normal_speed, bounce = bounce_impulse(projected_tip.reference, v);
+    sequence_energy_ = slide_energy(mechanics_, projected_tip.reference) + 0.5 * v * v + eta_ * bounce;
+    sequence_gain_ = 0.0;
+    sequence_impulse_ = -bounce;
     is_split_ = false;
-    burst(settled.guide, {settled.normal_speed, 0.0});
+    burst(projected_tip.reference, {projected_tip.normal_speed, 0.0});
   }
 }
 
@@ -141,12 +141,12 @@ void Tip::resume(const TipState& launched, const ModelTime& start, const Impact&
 }
 
 void Tip::set_tolerance(double contact_tolerance) {
-  slowest_chatter_ = contact_tolerance / kGrowth;
-  burst_gap_rate_ = entry_gap_rate(contact_tolerance);
+  slowest_chatter_ = contact_tolerance / kErrorGrowth;
+  entry_speed_ = entry_speed_for(contact_tolerance);
 }
 
 TipState Tip::tip_state() const {
-  if (on_guide()) {
+  if (on_slide()) {
     const SlideState<double> q = slide_at(slide_, now_ - start_);
     return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
   }
@@ -159,18 +159,18 @@ TipState Tip::tip_state() const {
 void Tip::find_landing() {
   constexpr double kBeyondKick = 1e-6;  // [tau] far above rounding, so that a kick comes before the end of its search
   const double horizon = std::fmin(kSearchHorizon, thermostat_.next() - start_ + kBeyondKick);
-  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, horizon));  // in place (tip_arcs.cpp)
+  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, horizon));  // in place (tip_motion.cpp)
   landing_known_ = true;
 }
 
-ModelTime Tip::arc_end() {
+ModelTime Tip::segment_end() {
   const ModelTime event = event_time();
   return thermostat_.next() < event ? thermostat_.next() : event;
 }
 
 ModelTime Tip::event_time() {
   if (pending_) return now_;
-  if (on_guide()) {
+  if (on_slide()) {
     const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
     return end < now_ ? now_ : end;  // a jolt ends it now, and not a rounding before the command
   }
@@ -179,7 +179,7 @@ ModelTime Tip::event_time() {
   return start_ + landing_.s;
 }
 
-Outcome Tip::advance_arc(const ModelTime& limit, Segments* ended) {
+Outcome Tip::advance_segment(const ModelTime& limit, Segments* ended) {
   if (ended != nullptr) ended->clear();
   const ModelTime event = event_time();
   const bool kicked = thermostat_.next() < event;
@@ -198,12 +198,12 @@ Outcome Tip::advance_arc(const ModelTime& limit, Segments* ended) {
     return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
   }
   now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
-  return end_arc(ended);
+  return end_segment(ended);
 }
 
 Outcome Tip::advance(const ModelTime& limit) {
   for (;;) {
-    const Outcome outcome = advance_arc(limit);
+    const Outcome outcome = advance_segment(limit);
     if (outcome != Outcome::flying) return outcome;
   }
 }

@@ -1,7 +1,7 @@
 // The energy account of the tip. Nothing of it is computed unless someone asks.
 #include "afm/surface.h"
 #include "afm/tip.h"
-#include "tip_arcs.h"
+#include "tip_motion.h"
 
 namespace afm {
 namespace {
@@ -16,7 +16,7 @@ double spring_impulse(const Mechanics<double>& m, double stretch) { return -m.om
 
 // The holder of a held tip balances what the surface pushes along x. Its work is the change of energy; at rest the force
 // is constant.
-double held_impulse(const SlidePiece<double>& slide, double s, double work) {
+double held_impulse(const SlideSegment<double>& slide, double s, double work) {
   if (slide.eta() != 0.0) return work / slide.eta();
   return surface_jet(slide.mechanics().H, slide.start().phase).h1 * slide.pressure(0.0) * s;
 }
@@ -24,24 +24,24 @@ double held_impulse(const SlidePiece<double>& slide, double s, double work) {
 }  // namespace
 
 double Tip::slide_impulse(double s) const {
-  if (mechanics_.mobility > 0.0) return spring_impulse(mechanics_, stretch_integral(slide_, s));
+  if (mechanics_.is_free_along_x > 0.0) return spring_impulse(mechanics_, extension_integral(slide_, s));
   const double end = slide_energy(mechanics_, slide_at(slide_, s));
   return held_impulse(slide_, s, end - slide_energy(mechanics_, slide_.start()));
 }
 
 // The end of a piece of the reference slide in a chatter sequence. `gain` is what the sequence loses beyond the fall of
 // v^2/2: the work of the drag, less what the tip stores off the reference slide.
-Tip::ChatterRide Tip::ride(double s, const Chatter& chatter) const {
-  const SlideState<double> guide = slide_at(slide_, s), moved = moved_guide(model_, guide, chatter);
+Tip::SequenceState Tip::sequence_state(double s, const Chatter& chatter) const {
+  const SlideState<double> reference = slide_at(slide_, s), moved = moved_reference(model_, reference, chatter);
   const double start = slide_energy(mechanics_, slide_.start()), after = slide_energy(mechanics_, moved);
-  ChatterRide r{moved, burst_gain_, burst_impulse_, after + 0.5 * chatter.v * chatter.v};
-  if (mechanics_.mobility > 0.0) {
-    const double stretch = stretch_integral(slide_, s), force = spring_impulse(mechanics_, 1.0) * eta_;
+  SequenceState r{moved, sequence_gain_, sequence_impulse_, after + 0.5 * chatter.v * chatter.v};
+  if (mechanics_.is_free_along_x > 0.0) {
+    const double stretch = extension_integral(slide_, s), force = spring_impulse(mechanics_, 1.0) * eta_;
     r.gain += force * stretch;
     r.gain += force * chatter.drift - (after - start) + chatter.lift;
     r.impulse = r.impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
   } else {
-    const double along = slide_energy(mechanics_, guide);
+    const double along = slide_energy(mechanics_, reference);
     r.gain += chatter.lift - (after - along);
     r.impulse = r.impulse + held_impulse(slide_, s, along - start) + held_impulse(slide_, 0.0, chatter.lift);
   }
@@ -51,22 +51,22 @@ Tip::ChatterRide Tip::ride(double s, const Chatter& chatter) const {
 // Right after a bounce the tip is faster than its chatter is on average. What that took along x the holder of a held tip
 // has given, and worked for.
 double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
-  return mechanics_.mobility > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
+  return mechanics_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
 }
 
 Account Tip::account_at_begin() const {
   if (is_split_) return split_;
-  if (mode_ == Mode::bursting) return {burst_begin_, 0.0, 0.0, burst_energy_, 0};
+  if (mode_ == Mode::chattering) return {sequence_begin_, 0.0, 0.0, sequence_energy_, 0};
   if (mode_ == Mode::sliding) return {start_, 0.0, 0.0, slide_energy(mechanics_, slide_.start()), 0};
   return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flight_.start().state), 0};
 }
 
 // At a time s of the arc; of a chatter sequence `chatter` is its state there.
 Account Tip::account_at(double s, const Chatter& chatter) const {
-  if (mode_ == Mode::bursting) {
-    const ChatterRide r = ride(s, chatter);
+  if (mode_ == Mode::chattering) {
+    const SequenceState r = sequence_state(s, chatter);
     const double bounce = bounce_impulse(r.moved, chatter.v), energy = r.energy + eta_ * bounce;
-    return {now_, r.impulse + bounce, burst_loss(chatter.v, r.gain), energy, static_cast<std::uint64_t>(chatter.n)};
+    return {now_, r.impulse + bounce, chatter_loss(chatter.v, r.gain), energy, static_cast<std::uint64_t>(chatter.n)};
   }
   if (mode_ == Mode::sliding) {
     return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, slide_at(slide_, s)), 0};
@@ -81,13 +81,13 @@ Account Tip::flight_account(const FlightState<double>& q) const {
 
 Account Tip::account() const {
   if (mode_ == Mode::touching) return account_at_begin();
-  return account_at(now_ - start_, mode_ == Mode::bursting ? chatter_now() : Chatter{});
+  return account_at(now_ - start_, mode_ == Mode::chattering ? chatter_now() : Chatter{});
 }
 
 Segment Tip::segment_to(const Account& end) const {
   const Account begin = account_at_begin();
   Segment s;
-  s.kind = mode_ == Mode::bursting  ? SegmentKind::chatter
+  s.kind = mode_ == Mode::chattering  ? SegmentKind::chatter
            : mode_ == Mode::sliding ? SegmentKind::contact
                                     : SegmentKind::flight;
   s.begin = begin.time;
@@ -132,7 +132,7 @@ Segment Tip::impact_segment(double energy_before) const {
   s.begin = s.end = now_;
   s.eta = eta_;
   // the holder of a held tip takes what the surface gives along x
-  if (mechanics_.mobility == 0.0) s.impulse = landing_.jet.h1 * (after.g1 - landing_.jet.g1);
+  if (mechanics_.is_free_along_x == 0.0) s.impulse = landing_.jet.h1 * (after.g1 - landing_.jet.g1);
   s.loss = last_impact_.energy_loss;
   s.stored = energy_of(mechanics_, eta_, after.state) - energy_before;
   s.count = last_impact_.count;
@@ -140,11 +140,11 @@ Segment Tip::impact_segment(double energy_before) const {
 }
 
 // A piece of the reference slide that another follows is no segment yet.
-Outcome Tip::end_arc(Segments& ended) {
-  if (sequence_goes_on()) return end_arc();
+Outcome Tip::end_segment(Segments& ended) {
+  if (sequence_goes_on()) return end_segment();
   const Account end = account_at_end();
   ended.add(segment_to(end));
-  const Outcome outcome = end_arc();
+  const Outcome outcome = end_segment();
   const bool bounced = outcome == Outcome::impact && last_impact_.kind == ImpactKind::impact;
   if (bounced) ended.add(impact_segment(end.energy));
   return outcome;

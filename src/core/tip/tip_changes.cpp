@@ -8,18 +8,18 @@ Chatter Tip::chatter_now() const { return law_.at(slide_, now_ - start_, chatter
 
 void Tip::drag(double eta) {
   if (eta == eta_) return;
-  if (model_.kind == ModelKind::hammer && on_guide()) return jolt(eta);
+  if (model_.kind == ModelKind::hammer && on_slide()) return jolt(eta);
   const TipState state = tip_state();
-  SlideState<double> guide{state.phase, state.X, state.u};
-  if (mode_ == Mode::bursting) {
+  SlideState<double> reference{state.phase, state.X, state.u};
+  if (mode_ == Mode::chattering) {
     const Chatter chatter = chatter_now();
-    guide = leave_guide(now_ - start_, chatter);
+    reference = leave_reference(now_ - start_, chatter);
     eta_ = eta;
-    burst(guide, {chatter.v, chatter.n});
+    burst(reference, {chatter.v, chatter.n});
     return split_account();
   }
   eta_ = eta;
-  if (mode_ == Mode::sliding) return slide(guide);
+  if (mode_ == Mode::sliding) return slide(reference);
   const bool due = mode_ == Mode::touching;
   fly(state);
   if (due && flight_.launch().g1 == 0.0) mode_ = Mode::touching;
@@ -28,13 +28,13 @@ void Tip::drag(double eta) {
 // A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at
 // once.
 void Tip::jolt(double eta) {
-  end_guide_now();
+  end_slide_now();
   eta_ = eta;
   split_account();
 }
 
 // What ends burst or contact at the next advance ends it here.
-void Tip::end_guide_now() {
+void Tip::end_slide_now() {
   const double s = now_ - start_;
   if (mode_ == Mode::sliding) {
     slide_end_ = s;
@@ -44,7 +44,7 @@ void Tip::end_guide_now() {
   }
 }
 
-void Tip::adopt(const Model& model) {
+void Tip::set_laws(const Model& model) {
   model_ = model;
   mechanics_ = Mechanics<double>(model);
   law_ = ChatterLaw(model, slowest_chatter_);
@@ -52,27 +52,27 @@ void Tip::adopt(const Model& model) {
 
 void Tip::set_parameters(const Model& model) {
   const TipState state = tip_state();
-  SlideState<double> guide{state.phase, state.X, state.u};
-  if (mode_ == Mode::bursting) {
+  SlideState<double> reference{state.phase, state.X, state.u};
+  if (mode_ == Mode::chattering) {
     const Chatter chatter = chatter_now();
-    guide = leave_guide(now_ - start_, chatter);
-    adopt(model);
-    slide(guide);
-    mode_ = Mode::bursting;
+    reference = leave_reference(now_ - start_, chatter);
+    set_laws(model);
+    slide(reference);
+    mode_ = Mode::chattering;
     chatter_ = {chatter.v, chatter.n};
     chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
     return split_account();
   }
-  adopt(model);
-  if (mode_ == Mode::sliding) return slide(guide);
+  set_laws(model);
+  if (mode_ == Mode::sliding) return slide(reference);
   fly(state);
   if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
 }
 
 // Ends chatter or contact at once. The next advance reports the event.
 void Tip::leave_now() {
-  end_guide_now();
-  mode_ == Mode::sliding ? end_slide() : end_burst();
+  end_slide_now();
+  mode_ == Mode::sliding ? end_slide() : end_chatter();
   pending_ = true;
   pending_impact_ = last_impact_;
 }
@@ -80,13 +80,13 @@ void Tip::leave_now() {
 double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
   const bool jolted = mode_ == Mode::sliding && slide_releases_ && start_ + slide_end_ <= now_;
-  if (mode_ == Mode::bursting || jolted || (mode_ == Mode::sliding && drops)) leave_now();
+  if (mode_ == Mode::chattering || jolted || (mode_ == Mode::sliding && drops)) leave_now();
   const TipState state = tip_state();
   const double spring = mechanics_.omega_h * state.X;
   Model model = model_;
   model.kind = kind;
   set_tolerance(contact_tolerance);
-  adopt(model);
+  set_laws(model);
   if (mode_ == Mode::sliding) {
     slide({state.phase, state.X, state.u});
     return 0.0;

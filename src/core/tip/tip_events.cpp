@@ -1,7 +1,7 @@
 // What happens at the end of an arc: impact, the end of a chatter sequence, contact, release, the end of a search.
 #include "afm/reflection.h"
 #include "afm/tip.h"
-#include "tip_arcs.h"
+#include "tip_motion.h"
 
 namespace afm {
 
@@ -15,30 +15,30 @@ Outcome Tip::land() {
 }
 
 // All that the bounces lost: what their normal speed was at first, less what it is now, and what the tip gained meanwhile.
-double Tip::burst_loss(double v, double gain) const {
-  return 0.5 * (burst_normal_speed_ - v) * (burst_normal_speed_ + v) + gain;
+double Tip::chatter_loss(double v, double gain) const {
+  return 0.5 * (sequence_normal_speed_ - v) * (sequence_normal_speed_ + v) + gain;
 }
 
 // Only its piece of the reference slide ends.
 bool Tip::sequence_goes_on() const {
-  return mode_ == Mode::bursting && chatter_run_.end == ChatterEnd::time && !slide_releases_;
+  return mode_ == Mode::chattering && chatter_run_.end == ChatterEnd::time && !slide_releases_;
 }
 
-Outcome Tip::end_burst() {
+Outcome Tip::end_chatter() {
   const ChatterRun run = chatter_run_;
   if (sequence_goes_on()) {
-    burst(leave_guide(run.s, run.chatter), {run.chatter.v, run.chatter.n});
+    burst(leave_reference(run.s, run.chatter), {run.chatter.v, run.chatter.n});
     return Outcome::flying;
   }
-  const SlideState<double> guide = leave_guide(run.s, run.chatter);
+  const SlideState<double> reference = leave_reference(run.s, run.chatter);
   const bool died = run.end == ChatterEnd::died;
-  const TipState bounce = leave_surface(model_, guide, died ? 0.0 : run.chatter.v);
-  const Projection settled = project_onto_surface(model_, bounce);
+  const TipState bounce = leave_surface(model_, reference, died ? 0.0 : run.chatter.v);
+  const Projection projected_tip = project_onto_surface(model_, bounce);
   last_impact_ = {now_,
                   bounce.phase,
-                  burst_normal_speed_,
-                  settled.tangential_velocity,
-                  burst_loss(died ? 0.0 : run.chatter.v, burst_gain_),
+                  sequence_normal_speed_,
+                  projected_tip.tangential_velocity,
+                  chatter_loss(died ? 0.0 : run.chatter.v, sequence_gain_),
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
   fly(bounce);
@@ -75,10 +75,10 @@ Outcome Tip::end_flight() {
   return failed ? Outcome::search_failed : Outcome::flying;
 }
 
-Outcome Tip::end_arc() {
+Outcome Tip::end_segment() {
   switch (mode_) {
-    case Mode::bursting:
-      return end_burst();
+    case Mode::chattering:
+      return end_chatter();
     case Mode::touching:
       return touch();
     case Mode::sliding:

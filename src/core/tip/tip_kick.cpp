@@ -14,7 +14,7 @@ void Tip::set_bath(const Bath& bath) {
 // Relative to the holder both velocities change; the holder of a held tip takes what is along x.
 TipState Tip::kicked(const Kick& kick, const TipState& state) const {
   const double slope = surface_jet(model_.H, state.phase).h1, w = state.g1 + slope * state.u;
-  const double du = mechanics_.mobility == 0.0 ? 0.0 : kick.lateral.change(state.u - eta_);
+  const double du = mechanics_.is_free_along_x == 0.0 ? 0.0 : kick.lateral.change(state.u - eta_);
   return {state.phase, state.X, state.u + du, state.g, state.g1 + (kick.vertical.change(w) - slope * du)};
 }
 
@@ -41,9 +41,9 @@ Outcome Tip::kick(Segments* ended) {
   const Kick kick = thermostat_.draw();
   const bool stays = stays_after(kick);
   Outcome outcome = Outcome::flying;
-  if (on_guide() && !stays) {
-    end_guide_now();
-    outcome = end_arc(ended);
+  if (on_slide() && !stays) {
+    end_slide_now();
+    outcome = end_segment(ended);
   } else if (ended != nullptr) {
     ended->add(segment());
   }

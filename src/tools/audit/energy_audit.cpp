@@ -164,7 +164,7 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   // the holder moves on through the springs: what is conserved in flight is the energy in its frame
   const double angle = kTwoPi * told.surface_phase, slope = -kTwoPi * model_.H * std::sin(angle);
   // of the hammer it takes what the surface gives along x
-  const double free = mobility(model_), given = free * (out.U - in.U) - (1.0 - free) * slope * (out.W - in.W);
+  const double free = is_free_along_x(model_), given = free * (out.U - in.U) - (1.0 - free) * slope * (out.W - in.W);
   note(report_.balance_error, (energy(out) - energy(in) + event.eta * given + loss) / energy_scale);
   note(report_.position_error, (out.X - in.X) / length);
   note(report_.position_error, (out.Y - in.Y) / length);

@@ -212,7 +212,7 @@ void EpochLog::check_levels() const {
           Level level;
           const bool known = parse(applied.model, level.kind);
           level.contact_tolerance = applied.contact_tolerance;
-          const bool possible = known && has_sound_tolerance(level);
+          const bool possible = known && has_valid_tolerance(level);
           if (!possible || (configuration.model != node::kAuto && !(level == configured))) {
             nonsense(configuration.epoch, "a command brings a level of the model that the configuration has not");
           }

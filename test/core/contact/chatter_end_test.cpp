@@ -28,7 +28,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
   int exits = 0;
   for (int i = 0; i < 2000; ++i) {
     const RandomChatter chatter = random_chatter(model, law, random, -3.5, -2.0);
-    const ChatterRun run = law.run(chatter.guide, 0.0, chatter.guide.length(), {chatter.v, 0.0});
+    const ChatterRun run = law.run(chatter.reference, 0.0, chatter.reference.length(), {chatter.v, 0.0});
     if (run.end != ChatterEnd::exits) continue;
     ++exits;
     ASSERT_EQ(run.chatter.n, std::floor(run.chatter.n));
@@ -36,7 +36,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
     if (run.chatter.n > 100.0) continue;
     Tip tip = chatter.every_bounce();
     for (int n = 1; n <= static_cast<int>(run.chatter.n); ++n) tip.advance(kNever);
-    const double bounce = 2.0 * run.chatter.v / chatter.guide.pressure(run.s);
+    const double bounce = 2.0 * run.chatter.v / chatter.reference.pressure(run.s);
     ASSERT_NEAR(tip.now() - ModelTime{}, run.s, 0.1 * bounce) << i;
     ASSERT_NEAR(project_onto_surface(model, tip.tip_state()).normal_speed, run.chatter.v, 2.0 * kThreshold) << i;
   }
@@ -45,7 +45,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
 
 // The sum of the geometric series of all bounces from one of gap rate v on, at time s.
 double rest_of_zeno(const RandomChatter& chatter, double s, double v) {
-  return 2.0 * v / (chatter.guide.pressure(s) * (1.0 - chatter.model.gamma));
+  return 2.0 * v / (chatter.reference.pressure(s) * (1.0 - chatter.model.gamma));
 }
 
 TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
@@ -56,7 +56,7 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
   int compared = 0;
   for (int i = 0; i < 300; ++i) {
     const RandomChatter chatter = random_chatter(model, law, random, -4.0, -2.5);
-    Tip bounces = chatter.every_bounce(), tip(model, chatter.guide.eta(), bounces.tip_state());
+    Tip bounces = chatter.every_bounce(), tip(model, chatter.reference.eta(), bounces.tip_state());
     if (tip.advance(kNever) != Outcome::impact || tip.tip_state().g1 > 0.0) continue;  // let go before
     const Impact burst = tip.last_impact();
     ASSERT_EQ(burst.kind, ImpactKind::burst);
@@ -96,8 +96,8 @@ TEST(Settle, TakesOutTheNormalVelocityAndUnsettlePutsItBack) {
     ASSERT_NEAR(settled.normal_speed, (w - slope * state.u) / n, 1e-14 * (1.0 + std::abs(w)));
     ASSERT_NEAR(settled.tangential_velocity, (state.u + slope * w) / n,
                 1e-14 * (1.0 + std::abs(state.u) + std::abs(w)));
-    ASSERT_NEAR(settled.guide.u * n, settled.tangential_velocity, 1e-14 * (1.0 + std::abs(state.u)));
-    const TipState back = leave_surface(model, settled.guide, settled.normal_speed);
+    ASSERT_NEAR(settled.reference.u * n, settled.tangential_velocity, 1e-14 * (1.0 + std::abs(state.u)));
+    const TipState back = leave_surface(model, settled.reference, settled.normal_speed);
     ASSERT_EQ(back.phase, state.phase);
     ASSERT_EQ(back.X, state.X);
     ASSERT_EQ(back.g, 0.0);

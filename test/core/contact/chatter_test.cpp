@@ -38,13 +38,13 @@ struct Comparison {
 // Step by step: the law after a small part of the reference slide, and the reference slide from there on.
 struct LawStep {
   Model model;
-  Piece guide;
+  Piece slide;
   Chatter chatter;
 
   void advance(const ChatterLaw& law, double dt) {
-    chatter = law.at(guide, dt, chatter);
-    const SlideState<double> moved = moved_guide(model, guide.at(dt), chatter);
-    guide = Piece(guide.mechanics(), guide.eta(), moved);
+    chatter = law.at(slide, dt, chatter);
+    const SlideState<double> moved = moved_reference(model, slide.at(dt), chatter);
+    slide = Piece(slide.mechanics(), slide.eta(), moved);
     chatter.sigma = chatter.p = 0.0;
   }
 };
@@ -54,8 +54,8 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
   Comparison comparison;
   Tip tip = chatter.every_bounce();
   const Chatter start{chatter.v, 0.0};
-  LawStep law_step{chatter.model, chatter.guide, start};
-  const double end = law.run(chatter.guide, 0.0, chatter.guide.length(), start).s;
+  LawStep law_step{chatter.model, chatter.reference, start};
+  const double end = law.run(chatter.reference, 0.0, chatter.reference.length(), start).s;
   double before = 0.0;
   for (int n = 1; n <= most; ++n) {
     tip.advance(kNever);
@@ -63,7 +63,7 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
     if (t >= end) return comparison;
     for (int part = 0; part < parts; ++part) law_step.advance(law, (t - before) / parts);
     before = t;
-    const Chatter now = parts == 0 ? law.at(chatter.guide, t, start) : law_step.chatter;
+    const Chatter now = parts == 0 ? law.at(chatter.reference, t, start) : law_step.chatter;
     comparison.bounces = n;
     comparison.last = {std::abs(now.n / n - 1.0), std::abs(now.v / v - 1.0)};
     comparison.worst = {std::max(comparison.worst.n, comparison.last.n),
@@ -104,10 +104,10 @@ TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
   const ChatterRates rates(model_, false);
   for (int i = 0; i < 200; ++i) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
-    const ChatterPlace start = rates.begin(chatter.guide, 0.0, {chatter.v, 0.0});
+    const ChatterPlace start = rates.begin(chatter.reference, 0.0, {chatter.v, 0.0});
     const double fastest = std::max({start.around.relative_rate, kTwoPi * start.around.slow_rate, std::abs(start.rate.x)});
     for (double part = 1e-3; part > 1e-20; part *= 0.1) {
-      const double dt = part / fastest, x = rates.step(chatter.guide, start, dt).even.x;
+      const double dt = part / fastest, x = rates.step(chatter.reference, start, dt).even.x;
       ASSERT_NEAR(x, start.even.x + dt * start.rate.x, 10.0 * part * part + 1e-14) << i << ' ' << part;
     }
   }

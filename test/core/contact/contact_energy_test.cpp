@@ -33,7 +33,7 @@ TEST_P(ContactEnergy, WhatIsLostIsTheWorkOfTheDragLessWhatIsStored) {
   EnergyBalance balance(tip);
   int events = 0, bursts = 0;
   while (events < 100000) {
-    const Outcome outcome = balance.advance_arc(tip, kNever);
+    const Outcome outcome = balance.advance_segment(tip, kNever);
     ASSERT_NE(outcome, Outcome::search_failed);
     if (outcome == Outcome::flying) continue;
     ++events;
@@ -58,7 +58,7 @@ TEST(ContactEnergyOfModels, IsInBalanceWhateverTheRestitution) {
       model.v_c = v_c;
       Tip tip(model, 0.7, FreeState{0.25, 0.0, 0.2, 0.7, 0.0});
       EnergyBalance balance(tip);
-      while (tip.now() < ModelTime{300, 0.0}) balance.advance_arc(tip, {300, 0.0});
+      while (tip.now() < ModelTime{300, 0.0}) balance.advance_segment(tip, {300, 0.0});
       EXPECT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << gamma << ", v_c " << v_c;
     }
   }

@@ -70,7 +70,7 @@ FrictionEstimate friction_of(const Drag& drag, double tolerance) {
   Friction friction(100.0);
   friction.restart(kTransient, drag.eta);
   Segments ended;
-  while (tip.advance_arc(kEnd, &ended) != Outcome::time_limit) {
+  while (tip.advance_segment(kEnd, &ended) != Outcome::time_limit) {
     for (const Segment& segment : ended) friction.add(segment);
   }
   return friction.estimate(kEnd, tip.segment());

@@ -55,7 +55,7 @@ class QuadContact {
   std::array<Quad, 3> slide(const std::array<Quad, 3>& from, Quad left) const {
     SlideState<Quad> q{from[0], from[1], from[2]};
     while (left != 0) {
-      const SlidePiece<Quad> piece(mechanics_, eta_, q);
+      const SlideSegment<Quad> piece(mechanics_, eta_, q);
       const Quad step = std::min<Quad>(left, piece.length() / 4);
       q = piece.at(step);
       left -= step;
@@ -67,7 +67,7 @@ class QuadContact {
     Quad time = slide_;
     for (Quad error = 1; abs(error) > 1e-28;) {
       const std::array<Quad, 3> q = slide(from, time);
-      const auto p = SlidePiece<Quad>(mechanics_, eta_, {q[0], q[1], q[2]}).pressure_jet(0);
+      const auto p = SlideSegment<Quad>(mechanics_, eta_, {q[0], q[1], q[2]}).pressure_jet(0);
       error = p[0] / p[1];
       time -= error;
     }
@@ -133,14 +133,14 @@ TEST(SettleJacobian, IsTheDerivativeOfSettling) {
   const TipState start{0.2, 0.01, 2.7, 0.0, 0.4};
   constexpr double kStep = 1e-6;
   double TipState::*const parts[] = {&TipState::phase, &TipState::X, &TipState::u, &TipState::g1};
-  const Eigen::Matrix4d J = settle_jacobian(model, start);
+  const Eigen::Matrix4d J = projection_jacobian(model, start);
   for (int j = 0; j < 4; ++j) {
     TipState up = start, down = start;
     up.*parts[j] += kStep;
     down.*parts[j] -= kStep;
     const Projection high = project_onto_surface(model, up), low = project_onto_surface(model, down);
-    const Eigen::Vector4d column(high.guide.phase - low.guide.phase, high.guide.X - low.guide.X,
-                                 high.guide.u - low.guide.u, high.normal_speed - low.normal_speed);
+    const Eigen::Vector4d column(high.reference.phase - low.reference.phase, high.reference.X - low.reference.X,
+                                 high.reference.u - low.reference.u, high.normal_speed - low.normal_speed);
     EXPECT_LE((column / (2.0 * kStep) - J.col(j)).norm(), 1e-8) << j;
   }
 }

@@ -279,7 +279,7 @@ void expect_without_padding(const Arguments&... arguments) {
 TEST(SavedState, IsMadeOfObjectsWithoutPadding) {
   const Mechanics<double> mechanics{Model()};
   expect_without_padding<Flight<double>>(mechanics, 3.4, TipState{0.1, 0.0, 3.4, 0.0, 1.0});
-  expect_without_padding<SlidePiece<double>>(mechanics, 3.4, SlideState<double>{0.1, 0.0, 3.4});
+  expect_without_padding<SlideSegment<double>>(mechanics, 3.4, SlideState<double>{0.1, 0.0, 3.4});
   expect_without_padding<Friction>(100.0);
   expect_without_padding<SampleGrid>();
   expect_without_padding<ModelTime>();

@@ -48,12 +48,12 @@ std::vector<Corner> corners() {
 bool run(Tip& tip, EnergyBalance& balance, const ModelTime& end, long most_arcs) {
   for (long arcs = 0; arcs < most_arcs; ++arcs) {
     const ModelTime begin = tip.now();
-    const ModelTime middle = begin + 0.5 * ((tip.arc_end() < end ? tip.arc_end() : end) - begin);
+    const ModelTime middle = begin + 0.5 * ((tip.segment_end() < end ? tip.segment_end() : end) - begin);
     const Deflection d = tip.deflection(middle);
-    if (middle < tip.arc_end()) {
+    if (middle < tip.segment_end()) {
       EXPECT_GE(d.gap, -1e-15 * std::max(1.0, std::abs(d.vertical)));
     }
-    const Outcome outcome = balance.advance_arc(tip, end);
+    const Outcome outcome = balance.advance_segment(tip, end);
     EXPECT_NE(outcome, Outcome::search_failed);
     EXPECT_TRUE(begin <= tip.now());
     if (outcome == Outcome::time_limit) return true;
@@ -84,7 +84,7 @@ TEST(Corners, EachKeepsItsEnergyBalanceAndItsTime) {
 TEST(Corners, ATipAtRestStaysAtRestCostsNothingAndWakesUp) {
   Tip tip(Model(), 0.0, TipState{0.0, 0.0, 0.0, 0.0, 0.0});
   long arcs = 0;
-  while (tip.advance_arc({100000, 0.0}) != Outcome::time_limit) ++arcs;
+  while (tip.advance_segment({100000, 0.0}) != Outcome::time_limit) ++arcs;
   EXPECT_TRUE(tip.in_contact());
   EXPECT_LE(arcs, 100000 / 7);
   const FreeState rest = tip.state();

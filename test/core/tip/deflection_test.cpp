@@ -57,7 +57,7 @@ Arcs expect_rows(const Model& model, double eta, double duration, ModelTime begi
   const SampleGrid whole{0.0127, 7, begin};
   std::size_t n = 1;
   for (ModelTime now; now < ModelTime{} + duration; now = tip.now(), n = n % 19 + 1) {
-    const ModelTime end = tip.arc_end();
+    const ModelTime end = tip.segment_end();
     const double length = end - now;
     const SampleGrid part{0.999 * length / static_cast<double>(n), 0, now};
     expect_identical(in_a_row(tip, part, 0, n), one_by_one(tip, part, 0, n));
@@ -69,7 +69,7 @@ Arcs expect_rows(const Model& model, double eta, double duration, ModelTime begi
     }
     tip.in_flight() ? ++arcs.flights : ++arcs.guides;
     arcs.samples += static_cast<int>(n);
-    tip.advance_arc({std::int64_t{1} << 60, 0.0});
+    tip.advance_segment({std::int64_t{1} << 60, 0.0});
   }
   return arcs;
 }
@@ -94,7 +94,7 @@ TEST(Deflection, RowsAreTheSamplesOneByOne) {
 TEST(Deflection, AnyNumberOfLanesGivesTheSame) {
   const Mechanics<double> mechanics{Model{}};
   const Flight<double> flight(mechanics, 3.4, TipState{0.6, 0.01, 3.0, 0.0, 1.5});
-  const SlidePiece<double> slide(mechanics, 0.7, {0.4, 0.002, 0.9});
+  const SlideSegment<double> slide(mechanics, 0.7, {0.4, 0.002, 0.9});
   for (const int width : {4, 8}) {
     const lanes::Sampler in_lanes = lanes::sampler_in(width);
     if (in_lanes == nullptr) GTEST_SKIP() << "this machine has no lanes";

@@ -62,7 +62,7 @@ TEST_P(Kicked, WorkIsLossHeatAndStoredEnergyToRounding) {
     gross += std::abs(s.work()) + s.loss + std::abs(s.heat);
   };
   while (impacts < 100000 && kicked.now() < ModelTime{50000, 0.0}) {
-    ASSERT_NE(kicked.advance_arc({50000, 0.0}, &ended), Outcome::search_failed);
+    ASSERT_NE(kicked.advance_segment({50000, 0.0}, &ended), Outcome::search_failed);
     for (const Segment& s : ended) {
       add(s);
       impacts += s.count;
@@ -114,7 +114,7 @@ TEST(Kick, ComesInTheAirInChatterAndInContact) {
   std::set<SegmentKind> split;
   Segments ended;
   while (tip.now() < ModelTime{3000, 0.0}) {
-    tip.advance_arc({3000, 0.0}, &ended);
+    tip.advance_segment({3000, 0.0}, &ended);
     const Segment* last = ended.end() - 1;
     if (last > ended.begin() && last->kind == SegmentKind::kick) split.insert((last - 1)->kind);
   }
@@ -178,7 +178,7 @@ TEST(Kick, KeepsTheBalanceThroughCommands) {
     balance.command(tip, [&] { tip.set_bath(bath_of(0.1 * (i % 5), i % 7 == 0 ? 0.0 : 30.0, 1.0 + i % 3)); });
     if (i % 3 == 0) balance.command(tip, [&] { tip.drag(0.37 * (i % 13) - 1.0); });
     const ModelTime until = tip.now() + 7.77;
-    while (balance.advance_arc(tip, until) != Outcome::time_limit) continue;
+    while (balance.advance_segment(tip, until) != Outcome::time_limit) continue;
   }
   EXPECT_LT(balance.imbalance(tip), 1e-11 * balance.turnover(tip));
 }

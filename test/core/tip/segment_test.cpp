@@ -36,7 +36,7 @@ TEST_P(SegmentsOf, EachIsInBalanceAndFollowsTheOneBefore) {
   ModelTime last = tip.now();
   int kinds[4] = {};
   for (int arcs = 0; arcs < 30000; ++arcs) {
-    const Outcome outcome = tip.advance_arc({1000000, 0.0}, &ended);
+    const Outcome outcome = tip.advance_segment({1000000, 0.0}, &ended);
     ASSERT_NE(outcome, Outcome::search_failed);
     for (const Segment& s : ended) {
       ASSERT_EQ(s.begin, last) << arcs;
@@ -59,8 +59,8 @@ TEST_P(SegmentsOf, LimitsChangeNoRecord) {
   RandomLaunches random(2);
   Segments a, b;
   for (int arcs = 0; arcs < 3000; ++arcs) {
-    whole.advance_arc({1000000, 0.0}, &a);
-    while (halting.advance_arc(halting.now() + random.within(0.0, 0.5), &b) == Outcome::time_limit) {
+    whole.advance_segment({1000000, 0.0}, &a);
+    while (halting.advance_segment(halting.now() + random.within(0.0, 0.5), &b) == Outcome::time_limit) {
       ASSERT_EQ(b.begin(), b.end());
     }
     ASSERT_EQ(a.end() - a.begin(), b.end() - b.begin());
@@ -89,7 +89,7 @@ TEST_P(SegmentsOf, LossesAndCountsAddUpToThoseOfTheEventsWhateverTheCommands) {
   for (int commands = 0; commands < 20000; ++commands) {
     const ModelTime next = tip.now() + random.within(0.0, 0.5);
     for (Outcome o = Outcome::flying; o != Outcome::time_limit;) {
-      o = tip.advance_arc(next, &ended);
+      o = tip.advance_segment(next, &ended);
       for (const Segment& s : ended) add(s);
       if (o != Outcome::impact) continue;
       events += tip.last_impact().energy_loss;
@@ -102,8 +102,8 @@ TEST_P(SegmentsOf, LossesAndCountsAddUpToThoseOfTheEventsWhateverTheCommands) {
     ASSERT_EQ(tip.segment().loss, 0.0);
     ASSERT_EQ(tip.segment().count, 0u);
   }
-  while (tip.in_burst()) {  // the last event is still open
-    const Outcome o = tip.advance_arc({1000000, 0.0}, &ended);
+  while (tip.in_chatter()) {  // the last event is still open
+    const Outcome o = tip.advance_segment({1000000, 0.0}, &ended);
     for (const Segment& s : ended) add(s);
     if (o != Outcome::impact) continue;
     events += tip.last_impact().energy_loss;
@@ -125,10 +125,10 @@ TEST_P(OscillatorSegments, TheImpulseIsTheTimeIntegralOfTheLateralForce) {
   const double omega_h = kTwoPi * tip.model().frequency_ratio;
   for (int arcs = 0; arcs < 3000; ++arcs) {
     const ModelTime begin = tip.now();
-    const double duration = tip.arc_end() - begin;
+    const double duration = tip.segment_end() - begin;
     const auto X = [&](double s) { return tip.deflection(begin + s).lateral; };
     const double integral = boost::math::quadrature::gauss<double, 30>::integrate(X, 0.0, duration);
-    tip.advance_arc({1000000, 0.0}, &ended);
+    tip.advance_segment({1000000, 0.0}, &ended);
     if (ended.begin() == ended.end() || duration > 1.0) continue;
     const Segment& s = *ended.begin();
     if (s.kind != SegmentKind::flight && s.kind != SegmentKind::contact) continue;
@@ -156,7 +156,7 @@ TEST(Segment, AtRestTheHolderHoldsWithoutWork) {
   const double force = surface.h1 * kTwoPi * kTwoPi * (surface.h - model.y0);
   Segments ended;
   for (int arcs = 0; arcs < 10; ++arcs) {
-    tip.advance_arc({1000000, 0.0}, &ended);
+    tip.advance_segment({1000000, 0.0}, &ended);
     for (const Segment& s : ended) {
       EXPECT_EQ(s.work(), 0.0);
       EXPECT_NEAR(s.impulse, force * (s.end - s.begin), 1e-12);

@@ -31,7 +31,7 @@ class Split : public testing::TestWithParam<double> {
   // The same tip twice, one of them split.
   Tip split_at(const Tip& tip, const ModelTime& t, double eta) {
     Tip split = tip;
-    split.advance_arc(t);
+    split.advance_segment(t);
     split.drag(eta);
     return split;
   }
@@ -44,9 +44,9 @@ TEST_P(Split, InAFlightMovesTheTipByTwoUlp) {
   int within_two = 0, all = 0;
   for (int i = 0; i < 5000; ++i) {
     Tip whole(model_at(eta()), eta(), random_.next(eta(), -3.0, 1.0), 0.0);
-    const ModelTime landing = whole.arc_end(), command = between(kZero, landing), later = between(command, landing);
+    const ModelTime landing = whole.segment_end(), command = between(kZero, landing), later = between(command, landing);
     Tip split = split_at(whole, command, barely_slower());
-    if (!(later < split.arc_end()) || 4.0 < landing - kZero) continue;
+    if (!(later < split.segment_end()) || 4.0 < landing - kZero) continue;
     const Deflection a = whole.deflection(later), b = split.deflection(later);
     const double off = std::max(std::abs(a.vertical - b.vertical), std::abs(a.lateral - b.lateral));
     // held back by an ulp of the velocity as well
@@ -63,11 +63,11 @@ TEST_P(Split, InASlideMovesTheTipByTheErrorOfItsSeries) {
   for (int i = 0; i < 2000; ++i) {
     const SlideState<double> q = random_piece(eta(), random_).start();
     Tip whole(Model(), eta(), TipState{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0});
-    if (whole.advance_arc(kZero) != Outcome::contact) continue;
-    const ModelTime command = between(kZero, whole.arc_end());
+    if (whole.advance_segment(kZero) != Outcome::contact) continue;
+    const ModelTime command = between(kZero, whole.segment_end());
     Tip split = split_at(whole, command, barely_slower());
-    const ModelTime later = between(command, whole.arc_end());
-    while (split.arc_end() < later) ASSERT_EQ(split.advance_arc(later), Outcome::flying);
+    const ModelTime later = between(command, whole.segment_end());
+    while (split.segment_end() < later) ASSERT_EQ(split.advance_segment(later), Outcome::flying);
     const Deflection a = whole.deflection(later), b = split.deflection(later);
     ASSERT_NEAR(a.vertical, b.vertical, 1e-15);
     ASSERT_NEAR(a.lateral, b.lateral, 2e-15);
@@ -91,7 +91,7 @@ TEST_P(Split, InABurstChangesItByTheErrorOfItsSteps) {
     const SlideState<double> q = random_piece(eta(), random_).start();
     Tip whole(model_at(eta()), eta(), TipState{wrap_phase(q.phase), q.X, q.u, 0.0, within(1e-4, 8e-3)});
     if (whole.tip_state().g1 != 0.0) continue;  // no burst
-    Tip split = split_at(whole, between(kZero, whole.arc_end()), barely_slower());
+    Tip split = split_at(whole, between(kZero, whole.segment_end()), barely_slower());
     advance_to_fast_impact(whole, 0.1);
     advance_to_fast_impact(split, 0.099);
     const TipState a = whole.tip_state(), b = split.tip_state();

@@ -86,7 +86,7 @@ TEST(Tip, ItNeverSinksIntoTheSurface) {
     Tip tip = tip_at(eta);
     ModelTime t;
     for (int sample = 0; sample < 20000; t = t + 0.0037, ++sample) {
-      while (!(t < tip.arc_end())) tip.advance_arc(t);
+      while (!(t < tip.segment_end())) tip.advance_segment(t);
       ASSERT_GE(tip.deflection(t).gap, -1e-13) << "eta " << eta << " at " << t.tau << " + " << t.phase;
     }
   }

@@ -34,9 +34,9 @@ TEST_P(Relevel, AnotherToleranceConservesEnergy) {
   for (int changes = 0; changes < 3000; ++changes) {
     const ModelTime next = tip.now() + random.within(0.0, 1.0);
     for (int arcs = 0; tip.now() < next && arcs < 500; ++arcs) {
-      ASSERT_NE(balance.advance_arc(tip, next), Outcome::search_failed);
+      ASSERT_NE(balance.advance_segment(tip, next), Outcome::search_failed);
     }
-    bursts += tip.in_burst();
+    bursts += tip.in_chatter();
     contacts += tip.in_contact();
     const FreeState before = tip.state();
     const double tolerance = kTolerances[static_cast<std::size_t>(random.within(0.0, 4.999))];

@@ -35,7 +35,7 @@ class Descents : public testing::TestWithParam<double> {
   double first_error(const RandomChatter& chatter) const {
     Tip tip = chatter.every_bounce();
     tip.advance(kNever);
-    const Chatter now = law_.at(chatter.guide, tip.now() - ModelTime{}, {chatter.v, 0.0});
+    const Chatter now = law_.at(chatter.reference, tip.now() - ModelTime{}, {chatter.v, 0.0});
     const double v = project_onto_surface(model_, tip.tip_state()).normal_speed;
     return std::max(std::abs(now.v / v - 1.0), std::abs(now.n - 1.0));
   }
@@ -62,13 +62,13 @@ TEST_P(Descents, AllTheWayDownNumbersAndSpeedsAreThoseOfTheBounces) {
   for (int i = 0; i < 500; ++i) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -2.5, -1.8);
     const Chatter start{chatter.v, 0.0};
-    const double end = law_.run(chatter.guide, 0.0, chatter.guide.length(), start).s;
+    const double end = law_.run(chatter.reference, 0.0, chatter.reference.length(), start).s;
     Tip tip = chatter.every_bounce();
     for (int n = 1;; ++n) {
       tip.advance(kNever);
       const double t = tip.now() - ModelTime{}, v = project_onto_surface(model_, tip.tip_state()).normal_speed;
       if (t >= end || v < 2e-3) break;
-      const Chatter now = law_.at(chatter.guide, t, start);
+      const Chatter now = law_.at(chatter.reference, t, start);
       ASSERT_NEAR(now.n, n, 3e-4) << i;
       ASSERT_NEAR(now.v, v, 3e-5 * v) << i;
       errors.push_back(std::max(std::abs(now.n - n), std::abs(now.v / v - 1.0)));
@@ -85,10 +85,10 @@ TEST_P(Descents, BegunAgainInTheMiddleItGoesOnTheSameButForPartOfABounce) {
   for (int i = 0; i < 500; ++i) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -2.5, -1.8);
     const Chatter start{chatter.v, 0.0};
-    const double late = 0.9 * law_.run(chatter.guide, 0.0, chatter.guide.length(), start).s;
+    const double late = 0.9 * law_.run(chatter.reference, 0.0, chatter.reference.length(), start).s;
     const double middle = random.within(0.0, 0.9) * late;
-    const ChatterRun whole = law_.run(chatter.guide, 0.0, late, start);
-    const ChatterRun rest = law_.run(chatter.guide, middle, late, law_.at(chatter.guide, middle, start));
+    const ChatterRun whole = law_.run(chatter.reference, 0.0, late, start);
+    const ChatterRun rest = law_.run(chatter.reference, middle, late, law_.at(chatter.reference, middle, start));
     if (whole.s < late || rest.s < late) continue;
     // in bounces such as the first, which last so much longer
     const double part = whole.chatter.v / chatter.v;
@@ -123,8 +123,8 @@ TEST(Descent, BouncesAboveTheCutoffThatLoseLittleAreFlown) {
   const RandomChatter below = random_chatter(model, law, random, -4.0, -3.1);
   RandomChatter above = below;
   above.v = 3e-3;
-  EXPECT_TRUE(law.holds(Flight<double>(below.guide.mechanics(), below.guide.eta(), below.every_bounce().tip_state())));
-  EXPECT_FALSE(law.holds(Flight<double>(above.guide.mechanics(), above.guide.eta(), above.every_bounce().tip_state())));
+  EXPECT_TRUE(law.holds(Flight<double>(below.reference.mechanics(), below.reference.eta(), below.every_bounce().tip_state())));
+  EXPECT_FALSE(law.holds(Flight<double>(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state())));
 }
 
 }  // namespace

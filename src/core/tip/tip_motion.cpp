@@ -1,4 +1,4 @@
-#include "tip_arcs.h"
+#include "tip_motion.h"
 
 #include <cmath>
 #include <new>
@@ -57,8 +57,8 @@ AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { ret
 AFM_MULTIVERSION FlightState<double> flight_state(const Flight<double>& flight, double s) { return flight.at(s); }
 
 AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
-                                 int bits, SlidePiece<double>& slide) {
-  new (&slide) SlidePiece<double>(mechanics, eta, start, bits);
+                                 int bits, SlideSegment<double>& slide) {
+  new (&slide) SlideSegment<double>(mechanics, eta, start, bits);
 }
 
 AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
@@ -68,12 +68,12 @@ AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideStat
                 m.omega_v * m.omega_v * Y * Y);
 }
 
-AFM_MULTIVERSION double stretch_integral(const SlidePiece<double>& slide, double s) {
+AFM_MULTIVERSION double extension_integral(const SlideSegment<double>& slide, double s) {
   return s * (slide.start().X - 0.5 * slide.eta() * s) + slide.displacement_integral(s);
 }
 
-AFM_MULTIVERSION double release_of(const SlidePiece<double>& slide) { return slide.find_release(); }
+AFM_MULTIVERSION double release_of(const SlideSegment<double>& slide) { return slide.find_release(); }
 
-AFM_MULTIVERSION SlideState<double> slide_at(const SlidePiece<double>& slide, double s) { return slide.at(s); }
+AFM_MULTIVERSION SlideState<double> slide_at(const SlideSegment<double>& slide, double s) { return slide.at(s); }
 
 }  // namespace afm

@@ -1,11 +1,11 @@
-// The definitions of chatter_view.h: inlined into the functions that are compiled for several machines.
+// The definitions of chatter_geometry.h: inlined into the functions that are compiled for several machines.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "afm/detail/chatter_view.h"
+#include "afm/detail/chatter_geometry.h"
 #include "afm/detail/multiversion.h"
 #include "chatter_flow.h"
 
@@ -17,41 +17,41 @@ AFM_INLINED T square(const T& x) {
 }
 
 template <class T>
-AFM_INLINED ChatterSurroundingsOf<T> ChatterView::look(const SlidePiece<T>& guide, const T& time) const {
+AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::look(const SlideSegment<T>& reference, const T& time) const {
   using std::sqrt;
   const T one(1.0), two(2.0), three(3.0), wh2(wh2_), wv2(wv2_), free(free_);
-  const SlideState<T> q = guide.at(time);
-  const std::array<T, 4> a = guide.pressure_jet(time);
+  const SlideState<T> q = reference.at(time);
+  const std::array<T, 4> a = reference.pressure_jet(time);
   SurfaceJet<T> h = surface_jet(T(H_), q.phase);
   // held along x, the tip sees no slope: only that the pressure changes
   h.h1 *= free, h.h2 *= free, h.h3 *= free;
-  const T u = q.u, u2 = u * u, N2 = one + square(h.h1), per_N2 = one / N2, per_N = sqrt(per_N2);
+  const T u = q.u, u2 = u * u, N2 = one + square(h.h1), inverse_N2 = one / N2, inverse_N = sqrt(inverse_N2);
   // time derivatives of x, of the reference slide with the reaction on it, and of the slope
   const T s = h.h1, s1 = h.h2 * u, x2 = -wh2 * q.X - s * a[0];
-  const T x3 = -wh2 * (u - guide.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
+  const T x3 = -wh2 * (u - reference.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
   const T s3 = u * (three * h.h3 * x2 - T(square(kTwoPi)) * h.h2 * u2) + h.h2 * x3;
   // the rate at which the surface turns under the tip and its derivatives; from them those of ln N, and from these
   // P'/P, ... with P = N a
-  const T turn = s1 * per_N2, turn1 = s2 * per_N2 - two * s * square(turn);
-  const T turn2 = s3 * per_N2 - two * turn * (s * s2 * per_N2 + s1 * turn + two * s * turn1);
+  const T turn = s1 * inverse_N2, turn1 = s2 * inverse_N2 - two * s * square(turn);
+  const T turn2 = s3 * inverse_N2 - two * turn * (s * s2 * inverse_N2 + s1 * turn + two * s * turn1);
   const T L1 = s * turn, L2 = s1 * turn + s * turn1, L3 = s2 * turn + two * s1 * turn1 + s * turn2;
-  const T per_a = one / a[0], q1 = a[1] * per_a, q2 = a[2] * per_a, q3 = a[3] * per_a;
+  const T inverse_a = one / a[0], q1 = a[1] * inverse_a, q2 = a[2] * inverse_a, q3 = a[3] * inverse_a;
   const T p1 = q1 + L1, b2 = q2 - square(q1) + L2, b3 = q3 - three * q1 * q2 + two * q1 * square(q1) + L3;
   const T p2 = b2 + square(p1), p3 = b3 + three * p1 * b2 + p1 * square(p1);
   ChatterSurroundingsOf<T> at{};
-  at.P = a[0] * N2 * per_N;
+  at.P = a[0] * N2 * inverse_N;
   at.P1 = at.P * p1, at.P2 = at.P * p2, at.P3 = at.P * p3;
-  at.bend = three * square(turn) + (wh2 * square(s) + wv2) * per_N2;
-  at.bend1 = T(6.0) * turn * turn1 + two * L1 * (wh2 - wv2) * per_N2;
+  at.bend = three * square(turn) + (wh2 * square(s) + wv2) * inverse_N2;
+  at.K1 = T(6.0) * turn * turn1 + two * L1 * (wh2 - wv2) * inverse_N2;
   set_reaction_terms(at);
   at.turn = turn;
   // curvature k = h''/N^3, its rate along the surface, speed N u, acceleration along the surface from the springs alone
-  const T curvature = h.h2 * per_N2 * per_N, curvature1 = (h.h3 - three * s * square(h.h2) * per_N2) * square(per_N2);
-  const T pull = (x2 + L1 * u) * N2 * per_N, speed2 = u2 * N2;
-  at.c_height = s * (wh2 - wv2) * per_N2 - curvature * pull - curvature1 * speed2;
-  at.stiffness = (wh2 + wv2 * square(s)) * per_N2 - curvature * (curvature * speed2 - at.P);
-  at.along = free * per_N;
-  at.up = -s * per_N;
+  const T curvature = h.h2 * inverse_N2 * inverse_N, curvature1 = (h.h3 - three * s * square(h.h2) * inverse_N2) * square(inverse_N2);
+  const T pull = (x2 + L1 * u) * N2 * inverse_N, speed2 = u2 * N2;
+  at.c_height = s * (wh2 - wv2) * inverse_N2 - curvature * pull - curvature1 * speed2;
+  at.stiffness = (wh2 + wv2 * square(s)) * inverse_N2 - curvature * (curvature * speed2 - at.P);
+  at.along = free * inverse_N;
+  at.up = -s * inverse_N;
   // these choose steps alone
   const double change = static_cast<double>(p1), bend = static_cast<double>(p2);
   at.relative_rate = std::sqrt(std::max(square(change), std::abs(bend)));
@@ -60,17 +60,17 @@ AFM_INLINED ChatterSurroundingsOf<T> ChatterView::look(const SlidePiece<T>& guid
   return at;
 }
 
-AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) const {
+AFM_INLINED ChatterSurroundings ChatterGeometry::look(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
   const GapJet<double>& start = bounce.start();
   const double k2 = square(kTwoPi), h1 = start.h1, h2 = -k2 * start.h;
-  const double a = -start.g2, a1 = -start.g3, per_N2 = 1.0 / (1.0 + free_ * square(h1));
+  const double a = -start.g2, a1 = -start.g3, inverse_N2 = 1.0 / (1.0 + free_ * square(h1));
   ChatterSurroundings at{};
-  at.P = a * std::sqrt(per_N2);
+  at.P = a * std::sqrt(inverse_N2);
   at.inverse_P = 1.0 / at.P;
-  at.c_speed = kThird * (a1 / a - free_ * h1 * h2 * q.u * per_N2);
+  at.c_speed = kThird * (a1 / a - free_ * h1 * h2 * q.u * inverse_N2);
   // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
-  const double u = q.u, u2 = square(u), reaction = free_ * a * per_N2;
+  const double u = q.u, u2 = square(u), reaction = free_ * a * inverse_N2;
   const double x2 = -wh2_ * q.X - h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h2 * u * reaction, x4 = -wh2_ * x2;
   const double a2 =
       h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
@@ -81,7 +81,7 @@ AFM_INLINED ChatterSurroundings ChatterView::look(const Flight<double>& bounce) 
 }
 
 // A bounce lasts 2 v/P, and P is at most the pull a; P'/P = a'/a - h' h'' u / N^2.
-AFM_INLINED bool ChatterView::outlasts(const Flight<double>& bounce, double part) const {
+AFM_INLINED bool ChatterGeometry::certainly_outlasts(const Flight<double>& bounce, double part) const {
   const GapJet<double>& start = bounce.start();
   const double slope = free_ * start.h1, N2 = 1.0 + slope * start.h1, a = -start.g2;
   const double change = slope * square(kTwoPi) * start.h * bounce.launch().u * a - start.g3 * N2;

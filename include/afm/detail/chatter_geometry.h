@@ -11,12 +11,12 @@
 
 namespace afm {
 
-// The coefficients c_... of the averaged law (chatter_rates.h); src/core/contact/chatter_look.h has the formula of each.
+// The coefficients c_... of the averaged law (chatter_rates.h); src/core/contact/chatter_geometry.h has the formula of each.
 template <class T>
 struct ChatterSurroundingsOf {
   T P, inverse_P;   // reaction [a/tau^2]
   T P1, P2, P3;     // its time derivatives
-  T bend, bend1;    // K, by which the reaction grows with height, and its rate
+  T bend, K1;    // K, by which the reaction grows with height, and its rate
   T c_speed;        // of v in dv/dt: P'/3P
   T c_duration;     // of v^2 in the duration of a bounce over 2 v/P
   T c_speed3;       // of v^3 in dv/dt
@@ -36,21 +36,21 @@ using ChatterSurroundings = ChatterSurroundingsOf<double>;
 // does not.
 inline double time_to_fall(const ChatterSurroundings& at, double part) {
   const double rate = -3.0 * at.c_speed, bend = rate * rate - 2.0 * part * at.P2 * at.inverse_P;
-  const double twice_per = rate + std::sqrt(std::max(0.0, bend));
-  return bend >= 0.0 && twice_per > 0.0 ? 2.0 * part / twice_per : std::numeric_limits<double>::infinity();
+  const double twice_inverse = rate + std::sqrt(std::max(0.0, bend));
+  return bend >= 0.0 && twice_inverse > 0.0 ? 2.0 * part / twice_inverse : std::numeric_limits<double>::infinity();
 }
 
-class ChatterView {
+class ChatterGeometry {
  public:
-  explicit ChatterView(const Model& model);
+  explicit ChatterGeometry(const Model& model);
 
-  // Internal, inlined where they are used: src/core/chatter_look.h.
+  // Internal, inlined where they are used: src/core/chatter_geometry.h.
   template <class T>
-  ChatterSurroundingsOf<T> look(const SlidePiece<T>& guide, const T& time) const;
+  ChatterSurroundingsOf<T> look(const SlideSegment<T>& reference, const T& time) const;
   // P, c_speed, relative_rate, speed and slow_rate alone, at the start of a bounce that is no chatter yet.
   ChatterSurroundings look(const Flight<double>& bounce) const;
   // Whether such a bounce certainly lasts longer than `part` of the time in which P changes, by P' alone: faster.
-  bool outlasts(const Flight<double>& bounce, double part) const;
+  bool certainly_outlasts(const Flight<double>& bounce, double part) const;
 
   bool held() const { return free_ == 0.0; }  // along x
 

@@ -12,15 +12,15 @@ namespace afm {
 
 // Down to where the averages hold, or contact; to the last bounce that ends before `until`, or, of the one under way
 // then, to where the flow through them has come.
-AFM_MULTIVERSION ChatterRun ChatterLaw::descend(const SlidePiece<double>& guide, double from, double until,
+AFM_MULTIVERSION ChatterRun ChatterLaw::follow_single_bounces(const SlideSegment<double>& reference, double from, double until,
                                                 const Chatter& start, bool exits) const {
   // Parts of the time in which the pressure changes, or swings at twice the rate of the horizontal spring: then it is
   // looked at again.
   constexpr double kFar = 0.15;
   Chatter c = start;
   double s = from;
-  while (descends(c.v) && c.v > threshold_) {
-    const ChatterSurroundings at = rates_.surroundings(guide, s);
+  while (takes_single_bounces(c.v) && c.v > threshold_) {
+    const ChatterSurroundings at = rates_.surroundings(reference, s);
     const double far = kFar / std::max(at.relative_rate, 2.0 * kTwoPi * at.slow_rate);
     double t = 0.0;
     do {
@@ -38,7 +38,7 @@ AFM_MULTIVERSION ChatterRun ChatterLaw::descend(const SlidePiece<double>& guide,
       c = moved(at, r, arc.duration, rates_.held(), c);
       c.v = after, c.n += 1.0;
       t += arc.duration;
-    } while (descends(c.v) && c.v > threshold_ && t < far);
+    } while (takes_single_bounces(c.v) && c.v > threshold_ && t < far);
     s += t;
   }
   return {c.v > threshold_ ? ChatterEnd::time : ChatterEnd::died, s, c};

@@ -36,10 +36,10 @@ FlightState<double> flight_state(const Flight<double>& flight, double s);
 
 // Begins a piece of a slide in the place of another.
 void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits,
-                SlidePiece<double>& slide);
-SlideState<double> slide_at(const SlidePiece<double>& slide, double s);
-double release_of(const SlidePiece<double>& slide);  // when the surface lets go; negative: not in it
+                SlideSegment<double>& slide);
+SlideState<double> slide_at(const SlideSegment<double>& slide, double s);
+double release_of(const SlideSegment<double>& slide);  // when the surface lets go; negative: not in it
 double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);  // kinetic and in the springs
-double stretch_integral(const SlidePiece<double>& slide, double s);            // of x - xc over the first s
+double extension_integral(const SlideSegment<double>& slide, double s);            // of x - xc over the first s
 
 }  // namespace afm

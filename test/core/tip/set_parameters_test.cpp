@@ -93,8 +93,8 @@ TEST_P(RetuneEnergy, IsConserved) {
   int bursts = 0, contacts = 0;
   for (int changes = 0; changes < 3000; ++changes) {
     const ModelTime next = tip.now() + random.within(0.0, 1.0);
-    while (tip.now() < next) ASSERT_NE(balance.advance_arc(tip, next), Outcome::search_failed);
-    bursts += tip.in_burst();
+    while (tip.now() < next) ASSERT_NE(balance.advance_segment(tip, next), Outcome::search_failed);
+    bursts += tip.in_chatter();
     contacts += tip.in_contact();
     const FreeState before = tip.state();
     const bool free = tip.tip_state().g > 0.0;
@@ -129,7 +129,7 @@ bool is_bursting(const Tip& tip) {
 }
 
 void advance_within_arc(RandomLaunches& random, Tip& tip) {
-  tip.advance(tip.now() + random.within(0.0, 0.999) * (tip.arc_end() - tip.now()));
+  tip.advance(tip.now() + random.within(0.0, 0.999) * (tip.segment_end() - tip.now()));
 }
 
 TEST(RetuneContact, GoesOnExactlyWhereTheSurfaceStillPresses) {

@@ -43,7 +43,7 @@ Eigen::Matrix4d quad_jacobian(const Model& model, double eta, const TipState& st
     for (const double s : guess) p = impacts.next(p, s);
     return p;
   };
-  return held(mobility(model), Eigen::Matrix4d(quad_differences<4>(chain, quad_point(start), Quad(1e-13))));
+  return held(is_free_along_x(model), Eigen::Matrix4d(quad_differences<4>(chain, quad_point(start), Quad(1e-13))));
 }
 
 struct Burst {
@@ -61,14 +61,14 @@ class Bursts {
     for (;;) {
       if (tip_.advance(kEnd) == Outcome::time_limit) tip_ = fresh();
       const Impact& impact = tip_.last_impact();
-      if (!tip_.in_burst() || impact.kind != ImpactKind::impact || !(impact.normal_speed > 0.0)) continue;
-      const TipState guide = tip_.tip_state();
+      if (!tip_.in_chatter() || impact.kind != ImpactKind::impact || !(impact.normal_speed > 0.0)) continue;
+      const TipState slide = tip_.tip_state();
       const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
       const ModelTime begin = tip_.now();
       const bool ends = tip_.advance(kEnd) == Outcome::impact && tip_.tip_state().g1 > 0.0;
       if (!ends || tip_.last_impact().count > kMostBounces) continue;
       if (tip_.now() == begin) continue;  // at the threshold of contact: it ends where it began, without a bounce
-      return {leave_surface(model_, {guide.phase, guide.X, guide.u}, after), tip_.now() - begin, tip_.last_impact().count};
+      return {leave_surface(model_, {slide.phase, slide.X, slide.u}, after), tip_.now() - begin, tip_.last_impact().count};
     }
   }
   const ChatterLaw& law() const { return tip_.chatter_law(); }
@@ -103,7 +103,7 @@ std::vector<double> errors(const Model& model, double eta) {
     const Burst burst = bursts.next();
     const std::vector<double> durations = bounces_of(model, eta, burst.start, burst.count);
     if (durations.empty()) continue;
-    const auto J = burst_jacobian(model, bursts.law(), eta, burst.start, burst.duration);
+    const auto J = chatter_jacobian(model, bursts.law(), eta, burst.start, burst.duration);
     found.push_back(relative_distance(J, quad_jacobian(model, eta, burst.start, durations)));
   }
   std::sort(found.begin(), found.end());
@@ -146,7 +146,7 @@ TEST(BurstJacobian, IsThatOfAnyNumberOfItsBounces) {
         now = reflect(model, eta, landing.jet).after;
         duration += landing.s;
       }
-      const SectionJacobian<double> J = burst_jacobian(model, law, eta, start, duration);
+      const SectionJacobian<double> J = chatter_jacobian(model, law, eta, start, duration);
       EXPECT_LE(relative_distance(J, truth), 3e-4) << "gap rate " << g1 << ", bounces " << bounces;
       // a product of four such numbers
       EXPECT_NEAR(J.determinant(), truth.determinant(), 4.0 * 4e-4 * truth.determinant());
