@@ -15,7 +15,7 @@ def labels(test):
 def needs(test, outputs):
     words = ' '.join(test['command']).replace('"', ' ').split()
     if '_rostest_' in test['name']:
-        return {'emulator', 'afm_clock_jump'}
+        return {'emulator', 'afm_clock_jump', 'examples_ros', 'bag_to_csv'}
     if 'node' in labels(test) or any(os.path.isdir(word) and word.endswith('lib/afm_emulator') for word in words):
         return {'all'}  # runs what it likes
     built = {name for word in words for name in (word, os.path.relpath(word)) if name in outputs}

@@ -13,7 +13,7 @@ ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'include/afm/dynam
          'src/core': 'core', 'src/core/dynamics': 'dynamics', 'src/core/lanes': 'lanes',
          'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
          'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
-ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': set(), 'sweep': {'common', 'core', 'dynamics'},
+ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'}, 'sweep': {'common', 'core', 'dynamics'},
            'node': {'core'}, 'view': {'core', 'node'}, 'tools': {'common', 'core', 'dynamics', 'sweep', 'node'},
            'trials': {'core', 'dynamics'}, 'benchmark': {'common', 'core', 'dynamics', 'trials'},
            'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'view', 'trials'}}

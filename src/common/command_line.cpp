@@ -71,6 +71,7 @@ struct CommandLine::Parts {
   po::options_description options{"Options", kColumns};
   po::options_description hidden;  // the arguments, which are no option
   std::vector<std::string> required;
+  po::variables_map found;
 };
 
 CommandLine::CommandLine(std::string tool, std::string description) : parts_(std::make_unique<Parts>()) {
@@ -143,6 +144,11 @@ void CommandLine::arguments(const std::string& name, std::vector<std::string>& v
 
 void CommandLine::require(const std::string& name) { parts_->required.push_back(name); }
 
+bool CommandLine::is_given(const std::string& name) const {
+  const auto option = parts_->found.find(name);
+  return option != parts_->found.end() && !option->second.defaulted();
+}
+
 void CommandLine::footer(const std::string& text) { parts_->footer = text; }
 
 void CommandLine::print_help() const {
@@ -165,7 +171,7 @@ bool CommandLine::read(int argc, char** argv) {
   if (parts_->arguments.empty()) all.add_options()(kUnexpected.c_str(), po::value<std::vector<std::string>>());
   po::positional_options_description positional;
   positional.add(arguments.c_str(), -1);
-  po::variables_map found;
+  po::variables_map& found = parts_->found;
   po::store(po::command_line_parser(argc, argv).options(all).positional(positional).style(kStyle).run(), found);
   if (found.count(kUnexpected) > 0) {
     throw std::invalid_argument(found[kUnexpected].as<std::vector<std::string>>()[0] + ": belongs to no option");

@@ -39,6 +39,8 @@ class CommandLine {
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
   // An option, or the arguments, that must be given.
   void require(const std::string& name);
+  // Whether the option stands on the command line; false before run() has read it.
+  bool is_given(const std::string& name) const;
   // What the help ends with.
   void footer(const std::string& text);
 

@@ -78,8 +78,8 @@ void join(std::vector<std::thread>& workers) {
 // Rank 0's part: hands out tasks and writes what comes back.
 class Run {
  public:
-  Run(const CurveSettings& settings, const SweepGrid& grid, const std::string& output)
-      : grid_(grid), journal_(open_journal(output, identity(settings))), table_(output, grid) {
+  Run(const CurveSettings& settings, const SweepGrid& grid, const std::string& output, const TableUnits& units)
+      : grid_(grid), journal_(open_journal(output, identity(settings))), table_(output, grid, units) {
     if (journal_ == nullptr) return;
     for (const auto& done : journal_->found()) {
       if (done.first < grid.size()) table_.add(done.first, unpack(done.second));
@@ -146,14 +146,14 @@ int thread_count(int asked, int ranks) {
 
 }  // namespace
 
-int run_curve(const CurveSettings& settings, const std::string& output, int threads) {
+int run_curve(const CurveSettings& settings, const std::string& output, int threads, const TableUnits& units) {
   Ranks ranks;
   const SweepGrid grid(settings);
   const int n = thread_count(threads, ranks.size());
   if (ranks.rank() > 0) return help_rank_0(ranks, grid, settings.sweep, n);
   std::unique_ptr<Run> run;
   try {
-    run = std::make_unique<Run>(settings, grid, output);
+    run = std::make_unique<Run>(settings, grid, output, units);
   } catch (const std::exception& fault) {
     std::cerr << "friction_curve: output = " << output << ": " << fault.what()
               << "\n  (choose another name, or remove it to begin again)" << std::endl;

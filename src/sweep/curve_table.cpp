@@ -7,26 +7,42 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "common/csv.h"
-
 namespace afm {
 namespace {
 
-std::string row_of(const SweepPoint& point, const SweepResult& r) {
+using Q = Quantity;
+
+const std::vector<Column> kColumns{{"eta", Q::velocity, "drag_velocity"},
+                                   {"gamma"},
+                                   {"cutoff", Q::velocity},
+                                   {"k_f", Q::friction},
+                                   {"k_f_std_error", Q::friction},
+                                   {"impacts_per_tau"},
+                                   {"mean_energy_loss", Q::energy},
+                                   {"mean_flight_time", Q::time},
+                                   {"largest_lyapunov", Q::rate},
+                                   {"attractor"},
+                                   {"rest_height", Q::length},
+                                   {"amplitude", Q::length},
+                                   {"frequency_ratio"},
+                                   {"k_f_work", Q::friction},
+                                   {"k_f_work_std_error", Q::friction}};
+
+void write_row(const SweepPoint& point, const SweepResult& r, TableWriter& to) {
   const FrictionAverage& f = r.friction;
-  return join_numbers({point.eta, point.gamma, point.v_c, f.K_f, f.K_f_std_error, f.impacts_per_tau, f.mean_energy_loss,
-                       f.mean_flight_time, r.attractor.lyapunov.exponents[0]}) +
-         "," + r.attractor.name() + "," +
-         join_numbers({point.y0, point.H, point.frequency_ratio, f.K_f_work, f.K_f_work_std_error});
+  to << point.eta << point.gamma << point.v_c << f.K_f << f.K_f_std_error << f.impacts_per_tau << f.mean_energy_loss
+     << f.mean_flight_time << r.attractor.lyapunov.exponents[0] << r.attractor.name() << point.y0 << point.H
+     << point.frequency_ratio << f.K_f_work << f.K_f_work_std_error;
+  to.end_row();
 }
 
 }  // namespace
 
-CurveTable::CurveTable(const std::string& path, const SweepGrid& grid)
-    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_) {
+CurveTable::CurveTable(const std::string& path, const SweepGrid& grid, const TableUnits& units)
+    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, kColumns, units) {
   errno = 0;
   if (path != "-") open();
-  out_ << kCurveHeader << "\n";
+  writer_.write_header();
   flush();
 }
 
@@ -46,7 +62,7 @@ void CurveTable::cut() {
 void CurveTable::add(std::size_t position, const SweepResult& result) {
   waiting_[position] = result;
   for (auto next = waiting_.begin(); next != waiting_.end() && next->first == rows_; next = waiting_.erase(next)) {
-    out_ << row_of(grid_.at(rows_), next->second) << "\n";
+    write_row(grid_.at(rows_), next->second, writer_);
     ++rows_;
   }
 }

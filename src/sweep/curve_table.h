@@ -7,18 +7,16 @@
 #include <ostream>
 #include <string>
 
+#include "common/table_writer.h"
 #include "grid.h"
 #include "packed.h"
 
 namespace afm {
 
-constexpr char kCurveHeader[] =
-    "eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,"
-    "rest_height,amplitude,frequency_ratio,k_f_work,k_f_work_std_error";
-
 class CurveTable {
  public:
-  CurveTable(const std::string& path, const SweepGrid& grid);  // throws std::runtime_error where it cannot be written
+  // Throws std::runtime_error where it cannot be written.
+  CurveTable(const std::string& path, const SweepGrid& grid, const TableUnits& units);
 
   void add(std::size_t position, const SweepResult& result);
   void flush();  // throws std::runtime_error
@@ -31,6 +29,7 @@ class CurveTable {
   const SweepGrid& grid_;
   std::ofstream file_;
   std::ostream& out_;
+  TableWriter writer_;
   std::size_t rows_ = 0;                        // written
   std::map<std::size_t, SweepResult> waiting_;  // for rows before them
 };

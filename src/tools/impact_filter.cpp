@@ -1,6 +1,5 @@
 #include "impact_filter.h"
 
-#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -14,8 +13,8 @@ namespace {
 constexpr std::size_t kInputs = 7, kOutputs = 8;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// The numbers of one row; nan where there is none. Throws std::invalid_argument with every fault.
-void parse_inputs(const std::string& line, std::vector<double>& values) {
+// The numbers of one row as they stand there; nan where there is none. Throws std::invalid_argument with every fault.
+void parse_inputs(const std::string& line, const TableUnits& units, std::vector<double>& values) {
   const std::vector<std::string> fields = split_fields(line);
   if (fields.size() != kInputs) {
     throw std::invalid_argument("expected " + std::to_string(kInputs) + " fields, found " +
@@ -25,43 +24,74 @@ void parse_inputs(const std::string& line, std::vector<double>& values) {
   for (std::size_t i = 0; i < kInputs; ++i) {
     if (parse_number(fields[i], values[i])) continue;
     values[i] = kNaN;
-    const std::string name = split_fields(kImpactInputHeader)[i];
+    const std::string name = units.name(kImpactColumns[i]);
     faults += (faults.empty() ? "" : "; ") + name + " = '" + fields[i] + "': not a number";
   }
   if (!faults.empty()) throw std::invalid_argument(faults);
 }
 
-void compute_row(ModelKind kind, const std::string& line, std::vector<double>& row) {
-  parse_inputs(line, row);
-  const FlightResult r = fly_to_next_impact({row[0], row[1], row[2], row[3], row[4], row[5], row[6], kind});
-  const double results[kOutputs] = {r.dt, r.phase,        r.extension,           r.u,
-                                    r.w,  r.normal_speed, r.tangential_velocity, r.energy_loss};
-  std::copy(results, results + kOutputs, row.begin() + kInputs);
+// The state in natural units.
+std::vector<double> to_natural(const std::vector<double>& inputs, const TableUnits& units) {
+  std::vector<double> natural = inputs;
+  for (std::size_t i = 0; i < kInputs; ++i) natural[i] = units.invert(kImpactColumns[i].quantity, inputs[i]);
+  return natural;
 }
 
-bool is_header(const std::string& line) { return split_fields(line) == split_fields(kImpactInputHeader); }
+void compute_row(ModelKind kind, const std::string& line, const TableUnits& units, std::vector<double>& row) {
+  parse_inputs(line, units, row);
+  const std::vector<double> s = to_natural(row, units);
+  const FlightResult r = fly_to_next_impact({s[0], s[1], s[2], s[3], s[4], s[5], s[6], kind});
+  const double results[kOutputs] = {r.dt, r.phase,        r.extension,           r.u,
+                                    r.w,  r.normal_speed, r.tangential_velocity, r.energy_loss};
+  for (std::size_t i = 0; i < kOutputs; ++i) {
+    row[kInputs + i] = units.convert(kImpactColumns[kInputs + i].quantity, results[i]);
+  }
+}
 
 }  // namespace
 
-const std::string kImpactInputHeader = "eta,gamma,cutoff,phase,extension,u,w";
-const std::string kImpactOutputHeader =
-    kImpactInputHeader + ",dt,phase_next,extension_next,u_next,w_next,normal_speed,tangential_velocity,energy_loss";
+using Q = Quantity;
+
+const std::vector<Column> kImpactColumns{{"eta", Q::velocity, "drag_velocity"},
+                                         {"gamma"},
+                                         {"cutoff", Q::velocity},
+                                         {"phase"},
+                                         {"extension", Q::length},
+                                         {"u", Q::velocity},
+                                         {"w", Q::velocity},
+                                         {"dt", Q::time},
+                                         {"phase_next"},
+                                         {"extension_next", Q::length},
+                                         {"u_next", Q::velocity},
+                                         {"w_next", Q::velocity},
+                                         {"normal_speed", Q::velocity},
+                                         {"tangential_velocity", Q::velocity},
+                                         {"energy_loss", Q::energy}};
+
+std::string impact_input_header(const TableUnits& units) {
+  return units.header({kImpactColumns.begin(), kImpactColumns.begin() + kInputs});
+}
+
+std::string impact_output_header(const TableUnits& units) { return units.header(kImpactColumns); }
 
 bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, std::ostream& out,
-                    std::ostream& complaints) {
+                    std::ostream& complaints, const TableUnits& units) {
   CsvLines lines(in);
   std::string line;
   const auto complain = [&](const std::string& what) {
     complaints << "next_impact: " << name << ":" << lines.number() << ": " << what << "\n";
     return false;
   };
-  if (!lines.next(line)) return complain("no header: expected '" + kImpactInputHeader + "', found nothing");
-  if (!is_header(line)) return complain("no header: expected '" + kImpactInputHeader + "', found '" + line + "'");
+  const std::string header = impact_input_header(units);
+  if (!lines.next(line)) return complain("no header: expected '" + header + "', found nothing");
+  if (split_fields(line) != split_fields(header)) {
+    return complain("no header: expected '" + header + "', found '" + line + "'");
+  }
   bool good = true;
   while (lines.next(line)) {
     std::vector<double> row(kInputs + kOutputs, kNaN);
     try {
-      compute_row(kind, line, row);
+      compute_row(kind, line, units, row);
     } catch (const std::exception& fault) {
       good = complain(fault.what());
     }

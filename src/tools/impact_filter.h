@@ -4,16 +4,22 @@
 #include <istream>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "afm/model.h"
+#include "common/table_units.h"
 
 namespace afm {
 
-extern const std::string kImpactInputHeader, kImpactOutputHeader;
+extern const std::vector<Column> kImpactColumns;  // the inputs, then the outputs
 
-// A row for each of the table's, without the header; nan where one cannot be computed, told as name:LINE in
+// The header that a table must have, and that of what comes out.
+std::string impact_input_header(const TableUnits& units = TableUnits::plain());
+std::string impact_output_header(const TableUnits& units = TableUnits::plain());
+
+// A row for each of the table's, without the header, both in these units; nan where one cannot be computed, told as name:LINE in
 // `complaints`. Whether every row could be computed.
 bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, std::ostream& out,
-                    std::ostream& complaints);
+                    std::ostream& complaints, const TableUnits& units = TableUnits::plain());
 
 }  // namespace afm

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/command_line.h"
+#include "common/si_options.h"
 #include "impact_filter.h"
 
 namespace {
@@ -15,13 +16,14 @@ const char kDescription[] =
     "In:  CSV with the header eta,gamma,cutoff,phase,extension,u,w: drag velocity, restitution and its cutoff speed,\n"
     "     and a state just after an impact: surface phase, extension x - xc, lab velocity (units a, tau, tip mass).\n"
     "Out: the same columns, then dt,phase_next,extension_next,u_next,w_next (after the impact), normal_speed,\n"
-    "     tangential_velocity (before it) and energy_loss. A row that cannot be computed gives nan and a message, and\n"
-    "     exit code 1 at the end.";
+    "     tangential_velocity (before it) and energy_loss. With --si the header is drag_velocity_m_per_s,gamma,\n"
+    "     cutoff_m_per_s,phase,extension_m,u_m_per_s,w_m_per_s, and the columns that come out are named alike. A row\n"
+    "     that cannot be computed gives nan and a message, and exit code 1 at the end.";
 
-bool filter_file(afm::ModelKind kind, const std::string& path) {
-  if (path == "-") return afm::filter_impacts(kind, std::cin, "stdin", std::cout, std::cerr);
+bool filter_file(afm::ModelKind kind, const std::string& path, const afm::TableUnits& units) {
+  if (path == "-") return afm::filter_impacts(kind, std::cin, "stdin", std::cout, std::cerr, units);
   std::ifstream file(path);
-  if (file) return afm::filter_impacts(kind, file, path, std::cout, std::cerr);
+  if (file) return afm::filter_impacts(kind, file, path, std::cout, std::cerr, units);
   std::cerr << "next_impact: cannot open '" << path << "'\n";
   return false;
 }
@@ -34,13 +36,17 @@ int main(int argc, char** argv) {
   app.arguments("files", paths, "tables to read; none, or -, is standard input");
   std::string model = "oscillator";
   app.option("model", model, "oscillator; or hammer, which has no extension, and eta for u");
+  afm::SiOptions si;
+  afm::add_si_options(app, si);
   return app.run(argc, argv, [&] {
     afm::ModelKind kind = afm::ModelKind::oscillator;
     if (!afm::parse(model, kind)) throw std::invalid_argument("model = " + model + ": must be oscillator or hammer");
     if (paths.empty()) paths.emplace_back("-");
-    std::cout << afm::kImpactOutputHeader << "\n";
+    afm::checked_units(app, si);
+    const afm::TableUnits units = afm::table_units(si);
+    std::cout << impact_output_header(units) << "\n";
     bool good = true;
-    for (const std::string& path : paths) good = filter_file(kind, path) && good;
+    for (const std::string& path : paths) good = filter_file(kind, path, units) && good;
     return good ? 0 : 1;
   });
 }

@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string text(reinterpret_cast<const char*>(data), size);
   const auto kind = size > 0 && data[0] == '#' ? afm::ModelKind::hammer : afm::ModelKind::oscillator;
   // mostly of rows, not of headers
-  if (size > 0 && data[0] != '!') text = afm::kImpactInputHeader + "\n" + text;
+  if (size > 0 && data[0] != '!') text = afm::impact_input_header() + "\n" + text;
   std::istringstream in(text);
   std::ostringstream out, complaints;
   const bool good = afm::filter_impacts(kind, in, "fuzz", out, complaints);

@@ -32,8 +32,13 @@ foreach(name IN LISTS view_tests)
   afm_add_rostest(${name} emulator_node view_node)
 endforeach()
 
-# of the tools that check recordings
+# nodes to copy
+set(example_tests examples)
+afm_add_rostest(examples emulator_node view_node watch_and_command loop_delay)
+
+# of the tools that read recordings
 set(recording_tests
+  bag_to_csv
   broken_bags
   checkpoints
   faults
@@ -45,7 +50,7 @@ set(recording_tests
   spoiled_bags
   steering)
 foreach(name IN LISTS recording_tests)
-  afm_add_rostest(${name} emulator_node replay_check bag_check)
+  afm_add_rostest(${name} emulator_node replay_check bag_check bag_to_csv)
 endforeach()
 # keeps every core busy: what ran beside it would starve
 set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)

@@ -27,6 +27,8 @@ set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
 add_test(NAME orbit_tools COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/orbit_tools_test.py
   $<TARGET_FILE_DIR:continue_orbits>)
 set_tests_properties(orbit_tools PROPERTIES TIMEOUT 120)
+add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py $<TARGET_FILE_DIR:friction_curve>)
+set_tests_properties(si PROPERTIES TIMEOUT 120)
 add_test(NAME scene_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/scene_levels_test.py
   $<TARGET_FILE_DIR:choose_level> ${PROJECT_SOURCE_DIR}/scripts)
 set_tests_properties(scene_levels PROPERTIES TIMEOUT 180)

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "afm/dynamics/basins.h"
-#include "common/csv.h"
+#include "common/table_writer.h"
 #include "dynamics_options.h"
 #include "common/progress_bar.h"
 
@@ -24,10 +24,29 @@ const char kDescription[] =
     "leads to it (surface phase, extension, height, lab velocity). --eta and --gamma may be ranges FROM:TO:STEP;\n"
     "--cutoff is absolute, or a share of eta with --relative-cutoff.";
 
-const char kHeader[] =
-    "eta,gamma,cutoff,attractor,impacts,cells,k_f,k_f_std_error,lyapunov_1,lyapunov_2,lyapunov_3,lyapunov_4,rotation_"
-    "number,"
-    "contact_share,basin,basin_std_error,phase,extension,y,u,w";
+using Q = afm::Quantity;
+
+const std::vector<afm::Column> kColumns{{"eta", Q::velocity, "drag_velocity"},
+                                        {"gamma"},
+                                        {"cutoff", Q::velocity},
+                                        {"attractor"},
+                                        {"impacts"},
+                                        {"cells"},
+                                        {"k_f", Q::friction},
+                                        {"k_f_std_error", Q::friction},
+                                        {"lyapunov_1", Q::rate},
+                                        {"lyapunov_2", Q::rate},
+                                        {"lyapunov_3", Q::rate},
+                                        {"lyapunov_4", Q::rate},
+                                        {"rotation_number"},
+                                        {"contact_share"},
+                                        {"basin"},
+                                        {"basin_std_error"},
+                                        {"phase"},
+                                        {"extension", Q::length},
+                                        {"y", Q::length},
+                                        {"u", Q::velocity},
+                                        {"w", Q::velocity}};
 
 struct Options {
   afm::DynamicsOptions dynamics;
@@ -46,16 +65,42 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("seed", o.basins.seed, "of the starts");
   app.option("transient", o.basins.attractor.transient, "before anything is looked at [tau]", {0.0, 1e9});
   app.option("duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]",
-             {1.0, 1e9});
-  app.option("friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]", {1.0, 1e9});
+             afm::kPositive);
+  app.option("friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]", afm::kPositive);
   afm::add_model_option(app, o.dynamics.model);
   app.option("threads", o.threads, "0: one for each processor", {0, 1024});
+  afm::add_si_options(app, o.dynamics);
 }
 
-std::vector<afm::SweepPoint> grid(Options options) {
+std::vector<double> etas(const afm::CommandLine& app, const Options& o) {
+  const afm::SiOptions& si = o.dynamics.si;
+  if (!afm::has_drag_velocity(app, si)) return afm::range_option("eta", o.eta);
+  std::vector<double> values = afm::range_option("drag-velocity", o.dynamics.drag_velocity);
+  afm::take_si(app, si, "drag-velocity", Q::velocity, values);
+  return values;
+}
+
+void check_duration(const char* name, double tau) {
+  if (tau >= 1.0 && tau <= 1e9) return;
+  throw std::invalid_argument(std::string("--") + name + ": must be between 1 and 1e+09 tau");
+}
+
+// A cutoff that is a share of eta has no unit.
+void take_si(const afm::CommandLine& app, Options& o) {
+  const afm::SiOptions& si = o.dynamics.si;
+  afm::checked_units(app, si);
+  if (!o.relative_cutoff) afm::take_si(app, si, "cutoff", Q::velocity, o.dynamics.cutoff);
+  afm::take_si(app, si, "transient", Q::time, o.basins.attractor.transient);
+  afm::take_si(app, si, "duration", Q::time, o.basins.attractor.duration);
+  afm::take_si(app, si, "friction-duration", Q::time, o.basins.friction_duration);
+  check_duration("duration", o.basins.attractor.duration);
+  check_duration("friction-duration", o.basins.friction_duration);
+}
+
+std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& options) {
   std::vector<afm::SweepPoint> points;
   for (const double gamma : afm::range_option("gamma", options.gamma)) {
-    for (const double eta : afm::range_option("eta", options.eta)) {
+    for (const double eta : etas(app, options)) {
       afm::DynamicsOptions at = options.dynamics;
       at.eta = eta;
       at.gamma = gamma;
@@ -66,22 +111,22 @@ std::vector<afm::SweepPoint> grid(Options options) {
   return points;
 }
 
-void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins) {
+void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins, afm::TableWriter& to) {
   for (const afm::Basin& basin : basins) {
     const afm::Attractor& a = basin.first.attractor;
     const afm::FreeState start = to_free_state(model_of(point).H, basin.first.start);
-    std::cout << afm::join_numbers({point.eta, point.gamma, point.v_c}) << "," << a.name() << ","
-              << afm::join_numbers({static_cast<double>(a.impacts), static_cast<double>(a.cells), basin.first.K_f,
-                                    basin.first.K_f_std_error, a.lyapunov.exponents[0], a.lyapunov.exponents[1],
-                                    a.lyapunov.exponents[2], a.lyapunov.exponents[3], a.rotation_number,
-                                    a.contact_share, basin.share, basin.share_std_error, start.phase, start.X, start.y,
-                                    start.u, start.w})
-              << "\n";
+    to << point.eta << point.gamma << point.v_c << a.name() << a.impacts << a.cells << basin.first.K_f
+       << basin.first.K_f_std_error;
+    for (const double exponent : a.lyapunov.exponents) to << exponent;
+    to << a.rotation_number << a.contact_share << basin.share << basin.share_std_error << start.phase << start.X
+       << start.y << start.u << start.w;
+    to.end_row();
   }
 }
 
 // Rows in the order of the grid, whichever thread is first: the same table for any number of threads.
-void compute(const std::vector<afm::SweepPoint>& points, const afm::BasinSettings& settings, std::size_t threads) {
+void compute(const std::vector<afm::SweepPoint>& points, const afm::BasinSettings& settings, std::size_t threads,
+             afm::TableWriter& to) {
   std::atomic<std::size_t> next{0};
   std::map<std::size_t, std::vector<afm::Basin>> done;
   std::mutex mutex;
@@ -100,18 +145,20 @@ void compute(const std::vector<afm::SweepPoint>& points, const afm::BasinSetting
   for (std::size_t printed = 0; printed < points.size(); ++printed) {
     std::unique_lock<std::mutex> lock(mutex);
     changed.wait(lock, [&] { return done.count(printed) != 0; });
-    print(points[printed], done[printed]);
+    print(points[printed], done[printed], to);
     done.erase(printed);
     bar.show(printed + 1);
   }
   for (std::thread& worker : workers) worker.join();
 }
 
-int run(const Options& options) {
-  const std::vector<afm::SweepPoint> points = grid(options);
+int run(const afm::CommandLine& app, Options& options) {
+  take_si(app, options);
+  const std::vector<afm::SweepPoint> points = grid(app, options);
   const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
-  std::cout << kHeader << "\n";
-  compute(points, options.basins, options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors);
+  afm::TableWriter table(std::cout, kColumns, afm::table_units(options.dynamics.si));
+  table.write_header();
+  compute(points, options.basins, options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors, table);
   return 0;
 }
 
@@ -121,5 +168,5 @@ int main(int argc, char** argv) {
   afm::CommandLine app("attractors", kDescription);
   Options options;
   add_options(app, options);
-  return app.run(argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(app, options); });
 }

@@ -6,7 +6,7 @@
 
 #include "afm/dynamics/continuation.h"
 #include "afm/dynamics/orbit_search.h"
-#include "common/csv.h"
+#include "common/table_writer.h"
 #include "dynamics_options.h"
 
 namespace {
@@ -17,9 +17,27 @@ const char kDescription[] =
     "bifurcation, or how the branch ends), impacts and cells in a period, K_f, the slowest impact, the smallest\n"
     "gap on the way (inf: none), and the multipliers.";
 
-const char kHeader[] =
-    "orbit,value,event,length,cells,k_f,slowest_impact,clearance,multiplier_1_re,multiplier_1_im,multiplier_2_re,"
-    "multiplier_2_im,multiplier_3_re,multiplier_3_im,multiplier_4_re,multiplier_4_im";
+using Q = afm::Quantity;
+
+// The second column holds the parameter that is followed.
+std::vector<afm::Column> columns(const std::string& vary) {
+  return {{"orbit"},
+          {"value", vary == "gamma" ? Q::number : Q::velocity},
+          {"event"},
+          {"length"},
+          {"cells"},
+          {"k_f", Q::friction},
+          {"slowest_impact", Q::velocity},
+          {"clearance", Q::length},
+          {"multiplier_1_re"},
+          {"multiplier_1_im"},
+          {"multiplier_2_re"},
+          {"multiplier_2_im"},
+          {"multiplier_3_re"},
+          {"multiplier_3_im"},
+          {"multiplier_4_re"},
+          {"multiplier_4_im"}};
+}
 
 const std::map<std::string, afm::Parameter> kParameters{
     {"eta", afm::Parameter::eta}, {"gamma", afm::Parameter::gamma}, {"cutoff", afm::Parameter::cutoff}};
@@ -43,33 +61,32 @@ void add_options(afm::CommandLine& app, Options& o) {
   o.search.trajectory = 50000;
   o.search.guesses = 500;
   afm::add_options(app, o.dynamics);
+  afm::add_si_options(app, o.dynamics);
   app.option("vary", o.vary, "eta, gamma or cutoff");
-  app.option("to", o.to, "value to go to");
+  app.option("to", o.to, "value to go to; with --si a drag velocity or cutoff in m/s");
   app.require("to");
   app.option("length", o.length, "of the orbits followed [impacts]", {1, 32});
   app.option("guesses", o.search.guesses, "of the search, of each kind", {1, 1000000});
   app.option("seed", o.search.seed, "of what is random in the search");
 }
 
-void print_row(int number, const afm::BranchPoint& point, const std::string& event) {
+void print_row(int number, const afm::BranchPoint& point, const std::string& event, afm::TableWriter& to) {
   const afm::PeriodicOrbit& orbit = point.orbit;
-  std::vector<double> numbers{static_cast<double>(orbit.length()), static_cast<double>(orbit.cells), orbit.K_f,
-                              orbit.slowest_impact, orbit.clearance};
-  for (const std::complex<double>& multiplier : orbit.multipliers) {
-    numbers.push_back(multiplier.real());
-    numbers.push_back(multiplier.imag());
-  }
-  std::cout << number << "," << afm::join_numbers({point.parameter}) << "," << event << ","
-            << afm::join_numbers(numbers) << "\n";
+  to << number << point.parameter << event << orbit.length() << orbit.cells << orbit.K_f << orbit.slowest_impact
+     << orbit.clearance;
+  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
+  to.end_row();
 }
 
-void print(int number, const afm::Branch& branch) {
-  for (const afm::BranchPoint& point : branch.points) print_row(number, point, "");
-  for (const afm::BranchEvent& event : branch.events) print_row(number, event.at, name(event.kind));
-  print_row(number, branch.points.back(), kEnds.at(branch.end));
+void print(int number, const afm::Branch& branch, afm::TableWriter& to) {
+  for (const afm::BranchPoint& point : branch.points) print_row(number, point, "", to);
+  for (const afm::BranchEvent& event : branch.events) print_row(number, event.at, name(event.kind), to);
+  print_row(number, branch.points.back(), kEnds.at(branch.end), to);
 }
 
-int run(Options options) {
+int run(const afm::CommandLine& app, Options options) {
+  take_si(app, options.dynamics);
+  if (options.vary != "gamma") afm::take_si(app, options.dynamics.si, "to", Q::velocity, options.to);
   const afm::Model model = checked_model(options.dynamics);
   const double eta = options.dynamics.eta;
   const auto vary = kParameters.find(options.vary);
@@ -78,11 +95,12 @@ int run(Options options) {
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
   options.search.longest = options.length;
   const auto found = search_orbits(afm::PoincareMap(model, eta), options.search);
-  std::cout << kHeader << "\n";
+  afm::TableWriter table(std::cout, columns(options.vary), afm::table_units(options.dynamics.si));
+  table.write_header();
   int number = 0;
   for (const afm::FoundOrbit& f : found.orbits) {
     if (f.orbit.length() != static_cast<std::size_t>(options.length)) continue;
-    print(++number, continue_orbit(model, eta, f.orbit, vary->second, options.to));
+    print(++number, continue_orbit(model, eta, f.orbit, vary->second, options.to), table);
   }
   if (number == 0) std::cerr << "continue_orbits: no orbit of length " << options.length << " found\n";
   return number > 0 ? 0 : 1;
@@ -94,5 +112,5 @@ int main(int argc, char** argv) {
   afm::CommandLine app("continue_orbits", kDescription);
   Options options;
   add_options(app, options);
-  return app.run(argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(app, options); });
 }

@@ -39,7 +39,7 @@ std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::stri
   for (const double v_c : ranges_option("cutoff", cutoff)) {
     for (const double g : gammas) {
       for (const double ratio : ratios) {
-        for (const double e : etas) grid.push_back({e, g, v_c, "oscillator", ratio});
+        for (const double e : etas) grid.push_back({e, g, v_c, "oscillator", ratio, {}, {}});
       }
     }
   }
@@ -61,6 +61,21 @@ void add_options(CommandLine& app, DynamicsOptions& o) {
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
   add_model_option(app, o.model);
+}
+
+void add_si_options(CommandLine& app, DynamicsOptions& o) {
+  add_drag_velocity_option(app, o.drag_velocity);
+  add_si_options(app, o.si);
+}
+
+void take_si(const CommandLine& app, DynamicsOptions& o) {
+  checked_units(app, o.si);
+  take_si(app, o.si, "cutoff", Quantity::velocity, o.cutoff);
+  if (!has_drag_velocity(app, o.si)) return;
+  const std::vector<double> values = range_option("drag-velocity", o.drag_velocity);
+  if (values.size() != 1) throw std::invalid_argument("drag-velocity = " + o.drag_velocity + ": must be one number");
+  o.eta = values.front();
+  take_si(app, o.si, "drag-velocity", Quantity::velocity, o.eta);
 }
 
 Model checked_model(const DynamicsOptions& o) {

@@ -6,6 +6,7 @@
 
 #include "afm/model.h"
 #include "common/command_line.h"
+#include "common/si_options.h"
 
 namespace afm {
 
@@ -13,9 +14,15 @@ struct DynamicsOptions {
   double eta = 3.4, gamma = 0.7, cutoff = 0.05;
   std::string model = "oscillator";
   double frequency_ratio = Model{}.frequency_ratio;
+  SiOptions si;
+  std::string drag_velocity;  // of --si, in place of eta
 };
 
 void add_options(CommandLine& app, DynamicsOptions& options);
+// --si and --drag-velocity, beside the options of add_options(); and what follows from them, once they are read: eta and
+// cutoff in natural units. Throws std::invalid_argument.
+void add_si_options(CommandLine& app, DynamicsOptions& options);
+void take_si(const CommandLine& app, DynamicsOptions& options);
 void add_model_option(CommandLine& app, std::string& model);
 
 // Throws std::invalid_argument where there is no such model.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/si_options.h"
 #include "dynamics_options.h"
 #include "sweep/curve_run.h"
 
@@ -26,10 +27,11 @@ const char kDescription[] =
 
 struct Options {
   std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", rest_height = "0", amplitude, frequency_ratio,
-              sweep = "fresh", model = "oscillator", output = "-";
+              sweep = "fresh", model = "oscillator", output = "-", drag_velocity;
   std::int64_t seed = 1;
   int threads = 0;
   afm::CurveSettings settings;
+  afm::SiOptions si;
 };
 
 const std::map<std::string, afm::SweepDirection> kDirections{
@@ -59,16 +61,35 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("threads", o.threads, "0: one for each processor; under mpirun one for each rank");
   app.option("seed", o.seed, "of the random starts and of the heat bath");
   app.option("output", o.output, "the table; - is standard output");
+  afm::add_drag_velocity_option(app, o.drag_velocity);
+  afm::add_si_options(app, o.si);
 }
 
-void check(Options& o) {
+void take_si(const afm::CommandLine& app, Options& o) {
   afm::CurveSettings& s = o.settings;
-  s.eta = afm::range_option("eta", o.eta);
+  const auto take = [&](const char* name, afm::Quantity quantity, auto& value) {
+    afm::take_si(app, o.si, name, quantity, value);
+  };
+  take("drag-velocity", afm::Quantity::velocity, s.eta);
+  take("cutoff", afm::Quantity::velocity, s.cutoff);
+  take("rest-height", afm::Quantity::length, s.rest_height);
+  take("amplitude", afm::Quantity::length, s.amplitude);
+  take("temperature", afm::Quantity::temperature, s.sweep.bath.temperature);
+  take("duration", afm::Quantity::time, s.sweep.duration);
+  take("transient", afm::Quantity::time, s.sweep.transient);
+}
+
+void check(const afm::CommandLine& app, Options& o) {
+  afm::CurveSettings& s = o.settings;
+  afm::checked_units(app, o.si);
+  s.eta = afm::has_drag_velocity(app, o.si) ? afm::range_option("drag-velocity", o.drag_velocity)
+                                            : afm::range_option("eta", o.eta);
   s.gamma = afm::range_option("gamma", o.gamma);
   s.cutoff = afm::range_option("cutoff", o.cutoff);
   s.rest_height = afm::range_option("rest-height", o.rest_height);
   if (!o.amplitude.empty()) s.amplitude = afm::range_option("amplitude", o.amplitude);
   if (!o.frequency_ratio.empty()) s.frequency_ratio = afm::range_option("frequency-ratio", o.frequency_ratio);
+  take_si(app, o);
   const auto direction = kDirections.find(o.sweep);
   if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
   s.direction = direction->second;
@@ -92,7 +113,7 @@ int main(int argc, char** argv) {
   Options options;
   parse(app, options);
   return app.run(argc, argv, [&] {
-    check(options);
-    return afm::run_curve(options.settings, options.output, options.threads);
+    check(app, options);
+    return afm::run_curve(options.settings, options.output, options.threads, afm::table_units(options.si));
   });
 }

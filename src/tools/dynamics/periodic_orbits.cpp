@@ -9,7 +9,7 @@
 #include "afm/dynamics/cycle_expansion.h"
 #include "afm/dynamics/orbit_search.h"
 #include "afm/state.h"
-#include "common/csv.h"
+#include "common/table_writer.h"
 #include "dynamics_options.h"
 #include "common/progress_bar.h"
 
@@ -22,10 +22,28 @@ const char kDescription[] =
     "multipliers, largest first. What speaks for there being no more goes to stderr: how often each length was\n"
     "found, and how near the long run comes to each orbit.";
 
-const char kHeader[] =
-    "length,cells,period,k_f,residual,phase,extension,u,w,multiplier_1_re,multiplier_1_im,multiplier_2_re,multiplier_2_"
-    "im,"
-    "multiplier_3_re,multiplier_3_im,multiplier_4_re,multiplier_4_im";
+using Q = afm::Quantity;
+
+// The residual is in natural units always: the largest of errors of several kinds.
+const std::vector<afm::Column> kColumns{{"length"},
+                                        {"cells"},
+                                        {"period", Q::time},
+                                        {"k_f", Q::friction},
+                                        {"residual"},
+                                        {"phase"},
+                                        {"extension", Q::length},
+                                        {"u", Q::velocity},
+                                        {"w", Q::velocity},
+                                        {"multiplier_1_re"},
+                                        {"multiplier_1_im"},
+                                        {"multiplier_2_re"},
+                                        {"multiplier_2_im"},
+                                        {"multiplier_3_re"},
+                                        {"multiplier_3_im"},
+                                        {"multiplier_4_re"},
+                                        {"multiplier_4_im"}};
+const std::vector<afm::Column> kAverageColumns{
+    {"method"}, {"order"}, {"terms"}, {"k_f", Q::friction}, {"conservation"}};
 
 struct Options {
   afm::DynamicsOptions dynamics;
@@ -37,6 +55,7 @@ struct Options {
 
 void add_options(afm::CommandLine& app, Options& o) {
   afm::add_options(app, o.dynamics);
+  afm::add_si_options(app, o.dynamics);
   app.option("max-length", o.search.longest, "longest orbit looked for [impacts]", {1, 32});
   app.option("trajectory", o.search.trajectory, "impacts of the long run that guesses are taken from",
              {1000, 10000000});
@@ -51,22 +70,12 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.flag("quiet", o.quiet, "no report of the search on stderr");
 }
 
-void print_row(double H, const afm::PeriodicOrbit& orbit) {
+void print_row(double H, const afm::PeriodicOrbit& orbit, afm::TableWriter& to) {
   const afm::FreeState first = to_free_state(H, orbit.points.front());
-  std::vector<double> row{static_cast<double>(orbit.length()),
-                          static_cast<double>(orbit.cells),
-                          orbit.period,
-                          orbit.K_f,
-                          orbit.residual,
-                          first.phase,
-                          first.X,
-                          first.u,
-                          first.w};
-  for (const std::complex<double>& multiplier : orbit.multipliers) {
-    row.push_back(multiplier.real());
-    row.push_back(multiplier.imag());
-  }
-  std::cout << afm::join_numbers(row) << "\n";
+  to << orbit.length() << orbit.cells << orbit.period << orbit.K_f << orbit.residual << first.phase << first.X
+     << first.u << first.w;
+  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
+  to.end_row();
 }
 
 void report(const afm::OrbitSearchResult& found) {
@@ -83,10 +92,10 @@ void report(const afm::OrbitSearchResult& found) {
   }
 }
 
-void write_rows(std::ostream& out, const std::string& method, const std::vector<afm::CycleAverage>& rows) {
+void write_rows(afm::TableWriter& to, const std::string& method, const std::vector<afm::CycleAverage>& rows) {
   for (const afm::CycleAverage& row : rows) {
-    out << method << "," << afm::join_numbers({row.order, static_cast<double>(row.terms), row.K_f, row.conservation})
-        << "\n";
+    to << method << row.order << row.terms << row.K_f << row.conservation;
+    to.end_row();
   }
 }
 
@@ -97,27 +106,30 @@ void write_averages(const Options& options, const afm::OrbitSearchResult& found)
     if (orbit.approach < options.attractor_distance) orbits.push_back(orbit.orbit);
   }
   const double eta = options.dynamics.eta;
-  out << "method,order,terms,k_f,conservation\n";
-  write_rows(out, "zeta", zeta_averages(orbits, eta, options.search.longest));
-  write_rows(out, "determinant", determinant_averages(orbits, eta, options.search.longest));
+  afm::TableWriter to(out, kAverageColumns, afm::table_units(options.dynamics.si));
+  to.write_header();
+  write_rows(to, "zeta", zeta_averages(orbits, eta, options.search.longest));
+  write_rows(to, "determinant", determinant_averages(orbits, eta, options.search.longest));
   constexpr double kMostUnstable = 1e3;
   std::vector<afm::CycleAverage> by_stability = stability_averages(orbits, eta, kMostUnstable);
   constexpr std::size_t kMostRows = 1000;
   by_stability.resize(std::min(by_stability.size(), kMostRows));
-  write_rows(out, "stability", by_stability);
+  write_rows(to, "stability", by_stability);
   out.close();
   if (!out) throw std::runtime_error("cannot write " + options.averages);
 }
 
-int run(const Options& options) {
+int run(const afm::CommandLine& app, Options& options) {
+  take_si(app, options.dynamics);
   const afm::Model model = checked_model(options.dynamics);
   if (options.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
   constexpr std::size_t kSteps = 1000;
   afm::ProgressBar bar(kSteps, 0);
   const auto show = [&](double share) { bar.show(static_cast<std::size_t>(share * kSteps)); };
   const auto found = search_orbits(afm::PoincareMap(model, options.dynamics.eta), options.search, show);
-  std::cout << kHeader << "\n";
-  for (const afm::FoundOrbit& orbit : found.orbits) print_row(model.H, orbit.orbit);
+  afm::TableWriter table(std::cout, kColumns, afm::table_units(options.dynamics.si));
+  table.write_header();
+  for (const afm::FoundOrbit& orbit : found.orbits) print_row(model.H, orbit.orbit, table);
   if (!options.averages.empty()) write_averages(options, found);
   if (!options.quiet) report(found);
   return 0;
@@ -129,5 +141,5 @@ int main(int argc, char** argv) {
   afm::CommandLine app("periodic_orbits", kDescription);
   Options options;
   add_options(app, options);
-  return app.run(argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(app, options); });
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "afm/dynamics/poincare_map.h"
-#include "common/csv.h"
+#include "common/table_writer.h"
 #include "dynamics_options.h"
 #include "common/progress_bar.h"
 
@@ -18,6 +18,11 @@ const char kDescription[] =
     "Scans the box of the section in which the attractor lies, on a grid over all four coordinates, for points\n"
     "that come back after --length impacts. Rows: surface phase and gap rate after the impact; extension and lab\n"
     "velocity u, w at which the return is nearest there; and how near, in parts of the box.";
+
+using Q = afm::Quantity;
+
+const std::vector<afm::Column> kColumns{{"phase"},          {"gap_rate", Q::velocity}, {"extension", Q::length},
+                                        {"u", Q::velocity}, {"w", Q::velocity},        {"distance"}};
 
 struct Options {
   afm::DynamicsOptions dynamics;
@@ -72,7 +77,7 @@ double at(const std::array<double, 2>& side, int i, int points) {
 }
 
 // The nearest return over extension and velocity at one phase and gap rate.
-void scan_column(const afm::PoincareMap& map, const Box& box, const Options& o, int i, int j) {
+void scan_column(const afm::PoincareMap& map, const Box& box, const Options& o, int i, int j, afm::TableWriter& to) {
   double nearest = kNoReturn;
   afm::TipState best{at(box[0], i, o.points), 0.0, 0.0, 0.0, at(box[3], j, o.points)}, q = best;
   for (int k = 0; k < o.depth; ++k) {
@@ -87,17 +92,20 @@ void scan_column(const afm::PoincareMap& map, const Box& box, const Options& o, 
     }
   }
   const afm::FreeState lab = to_free_state(map.model().H, best);
-  std::cout << afm::join_numbers({lab.phase, best.g1, lab.X, lab.u, lab.w, nearest}) << "\n";
+  to << lab.phase << best.g1 << lab.X << lab.u << lab.w << nearest;
+  to.end_row();
 }
 
-int run(Options o) {
+int run(const afm::CommandLine& app, Options o) {
+  take_si(app, o.dynamics);
   const afm::PoincareMap map(checked_model(o.dynamics), o.dynamics.eta);
   if (section_dimension(map.model()) == 2) o.depth = 1;
   const Box box = find_box(map);
   afm::ProgressBar bar(static_cast<std::size_t>(o.points), 0);
-  std::cout << "phase,gap_rate,extension,u,w,distance\n";
+  afm::TableWriter table(std::cout, kColumns, afm::table_units(o.dynamics.si));
+  table.write_header();
   for (int i = 0; i < o.points; ++i) {
-    for (int j = 0; j < o.points; ++j) scan_column(map, box, o, i, j);
+    for (int j = 0; j < o.points; ++j) scan_column(map, box, o, i, j, table);
     bar.show(static_cast<std::size_t>(i) + 1);
   }
   return 0;
@@ -109,8 +117,9 @@ int main(int argc, char** argv) {
   afm::CommandLine app("return_scan", kDescription);
   Options options;
   add_options(app, options.dynamics);
+  add_si_options(app, options.dynamics);
   app.option("length", options.length, "impacts until the return", {1, 32});
   app.option("points", options.points, "of the grid over phase and over gap rate", {2, 1000});
   app.option("depth", options.depth, "of the grid over extension and over velocity", {2, 1000});
-  return app.run(argc, argv, [&] { return run(options); });
+  return app.run(argc, argv, [&] { return run(app, options); });
 }

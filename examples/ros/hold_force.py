@@ -1,0 +1,36 @@
+#!/usr/bin/python3
+"""A controller: holds the mean lateral force by commanding ~rest_height, the normal load.
+
+Friction is not monotonic in the load, so the height stays within limits between which force rises as the tip is lowered
+(docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on ~commanded_height.
+Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time."""
+import rospy
+from afm_client import Client
+from std_msgs.msg import Float64
+
+
+def main():
+    rospy.init_node('hold_force')
+    setpoint = rospy.get_param('~force', 60e-12)
+    gain = rospy.get_param('~gain', 1.0)  # half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
+    lowest, highest = rospy.get_param('~lowest', -0.33e-9), rospy.get_param('~highest', -0.03e-9)
+    settle, window = rospy.get_param('~settle_s', 0.02), rospy.get_param('~window_s', 0.1)
+    measured = rospy.Publisher('~measured_force', Float64, queue_size=10)
+    commanded = rospy.Publisher('~commanded_height', Float64, queue_size=10)
+    tip = Client(rospy.get_param('~emulator', '/afm'))
+    height = min(max(tip.latest['applied_parameters'].rest_height_m, lowest), highest)
+    while not rospy.is_shutdown():
+        force = tip.mean_force(tip.set_rest_height(height), settle, window)
+        if force is None:
+            continue
+        measured.publish(force)
+        commanded.publish(height)
+        rospy.loginfo('force %.1f pN, height %.1f pm', 1e12 * force, 1e12 * height)
+        height = min(max(height - gain * (setpoint - force), lowest), highest)  # a lower holder presses harder
+
+
+if __name__ == '__main__':
+    try:
+        main()
+    except rospy.ROSInterruptException:
+        pass

@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+"""A controller: seeks the drag velocity with the greatest friction by commanding ~drag_velocity (extremum seeking).
+
+Measures the mean lateral force a little below and a little above the present speed, and goes to where it is greater. The step is
+proportional to the relative difference, so it vanishes at the peak. Publishes the speed [m/s] on ~speed.
+Parameters: emulator, start, dither, gain, lowest and highest speed [m/s], settle_s and window_s of model time."""
+import rospy
+from afm_client import Client
+from std_msgs.msg import Float64
+
+ETA = 3.3104228e-6  # m/s of eta = 1 (mica), for the defaults
+
+
+def main():
+    rospy.init_node('seek_peak')
+    speed = rospy.get_param('~start', 1.75 * ETA)
+    dither, gain = rospy.get_param('~dither', 0.05 * ETA), rospy.get_param('~gain', 0.2 * ETA)
+    lowest, highest = rospy.get_param('~lowest', 1.2 * ETA), rospy.get_param('~highest', 3.0 * ETA)
+    settle, window = rospy.get_param('~settle_s', 0.02), rospy.get_param('~window_s', 0.1)
+    published = rospy.Publisher('~speed', Float64, queue_size=10)
+    tip = Client(rospy.get_param('~emulator', '/afm'))
+    while not rospy.is_shutdown():
+        below, above = (tip.mean_force(tip.set_drag_velocity(v), settle, window) for v in (speed - dither, speed + dither))
+        if below is None or above is None:
+            continue
+        published.publish(speed)
+        rospy.loginfo('speed %.3f um/s: force %.1f pN below it, %.1f pN above', 1e6 * speed, 1e12 * below, 1e12 * above)
+        total = abs(below) + abs(above)
+        if total > 0:
+            speed = min(max(speed + gain * (above - below) / total, lowest), highest)
+
+
+if __name__ == '__main__':
+    try:
+        main()
+    except rospy.ROSInterruptException:
+        pass

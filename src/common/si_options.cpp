@@ -1,0 +1,62 @@
+#include "si_options.h"
+
+#include <stdexcept>
+
+namespace afm {
+namespace {
+
+constexpr const char* kScale[] = {"lattice-spacing", "omega-v", "tip-mass"};
+
+}  // namespace
+
+void add_si_options(CommandLine& app, SiOptions& o) {
+  app.flag("si", o.on,
+           "options with a unit in brackets are given in SI (m, s, m/s, K), but for --eta; columns are printed in SI, and\n"
+           "their names end in the unit, such as k_f_kg_per_s. Defaults stay what they are");
+  app.option("lattice-spacing", o.scale.lattice_spacing_m, "a of --si, in m", kPositive);
+  app.option("omega-v", o.scale.omega_v_rad_per_s, "vertical angular frequency of --si, in rad/s; tau = 2 pi / omega_v",
+             kPositive);
+  app.option("tip-mass", o.scale.tip_mass_kg, "m_tip of --si, in kg", kPositive);
+}
+
+void add_drag_velocity_option(CommandLine& app, std::string& drag_velocity) {
+  app.option("drag-velocity", drag_velocity, "in m/s, in place of --eta; with --si");
+}
+
+bool has_drag_velocity(const CommandLine& app, const SiOptions& o) {
+  if (!app.is_given("drag-velocity")) return false;
+  if (!o.on) throw std::invalid_argument("drag-velocity: is taken only with --si");
+  if (app.is_given("eta")) throw std::invalid_argument("drag-velocity: is taken in place of --eta, not beside it");
+  return true;
+}
+
+Units checked_units(const CommandLine& app, const SiOptions& o) {
+  for (const char* name : kScale) {
+    if (app.is_given(name) && !o.on) throw std::invalid_argument(std::string(name) + ": has a meaning only with --si");
+  }
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(o.scale)) {
+    if (fault.name == "lattice_spacing_m") faults.emplace_back(kScale[0], fault.value, fault.reason);
+    if (fault.name == "omega_v_rad_per_s") faults.emplace_back(kScale[1], fault.value, fault.reason);
+    if (fault.name == "tip_mass_kg") faults.emplace_back(kScale[2], fault.value, fault.reason);
+  }
+  if (!faults.empty()) throw std::invalid_argument(describe(faults));
+  return Units(o.scale);
+}
+
+TableUnits table_units(const SiOptions& o) { return o.on ? TableUnits::into_si(Units(o.scale)) : TableUnits::plain(); }
+
+void take_si(const CommandLine& app, const SiOptions& o, const std::string& name, Quantity quantity,
+             std::vector<double>& values) {
+  if (!o.on || !app.is_given(name)) return;
+  const double unit = si_factor(quantity, Units(o.scale));
+  for (double& value : values) value /= unit;
+}
+
+void take_si(const CommandLine& app, const SiOptions& o, const std::string& name, Quantity quantity, double& value) {
+  std::vector<double> values{value};
+  take_si(app, o, name, quantity, values);
+  value = values.front();
+}
+
+}  // namespace afm

@@ -1,0 +1,33 @@
+#include "table_writer.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace afm {
+
+TableWriter& TableWriter::operator<<(double value) {
+  if (cells_ >= columns_.size()) throw std::logic_error("a row has more cells than the table has columns");
+  constexpr int kDigits = 17;
+  char text[32];
+  const double shown = units_.convert(columns_[cells_].quantity, value);
+  const int length = std::snprintf(text, sizeof text, "%.*g", kDigits, shown);
+  if (cells_++ > 0) row_ += ',';
+  row_.append(text, static_cast<std::size_t>(length));
+  return *this;
+}
+
+TableWriter& TableWriter::operator<<(const std::string& text) {
+  if (cells_++ > 0) row_ += ',';
+  row_ += text;
+  return *this;
+}
+
+void TableWriter::end_row() {
+  if (cells_ != columns_.size()) throw std::logic_error("a row has not a cell for every column of the table");
+  row_ += '\n';
+  out_ << row_;
+  row_.clear();
+  cells_ = 0;
+}
+
+}  // namespace afm

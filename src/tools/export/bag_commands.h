@@ -1,0 +1,27 @@
+// The commands of a recording in the order in which they took effect, each with everything that is in force from there on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "node/parameters/live_parameters.h"
+#include "tools/replay/recording.h"
+#include "afm/state.h"
+
+namespace afm {
+
+struct CommandRow {
+  std::uint32_t epoch = 0;
+  ModelTime time;              // from which the rest holds
+  double drag_velocity = 0.0;  // [m/s]; NaN where the recording does not tell it
+  node::LiveParameters live;
+  std::string model;
+  double contact_tolerance = 0.0;
+  std::uint64_t first_impact = 0;  // index of the first impact after it
+};
+
+// A row for every command, and one for the beginning of every epoch. Of two rows at one time the later one holds.
+std::vector<CommandRow> commands_of(const replay::Recording& recording);
+
+}  // namespace afm
