@@ -37,22 +37,18 @@ apt_can_get() {
   return $status
 }
 
-# usage: sources_of SUITE MIRROR; the lines of sources.list, with security updates where a mirror has them
-sources_of() {
-  local security
-  echo "deb $2 $1 main"
-  if security=$(mirror_of "$1-security"); then echo "deb $security $1-security main"; fi
-}
-
 # usage: make_root NAME SUITE ARCHITECTURE; does nothing where the root is there
 make_root() {
-  local root=$afm_cache/$1 suite=$2 architecture=$3 mirror
+  local root=$afm_cache/$1 suite=$2 architecture=$3 mirror components
   [[ ! -d $root ]] || return 0
   mirror=$(mirror_of "$suite") || { echo "no mirror of this machine has $suite" >&2; return 1; }
   mkdir -p "$afm_cache"
   rm -rf --one-file-system "$root.unfinished"
   debootstrap --variant=minbase --arch="$architecture" "$suite" "$root.unfinished" "$mirror" || return
-  sources_of "$suite" "$mirror" >"$root.unfinished/etc/apt/sources.list"
+  # without security updates: a mirror may list more of them than it has
+  components=main
+  if grep -q '^ID=ubuntu' "$root.unfinished/etc/os-release"; then components="main universe"; fi
+  echo "deb $mirror $suite $components" >"$root.unfinished/etc/apt/sources.list"
   # how this machine reaches its mirror
   grep -lsE '^ *Acquire::(http|Check|Retries|Force)' /etc/apt/apt.conf /etc/apt/apt.conf.d/* |
     xargs -r cp -t "$root.unfinished/etc/apt/apt.conf.d"
