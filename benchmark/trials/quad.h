@@ -1,7 +1,12 @@
-// The core's templates in quad precision: the truth that tests compare with.
+// The core's templates in quad precision: the truth that tests compare with. AFM_QUADMATH: the compiler has libquadmath
+// (GCC on x86-64). Elsewhere Boost does the same 113 bits in software.
 #pragma once
 
+#ifdef AFM_QUADMATH
 #include <boost/multiprecision/float128.hpp>
+#else
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#endif
 #include <limits>
 
 #include "afm/detail/double_double.h"
@@ -9,7 +14,11 @@
 
 namespace afm {
 
+#ifdef AFM_QUADMATH
 using Quad = boost::multiprecision::float128;
+#else
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+#endif
 
 template <>
 inline Quad epsilon<Quad>() {
@@ -29,25 +38,27 @@ inline Quad to_quad(const DoubleDouble& x) { return Quad(x.high()) + Quad(x.low(
 namespace boost {
 namespace multiprecision {
 
-inline float128 turn_product(const float128& a, const float128& b) {
-  const float128 p = a * b;
+using afm::Quad;
+
+inline Quad turn_product(const Quad& a, const Quad& b) {
+  const Quad p = a * b;
   return p - round(p);
 }
 
-inline afm::SinCos<float128> sin_cos_turns(const float128& x) {
-  const float128 quarter = round(x * 4);
-  const float128 angle = afm::two_pi<float128>() * (x - quarter / 4);
-  const float128 s = sin(angle), c = cos(angle);
-  const float128 turn = quarter / 4 - floor(quarter / 4);
+inline afm::SinCos<Quad> sin_cos_turns(const Quad& x) {
+  const Quad quarter = round(x * 4);
+  const Quad angle = afm::two_pi<Quad>() * (x - quarter / 4);
+  const Quad s = sin(angle), c = cos(angle);
+  const Quad turn = quarter / 4 - floor(quarter / 4);
   if (turn == 0) return {s, c};
-  if (turn == float128(0.25)) return {c, -s};
-  if (turn == float128(0.5)) return {-s, -c};
+  if (turn == Quad(0.25)) return {c, -s};
+  if (turn == Quad(0.5)) return {-s, -c};
   return {-c, s};
 }
 
-inline afm::SmallTurn<float128> small_turn(const float128& x) {
-  const float128 angle = afm::two_pi<float128>() * x, half = sin(angle / 2);
-  float128 term = angle, tail = 0;
+inline afm::SmallTurn<Quad> small_turn(const Quad& x) {
+  const Quad angle = afm::two_pi<Quad>() * x, half = sin(angle / 2);
+  Quad term = angle, tail = 0;
   for (int n = 2; n <= 40; n += 2) {
     term = -term * angle * angle / (n * (n + 1));
     tail += term;

@@ -68,5 +68,4 @@ NOT_RUN = [
 ]
 
 # programs that are built only where the machine has what they need
-OPTIONAL = {'verbs': 'Google Benchmark', 'grazes': '128-bit floats', 'speed_accuracy': '128-bit floats',
-            'stability_matrix': '128-bit floats'}
+OPTIONAL = {'verbs': 'Google Benchmark'}

@@ -1,12 +1,11 @@
 #include "afm/detail/thermostat.h"
 
-#include <Random123/philox.h>
-
 #include <cmath>
 #include <tuple>
 
 #include "afm/detail/multiversion.h"
 #include "core/contact/portable_exp.h"
+#include "core/tip/philox.h"
 
 namespace afm {
 
@@ -52,15 +51,12 @@ AFM_MULTIVERSION VelocityKick kick_of(double temperature, double angle, double q
 }
 
 std::uint64_t joined(std::uint32_t low, std::uint32_t high) { return low | static_cast<std::uint64_t>(high) << 32; }
-std::uint32_t low(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
-std::uint32_t high(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }
 
 }  // namespace
 
 NormalPair normal_pair(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  const r123::Philox4x32::ctr_type counter = {{low(index), high(index), low(stream), high(stream)}};
-  const r123::Philox4x32::key_type key = {{low(seed), high(seed)}};
-  const r123::Philox4x32::ctr_type random = r123::Philox4x32()(counter, key);
+  const PhiloxCounter counter = {low_word(index), high_word(index), low_word(stream), high_word(stream)};
+  const PhiloxCounter random = philox4x32(counter, {low_word(seed), high_word(seed)});
   return normals_of(unit(joined(random[0], random[1])), unit(joined(random[2], random[3])));
 }
 

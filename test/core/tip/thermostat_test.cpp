@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "afm/flight.h"
+#include "core/tip/philox.h"
 
 namespace afm {
 namespace {
@@ -21,6 +22,15 @@ Bath bath_of(double temperature, double quality_factor, double kicks_per_tau) {
   bath.quality_factor = quality_factor;
   bath.kicks_per_tau = kicks_per_tau;
   return bath;
+}
+
+TEST(Philox, GivesTheKnownAnswersOfItsAuthors) {
+  EXPECT_EQ(philox4x32({0, 0, 0, 0}, {0, 0}), (PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
+  constexpr std::uint32_t kOnes = 0xffffffff;
+  EXPECT_EQ(philox4x32({kOnes, kOnes, kOnes, kOnes}, {kOnes, kOnes}),
+            (PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
+  EXPECT_EQ(philox4x32({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}),  // digits of pi
+            (PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
 TEST(NormalPair, HasTheMomentsOfANormalDistribution) {
