@@ -17,8 +17,11 @@ RATIO = 6.25  # omega_h / omega_v
 S = TWO_PI * AMPLITUDE
 # the paper's axis: energy in units of m, a and 1/omega_h, time in 1/omega_h, velocity in units of eta
 PAPER = 1.0 / (TWO_PI * RATIO) ** 3
-K_F_LABEL = r"$K_f$ / (m/$\tau$)"
-ETA_LABEL = r"$\eta = v_0 \tau / a$"
+K_F_LABEL = r"$K_f$ [$m_{tip}/\tau$]"
+ETA_LABEL = r"drag speed $\eta = v_0 \tau / a$"
+# one tip, its drag speed raised or lowered slowly
+SWEEPS = {"up": dict(color=BLUE, linestyle="-", linewidth=1.5, label=r"$\eta$ rising"),
+          "down": dict(color=ORANGE, linestyle=(0, (3, 1.5)), linewidth=1.3, label=r"$\eta$ falling")}
 
 
 def closed_form(gamma):
