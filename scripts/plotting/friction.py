@@ -53,7 +53,20 @@ def draw_attractors(axes, rows):
                      label=label, linewidths=0)
 
 
+def publish_attractors(tables):
+    """Of docs/friction.md: what coexists at four drag speeds."""
+    rows = []
+    for eta in (2, 2.5, 3.75, 6.5):
+        found = tables.make("coexisting_%g" % eta, "attractors", "--eta", eta, "--relative-cutoff", "--cutoff", 0.1,
+                            "--starts", 10 if tables.quick else 100)
+        rows += [("%g" % eta, row["attractor"], "%.6g +- %.1g" % (row["k_f"], row["k_f_std_error"]),
+                  "%.2f +- %.2f" % (row["basin"], row["basin_std_error"]))
+                 for row in sorted(found, key=lambda row: -row["basin"])]
+    tables.write("friction_attractors", ["eta", "attractor", "K_f [m_tip/tau]", "share of 100 random starts"], rows)
+
+
 def coexistence(tables):
+    publish_attractors(tables)
     windows = [(1.9, 2.15), (3.6, 3.9), (6.2, 6.7)]
     figure, axes = style.new(11.0, 4.5, 1, 3)
     for ax, (low, high) in zip(axes, windows):
