@@ -18,3 +18,7 @@ endif()
 
 add_test(NAME document_tables COMMAND ${PROJECT_SOURCE_DIR}/scripts/tables --check)
 set_tests_properties(document_tables PROPERTIES TIMEOUT 30)
+
+add_test(NAME interface_tables
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/interface_tables_test.py ${PROJECT_SOURCE_DIR})
+set_tests_properties(interface_tables PROPERTIES TIMEOUT 30)
