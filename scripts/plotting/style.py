@@ -32,3 +32,8 @@ def closed_form(gamma):
 def new(width=8.0, height=5.0, rows=1, columns=1, **options):
     pyplot.rcParams.update({"font.size": 11, "axes.titlesize": 12, "mathtext.fontset": "dejavusans"})
     return pyplot.subplots(rows, columns, figsize=(width, height), constrained_layout=True, **options)
+
+
+def legend_above(axes, columns=3, **options):
+    """Where it hides nothing."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, frameon=False, borderaxespad=0.1, fontsize=9, **options)
