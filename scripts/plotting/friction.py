@@ -29,7 +29,8 @@ def friction_curve(tables):
         axes.set_ylabel(style.K_F_LABEL)
         axes.grid(color="#dddddd", linewidth=0.6)
         right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4, lambda k: k / style.PAPER / 1e4))
-        right.set_ylabel(r"in the paper's unit $\times 10^4$")
+        if axes is linear:  # both scales have it
+            right.set_ylabel(r"in the paper's unit $\times 10^4$")
     linear.set_xlim(0, 9)
     linear.set_ylim(0, 1.08 * peak)
     logarithmic.set_yscale("log")
