@@ -14,14 +14,16 @@ except ImportError as missing:
              % missing)
 
 NAN = float('nan')
-MOST_POINTS = 100000  # of deflection; beyond it the smallest and largest of every few samples are drawn
+MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is drawn
+ZOOM_TAU = 6.0  # the end of the run, sample by sample
 KINDS = {0: ('impact', 'C0', 2), 1: ('burst', 'C1', 12), 2: ('contact begins', 'C3', 12), 3: ('contact ends', 'C2', 12)}
 
 
 class Run:
     """What is drawn, as arrays against model time in seconds since the first epoch of the recording began."""
 
-    def __init__(self):
+    def __init__(self, end):
+        self.end, self.close = end, []  # single samples of the last tau before `end`
         self.samples, self.impacts, self.friction, self.drag = [], [], [], []
         self.epochs = []  # where they begin
         self.configuration, self.unit, self.offset, self.last = None, None, 0.0, 0.0
@@ -42,12 +44,18 @@ class Run:
         begin = self.seconds(message.time)
         values = np.array([message.vertical, message.lateral]) * 1e9
         times = begin + message.sample_period * np.arange(values.shape[1])
-        if every > 1 and len(times):  # extremes: a peak between two points drawn would be lost
-            edges = np.arange(0, len(times), every)
-            low, high = np.minimum.reduceat(values, edges, axis=1), np.maximum.reduceat(values, edges, axis=1)
-            values = np.stack([low, high], axis=2).reshape(2, -1)
-            times = np.repeat(times[edges], 2)
-        self.samples.append(np.vstack([times, values]))
+        if not len(times):
+            return
+        edges = np.arange(0, len(times), every)
+        low, high = np.minimum.reduceat(values, edges, axis=1), np.maximum.reduceat(values, edges, axis=1)
+        self.samples.append(np.vstack([times[edges], low, high]))
+        self.keep_close(np.vstack([times, values]))
+
+    def keep_close(self, samples):
+        if self.end is None or samples[0, 0] < self.end:
+            self.close.append(samples)
+            while self.close[0][0, -1] < samples[0, -1] - ZOOM_TAU * self.unit:
+                self.close.pop(0)
 
     def add_impacts(self, message):
         for i in message.impacts:
@@ -79,8 +87,8 @@ def count_samples(paths):
     return count
 
 
-def read(paths):
-    run = Run()
+def read(paths, end):
+    run = Run(end)
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
     known = set()
     add = {'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
@@ -108,12 +116,25 @@ def put_legend(axes, **options):
 
 
 def draw_deflection(axes, run):
-    times, vertical, lateral = np.hstack(run.samples)
-    axes.plot(times, vertical, lw=0.6, label='vertical')
-    axes.plot(times, lateral, lw=0.6, label='lateral', alpha=0.8)
+    times, *ranges = np.hstack(run.samples)
+    for name, low, high, colour in (('vertical', ranges[0], ranges[2], 'C0'), ('lateral', ranges[1], ranges[3], 'C1')):
+        axes.fill_between(times, low, high, lw=0.8, color=colour, alpha=0.6, label=name + ', range')
     axes.set_ylabel('deflection [nm]')
     put_legend(axes)
     return times
+
+
+def draw_zoom(axes, run):
+    """The last tau, in tau."""
+    times, vertical, lateral = np.hstack(run.close)
+    times = (times - times[-1]) / run.unit
+    shown = times >= -ZOOM_TAU
+    for name, values, colour in (('vertical', vertical, 'C0'), ('lateral', lateral, 'C1')):
+        axes.plot(times[shown], values[shown], lw=0.8, marker='.', ms=3, c=colour, label=name)
+    axes.set_ylabel('deflection [nm]')
+    axes.set_xlabel('model time before the end [$\\tau$]')
+    axes.grid(alpha=0.3)
+    put_legend(axes)
 
 
 def draw_impacts(axes, run):
@@ -142,7 +163,7 @@ def draw_friction(axes, run):
     positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
     if len(positive) and positive.max() > 10 * positive.min():
         axes.set_yscale('log')
-    axes.set_ylabel('$K_f$ [m/$\\tau$]')
+    axes.set_ylabel('$K_f$ [$m_{tip}/\\tau$]')
     put_legend(axes)
 
 
@@ -157,11 +178,17 @@ def draw_drag(axes, run):
 
 def draw(run, paths, begin, end):
     from matplotlib import pyplot
-    figure, rows = pyplot.subplots(4, 1, sharex=True, figsize=(10, 9), constrained_layout=True)
+    figure = pyplot.figure(figsize=(10, 11), constrained_layout=True)
+    grid = figure.add_gridspec(5, 1)
+    rows = [figure.add_subplot(grid[0])]
+    rows += [figure.add_subplot(grid[i], sharex=rows[0]) for i in (1, 2, 3)]
+    for axes in rows[:3]:
+        axes.tick_params(labelbottom=False)
     times = draw_deflection(rows[0], run)
     draw_impacts(rows[1], run)
     draw_friction(rows[2], run)
     draw_drag(rows[3], run)
+    draw_zoom(figure.add_subplot(grid[4]), run)
     for axes in rows:
         axes.grid(alpha=0.3)
         for epoch in run.epochs[1:]:
@@ -184,7 +211,7 @@ def main():
     if not arguments.show:
         matplotlib.use('Agg')
     try:
-        run = read(arguments.bags)
+        run = read(arguments.bags, arguments.end)
     except (OSError, rosbag.ROSBagException) as error:
         sys.exit('plot_run.py: %s: %s' % (arguments.bags[0], error))
     figure = draw(run, arguments.bags, arguments.begin, arguments.end)

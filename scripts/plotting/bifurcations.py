@@ -52,27 +52,26 @@ def even_orbit(tables):
     return figure
 
 
-def diagram(tables, axes, name, vary, bounds, branches, **fixed):
+def diagram(tables, row, name, vary, bounds, branches, **fixed):
+    """A parameter carried up (left) and down (right): where the two differ attractors coexist."""
     step = (bounds[1] - bounds[0]) / (60 if tables.quick else 600)
     options = [item for key, value in fixed.items() for item in ("--" + key, value)]
-    for sweep, colour in (("up", style.BLUE), ("down", style.ORANGE)):
+    events = [event for index, arguments in enumerate(branches)
+              for event in branch(tables, "%s_branch_%d" % (name, index), *arguments)[1]
+              if bounds[0] <= event["value"] <= bounds[1]]
+    for axes, sweep, colour in zip(row, ("up", "down"), (style.BLUE, style.ORANGE)):
         rows = tables.make("%s_%s" % (name, sweep), "bifurcations", "--vary", vary, "--range",
                            "%.6g:%.6g:%.6g" % (*bounds, step),
                            "--sweep", sweep, "--impacts", 60, "--cutoff", 0.05, "--transient", 300, *options)
         axes.plot([r[vary] for r in rows], [r["normal_speed"] for r in rows], ",", color=colour, alpha=0.6)
-        axes.plot([], [], "s", color=colour, label="%s carried %s" % (vary, sweep))
-    seen = set()
-    for index, arguments in enumerate(branches):
-        _, events = branch(tables, "%s_branch_%d" % (name, index), *arguments)
-        mark(axes, [e for e in events if bounds[0] <= e["value"] <= bounds[1]], seen)
-    axes.set_xlim(*bounds)
-    axes.set_ylim(0, None)
-    axes.set_ylabel(r"normal speed / (a/$\tau$)")
-    axes.legend(fontsize=8, loc="upper left")
+        mark(axes, events, set())
+        axes.set_xlim(*bounds)
+        axes.set_ylim(0, None)
+    row[0].set_ylabel(r"normal speed [a/$\tau$]")
 
 
 def diagrams(tables):
-    figure, axes = style.new(10.0, 9.0, 3, 1)
+    figure, axes = style.new(11.0, 9.5, 3, 2, sharey="row")
     diagram(tables, axes[0], "eta_2", "eta", (1.5, 2.6),
             [("--eta", 2, "--vary", "eta", "--to", 1.2), ("--eta", 2, "--vary", "eta", "--to", 3)], gamma=0.7)
     diagram(tables, axes[1], "eta_3", "eta", (3.0, 4.3),
@@ -80,8 +79,12 @@ def diagrams(tables):
     diagram(tables, axes[2], "gamma_3", "gamma", (0.3, 0.95),
             [("--eta", 3.4, "--vary", "gamma", "--to", 0.2), ("--eta", 3.4, "--vary", "gamma", "--to", 0.97),
              ("--eta", 3.4, "--vary", "gamma", "--to", 0.97, "--length", 4)], eta=3.4)
-    for ax, label in zip(axes, (style.ETA_LABEL, style.ETA_LABEL, r"restitution $\gamma$ at $\eta$ = 3.4")):
-        ax.set_xlabel(label)
-    axes[0].set_title("Impacts on the attractor, carried up and down; bifurcations of the orbit of one impact "
-                      "(below: of four, too)")
+    for row, label in zip(axes, (style.ETA_LABEL, style.ETA_LABEL, r"restitution $\gamma$ at $\eta$ = 3.4")):
+        for ax in row:
+            ax.set_xlabel(label)
+    for ax, direction in zip(axes[0], ("raised", "lowered")):
+        ax.set_title("parameter slowly " + direction)
+    lines = {line.get_label(): line for ax in axes.flat for line in ax.lines if line.get_label() in EVENTS}
+    figure.suptitle(" ")  # room for the legend
+    figure.legend(lines.values(), lines.keys(), loc="upper center", ncol=len(lines), frameon=False)
     return figure

@@ -8,25 +8,35 @@ def sweep(tables, name, eta, step, *arguments):
                        *arguments)
 
 
+def swept(tables, direction):
+    """K_f against eta, each point begun where the one before it ended: "up" or "down"."""
+    rows = sweep(tables, "friction_curve_" + direction, "0.02:9", 0.01, "--duration", 3000, "--sweep", direction)
+    return sorted(rows, key=lambda row: row["eta"])
+
+
 def friction_curve(tables):
-    rows = sweep(tables, "friction_curve", "0.02:9", 0.01, "--duration", 10000)
-    figure, axes = style.new(9.0, 5.0)
-    eta = [row["eta"] for row in rows]
-    axes.plot(eta, [row["k_f"] * style.PAPER for row in rows], color=style.BLUE, linewidth=1.0,
-              label="direct simulation")
-    axes.fill_between(eta, *[[(row["k_f"] + sign * 1.96 * row["k_f_std_error"]) * style.PAPER for row in rows]
-                             for sign in (-1, 1)], color=style.SKY, alpha=0.6, linewidth=0, label="95 % interval")
+    figure, (linear, logarithmic) = style.new(9.0, 8.0, 2, 1, sharex=True)
     peak = style.closed_form(0.7)
-    axes.axhline(peak * style.PAPER, color=style.ORANGE, linestyle="--", linewidth=1.2,
-                 label=r"closed form at even $\eta$: %.4f m/$\tau$" % peak)
-    axes.set_xlabel(style.ETA_LABEL)
-    axes.set_ylabel(r"$K_f$ in the paper's units")
-    axes.set_xlim(0, 9)
-    axes.set_ylim(0, 1.12e-4)
-    right = axes.secondary_yaxis("right", functions=(lambda y: y / style.PAPER, lambda y: y * style.PAPER))
-    right.set_ylabel(style.K_F_LABEL)
-    axes.legend(loc="upper left", fontsize=9)
-    axes.set_title(r"FIG. 1: friction coefficient, $\gamma$ = 0.7, $v_c$ = 0.05 a/$\tau$")
+    for axes in (linear, logarithmic):
+        for direction, line in style.SWEEPS.items():
+            rows = swept(tables, direction)
+            eta = [row["eta"] for row in rows]
+            axes.plot(eta, [row["k_f"] for row in rows], **line)
+            axes.fill_between(eta, *[[max(1e-12, row["k_f"] + sign * 1.96 * row["k_f_std_error"]) for row in rows]
+                                     for sign in (-1, 1)], color=line["color"], alpha=0.3, linewidth=0)
+        axes.plot([2, 4, 6, 8], [peak] * 4, "o", color="black", fillstyle="none", markersize=9,
+                  label=r"closed form at even $\eta$: %.4f" % peak)
+        axes.set_ylabel(style.K_F_LABEL)
+        axes.grid(color="#dddddd", linewidth=0.6)
+        right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4, lambda k: k / style.PAPER / 1e4))
+        if axes is linear:  # both scales have it
+            right.set_ylabel(r"in the paper's unit $\times 10^4$")
+    linear.set_xlim(0, 9)
+    linear.set_ylim(0, 1.08 * peak)
+    logarithmic.set_yscale("log")
+    logarithmic.set_ylim(1e-4, 10)
+    logarithmic.set_xlabel(style.ETA_LABEL)
+    linear.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, frameon=False, fontsize=10)
     return figure
 
 
@@ -44,7 +54,20 @@ def draw_attractors(axes, rows):
                      label=label, linewidths=0)
 
 
+def publish_attractors(tables):
+    """Of docs/friction.md: what coexists at four drag speeds."""
+    rows = []
+    for eta in (2, 2.5, 3.75, 6.5):
+        found = tables.make("coexisting_%g" % eta, "attractors", "--eta", eta, "--relative-cutoff", "--cutoff", 0.1,
+                            "--starts", 10 if tables.quick else 100)
+        rows += [("%g" % eta, row["attractor"], "%.6g +- %.1g" % (row["k_f"], row["k_f_std_error"]),
+                  "%.2f +- %.2f" % (row["basin"], row["basin_std_error"]))
+                 for row in sorted(found, key=lambda row: -row["basin"])]
+    tables.write("friction_attractors", ["eta", "attractor", "K_f [m_tip/tau]", "share of 100 random starts"], rows)
+
+
 def coexistence(tables):
+    publish_attractors(tables)
     windows = [(1.9, 2.15), (3.6, 3.9), (6.2, 6.7)]
     figure, axes = style.new(11.0, 4.5, 1, 3)
     for ax, (low, high) in zip(axes, windows):

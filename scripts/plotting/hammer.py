@@ -1,4 +1,4 @@
-"""docs/hammer.md: the hammer's friction and orbits, its section in letters, and how far it is from the oscillator."""
+"""docs/friction.md: the hammer's friction and orbits, its section in letters, and how far it is from the oscillator."""
 import math
 
 from . import style
@@ -37,8 +37,8 @@ def friction(tables):
                       label="hammer, orbits of one impact: closed form" if cells == 1 else None)
     axes.set_xlabel(style.ETA_LABEL)
     axes.set_ylabel(style.K_F_LABEL + " (0 drawn at 1e-4)")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.12))
-    axes.set_title(r"Friction of the hammer and of the oscillator, $\gamma$ = 0.7, $v_c$ = 0.05 a/$\tau$")
+    style.legend_above(axes)
+    figure.suptitle(r"Friction of the hammer and of the oscillator, $\gamma$ = 0.7, $v_c$ = 0.05 a/$\tau$")
     return figure
 
 
@@ -68,7 +68,7 @@ def error(tables):
         axes[1].semilogy(etas, [max(1e-6, row[key] / row["deflection_rms"]) for row in rows], ".-", color=colour,
                          linewidth=0.6, label=label)
     axes[1].set_ylabel("error of the deflection\nover its rms")
-    axes[1].legend(fontsize=8)
+    style.legend_above(axes[1])
     axes[2].semilogy(etas, [row["cost_ratio"] for row in rows], ".-", color=style.GREEN, linewidth=0.6)
     axes[2].axhline(1.0, color=style.GREY, linewidth=0.8)
     axes[2].set_ylabel("time of the oscillator\nover the hammer's")
@@ -94,7 +94,7 @@ def ratio(tables):
             ax.loglog([row["frequency_ratio"] for row in mine], [value(row) for row in mine], ".", color=COLOURS[eta],
                       label=r"$\eta$ = %g" % eta)
         ax.set_ylabel(label)
-    axes[0][0].legend()
+    style.legend_above(axes[0][0])
     for ax in axes[1]:
         ax.set_xlabel(r"$\omega_h/\omega_v$")
     figure.suptitle("A stiffer horizontal spring stretches less and less, but moves as fast: its limit is not the hammer")

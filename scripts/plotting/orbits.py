@@ -17,6 +17,26 @@ def found_orbits(tables):
     return rows, read(averages)
 
 
+def multipliers(row):
+    """The expanding ones, as text; of a complex pair one."""
+    expanding = [complex(row["multiplier_%d_re" % i], row["multiplier_%d_im" % i]) for i in range(1, 5)]
+    return ", ".join("%.4g" % m.real if m.imag == 0 else "%.3f +- %.3f i" % (m.real, m.imag)
+                     for m in expanding if abs(m) > 1 and m.imag >= 0)
+
+
+def publish(tables):
+    """The tables of docs/friction.md."""
+    orbits, averages = found_orbits(tables)
+    tables.write("friction_orbits", ["impacts", "cells", "K_f [m_tip/tau]", "expanding multipliers"],
+                 [(int(row["length"]), int(row["cells"]), "%.12g" % row["k_f"], multipliers(row))
+                  for row in orbits if row["length"] <= 6])
+    at = {(row["method"], int(row["order"])): row for row in averages}
+    tables.write("friction_averages", ["impacts in the longest orbit", "K_f, zeta function", "K_f, determinant",
+                                       "1/zeta(1), should be 0"],
+                 [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"])
+                  for n in sorted({order for _, order in at})])
+
+
 def attractor(_):
     """Every flight is moved by whole cells to begin in the first."""
     _, start = paths.flights([0.53, 0.0, 3.2, 2.1], ETA, GAMMA, CUTOFF, 30)
@@ -77,6 +97,7 @@ def return_scan(tables):
 
 
 def averages(tables):
+    publish(tables)
     _, rows = found_orbits(tables)
     direct = tables.make("direct", "friction_curve", *PARAMETERS, "--duration", 20000 if tables.quick else 1000000)[0]
     figure, axes = style.new(10.0, 4.2, 1, 2)

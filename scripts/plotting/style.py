@@ -17,8 +17,11 @@ RATIO = 6.25  # omega_h / omega_v
 S = TWO_PI * AMPLITUDE
 # the paper's axis: energy in units of m, a and 1/omega_h, time in 1/omega_h, velocity in units of eta
 PAPER = 1.0 / (TWO_PI * RATIO) ** 3
-K_F_LABEL = r"$K_f$ / (m/$\tau$)"
-ETA_LABEL = r"$\eta = v_0 \tau / a$"
+K_F_LABEL = r"$K_f$ [$m_{tip}/\tau$]"
+ETA_LABEL = r"drag speed $\eta = v_0 \tau / a$"
+# one tip, its drag speed raised or lowered slowly
+SWEEPS = {"up": dict(color=BLUE, linestyle="-", linewidth=1.5, label=r"$\eta$ rising"),
+          "down": dict(color=ORANGE, linestyle=(0, (3, 1.5)), linewidth=1.3, label=r"$\eta$ falling")}
 
 
 def closed_form(gamma):
@@ -29,3 +32,8 @@ def closed_form(gamma):
 def new(width=8.0, height=5.0, rows=1, columns=1, **options):
     pyplot.rcParams.update({"font.size": 11, "axes.titlesize": 12, "mathtext.fontset": "dejavusans"})
     return pyplot.subplots(rows, columns, figsize=(width, height), constrained_layout=True, **options)
+
+
+def legend_above(axes, columns=3, **options):
+    """Where it hides nothing."""
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, frameon=False, borderaxespad=0.1, fontsize=9, **options)

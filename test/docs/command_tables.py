@@ -19,7 +19,6 @@ SUBSTITUTIONS = [
     (r'--eta 0\.1:9:0\.1 --frequency', '--eta 2:3:1 --starts 1 --duration 200 --frequency'),
     (r'--eta 0\.1:9:0\.1$', '--eta 2:2.5:0.5'),
     (r'--starts 100\b', '--starts 4'),
-    (r'seq 200', 'seq 3'),
     # a table of its own: that of the command before is done
     (r'mpirun -n 8 (.*)map\.csv', r'mpirun -n 2 \1map_by_ranks.csv'),
     (r'--max-length (?:8|10)\b', '--max-length 3'),
@@ -34,7 +33,6 @@ SUBSTITUTIONS = [
     (r'--eta 0\.05:9:0\.05', '--eta 2:2.5:0.5'),
     (r'(scripts/figures) --only thermal_friction.*?(\s+#.*)?$', r'\1 --quick --only load'),
     (r'(scripts/figures --only) hammer_friction.*', r'\1 hammer_friction --quick'),
-    (r'(scripts/plot_friction_curve)', r'\1 --eta 2:3:0.5 --duration 100 --data curves'),
     (r'(scripts/plot_scenes)', r'\1 glide'),
     (r'(scripts/scene_levels)', r'\1 --duration 500'),
     (r'(record_throughput\.py \S+) 600', r'\1 3'),

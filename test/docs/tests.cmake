@@ -21,3 +21,14 @@ endif()
 
 add_test(NAME document_tables COMMAND ${PROJECT_SOURCE_DIR}/scripts/tables --check)
 set_tests_properties(document_tables PROPERTIES TIMEOUT 30)
+
+add_test(NAME interface_tables
+  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/interface_tables_test.py ${PROJECT_SOURCE_DIR})
+set_tests_properties(interface_tables PROPERTIES TIMEOUT 30)
+
+# a warning of Doxygen about a public header is an error
+find_program(DOXYGEN_PROGRAM doxygen)
+if(DOXYGEN_PROGRAM)
+  add_test(NAME api_reference COMMAND ${PROJECT_SOURCE_DIR}/scripts/api_reference)
+  set_tests_properties(api_reference PROPERTIES TIMEOUT 60 ENVIRONMENT AFM_BUILD_DIR=${PROJECT_BINARY_DIR})
+endif()

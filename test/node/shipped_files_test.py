@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Every scene and launch file that we ship works, and config/emulator.yaml says what the code does by itself."""
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -69,6 +70,18 @@ class ShippedFiles(NodeTest):
         play.stop()
         bag, = Path(directory).iterdir()
         bags.assert_sound(self, str(bag))
+
+    def test_a_scene_outside_the_package(self):
+        scene = Path(self.temporary_directory()) / 'mine.yaml'
+        scene.write_text('drag_velocity: 4.0e-6\ninitial_u: 1.25\n')
+        for path in (str(scene), os.path.relpath(str(scene), os.environ.get('PWD', '.'))):
+            with self.subTest(path=path):
+                configuration = Topic('configuration')
+                play = self.launch('emulator.launch', scene_file=path)
+                got = configuration.wait_for()
+                self.assertEqual((got.drag_velocity, got.initial_u), (4.0e-6, 1.25))
+                Topic.close_all()
+                play.stop()
 
     def test_launch_files_load(self):
         files = sorted((SHARE / 'launch').glob('*.launch'))

@@ -27,7 +27,7 @@ foreach(name IN LISTS node_tests)
 endforeach()
 
 # of the picture
-set(view_tests pair view)
+set(view_tests interface pair view)
 foreach(name IN LISTS view_tests)
   afm_add_rostest(${name} emulator_node view_node)
 endforeach()

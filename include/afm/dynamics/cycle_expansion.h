@@ -17,7 +17,7 @@ struct CycleAverage {
   double conservation = 0.0;  // what must be 0 when nothing escapes: 1/zeta(1), or the determinant at 1
 };
 
-// 1/zeta = prod (1 - t_p), t_p = 1/|product of expanding multipliers|: combinations of at most N impacts, N = 1 ..
+// 1/zeta = prod (1 - t_p), t_p = 1/|product of expanding multipliers|: combinations of at most N impacts, N = 1 to
 // longest.
 std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest);
 

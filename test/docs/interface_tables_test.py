@@ -1,0 +1,65 @@
+#!/usr/bin/python3
+"""The tables of docs/interface.md are current and whole, and the names of parameters keep the rule. usage: interface_tables_test.py ROOT"""
+import importlib.util
+import re
+import sys
+import unittest
+from importlib.machinery import SourceFileLoader
+from pathlib import Path
+
+ROOT = Path(sys.argv.pop(1)).resolve()
+sys.dont_write_bytecode = True
+loader = SourceFileLoader('interface_tables', str(ROOT / 'scripts/interface_tables'))
+tables = importlib.util.module_from_spec(importlib.util.spec_from_loader('interface_tables', loader))
+loader.exec_module(tables)
+
+# the end of a name and the unit it stands for; the first that fits counts
+ENDS = (('_rad_per_s', 'rad/s'), ('_per_tau', '1/tau'), ('_tau', 'tau'), ('_kg', 'kg'), ('_hz', '1/s'), ('_mb', 'MB'), ('_k', 'K'),
+        ('_m', 'm'), ('_s', 's'))
+NATURAL = ('a', 'a/tau', 'a, a/tau')
+
+
+def is_number(text):
+    return re.fullmatch(r'-?[\d.]+(e[-+]?\d+)?', text) is not None
+
+
+def units_by_name(name):
+    """All units that the rule allows for a number of this name."""
+    for end, unit in ENDS:
+        if name.endswith(end):
+            return (unit,)
+    if name.endswith(('velocity', 'speed')):
+        return ('m/s',)
+    return NATURAL if name.startswith('initial_') or name == 'contact_tolerance' else ('-',)
+
+
+class InterfaceTables(unittest.TestCase):
+    def test_are_current(self):
+        text = tables.DOCUMENT.read_text()
+        self.assertEqual(tables.render(text), text, 'run scripts/interface_tables')
+
+    def test_nothing_is_missing(self):
+        shown = {(kind, name) for _, kind, name, _ in tables.TABLE.findall(tables.DOCUMENT.read_text())}
+        files = {('message', path.stem) for path in (ROOT / 'msg').glob('*.msg')}
+        files |= {('service', path.stem) for path in (ROOT / 'srv').glob('*.srv')}
+        files |= {('launch', path.stem) for path in (ROOT / 'launch').glob('*.launch')}
+        self.assertEqual(shown, files | {('parameters', '')})
+
+    def test_every_line_of_the_parameters_is_read(self):
+        written = re.findall(r'^(\w+):', (ROOT / 'config/emulator.yaml').read_text(), re.M)
+        self.assertEqual([row[0] for row in tables.parameters()], written)
+        self.assertGreater(len(written), 30)
+
+    def test_names_end_in_their_units(self):
+        for name, value, unit, _ in tables.parameters():
+            with self.subTest(name=name):
+                self.assertIn(unit, units_by_name(name) if is_number(value) else ('',))
+
+    def test_every_argument_of_a_launch_file_is_explained(self):
+        for path in (ROOT / 'launch').glob('*.launch'):
+            for row in tables.render_launch(path.stem).splitlines()[2:]:
+                self.assertFalse(row.endswith('|  |'), '%s: %s' % (path.name, row))
+
+
+if __name__ == '__main__':
+    unittest.main()

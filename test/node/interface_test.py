@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""What the nodes advertise is what docs/interface.md lists: names, types, and which topics are latched."""
+import re
+
+import roslib.packages
+import rosgraph
+import rospy
+import rosservice
+from pathlib import Path
+
+from emulator_under_test import PACKAGE, Emulator, NodeTest, run
+from topics import NAMESPACE, wait_until
+
+ROW = re.compile(r'\| (in|out) \| `(\S+)` \| (\w+/\w+) \| (yes|no|) \|')
+SERVICE = re.compile(r'\| `(~\w+)` \| (\w+/\w+) \|')
+VIEW = '/afm_view'
+ALL_NODES_HAVE = ('/rosout', 'get_loggers', 'set_logger_level')  # of roscpp's own
+
+
+def document():
+    return (Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'docs' / 'interface.md').read_text()
+
+
+def resolved(name):
+    return NAMESPACE + name.replace('~', '/') if name.startswith('~') else name
+
+
+def listed(direction):
+    return {resolved(name): (kind, latched) for way, name, kind, latched in ROW.findall(document()) if way == direction}
+
+
+class Interface(NodeTest):
+    def setUp(self):
+        super().setUp()
+        self.start(Emulator({})).assert_alive()
+        self.launch('view.launch', rviz='false')
+        self.master = rosgraph.Master('/interface_test')
+        wait_until(lambda: VIEW + '/markers' in self.names(0, VIEW), 'the view advertises its markers')
+
+    def names(self, part, *nodes):
+        """Part 0, 1, 2 of the state of the master: what these nodes publish, subscribe to, and serve."""
+        return {name for name, owners in self.master.getSystemState()[part] if set(nodes) & set(owners)
+                and not name.endswith(ALL_NODES_HAVE)}
+
+    def test_topics(self):
+        types = dict(self.master.getTopicTypes())
+        out = listed('out')
+        self.assertGreater(len(out), 10)
+        self.assertEqual(self.names(0, NAMESPACE, VIEW), set(out))
+        self.assertEqual(self.names(1, NAMESPACE), set(listed('in')))
+        for name, (kind, _) in out.items():
+            self.assertEqual(types[name], kind, name)
+
+    def test_latched(self):
+        latched = {}
+        subscribers = [rospy.Subscriber(name, rospy.AnyMsg, lambda m, name=name: latched.setdefault(
+            name, m._connection_header['latching'] == '1')) for name in listed('out')]
+        wait_until(lambda: len(latched) == len(subscribers), 'a message on every topic', deadline_s=30.0)
+        for subscriber in subscribers:
+            subscriber.unregister()
+        self.assertEqual(latched, {name: said == 'yes' for name, (_, said) in listed('out').items()})
+
+    def test_services(self):
+        services = {resolved(name): kind for name, kind in SERVICE.findall(document())}
+        self.assertEqual(self.names(2, NAMESPACE), set(services))
+        for name, kind in services.items():
+            self.assertEqual(rosservice.get_service_type(name), kind, name)
+
+
+if __name__ == '__main__':
+    run(Interface)
