@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """How long a controller waits for its command: starts a master and an emulator of its own, at batches of 100 Hz and of 1 kHz, and
-runs the example loop_delay beside it. Writes the table of docs/steering.md.
+runs the example loop_delay beside it. Writes the table of docs/interface.md.
 
 usage: loop_delay.py [--commands N] [--output FILE]     (default: 1000, docs/data/loop_delay.csv)"""
 import argparse

@@ -1,4 +1,4 @@
-// For diagnostic_updater: OK, or what is wrong and why, and the figures. docs/steering.md has the table of levels.
+// For diagnostic_updater: OK, or what is wrong and why, and the figures. docs/interface.md has the table of levels.
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
