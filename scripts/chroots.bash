@@ -39,16 +39,15 @@ apt_can_get() {
 
 # usage: make_root NAME SUITE ARCHITECTURE; does nothing where the root is there
 make_root() {
-  local root=$afm_cache/$1 suite=$2 architecture=$3 mirror components
+  local root=$afm_cache/$1 suite=$2 architecture=$3 mirror
   [[ ! -d $root ]] || return 0
   mirror=$(mirror_of "$suite") || { echo "no mirror of this machine has $suite" >&2; return 1; }
   mkdir -p "$afm_cache"
   rm -rf --one-file-system "$root.unfinished"
   debootstrap --variant=minbase --arch="$architecture" "$suite" "$root.unfinished" "$mirror" || return
   # without security updates: a mirror may list more of them than it has
-  components=main
-  if grep -q '^ID=ubuntu' "$root.unfinished/etc/os-release"; then components="main universe"; fi
-  echo "deb $mirror $suite $components" >"$root.unfinished/etc/apt/sources.list"
+  echo "deb $mirror $suite main" >"$root.unfinished/etc/apt/sources.list"
+  echo force-unsafe-io >"$root.unfinished/etc/dpkg/dpkg.cfg.d/unsafe-io"  # it can be made again
   # how this machine reaches its mirror
   grep -lsE '^ *Acquire::(http|Check|Retries|Force)' /etc/apt/apt.conf /etc/apt/apt.conf.d/* |
     xargs -r cp -t "$root.unfinished/etc/apt/apt.conf.d"
