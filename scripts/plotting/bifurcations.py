@@ -85,6 +85,6 @@ def diagrams(tables):
     for ax, direction in zip(axes[0], ("raised", "lowered")):
         ax.set_title("parameter slowly " + direction)
     lines = {line.get_label(): line for ax in axes.flat for line in ax.lines if line.get_label() in EVENTS}
-    figure.suptitle(" ")  # room for the legend
+    figure.suptitle(" \n")  # room for the legend
     figure.legend(lines.values(), lines.keys(), loc="upper center", ncol=len(lines), frameon=False)
     return figure

@@ -34,7 +34,7 @@ def publish(tables):
     tables.write("friction_averages", ["impacts in the longest orbit", "K_f, zeta function", "K_f, determinant",
                                        "1/zeta(1), should be 0"],
                  [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"])
-                  for n in sorted({order for _, order in at})])
+                  for n in sorted(order for method, order in at if method == "zeta")])
 
 
 def attractor(_):

@@ -8,7 +8,7 @@ SUBSTITUTIONS = [
     (r'^cmake -S \.(.* --parallel)', r'cmake -S "$AFM_ROOT"\1 --target afm_emulator_core'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
-    (r'^(roslaunch afm_emulator (?:emulator|pair|view)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),
+    (r'^(roslaunch afm_emulator (?:emulator|pair|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),
     # a bag as a killed emulator leaves it
     (r'^rosbag reindex (\S+)\.active', r'cp \1 \1.active && rosbag reindex \1.active'),
     # fewer points, starts, guesses, rounds

@@ -11,8 +11,8 @@ from pathlib import Path
 from emulator_under_test import PACKAGE, Emulator, NodeTest, run
 from topics import NAMESPACE, wait_until
 
-ROW = re.compile(r'\| (in|out) \| `(\S+)` \| (\w+/\w+) \| (yes|no|) \|')
-SERVICE = re.compile(r'\| `(~\w+)` \| (\w+/\w+) \|')
+ROW = re.compile(r'^\| (in|out) \| `(\S+)` \| (\w+/\w+) \| ?(yes|no|) ?\|', re.M)
+SERVICE = re.compile(r'^\| `(~\w+)` \| (\w+/\w+) \|', re.M)
 VIEW = '/afm_view'
 ALL_NODES_HAVE = ('/rosout', 'get_loggers', 'set_logger_level')  # of roscpp's own
 
