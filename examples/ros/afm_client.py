@@ -4,7 +4,6 @@ import math
 import threading
 import time
 
-import numpy
 import rospy
 from afm_emulator.msg import AppliedDrag, AppliedParameters, Configuration, Deflection
 from std_msgs.msg import Float64
@@ -78,7 +77,7 @@ class Client:
         begins settle_s of model time after the command. None if the emulator was reset meanwhile."""
         c = self.latest['configuration']
         tau_s = 2 * math.pi / c.omega_v_rad_per_s
-        parts, seconds = [], 0.0
+        total, count, seconds = 0.0, 0, 0.0
         while seconds < window_s:
             self.wait_for(lambda: len(self.batches) > 0)
             batch = self.batches.popleft()
@@ -86,6 +85,7 @@ class Client:
                 return None
             age = ((batch.time.tau - applied.time.tau) + (batch.time.phase - applied.time.phase)) * tau_s
             if batch.epoch == applied.epoch and age >= settle_s:
-                parts.append(batch.lateral)
+                total += sum(batch.lateral)
+                count += len(batch.lateral)
                 seconds += len(batch.lateral) * batch.sample_period
-        return -c.tip_mass_kg * c.omega_h_rad_per_s ** 2 * float(numpy.mean(numpy.concatenate(parts)))
+        return -c.tip_mass_kg * c.omega_h_rad_per_s ** 2 * total / count

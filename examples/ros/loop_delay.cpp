@@ -74,7 +74,8 @@ int main(int argc, char** argv) {
   const ros::Publisher drag = node.advertise<std_msgs::Float64>(emulator + "/drag_velocity", 10);
   const auto spin_until = [](double seconds, const auto& done) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-    while (ros::ok() && !done() && ros::WallTime::now() < end) ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.001));
+    while (ros::ok() && !done() && ros::WallTime::now() < end)
+      ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.001));
     return done();
   };
   while (ros::ok() && !(batch_rate > 0.0 && drag.getNumSubscribers() > 0)) spin_until(0.1, [] { return false; });
@@ -98,8 +99,11 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "loop_delay: no command was seen to take effect\n");
     return 1;
   }
-  std::printf("batch rate / Hz,commands,lost,applied: median / ms,applied: p99 / ms,in a batch: median / ms,in a batch: p99 / ms\n");
-  std::printf("%g,%zu,%zu,%.2f,%.2f,%.2f,%.2f\n", batch_rate, seen_ms.size(), static_cast<std::size_t>(count) - seen_ms.size(),
-              quantile(applied_ms, 0.5), quantile(applied_ms, 0.99), quantile(seen_ms, 0.5), quantile(seen_ms, 0.99));
+  std::printf(
+      "batch rate / Hz,commands,lost,applied: median / ms,applied: p99 / ms,in a batch: median / ms,in a batch: p99 / "
+      "ms\n");
+  std::printf("%g,%zu,%zu,%.2f,%.2f,%.2f,%.2f\n", batch_rate, seen_ms.size(),
+              static_cast<std::size_t>(count) - seen_ms.size(), quantile(applied_ms, 0.5), quantile(applied_ms, 0.99),
+              quantile(seen_ms, 0.5), quantile(seen_ms, 0.99));
   return 0;
 }

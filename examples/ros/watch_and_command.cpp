@@ -1,7 +1,7 @@
 // A subscriber and commander in C++: checks that no sample and no impact is lost, commands drag velocities in turn, and prints
 // the friction of each.
-// Parameters: emulator; drag_velocities [m/s], none by default; hold_s of wall time for each. Without velocities it watches
-// until Ctrl-C. Exit code 1 if something was lost.
+// usage: watch_and_command [DRAG_VELOCITY...]     in m/s; without one it watches until Ctrl-C
+// Parameters: emulator; hold_s of wall time for each velocity. Exit code 1 if something was lost, 2 for what is no number.
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -35,13 +36,22 @@ class Gaps {
   std::uint64_t next_ = 0, seen_ = 0, lost_ = 0;
 };
 
+double number(const char* text) {
+  char* end = nullptr;
+  const double value = std::strtod(text, &end);
+  if (end != text && *end == '\0') return value;
+  std::fprintf(stderr, "watch_and_command: '%s' is no drag velocity\n", text);
+  std::exit(2);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "watch_and_command");
   ros::NodeHandle node, own("~");
   const auto emulator = own.param<std::string>("emulator", "/afm");
-  const auto velocities = own.param("drag_velocities", std::vector<double>{});
+  std::vector<double> velocities;
+  for (int i = 1; i < argc; ++i) velocities.push_back(number(argv[i]));
   const double hold = own.param("hold_s", 2.0);
 
   Gaps samples, impacts;
@@ -62,9 +72,11 @@ int main(int argc, char** argv) {
 
   const auto spin_for = [](double seconds) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-    while (ros::ok() && ros::WallTime::now() < end) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    while (ros::ok() && ros::WallTime::now() < end)
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
   };
-  while (ros::ok() && samples.seen() == 0) spin_for(0.1);  // until the emulator is there
+  // until the emulator is there, and listens
+  while (ros::ok() && (samples.seen() == 0 || drag.getNumSubscribers() == 0)) spin_for(0.1);
   for (const double velocity : velocities) {
     std_msgs::Float64 command;
     command.data = velocity;
@@ -75,6 +87,7 @@ int main(int argc, char** argv) {
              1e12 * friction.mean_lateral_force);
   }
   if (velocities.empty()) ros::spin();
-  std::printf("%lu samples and %lu impacts; lost: %lu and %lu\n", samples.seen(), impacts.seen(), samples.lost(), impacts.lost());
+  std::printf("%lu samples and %lu impacts; lost: %lu and %lu\n", samples.seen(), impacts.seen(), samples.lost(),
+              impacts.lost());
   return samples.lost() + impacts.lost() > 0 ? 1 : 0;
 }

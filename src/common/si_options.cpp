@@ -10,9 +10,10 @@ constexpr const char* kScale[] = {"lattice-spacing", "omega-v", "tip-mass"};
 }  // namespace
 
 void add_si_options(CommandLine& app, SiOptions& o) {
-  app.flag("si", o.on,
-           "options with a unit in brackets are given in SI (m, s, m/s, K), but for --eta; columns are printed in SI, and\n"
-           "their names end in the unit, such as k_f_kg_per_s. Defaults stay what they are");
+  app.flag(
+      "si", o.on,
+      "options with a unit in brackets are given in SI (m, s, m/s, K), but for --eta; columns are printed in SI, and\n"
+      "their names end in the unit, such as k_f_kg_per_s. Defaults stay what they are");
   app.option("lattice-spacing", o.scale.lattice_spacing_m, "a of --si, in m", kPositive);
   app.option("omega-v", o.scale.omega_v_rad_per_s, "vertical angular frequency of --si, in rad/s; tau = 2 pi / omega_v",
              kPositive);

@@ -3,46 +3,54 @@
 namespace afm {
 namespace {
 
-const std::array<std::string, kQuantities> kNoSuffix{};
-// In the order of Quantity.
-const std::array<std::string, kQuantities> kSiSuffix{"",   "_m",        "_s", "_m_per_s", "_j",
-                                                     "_n", "_kg_per_s", "_k", "_per_s"};
-const std::array<std::string, kQuantities> kNaturalSuffix{
-    "", "_a", "_tau", "_a_per_tau", "_m_tip_a2_per_tau2", "_m_tip_a_per_tau2", "_m_tip_per_tau", "_m_tip_a2_per_tau2", "_per_tau"};
+struct QuantityUnits {
+  double (*si)(const Units&);  // one natural unit
+  const char* si_suffix;
+  const char* natural_suffix;
+};
 
-std::array<double, kQuantities> si_units(const Units& units) {
-  std::array<double, kQuantities> unit{};
-  for (std::size_t i = 0; i < kQuantities; ++i) unit[i] = si_factor(static_cast<Quantity>(i), units);
-  return unit;
+// In the order of Quantity.
+constexpr QuantityUnits kUnits[kQuantities] = {
+    {[](const Units&) { return 1.0; }, "", ""},
+    {[](const Units& u) { return u.length(); }, "_m", "_a"},
+    {[](const Units& u) { return u.time(); }, "_s", "_tau"},
+    {[](const Units& u) { return u.velocity(); }, "_m_per_s", "_a_per_tau"},
+    {[](const Units& u) { return u.energy(); }, "_j", "_m_tip_a2_per_tau2"},
+    {[](const Units& u) { return u.force(); }, "_n", "_m_tip_a_per_tau2"},
+    {[](const Units& u) { return u.friction(); }, "_kg_per_s", "_m_tip_per_tau"},
+    {[](const Units& u) { return u.temperature(); }, "_k", "_m_tip_a2_per_tau2"},  // kT in natural units
+    {[](const Units& u) { return 1.0 / u.time(); }, "_per_s", "_per_tau"},
+};
+
+template <class Of>
+auto each(const Of& of) {
+  std::array<decltype(of(kUnits[0])), kQuantities> all{};
+  for (std::size_t i = 0; i < kQuantities; ++i) all[i] = of(kUnits[i]);
+  return all;
 }
 
 std::array<double, kQuantities> ones() {
-  std::array<double, kQuantities> unit{};
-  unit.fill(1.0);
-  return unit;
+  return each([](const QuantityUnits&) { return 1.0; });
+}
+std::array<double, kQuantities> si_units(const Units& units) {
+  return each([&](const QuantityUnits& q) { return q.si(units); });
+}
+std::array<std::string, kQuantities> no_suffix() { return {}; }
+std::array<std::string, kQuantities> si_suffix() {
+  return each([](const QuantityUnits& q) { return std::string(q.si_suffix); });
+}
+std::array<std::string, kQuantities> natural_suffix() {
+  return each([](const QuantityUnits& q) { return std::string(q.natural_suffix); });
 }
 
 }  // namespace
 
-double si_factor(Quantity quantity, const Units& units) {
-  switch (quantity) {
-    case Quantity::number: return 1.0;
-    case Quantity::length: return units.length();
-    case Quantity::time: return units.time();
-    case Quantity::velocity: return units.velocity();
-    case Quantity::energy: return units.energy();
-    case Quantity::force: return units.force();
-    case Quantity::friction: return units.friction();
-    case Quantity::temperature: return units.temperature();
-    case Quantity::rate: return 1.0 / units.time();
-  }
-  return 1.0;
-}
+double si_factor(Quantity quantity, const Units& units) { return kUnits[static_cast<std::size_t>(quantity)].si(units); }
 
-TableUnits TableUnits::plain() { return {ones(), false, kNoSuffix}; }
-TableUnits TableUnits::si() { return {ones(), false, kSiSuffix}; }
-TableUnits TableUnits::into_si(const Units& units) { return {si_units(units), false, kSiSuffix}; }
-TableUnits TableUnits::into_natural(const Units& units) { return {si_units(units), true, kNaturalSuffix}; }
+TableUnits TableUnits::plain() { return {ones(), false, no_suffix()}; }
+TableUnits TableUnits::si() { return {ones(), false, si_suffix()}; }
+TableUnits TableUnits::into_si(const Units& units) { return {si_units(units), false, si_suffix()}; }
+TableUnits TableUnits::into_natural(const Units& units) { return {si_units(units), true, natural_suffix()}; }
 
 double TableUnits::convert(Quantity quantity, double value) const {
   const double unit = unit_[index(quantity)];

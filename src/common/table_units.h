@@ -24,9 +24,9 @@ struct Column {
 
 class TableUnits {
  public:
-  static TableUnits plain();                         // numbers and names stay as they are
-  static TableUnits si();                            // numbers stay; names end in their SI unit, such as _m_per_s
-  static TableUnits into_si(const Units& units);     // natural numbers become SI numbers, names as in si()
+  static TableUnits plain();                           // numbers and names stay as they are
+  static TableUnits si();                              // numbers stay; names end in their SI unit, such as _m_per_s
+  static TableUnits into_si(const Units& units);       // natural numbers become SI numbers, names as in si()
   static TableUnits into_natural(const Units& units);  // SI numbers become natural numbers; names end in _a_per_tau ...
 
   double convert(Quantity quantity, double value) const;

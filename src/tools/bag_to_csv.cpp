@@ -22,8 +22,9 @@ const char kDescription[] =
     "              begun, 3 contact ended) and the count of bounces that it stands for\n"
     "  deflection  epoch, running index, time, vertical, lateral: a row for each sample\n"
     "  friction    the fields of afm_emulator/Friction, a row for each batch\n"
-    "  commands    a row for every command and for the beginning of every epoch: its time, and all that is in force\n"
-    "              from there on (nan: the recording does not tell)\n"
+    "  commands    a row for every moment at which commands took effect, and for the beginning of every epoch: all "
+    "that\n"
+    "              is in force from there on (nan: the recording does not tell)\n"
     "A missing message shows as a gap in the running index; bag_check counts them.";
 const char kExitCodes[] =
     "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 foreign, 4 truncated, 5 missing,\n"

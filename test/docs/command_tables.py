@@ -37,6 +37,7 @@ SUBSTITUTIONS = [
     (r'(scripts/scene_levels)', r'\1 --duration 500'),
     (r'(record_throughput\.py \S+) 600', r'\1 3'),
     (r'(listener_cost\.py)', r'\1 1'),
+    (r'(loop_delay\.py)', r'\1 --commands 30 --output loop_delay.csv'),
     (r'--flights 200 --seconds 0\.7 --run-seconds 3', '--methods exact rk4 --flights 20 --seconds 0.01 --run-seconds 0.05'),
     (r'(rosrun afm_emulator work_cost)', r'\1 --impacts 1000 --tips 10000 --rounds 1'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "target.h"
 #include "common/csv.h"
+#include "target.h"
 #include "tools/impact_filter.h"
 
 namespace {

@@ -6,53 +6,16 @@ import subprocess
 from pathlib import Path
 
 import roslib.packages
-from std_msgs.msg import Float64, Float64MultiArray
+from std_msgs.msg import Float64MultiArray
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
-from topics import PATIENCE, Topic, wait_until
-
-FORCE = 60e-12                   # set in hold_force.launch [N]
-PEAK = (1.93, 2.0)               # of the friction force over eta at 300 K and Q = 100, by friction_curve: 1.95 to 1.97
-
-
-def last(topic, count):
-    return [message.data for message in topic.messages[-count:]]
+from topics import PATIENCE, Topic
 
 
 class Examples(NodeTest):
     def end(self, process):
         """Ctrl-C ends all of it."""
         self.assertIn(process.stop(), (0, -2), process.output())
-
-    def test_a_controller_holds_the_force(self):
-        forces, heights, applied = (Topic('/hold_force/measured_force', Float64), Topic('/hold_force/commanded_height', Float64),
-                                    Topic('applied_parameters'))
-        example = self.launch('hold_force.launch')
-        wait_until(lambda: len(forces.messages) > 10 and max(abs(f / FORCE - 1) for f in last(forces, 8)) < 0.1,
-                   'eight measured forces in a row within a tenth of the one set', deadline_s=60.0)
-        # it was not there from the beginning: at zero load the force is 9 pN
-        self.assertLess(forces.messages[0].data, 0.5 * FORCE)
-        self.assertTrue(all(-0.25e-9 < height < -0.15e-9 for height in last(heights, 5)), last(heights, 5))
-        self.assertAlmostEqual(applied.messages[-1].rest_height_m, heights.messages[-1].data, delta=0.02e-9)
-        # and the emulator's own mean, of all batches since some command, agrees
-        friction = Topic('friction')
-        friction.wait_for(lambda m: m.drag_velocity > 0 and abs(m.mean_lateral_force / FORCE - 1) < 0.15, 'the emulator agrees')
-        self.end(example)
-
-    def test_a_controller_finds_the_peak(self):
-        speeds = Topic('/seek_peak/speed', Float64)
-        example = self.launch('seek_peak.launch')
-        wait_until(lambda: len(speeds.messages) > 8 and all(PEAK[0] < v / SPEED_UNIT < PEAK[1] for v in last(speeds, 5)),
-                   'five speeds in a row at the peak', deadline_s=60.0)
-        self.assertLess(speeds.messages[0].data / SPEED_UNIT, 1.8)
-        self.end(example)
-
-    def test_from_the_other_side_too(self):
-        speeds = Topic('/seek_peak/speed', Float64)
-        example = self.launch('seek_peak.launch', start=2.2 * SPEED_UNIT)
-        wait_until(lambda: len(speeds.messages) > 8 and all(PEAK[0] < v / SPEED_UNIT < PEAK[1] for v in last(speeds, 5)),
-                   'five speeds in a row at the peak', deadline_s=60.0)
-        self.end(example)
 
     def test_the_detector_gives_volts_with_noise_and_steps(self):
         volts, deflection = Topic('/detector/volts', Float64MultiArray), Topic('deflection')
@@ -86,7 +49,7 @@ class Examples(NodeTest):
     def test_a_commander_in_cpp(self):
         self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0}))
         binary = roslib.packages.find_node(PACKAGE, 'watch_and_command')[0]
-        example = self.start(Process([binary, '_drag_velocities:=[%r, %r]' % (2 * SPEED_UNIT, 3 * SPEED_UNIT), '_hold_s:=0.7']))
+        example = self.start(Process([binary, repr(2 * SPEED_UNIT), repr(3 * SPEED_UNIT), '_hold_s:=0.7']))
         self.assertEqual(example.wait(deadline_s=30.0), 0)
         eta = [float(value) for value in re.findall(r'eta ([\d.]+)', example.output())]
         self.assertEqual([round(value, 3) for value in eta], [2.0, 3.0])
@@ -97,11 +60,11 @@ class Examples(NodeTest):
         done = subprocess.run([binary, '_commands:=40'], stdout=subprocess.PIPE, universal_newlines=True, timeout=60 * PATIENCE)
         self.assertEqual(done.returncode, 0)
         row, = csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith('['))
-        self.assertEqual((row['batch rate / Hz'], int(row['commands']) + int(row['lost'])), ('100', 40))
+        self.assertEqual((row['batch rate / Hz'], row['commands'], row['lost']), ('100', '40', '0'))
         applied, seen = float(row['applied: median / ms']), float(row['in a batch: median / ms'])
-        # a command waits for the end of a batch of 10 ms, 5 ms in the middle, and the batch that it moves lasts 10 ms more
-        self.assertGreater(applied, 0.5)
-        self.assertGreater(seen, applied + 5.0)
+        # a command waits for the end of a batch of 10 ms, 5 ms in the median; then the batch that it moves comes at once
+        self.assertGreater(applied, 2.0)
+        self.assertGreaterEqual(seen, applied)
 
 
 if __name__ == '__main__':

@@ -33,8 +33,10 @@ foreach(name IN LISTS view_tests)
 endforeach()
 
 # nodes to copy
-set(example_tests examples)
-afm_add_rostest(examples emulator_node view_node watch_and_command loop_delay)
+set(example_tests controllers examples)
+foreach(name IN LISTS example_tests)
+  afm_add_rostest(${name} emulator_node view_node watch_and_command loop_delay)
+endforeach()
 
 # of the tools that read recordings
 set(recording_tests

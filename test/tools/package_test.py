@@ -39,13 +39,13 @@ class Package(unittest.TestCase):
             self.assertIn(name, declared, '%s uses %s, which package.xml does not declare' % (path, name))
 
     def test_what_the_sources_include(self):
-        found = [use for folder in ('src', 'include') for pattern in (r'^#include <(\w+)/', r'\b(\w+_msgs)::')
+        found = [use for folder in ('src', 'include', 'examples/ros') for pattern in (r'^#include <(\w+)/', r'\b(\w+_msgs)::')
                  for use in uses(folder, ('.h', '.cpp'), pattern) if is_ros(use[1])]
         self.assert_declared(found, self.declared('depend', 'build_depend'))
 
     def test_what_the_scripts_import(self):
         known = self.declared('depend', 'exec_depend')
-        found = [use for use in uses('scripts', ('', '.py'), r'^\s*(?:import|from) (\w+)')
+        found = [use for folder in ('scripts', 'examples/ros') for use in uses(folder, ('', '.py'), r'^\s*(?:import|from) (\w+)')
                  if is_ros(use[1]) or use[1] in PYTHON_PACKAGES]
         self.assert_declared(found, known)
 

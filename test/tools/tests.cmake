@@ -61,7 +61,7 @@ add_test(NAME help COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tool
 set_tests_properties(help PROPERTIES TIMEOUT 60)
 
 # common/NAME_test.cpp: what tools share
-foreach(name command_line)
+foreach(name command_line table_writer)
   afm_add_gtest(${name}_test common/${name}_test.cpp)
   target_link_libraries(${name}_test afm_common)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "afm/dynamics/basins.h"
+#include "common/progress_bar.h"
 #include "common/table_writer.h"
 #include "dynamics_options.h"
-#include "common/progress_bar.h"
 
 namespace {
 

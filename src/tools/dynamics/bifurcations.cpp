@@ -8,9 +8,9 @@
 
 #include "afm/dynamics/attractor.h"
 #include "afm/dynamics/sweep.h"
+#include "common/progress_bar.h"
 #include "common/table_writer.h"
 #include "dynamics_options.h"
-#include "common/progress_bar.h"
 
 namespace {
 

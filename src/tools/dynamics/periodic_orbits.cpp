@@ -9,9 +9,9 @@
 #include "afm/dynamics/cycle_expansion.h"
 #include "afm/dynamics/orbit_search.h"
 #include "afm/state.h"
+#include "common/progress_bar.h"
 #include "common/table_writer.h"
 #include "dynamics_options.h"
-#include "common/progress_bar.h"
 
 namespace {
 
@@ -25,23 +25,12 @@ const char kDescription[] =
 using Q = afm::Quantity;
 
 // The residual is in natural units always: the largest of errors of several kinds.
-const std::vector<afm::Column> kColumns{{"length"},
-                                        {"cells"},
-                                        {"period", Q::time},
-                                        {"k_f", Q::friction},
-                                        {"residual"},
-                                        {"phase"},
-                                        {"extension", Q::length},
-                                        {"u", Q::velocity},
-                                        {"w", Q::velocity},
-                                        {"multiplier_1_re"},
-                                        {"multiplier_1_im"},
-                                        {"multiplier_2_re"},
-                                        {"multiplier_2_im"},
-                                        {"multiplier_3_re"},
-                                        {"multiplier_3_im"},
-                                        {"multiplier_4_re"},
-                                        {"multiplier_4_im"}};
+const std::vector<afm::Column> kColumns{
+    {"length"},          {"cells"},           {"period", Q::time},      {"k_f", Q::friction},
+    {"residual"},        {"phase"},           {"extension", Q::length}, {"u", Q::velocity},
+    {"w", Q::velocity},  {"multiplier_1_re"}, {"multiplier_1_im"},      {"multiplier_2_re"},
+    {"multiplier_2_im"}, {"multiplier_3_re"}, {"multiplier_3_im"},      {"multiplier_4_re"},
+    {"multiplier_4_im"}};
 const std::vector<afm::Column> kAverageColumns{
     {"method"}, {"order"}, {"terms"}, {"k_f", Q::friction}, {"conservation"}};
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "afm/dynamics/poincare_map.h"
+#include "common/progress_bar.h"
 #include "common/table_writer.h"
 #include "dynamics_options.h"
-#include "common/progress_bar.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "afm/state.h"
 #include "node/parameters/live_parameters.h"
 #include "tools/replay/recording.h"
-#include "afm/state.h"
 
 namespace afm {
 
@@ -21,7 +21,7 @@ struct CommandRow {
   std::uint64_t first_impact = 0;  // index of the first impact after it
 };
 
-// A row for every command, and one for the beginning of every epoch. Of two rows at one time the later one holds.
+// A row for every moment at which commands took effect: the beginning of every epoch is the first.
 std::vector<CommandRow> commands_of(const replay::Recording& recording);
 
 }  // namespace afm

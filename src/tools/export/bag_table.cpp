@@ -36,9 +36,17 @@ double seconds(const afm_emulator::ModelTime& time, double tau_s) {
 
 void write_impacts(const Recording& recording, const Target& to) {
   TableWriter table(to.out,
-                    {{"epoch"}, {"index"}, {"tau"}, {"phase"}, {"time", Q::time}, {"surface_phase"},
-                     {"normal_speed", Q::velocity}, {"tangential_velocity", Q::velocity}, {"energy_loss", Q::energy},
-                     {"kind"}, {"count"}},
+                    {{"epoch"},
+                     {"index"},
+                     {"tau"},
+                     {"phase"},
+                     {"time", Q::time},
+                     {"surface_phase"},
+                     {"normal_speed", Q::velocity},
+                     {"tangential_velocity", Q::velocity},
+                     {"energy_loss", Q::energy},
+                     {"kind"},
+                     {"count"}},
                     to.table);
   table.write_header();
   for_each_message<afm_emulator::ImpactArray>(recording, node::kImpactsTopic, [&](const auto& batch) {
@@ -52,8 +60,8 @@ void write_impacts(const Recording& recording, const Target& to) {
 }
 
 void write_deflection(const Recording& recording, const Target& to) {
-  TableWriter table(
-      to.out, {{"epoch"}, {"index"}, {"time", Q::time}, {"vertical", Q::length}, {"lateral", Q::length}}, to.table);
+  TableWriter table(to.out, {{"epoch"}, {"index"}, {"time", Q::time}, {"vertical", Q::length}, {"lateral", Q::length}},
+                    to.table);
   table.write_header();
   for_each_message<afm_emulator::Deflection>(recording, node::kDeflectionTopic, [&](const auto& batch) {
     const double begin = seconds(batch.time, to.tau_s);
@@ -67,15 +75,28 @@ void write_deflection(const Recording& recording, const Target& to) {
 
 // Every field of the message but k_f_natural, which is k_f in the other units.
 void write_friction(const Recording& recording, const Target& to) {
-  TableWriter table(
-      to.out,
-      {{"epoch"}, {"tau"}, {"phase"}, {"time", Q::time}, {"drag_velocity", Q::velocity}, {"eta"},
-       {"force", Q::force}, {"force_std_error", Q::force}, {"k_f", Q::friction}, {"k_f_std_error", Q::friction},
-       {"energy_loss", Q::energy}, {"impact_count"}, {"window_force", Q::force}, {"window_k_f", Q::friction},
-       {"window_k_f_std_error", Q::friction}, {"mean_lateral_force", Q::force},
-       {"mean_lateral_force_std_error", Q::force}, {"k_f_work", Q::friction}, {"k_f_work_std_error", Q::friction},
-       {"heat_to_bath", Q::energy}},
-      to.table);
+  TableWriter table(to.out,
+                    {{"epoch"},
+                     {"tau"},
+                     {"phase"},
+                     {"time", Q::time},
+                     {"drag_velocity", Q::velocity},
+                     {"eta"},
+                     {"force", Q::force},
+                     {"force_std_error", Q::force},
+                     {"k_f", Q::friction},
+                     {"k_f_std_error", Q::friction},
+                     {"energy_loss", Q::energy},
+                     {"impact_count"},
+                     {"window_force", Q::force},
+                     {"window_k_f", Q::friction},
+                     {"window_k_f_std_error", Q::friction},
+                     {"mean_lateral_force", Q::force},
+                     {"mean_lateral_force_std_error", Q::force},
+                     {"k_f_work", Q::friction},
+                     {"k_f_work_std_error", Q::friction},
+                     {"heat_to_bath", Q::energy}},
+                    to.table);
   table.write_header();
   for_each_message<afm_emulator::Friction>(recording, node::kFrictionTopic, [&](const auto& f) {
     table << f.epoch << f.time.tau << f.time.phase << seconds(f.time, to.tau_s) << f.drag_velocity << f.eta << f.force
@@ -88,11 +109,23 @@ void write_friction(const Recording& recording, const Target& to) {
 
 void write_commands(const Recording& recording, const Target& to) {
   TableWriter table(to.out,
-                    {{"epoch"}, {"tau"}, {"phase"}, {"time", Q::time}, {"drag_velocity", Q::velocity},
-                     {"restitution_gamma"}, {"cutoff_speed", Q::velocity}, {"rest_height", Q::length},
-                     {"sample_rate", Q::rate}, {"friction_window_tau"}, {"temperature", Q::temperature},
-                     {"quality_factor"}, {"lateral_quality_factor"}, {"kicks_per_tau"}, {"model"},
-                     {"contact_tolerance"}, {"first_impact"}},
+                    {{"epoch"},
+                     {"tau"},
+                     {"phase"},
+                     {"time", Q::time},
+                     {"drag_velocity", Q::velocity},
+                     {"restitution_gamma"},
+                     {"cutoff_speed", Q::velocity},
+                     {"rest_height", Q::length},
+                     {"sample_rate", Q::rate},
+                     {"friction_window_tau"},
+                     {"temperature", Q::temperature},
+                     {"quality_factor"},
+                     {"lateral_quality_factor"},
+                     {"kicks_per_tau"},
+                     {"model"},
+                     {"contact_tolerance"},
+                     {"first_impact"}},
                     to.table);
   table.write_header();
   for (const CommandRow& row : commands_of(recording)) {
@@ -107,7 +140,9 @@ void write_commands(const Recording& recording, const Target& to) {
 }
 
 const std::map<std::string, std::function<void(const Recording&, const Target&)>> kTables{
-    {"impacts", write_impacts}, {"deflection", write_deflection}, {"friction", write_friction},
+    {"impacts", write_impacts},
+    {"deflection", write_deflection},
+    {"friction", write_friction},
     {"commands", write_commands}};
 
 bool same_units(const Units& a, const Units& b) {
@@ -123,10 +158,12 @@ Units units_of(const Recording& recording) {
   for_each_message<afm_emulator::Configuration>(recording, node::kConfigurationTopic, [&](const auto& configuration) {
     found.emplace_back(node::si_model(configuration));
     if (same_units(found.front(), found.back())) return;
-    throw Problem(Verdict::usage, recording.name() + ": holds runs with different lattice spacings, frequencies or tip "
-                                                     "masses: they need a table each");
+    throw Problem(Verdict::usage, recording.name() +
+                                      ": holds runs with different lattice spacings, frequencies or tip "
+                                      "masses: they need a table each");
   });
-  if (found.empty()) throw Problem(Verdict::foreign, recording.name() + ": holds no configuration of " + recording.node());
+  if (found.empty())
+    throw Problem(Verdict::foreign, recording.name() + ": holds no configuration of " + recording.node());
   return found.front();
 }
 
