@@ -100,7 +100,7 @@ void measure(const char* method, double knob, double stiffness, const Options& o
   for (std::size_t i = 0; i < kBatch; ++i) next();
   const auto begin = Clock::now();
   double seconds = 0.0, sum = 0.0;
-  while (seconds < o.seconds || batches.size() < afm::kFewestBatches) {
+  while (seconds < o.seconds || batches.size() < afm::kMinBatches) {
     double batch = 0.0;
     for (std::size_t i = 0; i < kBatch; ++i) {
       const double Y = next();

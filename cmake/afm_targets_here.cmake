@@ -1,4 +1,4 @@
-# Included by the package's config of catkin where it is installed: the targets afm::core and afm::dynamics.
+# The targets afm::core and afm::dynamics of an installed package: the package config without ROS, and an extra of catkin's config.
 if(EXISTS ${afm_emulator_DIR}/afm_targets.cmake AND NOT TARGET afm::core)
   include(CMakeFindDependencyMacro)
   find_dependency(Threads)

@@ -1,6 +1,7 @@
-// The heat bath of the cantilever, at rest in the frame of the holder: Langevin dynamics of both springs. The motion is split
-// into exact motion for 1/kicks_per_tau and kicks, the exact Ornstein-Uhlenbeck step of both velocities: without drag and
-// with gamma = 1 the Boltzmann distribution above the surface is stationary for every rate of kicks (docs/temperature.md).
+// The heat bath of the cantilever, at rest in the frame of the holder: Langevin dynamics of both springs. We split it
+// into exact motion for 1/kicks_per_tau and kicks. A kick is the exact Ornstein-Uhlenbeck step of both velocities.
+// Guarantee: without drag and with gamma = 1 the Boltzmann distribution above the surface is stationary for every rate
+// of kicks (docs/temperature.md).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Frictionless contact: the tip slides on y = h(x) while the surface presses, and leaves exactly when the reaction
-// would have to pull. One piece is a Taylor series about its start; pieces follow each other.
+// Frictionless contact (Eq. 2-3 of the paper with the reaction of the surface): the tip slides on y = h(x) while the
+// surface presses, and leaves it when the reaction would have to pull. One segment is a Taylor series about its start.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,14 @@
 
 namespace afm {
 
+// Binary digits of the velocity at the end of a segment: 48 give an error of 1e-14, above the rounding of the series.
 constexpr int kSlideBits = 48;
 
 template <class T>
 class SlideSegment {
  public:
-  // At length() the last terms are at most about three times 2^-bits: at 48 the velocity is good to 1e-14 up to there.
+  // The length is chosen so that the last terms of the series are at most three times 2^-bits up to there.
+  // Precondition: `start` is on the surface.
   SlideSegment(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
       : m_(mechanics), eta_(eta), start_(start) {
     write_slide_series(mechanics, eta, start, series_);
@@ -25,7 +27,7 @@ class SlideSegment {
   }
 
   SlideState<T> at(const T& s) const;
-  T pressure(const T& s) const { return horner(series_.lambda, s); }  // reaction along y [a/tau^2]
+  T pressure(const T& s) const { return horner(series_.lambda, s); }  // the reaction along y [a/tau^2]
   T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
   std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
   T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
@@ -36,8 +38,8 @@ class SlideSegment {
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 
-  // First time in [0, length()] at which the pressure has fallen to -release_noise() of the start, within a thousandth
-  // of that; a negative number where it does not.
+  // The first time in [0, length()] at which the reaction has fallen to -release_noise(), within a thousandth of that.
+  // Negative if it does not fall so far. Guarantee: no earlier fall is passed (first_fall.h).
   T find_release() const;
 
  private:
@@ -50,18 +52,18 @@ class SlideSegment {
   T length_;
 };
 
-// So that the last two terms of the velocity, or of the pressure where the velocity is given, are below 2^-bits, or
-// three times that. The bits of a double, read as a whole number, are its logarithm to the base 2 but for 0.09: they
-// are divided as such, which is quick, and the same on every machine.
+// The length at which the last two terms of the velocity are about 2^-bits. For the hammer, whose velocity is given, we
+// use the reaction. The bits of a double, read as an integer, are its logarithm to the base 2 within 0.09 (times 2^52).
+// Arithmetic with them is fast and gives the same bits on every machine.
 template <class T>
 T SlideSegment<T>::choose_length(int bits) const {
   constexpr std::int64_t kBit = std::int64_t{1} << 52, kOne = 1023 * kBit;
   const Series<T>& c = static_cast<double>(m_.is_free_along_x) == 0.0 ? series_.lambda : series_.u;
-  double longest = 8.0;  // [tau]
+  double longest = 8.0;  // [tau] a choice: as far as a flight is searched at once
 #pragma GCC unroll 2
   for (std::size_t n = kSlideOrder - 1; n <= kSlideOrder; ++n) {
     const double last = std::abs(static_cast<double>(c[n]));
-    if (!(last > 1e-290 && last < 1e290)) continue;  // nothing to choose by; beyond, of a state that was altered
+    if (!(last > 1e-290 && last < 1e290)) continue;  // a zero term sets no length; a huge one is of a corrupted state
     std::int64_t logarithm;
     std::memcpy(&logarithm, &last, sizeof last);
     logarithm = (kOne - bits * kBit - logarithm) / static_cast<std::int64_t>(n) + kOne;
@@ -89,7 +91,7 @@ T SlideSegment<T>::displacement_integral(const T& s) const {
 template <class T>
 std::array<T, 4> SlideSegment<T>::pressure_jet(const T& s) const {
   using std::fma;
-  std::array<T, 4> c{};  // Horner's scheme for the function and, over k!, its derivatives
+  std::array<T, 4> c{};  // Horner's scheme for the function and for its derivatives over k!
   for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
 #pragma GCC unroll 4
     for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
@@ -99,7 +101,7 @@ std::array<T, 4> SlideSegment<T>::pressure_jet(const T& s) const {
   return c;
 }
 
-// Of the sum of a series from its value at 0, up to s.
+// A bound of the change of a series between 0 and s: the sum of the absolute values of its terms.
 template <class T>
 T largest_change(const Series<T>& series, const T& s) {
   using std::abs;
@@ -115,13 +117,13 @@ T largest_change(const Series<T>& series, const T& s) {
 
 template <class T>
 T SlideSegment<T>::find_release() const {
-  constexpr double kPart = 1.0 / 1024.0;
+  constexpr double kAccuracy = 1.0 / 1024.0;  // of the noise: finer would be rounding of the reaction
   const T noise = release_noise(m_, start_.u, start_.X), pressed = series_.lambda[0] + noise;
   if (pressed > largest_change(series_.lambda, length_)) return T(-1.0);
-  if (pressed <= T(kPart) * noise) return T(0.0);
+  if (pressed <= T(kAccuracy) * noise) return T(0.0);
   Series<T> pull = series_.lambda;
   pull[0] = pressed;
-  return first_fall(pull, length_, T(kPart * noise));
+  return first_fall(pull, length_, T(kAccuracy * noise));
 }
 
 }  // namespace afm

@@ -1,5 +1,6 @@
-// A run: a tip sampled on a regular grid, obeying drag commands, in batches. ROS-free, so that a node can pace it and a
-// checker can repeat it: everything it produces is a function of its settings and of its commands' model times.
+// A run in batches: a tip that is sampled on a regular grid and obeys commands. Guarantee: the output is a function of
+// the settings and of the model times of the commands, to the last bit. So a node can pace a run, and a checker can
+// repeat it.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@ struct LiveSettings {
 };
 LiveSettings live_settings(const EmulatorSettings& settings);
 
-// What one advance produced: the samples and impacts of [begin, end).
+// The result of one advance: the samples and impacts of [begin, end).
 struct Batch {
   ModelTime begin, end;
   ModelTime first_sample_time;
@@ -55,7 +56,7 @@ struct Batch {
   double eta = 0.0;           // drag velocity throughout the batch
 };
 
-// Must stay zero, or say where they did not.
+// Counters of trouble; they stay zero in a good run.
 struct Counters {
   std::uint64_t budget_exhausted = 0;
   std::uint64_t search_failures = 0;
@@ -67,35 +68,35 @@ class Emulator {
   explicit Emulator(const EmulatorSettings& settings);  // throws the first ParameterError
 
   void drag(double eta);  // from now() on. Precondition: finite and |eta| <= kMaxEta
-  // From now() on, the tip's state kept; what stays the same goes on as if nothing had been said. A new model or bath begins
-  // the friction estimate anew, a new window that of the window; a new sample period takes its first sample at now().
-  // Precondition: settings() with these have no faults.
+  // From now() on. The state of the tip stays, and settings that stay the same have no effect. A new model or bath
+  // restarts the friction estimate, a new window restarts its window. A new sample period takes its first sample at
+  // now(). Precondition: settings() with these have no faults.
   void change(const LiveSettings& live);
-  // Another level of the model from now() on; Tip::set_model() says how the tip gets there. The friction estimate begins
-  // anew. Returns the energy that is dropped on the way [m a^2/tau^2]. Precondition: has_sound_tolerance().
+  // Another level of the model from now() on (see Tip::set_model). The friction estimate restarts.
+  // Returns the energy that is dropped [m a^2/tau^2]. Precondition: has_valid_tolerance(level).
   double set_level(const Level& level);
-  // Whether samples are taken in what follows, or only counted as they fall due: the motion is the same to the bit.
+  // Whether samples are computed from now() on, or only counted. The motion is the same to the bit.
   void take_samples(bool wanted) { sampling_ = wanted; }
-  // Initial state and drag velocity, model time 0, indices and counters 0; other settings as they are now.
+  // Back to the initial state and drag velocity at model time 0, with indices and counters 0. Other settings stay.
   void reset();
 
-  // Each clears the batch, keeps its capacity and fills it. Never allocates while the batch has room for
-  // samples_per_batch samples and impact_budget impacts (see reserve).
+  // Each clears the batch and fills it. Guarantee: no allocation if the batch has room for samples_per_batch samples
+  // and impact_budget impacts (see reserve).
   Outcome run_batch(Batch& batch);                         // to the next batch boundary of the sample grid
   Outcome run_until(const ModelTime& time, Batch& batch);  // precondition: at most one batch boundary ahead
   Outcome run_impacts(std::uint64_t n, Batch& batch);      // to the n-th next impact or the next batch boundary
 
   void reserve(Batch& batch) const;
 
-  // The complete state, from which another goes on to the same bits, whatever its machine. Counters begin anew there.
-  // Allocates nothing.
+  // The complete state. A restored emulator goes on with the same bits on every machine; its counters start at zero.
+  // No allocation.
   void save(SavedState& out) const;
-  static std::optional<Emulator> restored(const SavedState& state);  // nothing: no emulator can be in that state
+  static std::optional<Emulator> restored(const SavedState& state);  // empty: no emulator can be in that state
 
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   FreeState state() const { return tip_.state(); }         // at now()
-  std::uint64_t samples() const { return next_sample_; }   // due so far
+  std::uint64_t samples() const { return next_sample_; }   // number due so far
   const SampleGrid& grid() const { return grid_; }         // on which they are taken at present
   std::uint64_t impacts() const { return impact_index_; }  // so far
   ModelTime estimated_since() const { return friction_.start(); }
@@ -109,7 +110,7 @@ class Emulator {
   ModelTime next_boundary() const;
   void begin(Batch& batch) const;
   Outcome run(const ModelTime& end, std::uint64_t impacts, Batch& batch);
-  Outcome run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch);
+  Outcome run_segments(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   void sample_until(const ModelTime& time, Batch& batch);
   std::uint64_t first_sample_from(const ModelTime& time) const;
 

@@ -1,5 +1,5 @@
-// Many tips, each with its own model, drag velocity and start, advanced together on threads. Every tip gives bit for bit
-// what it gives alone, whatever the others and the number of threads.
+// Many tips, each with its own model, drag velocity and start, advanced on threads. Guarantee: each tip gives the same
+// bits as alone, for every number of threads.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@ class Ensemble {
  public:
   explicit Ensemble(int threads = 1) : threads_(threads) {}
 
-  void add(const Tip& tip) { members_.push_back({tip, 0, 0}); }  // wherever it is; the copy keeps its time
+  void add(const Tip& tip) { members_.push_back({tip, 0, 0}); }  // in any state; the copy keeps its time
   void reserve(std::size_t tips) { members_.reserve(tips); }
   std::size_t size() const { return members_.size(); }
 
-  // Every tip does what `events` calls of Tip::advance(limit) would, or fewer where one would return time_limit. With a
-  // log, room for size() * events records, the i-th tip's are written from log + i * events on.
+  // Each tip makes up to `events` calls of Tip::advance(limit), until one returns time_limit. A log needs room for
+  // size() * events records; those of the i-th tip start at log + i * events.
   void advance(std::uint32_t events, const ModelTime& limit, Impact* log = nullptr);
   void advance(std::uint32_t events, const ModelTime* limits, Impact* log = nullptr);  // to a limit for each
-  void advance(const ModelTime& limit);                                                // whatever happens until then
+  void advance(const ModelTime& limit);                                                // all events until then
 
-  // Of the last advance: events, and how many of them were searches that failed (they write no record).
+  // Of the last advance: the number of events, and how many of them were failed searches, which write no record.
   std::uint32_t events(std::size_t i) const { return members_[i].events; }
   std::uint32_t search_failures(std::size_t i) const { return members_[i].search_failures; }
 

@@ -1,5 +1,6 @@
-// Exact flight (Eq. 9-10) and the gap along it. Times s count from the start of the flight [tau].
-// X = x - xc and Y = y - y0 turn by their own angles; U = u - eta and W = w are their rates.
+// Exact flight (Eq. 9-10 of the paper) and the gap along it. Times s count from the start of the flight [tau]. The
+// extensions X = x - xc and Y = y - y0 rotate with U = u - eta and W = w, each pair by the angle of its spring.
+// Guarantees: the rounding of the gap is bounded by gap_error() (Lemma 7 of docs/algorithm.md), and no energy drifts.
 #pragma once
 
 #include <algorithm>
@@ -27,17 +28,17 @@ template <class T>
 class Flight {
  public:
   Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start);
-  // One that has been launched before: `launch()` is not asked for.
+  // From a known jet and bounds. Precondition: launch() is not used.
   Flight(const Mechanics<T>& mechanics, const T& eta, const GapJet<T>& start, const FlightBounds<T>& bounds)
       : m_(mechanics), eta_(eta), launch_{0.0, 0.0, 0.0, 0.0, 0.0}, start_(start), bounds_(bounds) {}
 
-  // Within a few ulp of the larger terms; for small turns, within a few ulp of the change since the start.
+  // Error: a few ulp of the larger terms; for small turns, a few ulp of the change since the start.
   GapJet<T> gap(const T& s) const;
   FlightState<T> at(const T& s) const;
 
   TipState tip_state(const T& s) const;
 
-  // Bound of the rounding error of gap(s).g.
+  // Bound of the rounding error of gap(s).g [a] (Lemma 7).
   T gap_error(const T& s) const;
 
   const TipState& launch() const { return launch_; }  // the state it began with, as given
@@ -45,10 +46,10 @@ class Flight {
   const T& eta() const { return eta_; }
   const Mechanics<T>& mechanics() const { return m_; }
 
-  // The gap at s + step, faster, from its jet at s near by. Within a few ulp more.
+  // The gap at s + step from its jet at s: faster than gap(s + step), with an error of a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
 
-  // In a time so long every turn is at most 1/8, or 2^-10.
+  // True: within the time s every angle turns by at most kSmallTurn.
   auto is_small(const T& s) const { return s * bounds_.fastest <= T(kSmallTurn); }
 
   GapJet<T> gap_by_small_turns(const T& s) const { return moved(start_, s); }
@@ -58,18 +59,18 @@ class Flight {
   const T& amplitude_Y() const { return bounds_.Y; }
   const T& third_derivative_bound() const { return bounds_.third; }
   const T& fourth_derivative_bound() const { return bounds_.fourth; }
-  T fourth_derivative_bound(const FlightState<T>& now, const T& S) const {  // within S of a state on the flight
+  T fourth_derivative_bound(const FlightState<T>& now, const T& S) const {  // within S of the state `now`
     return afm::fourth_derivative_bound(m_, eta_, now, bounds_, S);
   }
   T fastest() const { return two_pi<T>() * bounds_.fastest; }  // [rad/tau]
 
  private:
-  // The jet a step t later: every term that cancels in it is left out on paper, so what the gap and its rate change by
-  // is within a few ulp of itself. Precondition: t is small.
+  // The jet at a time t after `jet`. Terms that cancel are removed on paper, so the change of the gap is exact to a few
+  // ulp of itself (Lemma 7). Precondition: is_small(t).
   GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
   GapJet<T> jet_at(const FlightState<T>& state) const;
   T second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const;
-  // The same so far above the surface: what is there last, its height, is waited for with one product.
+  // The same from the gap instead of Y: Y = h - y0 + g. The height h is known last, and only one product waits for it.
   T second_derivative_above(const SurfaceJet<T>& surface, const T& g, const T& X, const T& u) const;
   T third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const;
 
@@ -107,7 +108,7 @@ FlightState<T> Flight<T>::at(const T& s) const {
   return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
 }
 
-// h'' = -k^2 h, h''' = -k^2 h'; x'' = -omega_h^2 X, y'' = -omega_v^2 Y, and so on.
+// With h'' = -k^2 h, h''' = -k^2 h', x'' = -omega_h^2 X and y'' = -omega_v^2 Y.
 template <class T>
 T Flight<T>::second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const {
   const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m_.omega_h * m_.omega_h, wv2 = m_.omega_v * m_.omega_v;
@@ -152,7 +153,7 @@ GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) c
   return is_small(size) ? moved(jet, step) : gap(s + step);
 }
 
-// The terms linear in t cancel on paper, into g1 t: what is left is small of second order, each term to a few ulp.
+// The terms linear in t combine to g1 t. The rest is of the second order, and each of its terms is exact to a few ulp.
 template <class T>
 GapJet<T> Flight<T>::moved(const GapJet<T>& jet, const T& t) const {
   const Mechanics<T>& m = m_;
@@ -160,12 +161,12 @@ GapJet<T> Flight<T>::moved(const GapJet<T>& jet, const T& t) const {
   const T k = two_pi<T>(), per = m.inverse_omega_v, u0 = eta_ + o.U;
   const SmallTurn<T> h = small_turn(T(m.ratio * t)), v = small_turn(t);
 
-  // of x and X what is not linear in t, and of u
+  // changes: of x without its linear part, of u, of x
   const T dx2 = mul_add(T(o.U * m.inverse_omega_h), h.sin_minus_angle, T(-o.X * h.versine));
   const T du = mul_add(T(-o.U), h.versine, T(-(m.omega_h * o.X) * h.sin));
   const T dx = mul_add(u0, t, dx2), u = u0 + du;
   const SmallTurn<T> d = small_turn(dx);
-  // and of Y and -W
+  // changes: of Y without its linear part, and of -W
   const T dY2 = mul_add(T(o.W * per), v.sin_minus_angle, T(-o.Y * v.versine));
   const T brake = mul_add(o.W, v.versine, T((m.omega_v * o.Y) * v.sin));
 

@@ -1,6 +1,6 @@
-// The first time after the start of a flight at which the gap is 0 and falling. No root is ever passed: every step is
-// bounded by the third derivative of the gap, and a root is finished only inside an interval where it is certified to
-// be the only one.
+// The first impact of a flight: the first time at which the gap is 0 and falling. docs/algorithm.md explains the search
+// and proves its lemmas. Guarantee: no impact is missed. Every step is shorter than the certified time without an
+// impact, and a root is finished inside an interval in which it is certified to be the only one.
 #pragma once
 
 #include "afm/detail/impact_steps.h"
@@ -11,33 +11,36 @@ namespace afm {
 
 enum class SearchOutcome {
   impact,     // found: `s` and `jet` are at the root
-  clear,      // certified free of impacts up to `s`: the horizon, or as far as many evaluations have come
-  undecided,  // a graze or a root that rounding hides; certified free up to `s`. More digits decide it
-  cap         // too many steps; certified free up to `s`
+  clear,      // certified free of impacts up to `s`, which is the horizon or where the evaluations ran out
+  undecided,  // a graze, or a root that rounding hides; certified free up to `s`. Double-double decides it (Lemma 7)
+  cap         // kMaxSearchSteps evaluations; certified free up to `s`
 };
 
 template <class T>
 struct Landing {
   SearchOutcome outcome;
   T s;
-  GapJet<T> jet;    // of an impact: incident state at `s`; g is what rounding left
-  int evaluations;  // of the gap
+  GapJet<T> jet;    // of an impact: the incident state at `s`; g is what rounding left
+  int evaluations;  // number of evaluations of the gap
 };
 
+// Evaluations in one search: a guard against an endless loop. The outcome `cap` is counted, and the tests demand that
+// it never occurs.
 constexpr int kMaxSearchSteps = 20000;
-// A flight without an impact is searched this far and then begun anew from there [tau].
+// A flight without an impact is searched so far and then restarted there [tau]. A choice: rare, and the turns stay
+// small.
 constexpr double kSearchHorizon = 8.0;
 
 namespace search_detail {
 
-// Rounding hides the root: the gap seems not to fall within the interval, or no step gets to the root.
+// Rounding hides the root: the gap seems not to fall within the interval, or no step reaches the root.
 template <class T>
 Landing<T> hidden_root(const Flight<T>& f, const T& s, const RootInterval<T>& root, int evaluations) {
   const T before = root.low < T(0.0) ? T(s + root.low) : s;
   return {SearchOutcome::undecided, before, f.gap(before), evaluations};
 }
 
-// Of a gap below its rounding at s: one step of Newton's to the root.
+// From a gap below its rounding at s: one Newton step to the root.
 template <class T>
 Landing<T> land(const Flight<T>& f, const T& s, const GapJet<T>& jet, int evaluations) {
   using std::abs;
@@ -48,15 +51,15 @@ Landing<T> land(const Flight<T>& f, const T& s, const GapJet<T>& jet, int evalua
   return {SearchOutcome::impact, s + step, f.gap_near(jet, s, step), evaluations + 1};
 }
 
-// Lemma 6: finishes the certified root about `jet`, of time s. Steps by series within the root's interval, which each
-// evaluation makes smaller; by halves where they would leave it.
+// Lemma 6: finishes the certified root near `jet`, the jet at time s. Each evaluation shrinks the interval of the root.
+// A step of the series that would leave the interval is replaced by bisection.
 template <class T>
 Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, int evaluations) {
   using std::abs;
-  constexpr int kMaxSteps = 60;  // by halves alone: every bit of a double
+  constexpr int kMaxFinishSteps = 60;  // bisection alone: 53 bits of a double, and a few for the exponent
   if (jet.g1 < T(0.0) && abs(jet.g) <= f.gap_error(s)) return land(f, s, jet, evaluations);
   T t(0.0), step = root.estimate, low = root.low, high = root.high;
-  for (int i = 0; i < kMaxSteps; ++i) {
+  for (int i = 0; i < kMaxFinishSteps; ++i) {
     jet = f.gap_near(jet, s + t, step);
     t = t + step;
     ++evaluations;
@@ -64,47 +67,50 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
     if (abs(jet.g) <= f.gap_error(s + t)) return land(f, s + t, jet, evaluations);
     step = root_step(f, jet);
     (jet.g > T(0.0) ? low : high) = t;
-    if (!(low <= t + step && t + step <= high)) step = (low + high) / T(2.0) - t;  // also where it is no number
+    if (!(low <= t + step && t + step <= high)) step = (low + high) / T(2.0) - t;  // also for NaN
   }
   return hidden_root(f, s, root, evaluations);
 }
 
-// Where the next evaluation goes, as a part of the certified step: it is to certify what lies behind itself too (Lemma 2),
-// and a step reaches as far backwards as forwards if the gap does not shrink. docs/history.md: what it saves.
-constexpr double kAhead = 0.8;
+// Lookahead as a part of the certified step. The next evaluation certifies the time behind itself too (Lemma 2), and
+// such a step reaches as far backwards as forwards if the gap does not shrink. Measured: docs/history.md, "evaluation
+// ahead".
+constexpr double kLookahead = 0.8;
 
-// Where to evaluate first below the crest: after a fall of 0.46 H at the greatest vertical speed. Most tips land later.
+// The lookahead below the crest: the time of a fall of 0.46 H at the greatest vertical speed. Most tips land later
+// (measured: docs/history.md, "its length below the crest").
 template <class T>
 T descent(const Flight<T>& f, const T& reach) {
   using std::min;
   const Mechanics<T>& m = f.mechanics();
-  return min(T(kAhead) * reach, T(0.46) * m.H / (m.omega_v * f.amplitude_Y()));
+  return min(T(kLookahead) * reach, T(0.46) * m.H / (m.omega_v * f.amplitude_Y()));
 }
 
-// What the loop carries: certified free of impacts up to s; the next evaluation is at s + ahead; the next trial step.
+// The state of the loop: certified free of impacts up to s; the next evaluation is at s + lookahead; the next trial
+// step is `trial`.
 template <class T>
 struct Progress {
-  T s, ahead, trial;
+  T s, lookahead, trial;
 };
 
-// Lemma 5, and Lemma 4 where it applies.
+// The certified time after a launch: Lemma 5, and Lemma 4 if the tip rises above the crest.
 template <class T>
 Progress<T> take_off(const Flight<T>& f) {
   using std::max;
   const T first = time_to_leave(f), aloft = time_above_crest_from_launch(f, first), trial = T(2.0) * first;
   if (aloft > first) return {aloft, descent(f, first), trial};
-  // where the root of the parabola is near, the impact is nearly there
+  // the parabola falls to zero soon: the impact is near its root
   const bool returns = f.start().g2 * first < T(-1.6) * f.start().g1;
-  if (!returns) return {first, T(kAhead) * first, trial};
+  if (!returns) return {first, T(kLookahead) * first, trial};
   const T parabola = T(-2.0) * f.start().g1 / f.start().g2;
   return {first, max(T(0.0), T(quartic_root(f, f.start(), parabola) - first)), trial};
 }
 
 }  // namespace search_detail
 
-// Searches from the start to the horizon, or from `from`, up to which the flight is known to be free of impacts. A flight
-// that starts on the surface falling is an impact at once; one that neither rises nor is released has no flight: contact
-// is the tip's affair. Each pass evaluates the gap, then finishes a certified root or goes on by a certified step.
+// Searches from `from` to the horizon [tau]. Precondition: no impact before `from`. A tip that starts on the surface
+// falling is an impact at once. A tip that neither rises nor is released has no flight; the caller treats it as
+// contact. Each pass evaluates the gap; then it finishes a certified root, or goes on by a certified step.
 template <class T>
 Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0.0)) {
   using std::min;
@@ -114,13 +120,13 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   if (on_surface) now = search_detail::take_off(f);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
     if (!(now.s < horizon)) return {SearchOutcome::clear, horizon, f.start(), evaluations - 1};
-    now.ahead = min(now.ahead, T(horizon - now.s));
-    const T p = now.s + now.ahead, error = f.gap_error(p);
+    now.lookahead = min(now.lookahead, T(horizon - now.s));
+    const T p = now.s + now.lookahead, error = f.gap_error(p);
     const GapJet<T> jet = p > T(0.0) ? f.gap(p) : f.start();
-    if (now.ahead > T(0.0) && !positive_behind(f, jet, error, now.ahead)) {
-      const RootInterval<T> behind = certify_root_behind(f, jet, error, now.ahead);
+    if (now.lookahead > T(0.0) && !positive_behind(f, jet, error, now.lookahead)) {
+      const RootInterval<T> behind = certify_root_behind(f, jet, error, now.lookahead);
       if (behind.certain) return search_detail::finish(f, p, jet, behind, evaluations);
-      now.ahead = T(0.0);
+      now.lookahead = T(0.0);
       continue;
     }
     now.s = p;
@@ -133,17 +139,17 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
     }
     const T step = safe_step(f, jet, error, now.trial);
     if (!(step > T(4.0) * epsilon<T>() * p)) return {SearchOutcome::undecided, p, jet, evaluations};
-    T ahead = step * T(search_detail::kAhead);
-    if (root.estimate > step) ahead = min(ahead, T(root.estimate - step));
-    now = {p + step, ahead, step * T(2.0)};
+    T lookahead = step * T(search_detail::kLookahead);
+    if (root.estimate > step) lookahead = min(lookahead, T(root.estimate - step));
+    now = {p + step, lookahead, step * T(2.0)};
   }
   return {SearchOutcome::cap, now.s, f.gap(now.s), kMaxSearchSteps};
 }
 
-// In double; where rounding leaves a graze or a root undecided, again in double-double from the same start (Lemma 7). So
-// an impact or a miss is what exact arithmetic on the given doubles says, down to 1e-30. What even double-double cannot
-// decide, or too many evaluations, is a touch where no gap is left, clear so far where 0.1 tau are certified, and `cap`
-// otherwise.
+// Searches in double precision. If rounding leaves the result undecided, the search is repeated in double-double from
+// the same start (Lemma 7). Guarantee: an impact or a miss is that of exact arithmetic on the given doubles, down to a
+// gap of 1e-30 a. If double-double cannot decide either, or the evaluations run out, the outcome is: an impact if no
+// gap is left, clear if at least 0.1 tau are certified, otherwise cap.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 
 }  // namespace afm

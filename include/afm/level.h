@@ -1,4 +1,5 @@
-// How much of the model is computed: from every bounce of the oscillator down to the hammer.
+// Levels of detail of the model, from the oscillator with every bounce (finest) to the hammer of the paper's section IX
+// (coarsest).
 #pragma once
 
 #include "model.h"
@@ -6,7 +7,7 @@
 
 namespace afm {
 
-// Hammer, oscillator with bursts and contact at a tolerance, oscillator with every bounce (tolerance 0).
+// The tolerance is that of Tip: 0 computes every bounce by itself.
 struct Level {
   ModelKind kind = ModelKind::oscillator;
   double contact_tolerance = kDefaultContactTolerance;
@@ -21,7 +22,7 @@ inline bool has_valid_tolerance(const Level& level) {
   return t == 0.0 || (t >= kMinContactTolerance && t <= kMaxContactTolerance);
 }
 
-// `model` as the level has it.
+// `model` with the kind of the level.
 inline Model at_level(Model model, const Level& level) {
   model.kind = level.kind;
   return model;

@@ -1,5 +1,5 @@
-// Which level of the model is the cheapest that a tolerance allows, from a table of measured errors over a grid of
-// parameters. The table is made by the program level_table.
+// Chooses the cheapest level of the model that a tolerance allows. It uses a table of measured errors over a grid of
+// parameters, which the program level_table makes.
 #pragma once
 
 #include <array>
@@ -13,49 +13,49 @@
 
 namespace afm {
 
-// What a tolerance is about: K_f, or the distribution of the vertical deflection (mean distance of equal quantiles over
-// its rms). Both relative.
+// The quantity that a tolerance limits: K_f, or the distribution of the vertical deflection. Both are relative errors;
+// of the distribution it is the mean distance of equal quantiles over its rms.
 enum class ToleranceOf : std::uint8_t { friction, deflection };
 bool parse(const std::string& name, ToleranceOf& of);  // "friction" or "deflection"; false where the name is neither
 
-// Against the finest level that was measured there. The cost is the time for a tau over that of the full model: the
-// oscillator at the default contact tolerance.
+// Errors against the finest level that was measured there. The cost is the time for a tau over that of the oscillator
+// at the default contact tolerance.
 struct LevelError {
   double friction, deflection, cost;
 };
 
 struct LevelChoice {
   Level level;
-  double expected_error;  // of what the tolerance is about; NaN: not known
+  double expected_error;  // of the quantity that the tolerance limits; NaN: unknown
 };
 
 class LevelTable {
  public:
-  static constexpr std::size_t kAxes = 6;  // |eta|, gamma, v_c, omega_h / omega_v, H, y0
-  static constexpr std::size_t kMostLevels = 8;
+  static constexpr std::size_t kAxes = 6;       // |eta|, gamma, v_c, omega_h / omega_v, H, y0
+  static constexpr std::size_t kMaxLevels = 8;  // room; config/levels.csv has 6
 
-  // Throws std::runtime_error that says which line is wrong, and why.
+  // Throws std::runtime_error, which names the wrong line and the reason.
   explicit LevelTable(std::istream& csv);
 
-  // The columns that it reads, in any order.
+  // The columns that a table must have, in any order.
   static const std::vector<std::string>& columns();
 
   const std::vector<Level>& levels() const { return levels_; }  // finest first
   std::size_t points() const { return points_; }
 
-  // The worst at the grid points around these parameters, or at the one that they are. False where one of them, or this
-  // level there, is not in the table: nothing is known. Allocates nothing.
+  // The worst errors at the grid points around these parameters. False if a level has no data at one of these points;
+  // then it is not used. No allocation.
   bool find(const Model& model, double eta, std::size_t level, LevelError& worst) const;
 
-  // The cheapest level whose error is below the tolerance; a coarser one must save a tenth. Where none is, the one with
-  // the least error; where nothing is known, `full`. Allocates nothing.
+  // The cheapest level whose error is below the tolerance; a coarser level must save a tenth. If no error is below it,
+  // the level with the smallest error. If no level has data, `full`. No allocation.
   LevelChoice choose(const Model& model, double eta, double tolerance, ToleranceOf of, const Level& full) const;
 
  private:
   using Point = std::array<double, kAxes>;
   struct Cell {
-    std::array<LevelError, kMostLevels> errors;
-    std::array<bool, kMostLevels> known{};
+    std::array<LevelError, kMaxLevels> errors;
+    std::array<bool, kMaxLevels> known{};
   };
   struct Row {
     Point point;

@@ -1,4 +1,5 @@
-// Which batch is due at a wall time, how late we are, what was missed. It reads no clock: the time is passed in.
+// Pacing of batches: which batch is due at a wall time, how late we are, and how many batches were late. It reads no
+// clock; the time is an argument.
 #pragma once
 
 #include <chrono>
@@ -13,12 +14,12 @@ class Pacer {
   // period: wall time between batches.
   Pacer(Duration period, Duration start);
 
-  Duration deadline() const;      // when the next batch is due: absolute, so that lateness never adds up
-  void batch_done(Duration now);  // the batch due at deadline() is complete
-  void resume(Duration now);      // after a pause: the time in between was not owed
-  void set_period(Duration period);  // of the batches after the next one, which stays due when it is
+  Duration deadline() const;         // when the next batch is due: an absolute time, so delays never add up
+  void batch_done(Duration now);     // the batch due at deadline() is complete
+  void resume(Duration now);         // after a pause, which counts as no delay
+  void set_period(Duration period);  // for the batches after the next one
 
-  double lag() const { return lag_; }              // [s] of the last batch behind the end of its period
+  double lag() const { return lag_; }              // [s] delay of the last batch behind the end of its period
   double worst_lag() const { return worst_lag_; }  // [s]
   std::uint64_t batches() const { return batches_; }
   std::uint64_t late_batches() const { return late_; }  // completed after the next one was due

@@ -1,5 +1,6 @@
-// The unit of account: what one stretch of the motion costs and stores. A segment lies within one phase of the motion
-// (flight, impact, chatter sequence, contact) and between two commands or kicks of the bath; a kick is one by itself. Natural units; the balance is that of Eq. 1-3.
+// Segment records, the unit of the energy balance (Eq. 1-3 of the paper; docs/algorithm.md, "Energy"). A segment lies
+// within one phase of motion (flight, impact, chatter sequence, contact) and between two commands or kicks of the bath.
+// A kick is a segment by itself. Guarantee: imbalance() is rounding.
 #pragma once
 
 #include <array>
@@ -23,10 +24,10 @@ struct Segment {
   std::uint64_t count = 0;  // impacts
 
   double work() const { return eta * impulse; }                       // of the drag [m a^2/tau^2]
-  double imbalance() const { return work() - loss - heat - stored; }  // zero but for rounding
+  double imbalance() const { return work() - loss - heat - stored; }  // zero except for rounding
 };
 
-// What one step of Tip::advance_arc() ends: an arc of the motion, and the impact or kick that ends it.
+// The records that one step of Tip::advance_segment() ends: a segment of motion, and the impact or kick at its end.
 class Segments {
  public:
   void clear() { size_ = 0; }
@@ -39,7 +40,7 @@ class Segments {
   std::size_t size_ = 0;
 };
 
-// Totals since an arc or a chatter sequence began; `energy`: stored at `time`.
+// Totals since the present segment began. `energy` is the stored energy at `time`.
 struct Account {
   ModelTime time;
   double impulse = 0.0, loss = 0.0, energy = 0.0;

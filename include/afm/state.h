@@ -1,4 +1,4 @@
-// Where the tip is and when: model time, states at the surface and in the air, the record of one impact.
+// Model time, the state of the tip, and the record of one impact. Natural units: a, tau, tip mass m.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace afm {
 
-// A time in whole tau and a phase in [0, 1): no digit is lost however long the run.
+// A time in whole tau and a phase in [0, 1): its resolution does not depend on the length of the run.
 struct ModelTime {
   std::int64_t tau = 0;
   double phase = 0.0;
@@ -21,7 +21,7 @@ inline ModelTime operator+(const ModelTime& t, double dt) {
   return {t.tau + static_cast<std::int64_t>(whole) + (carried ? 1 : 0), carried ? 0.0 : phase};
 }
 
-// b - a in tau; exact to an ulp of the difference.
+// b - a [tau], exact to an ulp of the difference.
 inline double operator-(const ModelTime& b, const ModelTime& a) {
   return static_cast<double>(b.tau - a.tau) + (b.phase - a.phase);
 }
@@ -32,11 +32,11 @@ inline bool operator<(const ModelTime& a, const ModelTime& b) {
 inline bool operator==(const ModelTime& a, const ModelTime& b) { return a.tau == b.tau && a.phase == b.phase; }
 inline bool operator<=(const ModelTime& a, const ModelTime& b) { return !(b < a); }
 
-// n * period without the rounding of a plain product: the time of the n-th sample.
+// The time of the n-th sample: n * period, rounded once. A plain product would lose the digits of its whole part.
 ModelTime multiply(std::uint64_t n, double period);
 
-// What the core carries. The height is implied by the gap, and gap and gap rate are carried rather than recomputed from
-// (y, u, w): near the surface they are small differences of large numbers and would be lost.
+// The state inside the core. It has the gap instead of the height, because near the surface the gap is a small
+// difference of large numbers: computed from (y, u, w) its digits would be lost.
 struct TipState {
   double phase = 0.0;  // surface phase x mod 1 [a], crest = 0
   double X = 0.0;      // extension x - xc [a]
@@ -45,7 +45,7 @@ struct TipState {
   double g1 = 0.0;     // gap rate w - h'(x) u [a/tau]; after an impact > 0
 };
 
-// The same in lab coordinates, for the border.
+// The same in lab coordinates, for users.
 struct FreeState {
   double phase = 0.0;  // [a], crest = 0
   double X = 0.0;      // extension x - xc [a]
@@ -59,7 +59,8 @@ enum class ImpactKind : std::uint8_t { impact = 0, burst = 1, contact_begun = 2,
 TipState to_tip_state(double H, const FreeState& state);
 FreeState to_free_state(double H, const TipState& state);
 
-// One entry of the impact log. Velocities are those before the impact; for a burst, of its first bounce.
+// One entry of the impact log. Velocities are those before the impact. A burst is the event of a whole chatter
+// sequence; its velocities are those before its first bounce.
 struct Impact {
   ModelTime time;
   double surface_phase = 0.0;        // [a] in [0, 1)
@@ -70,15 +71,15 @@ struct Impact {
   std::uint32_t count = 1;  // bounces it stands for
 };
 
-// How an advance ended. Trouble is data: it is counted and published, never thrown.
+// How an advance ended. Trouble is a value that is counted, not an exception.
 enum class Outcome : std::uint8_t {
   impact,        // the tip has just bounced; the record is the tip's last impact
   time_limit,    // the time asked for was reached first
-  flying,        // nothing has happened; the flight is certified free of impacts up to here and goes on
-  budget_spent,  // the budget of impacts ran out first: model time stands where it says
-  contact,       // a burst has died out and the tip slides
-  released,      // a slide has ended
-  search_failed  // the search gave up at a point that is certified free of impacts; it goes on from there
+  flying,        // no event: a segment has ended, and the motion goes on
+  budget_spent,  // the budget of impacts ran out before the time asked for
+  contact,       // contact has begun: the tip slides
+  released,      // contact has ended
+  search_failed  // the search failed at a time that is certified free of impacts; it goes on from there
 };
 
 }  // namespace afm

@@ -1,4 +1,4 @@
-// The mica surface h(x) = H cos(2 pi x), crest at x = 0 [a].
+// The mica surface h(x) = H cos(2 pi x) (paper, section V), crest at x = 0 [a].
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace afm {
 
-// Height and its derivatives by x at one phase.
+// Height [a] and its derivatives by x at one phase.
 template <class T>
 struct SurfaceJet {
   T h, h1, h2, h3;
@@ -30,7 +30,7 @@ T wrapped(const T& x) {
   const T phase = x - floor(x);
   return select(phase < T(1.0), phase, T(0.0));
 }
-// Most are there already: a predicted branch is faster than the rounding.
+// Most phases are in the interval already, and a predicted branch is faster than the rounding.
 AFM_INLINED double wrapped(double x) { return x > 0.0 && x < 1.0 ? x : wrapped<double>(x); }
 inline double wrap_phase(double x) { return wrapped(x); }
 

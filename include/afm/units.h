@@ -1,4 +1,4 @@
-// SI <-> natural units (a, tau, m): the only place that knows the size of a lattice cell.
+// SI <-> natural units (a, tau, m). Only this file knows the size of a lattice cell.
 #pragma once
 
 #include "bath.h"
@@ -6,7 +6,7 @@
 
 namespace afm {
 
-// The model as users give it. Defaults are the paper's values (section V).
+// The model in SI. Defaults are the paper's values (section V).
 struct SiModel {
   double omega_v_rad_per_s = 40e3;
   double omega_h_rad_per_s = 250e3;
@@ -21,7 +21,7 @@ struct SiModel {
 // Every fault, named as in SiModel and in SI.
 std::vector<ParameterError> find_faults(const SiModel& si);
 
-// The heat bath as users give it (bath.h); off by default.
+// The heat bath in SI (bath.h); off by default.
 struct SiBath {
   double temperature_k = 0.0;
   double quality_factor = 0.0;
@@ -30,7 +30,7 @@ struct SiBath {
   std::uint64_t seed = Bath{}.seed;
 };
 
-constexpr double kBoltzmann = 1.380649e-23;  // [J/K], exact
+constexpr double kBoltzmann = 1.380649e-23;  // [J/K] exact by the definition of the kelvin
 
 // Factors from natural units to SI: value_si = value * factor.
 class Units {

@@ -6,7 +6,7 @@ namespace afm {
 
 std::vector<ParameterError> find_faults(const SiModel& si) {
   std::vector<ParameterError> faults;
-  // wide enough for any unit of anything, and no product of units overflows
+  // wide enough for every real tip, and no product of units overflows
   const auto require_scale = [&](const char* name, double value) {
     if (!(value >= 1e-40 && value <= 1e40))
       faults.emplace_back(name, value, "must be positive, between 1e-40 and 1e40");
@@ -23,7 +23,7 @@ std::vector<ParameterError> find_faults(const SiModel& si) {
     if (fault.name == "v_c") return faults.emplace_back("cutoff_speed", si.cutoff_speed, fault.reason);
     return faults.emplace_back("omega_h_rad_per_s", si.omega_h_rad_per_s, fault.reason);
   };
-  // without scales the rest cannot be judged in cells and tau: judge it against mica's, so that it is judged at all
+  // if a scale is faulty, check the other parameters with mica's scales, so that all faults are reported at once
   const SiModel mica;
   SiModel judged = si;
   if (!scaled) {

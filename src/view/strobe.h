@@ -1,5 +1,5 @@
 // How a picture a thirtieth of a second shows a motion that may be thousands of times faster. Where the eye can follow,
-// the picture goes with the harmonic centre. Where a picture would be more than half a cell behind the next, and the
+// the picture goes with the holder. Where a picture would be more than half a cell behind the next, and the
 // surface seem to run backwards like the spokes of a wheel in a film, each shows the moment at which the centre was
 // last over a crest: the surface stands still, a periodic orbit does too, and a chaotic one is a cloud.
 #pragma once
@@ -16,7 +16,7 @@ class Strobe {
   bool frozen() const { return frozen_; }       // the surface stands still
   bool too_fast() const { return too_fast_; }   // a picture shows a part of the motion only
   ModelTime moment() const { return moment_; }  // that is shown
-  // Where the harmonic centre is at that moment [a]; on a frozen surface the crest below it.
+  // Where the holder is at that moment [a]; on a frozen surface the crest below it.
   double origin() const { return origin_; }
 
  private:

@@ -18,7 +18,7 @@ namespace afm::view {
 struct Sample {
   std::uint64_t index = 0;
   ModelTime time;
-  double X = 0.0, Y = 0.0;  // tip minus harmonic centre [a]
+  double X = 0.0, Y = 0.0;  // tip minus holder [a]
 };
 
 struct Event {

@@ -66,7 +66,7 @@ TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
       {"H", &Model::H, kMinAmplitude, kMinAmplitude * 0.999},
       {"H", &Model::H, kMaxAmplitude, kMaxAmplitude * 1.001},
       {"y0", &Model::y0, H * 0.999, H},
-      {"y0", &Model::y0, kLowestRest, kLowestRest * 1.001},
+      {"y0", &Model::y0, kMinRestHeight, kMinRestHeight * 1.001},
       {"gamma", &Model::gamma, 0.0, -1e-9},
       {"gamma", &Model::gamma, 1.0, 1.0 + 1e-9},
       {"v_c", &Model::v_c, 0.0, -1e-9},

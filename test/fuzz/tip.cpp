@@ -21,7 +21,7 @@ afm::Model model_of(Bytes& bytes) {
   m.v_c = bytes.within(0.0, 10.0);
   // flatter ones may be run, but there the rounding of places as parts of a cell tells in the (tiny) energy
   if (bytes.below(4) == 0) m.H = bytes.within(1e-3, afm::kMaxAmplitude);
-  if (bytes.below(4) == 0) m.y0 = bytes.within(afm::kLowestRest, m.H);
+  if (bytes.below(4) == 0) m.y0 = bytes.within(afm::kMinRestHeight, m.H);
   if (bytes.below(4) == 0) m.frequency_ratio = bytes.within(afm::kMinFrequencyRatio, afm::kMaxFrequencyRatio);
   return m;
 }

@@ -83,14 +83,14 @@ class Told:
         return [m for m in topic.messages if m.epoch == self.epoch]
 
     def last_sample(self):
-        """Its time, and the tip's place from the harmonic centre [a]."""
+        """Its time, and the tip's place from the holder [a]."""
         batch = self.batches[-1]
         time = type(batch.time)(batch.time.tau, batch.time.phase)
         time.phase += (len(batch.vertical) - 1) * self.configuration.sample_period_tau
         return time, batch.lateral[-1] / LATTICE, batch.vertical[-1] / LATTICE
 
     def height(self, time):
-        """Of the harmonic centre [a]."""
+        """Of the holder [a]."""
         return [m.rest_height_m for m in self.changes if key(m.time) <= key(time)][-1] / LATTICE
 
     def centre(self, time):

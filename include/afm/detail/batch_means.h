@@ -1,4 +1,4 @@
-// The standard error of a time average, from the sums over equal consecutive batches of time.
+// The standard error of a time average from the sums over equal consecutive batches of time (method of batch means).
 #pragma once
 
 #include <cstddef>
@@ -6,18 +6,18 @@
 
 namespace afm {
 
-// `std_error` is such that mean +- 1.96 std_error holds the true mean 95 times in 100: Student's t for the `degrees` of
-// freedom that the estimate of the spread had is already in it.
+// mean +- 1.96 std_error holds the true mean 95 times in 100. std_error includes the factor of Student's t for
+// `degrees` of freedom.
 struct MeanError {
-  double std_error;     // of the mean of the batches; NaN below kFewestBatches or for sums that are not finite
+  double std_error;     // of the mean of the batches; NaN with fewer than kMinBatches or sums that are not finite
   double degrees;       // of freedom, effective
-  std::size_t batches;  // used: neighbours are merged until they are no longer correlated
+  std::size_t batches;  // used, after neighbours were merged until they are uncorrelated
 };
 
-constexpr std::size_t kFewestBatches = 16;
+constexpr std::size_t kMinBatches = 16;  // a choice: Student's t of 16/3 degrees widens the error by 1.29
 
-// Of a stationary process whose memory is short against the whole. What is left of the correlation of neighbours after
-// merging is allowed for: batches of length L err by 1/L, and 2 S(L) - S(L/2) does not (lugsail batch means).
+// Precondition: a stationary process whose memory is short against the whole. Batches of length L leave an error of
+// order 1/L from the correlation of neighbours; 2 S(L) - S(L/2) removes it (lugsail batch means).
 MeanError mean_error(std::vector<double> batches);
 
 // Quantile 0.975 of Student's t over that of the normal distribution, 1.959964; within 2e-3 from 2 degrees on.

@@ -1,13 +1,15 @@
-// How a tip that bounces quickly under a pressing surface changes on average: the flow that passes through its bounces.
+// The averaged law of chatter: the flow that passes through the bounces of a tip under a pressing surface
+// (docs/algorithm.md, "Chatter"; docs/derive_chatter_law.py derives the series).
 //
-// At the distance rho from the surface, s along it: rho'' = -P - K rho while it flies, with the reaction P of the slide
-// that it would make instead (its reference slide). A bounce of normal speed v lasts 2 v/P and keeps the action
-// v^3/P (1 - K v^2 / 5 P^2); it ends in v -> v (1 - w), w = (1 - gamma) v / v_c, at and above the cutoff in
-// v -> gamma v. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P T(w), so
+// At the distance rho from the surface the tip obeys rho'' = -P - K rho while it flies. P is the reaction along the
+// reference slide, the slide that the tip would make without bouncing. A bounce of normal speed v lasts 2 v/P and keeps
+// the action v^3/P (1 - K v^2 / 5 P^2). The impact at its end takes v to v (1 - w). Below the cutoff w = (1 - gamma) v
+// / v_c; at and above it w = 1 - gamma. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P
+// T(w), so
 //   dv/dt = -(P/2) w R(w) + v P'/(3 P T(w)) (1 - w^2 S(w)),   R = G/T.
-// While it bounces the tip is off its reference slide by sigma, as the forces differ at its mean height v^2/(3 P), and this
-// changes P. Kept are all terms of the third order of w and of a bounce's duration against every change, by computer
-// algebra (docs/derive_chatter_law.py); of what moves it off the reference slide, and without a cutoff, those of the second.
+// At the mean height v^2/(3 P) of a bounce the forces differ from those on the reference slide. So the tip is displaced
+// from it by sigma, which changes P. We keep all terms up to the third order of w and of a bounce's duration against
+// every change. Of the displacement, and without a cutoff, we keep the second order.
 #pragma once
 
 #include "chatter_geometry.h"
@@ -16,89 +18,81 @@ namespace afm {
 
 template <class T>
 struct ChatterOf {
-  T v;               // normal speed after a bounce [a/tau]
-  T n;               // bounces since the burst began; whole at a bounce
-  T sigma = T(0.0);  // at a bounce: from the guide, along the surface [a]
-  T p = T(0.0);      // and faster along it [a/tau]
-  T drift = T(0.0);  // time integral of how far x is from the guide's, bounces and all [a tau]
-  T lift = T(0.0);   // energy that the holder of a held tip has given the bounces: of the gap times P' [m a^2/tau^2]
+  T v;                   // normal speed after a bounce [a/tau]
+  T n;                   // bounces since the sequence began; whole at a bounce
+  T sigma = T(0.0);      // displacement from the reference slide along the surface, at a bounce [a]
+  T p = T(0.0);          // speed along the surface beyond that of the reference slide [a/tau]
+  T drift = T(0.0);      // time integral of x minus that of the reference slide, bounces included [a tau]
+  T held_work = T(0.0);  // hammer: energy from the holder to the bounces, the integral of rho P' [m a^2/tau^2]
 };
 using Chatter = ChatterOf<double>;
 
-// The same in variables that change evenly, so that an integrator can take long steps: with a cutoff v falls and n
-// grows like exponentials of each other, n = rest + v_c / ((1 - gamma) v), and x = ln v; where v hardly falls in a step
-// but with the pressure, n = rest. Without a cutoff v falls evenly, x = v, and n goes like its logarithm.
+// The same in variables whose rates change slowly, so that the integrator can take long steps. With a cutoff v falls
+// and n grows exponentially: x = ln v, and n = rest + v_c / ((1 - gamma) v). If v hardly falls in a step, n = rest.
+// Without a cutoff v falls linearly: x = v, and n = rest - log(v) over a constant.
 template <class T>
 struct SmoothChatterOf {
-  T x, rest, sigma, p, drift, lift;
+  T x, rest, sigma, p, drift, held_work;
 };
 using SmoothChatter = SmoothChatterOf<double>;
 
 template <class T>
 SmoothChatterOf<T> operator+(const SmoothChatterOf<T>& a, const SmoothChatterOf<T>& b) {
-  return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift, a.lift + b.lift};
+  return {a.x + b.x, a.rest + b.rest, a.sigma + b.sigma, a.p + b.p, a.drift + b.drift, a.held_work + b.held_work};
 }
 template <class T>
 SmoothChatterOf<T> operator*(const T& k, const SmoothChatterOf<T>& c) {
-  return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift, k * c.lift};
+  return {k * c.x, k * c.rest, k * c.sigma, k * c.p, k * c.drift, k * c.held_work};
 }
 
-// On the way along the reference slide.
-struct ChatterPlace {
-  double s;  // time of the guide
-  ChatterSurroundings around;
-  SmoothChatter even, rate;
-  Chatter plain;
-  double part;  // times 1/v, of n: what `even` and `rate` are without
+// One point of the integration.
+struct ChatterPoint {
+  double s;  // time since the start of the reference slide [tau]
+  ChatterSurroundings surroundings;
+  SmoothChatter smooth, rate;  // the variables and their time derivatives
+  Chatter chatter;
+  double n_per_inverse_v;  // the part of n that is proportional to 1/v and not in `smooth.rest`
 };
 
 // How long a bounce lasts there [tau].
-inline double duration(const ChatterPlace& at) { return 2.0 * at.plain.v * at.around.inverse_P; }
+inline double duration(const ChatterPoint& at) { return 2.0 * at.chatter.v * at.surroundings.inverse_P; }
 
-// What the rates ask of a model.
+// The constants of a model that the rates use.
 struct ChatterFlow {
-  bool geometric, held;  // without regard to the cutoff; along x
+  bool geometric;        // without a cutoff: every bounce loses the same part of v
+  bool is_held_along_x;  // the hammer
   double gamma;
-  double loss;          // (1 - gamma) / v_c
-  double even;          // n's part in v: 1 / loss, or 1 / -log(gamma)
-  double inverse_mean;  // (1 - gamma) / -log(gamma): mean of a bounce's v over its first
+  double loss;             // w/v: (1 - gamma) / v_c [tau/a]; 0 without a cutoff
+  double n_per_inverse_v;  // with a cutoff 1 / loss; without one 1 / -log(gamma); 0 if v hardly falls
+  double inverse_mean;     // (1 - gamma) / -log(gamma): mean v of a bounce over its first
 };
 
 class ChatterRates {
  public:
-  // geometric: without regard to the cutoff, as if it were 0
+  // geometric: without regard to the cutoff, as if it were 0.
   ChatterRates(const Model& model, bool geometric);
 
-  ChatterSurroundings surroundings(const Flight<double>& bounce) const;
-  ChatterSurroundings surroundings(const SlideSegment<double>& reference, double s) const;
-  bool certainly_outlasts(const Flight<double>& bounce, double part) const;  // as ChatterView
+  ChatterPoint begin(const SlideSegment<double>& reference, double s, const Chatter& start) const;
+  // Over dt, by Lobatto's method of order 8 with three iterations. After a step that is too long the result may be NaN.
+  ChatterPoint step(const SlideSegment<double>& reference, const ChatterPoint& from, double dt) const;
+  // Over at most two bounces, forwards or backwards, by the mean of two rates: second order.
+  ChatterPoint brief_step(const SlideSegment<double>& reference, const ChatterPoint& from, double dt) const;
+  // Over so short a time that the rates are constant.
+  Chatter after(const ChatterPoint& from, double dt) const;
 
-  ChatterPlace begin(const SlideSegment<double>& reference, double s, const Chatter& start) const;
-  // Over dt, by Lobatto's method of order 8, its equations solved by iteration. Where it goes too far the numbers may
-  // be none.
-  ChatterPlace step(const SlideSegment<double>& reference, const ChatterPlace& from, double dt) const;
-  // The same over no more than a bounce or two, forwards or back, by the mean of two rates: good to the second order.
-  ChatterPlace brief_step(const SlideSegment<double>& reference, const ChatterPlace& from, double dt) const;
-  // By so little that what the rates change by in it is nothing.
-  Chatter after(const ChatterPlace& from, double dt) const;
-
-  // The time in which v falls by the factor e, or, evenly, to nothing, through the losses alone [tau].
+  // The time in which v falls by the factor e, or without a cutoff to zero, by the losses alone [tau].
   double fall_time(const ChatterSurroundings& at, double v) const;
-  double x_of(double v) const;  // where nothing is off the guide
-
-  double loss(double v) const { return flow_.loss * v; }  // w
+  double x_of(double v) const;                            // if the tip is on the reference slide
+  double loss(double v) const { return flow_.loss * v; }  // w, with a cutoff
   const ChatterFlow& flow() const { return flow_; }
-  const ChatterGeometry& view() const { return view_; }
-  bool held() const { return view_.held(); }
+  const ChatterGeometry& geometry() const { return geometry_; }
 
  private:
-  void take_part(double more, SmoothChatter& even, SmoothChatter& rate) const;
-
-  ChatterGeometry view_;
+  ChatterGeometry geometry_;
   ChatterFlow flow_;
 };
 
-// The guide with what the chatter has moved it by.
+// The reference slide, displaced by what the chatter has moved the tip.
 SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
 
 }  // namespace afm

@@ -1,5 +1,6 @@
-// A number as the unevaluated sum of two doubles, about 31 digits: decides the grazes that rounding hides in double.
-// Correct to a few units of 2^-104; slow, and used only where it decides something.
+// Double-double: a number as the unevaluated sum of two doubles, with about 31 digits and errors of a few units of
+// 2^-104. It decides grazes that rounding hides in double (Lemma 7 of docs/algorithm.md). It is slow, so it is used
+// only there.
 #pragma once
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace afm {
 class DoubleDouble {
  public:
   DoubleDouble() = default;
-  DoubleDouble(double value) : high_(value) {}  // NOLINT: every double is one
+  DoubleDouble(double value) : high_(value) {}  // NOLINT: implicit, as every double is one
   DoubleDouble(double high, double low) : high_(high), low_(low) {}
 
   explicit operator double() const { return high_; }

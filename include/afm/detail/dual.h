@@ -1,4 +1,5 @@
-// Numbers that carry their derivatives by N variables: the core's templates, run with them, give exact Jacobians.
+// Dual numbers: values with their derivatives by N variables. The templates of the core, run with them, give exact
+// Jacobians.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Where a polynomial first falls to zero. Its Bernstein coefficients on an interval enclose it there: where their sign
-// does not change it has no root, and where it changes once, one (Descartes' rule of signs). Anything else is halved.
+// The first zero of a polynomial. Its Bernstein coefficients on an interval enclose it there. If their sign does not
+// change, it has no root; if it changes once, exactly one (Descartes' rule of signs). Otherwise the interval is halved.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ constexpr std::array<double, kSlideOrder + 1> inverse_binomials() {
 }
 constexpr std::array<double, kSlideOrder + 1> kInverseBinomial = inverse_binomials();
 
-// On [0, length]: by Pascal's triangle from what the terms come to there.
+// The coefficients on [0, length], by Pascal's triangle.
 template <class T>
 Series<T> bernstein_coefficients(const Series<T>& powers, const T& length) {
   Series<T> b{};
@@ -40,7 +40,7 @@ Series<T> bernstein_coefficients(const Series<T>& powers, const T& length) {
   return b;
 }
 
-// Those of the second half, and in their place those of the first.
+// Returns the coefficients of the second half of the interval; b becomes those of the first half (de Casteljau).
 template <class T>
 Series<T> split_off_half(Series<T>& b) {
   Series<T> last = b;
@@ -51,10 +51,11 @@ Series<T> split_off_half(Series<T>& b) {
   return last;
 }
 
-// [low, high] has the first root and no other, or is too short to tell; it is near `guess`. Without one: low > high.
+// [low, high] holds the first root and no other, or is too short to decide; `estimate` is near the root. No root: low >
+// high.
 template <class T>
 struct FallInterval {
-  T low, high, guess;
+  T low, high, estimate;
 };
 
 template <class T>
@@ -79,19 +80,20 @@ FallInterval<T> first_fall_within(Series<T> b, const T& low, const T& width, int
 
 }  // namespace fall_detail
 
-// First time in [0, length] at which the polynomial, positive at 0, has fallen to zero: there it is no more than
-// `tolerance` from it. Negative where it does not fall so far. A touch within its rounding is a fall or none.
+// The first time in [0, length] at which the polynomial is within `tolerance` of zero. Negative if it does not fall so
+// far. Precondition: it is positive at 0. A double root within rounding may count as a root or not.
 template <class T>
 T first_fall(const Series<T>& polynomial, const T& length, const T& tolerance) {
   using std::abs;
-  constexpr int kMostHalvings = 40, kMostSteps = 200;  // Newton's: by halves where they would leave the interval
+  constexpr int kMaxHalvings = 40;      // down to 1e-12 of the length, below the time resolution of a release
+  constexpr int kMaxNewtonSteps = 200;  // bisection replaces a step that would leave the interval
   const Series<T> b = fall_detail::bernstein_coefficients(polynomial, length);
-  auto [low, high, s] = fall_detail::first_fall_within(b, T(0.0), length, kMostHalvings);
+  auto [low, high, s] = fall_detail::first_fall_within(b, T(0.0), length, kMaxHalvings);
   if (low > high) return T(-1.0);
   Series<T> slope{};
 #pragma GCC unroll 32
   for (std::size_t k = kSlideOrder; k >= 1; --k) slope[k - 1] = polynomial[k] * T(static_cast<double>(k));
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxNewtonSteps; ++i) {
     const T p = horner(polynomial, s);
     if (abs(p) <= tolerance) break;
     (p > T(0.0) ? low : high) = s;

@@ -1,4 +1,4 @@
-// What a flight cannot exceed, from its start alone.
+// Bounds of a whole flight from its start (Lemma 1 of docs/algorithm.md).
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct FlightState {
   T phase, X, U, Y, W;
 };
 
-// Lemma 1 of docs/algorithm.md: bounds that hold for a whole flight, a little more than needed.
+// Guarantee: they hold for the whole flight, and exceed the exact bounds by little.
 template <class T>
 struct FlightBounds {
   T X, Y;                   // of |X| and |Y| [a]
@@ -22,7 +22,7 @@ struct FlightBounds {
   T fastest;                // of the turns of springs and surface phase [1/tau]
 };
 
-// |(x, y)| from above, by at most a twelfth.
+// An upper bound of |(x, y)|, too large by at most a twelfth: the chord of the octagon, sqrt(2) - 1.
 template <class T>
 T length_bound(const T& x, const T& y) {
   using std::abs;
@@ -32,9 +32,9 @@ T length_bound(const T& x, const T& y) {
   return max(a, b) + T(0.41422) * min(a, b);
 }
 
-// From the state at the start. g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x''', and once more. U and x'' are a sine and a
-// cosine of one angle: u x'' is at most (|eta| + U/2) a, and u^2 x'' at most (eta^2 + |eta| U + 0.385 U^2) a, with the
-// largest U and a = |x''|.
+// g''' = y''' - h''' u^3 - 3 h'' u x'' - h' x''', and its derivative. U and x'' are sine and cosine of one angle. So u
+// x'' is at most (|eta| + U/2) a, and u^2 x'' at most (eta^2 + |eta| U + 0.385 U^2) a, with the largest U and a =
+// |x''|. 0.385 = 2/sqrt(27) is the maximum of sin^2 cos.
 template <class T>
 void bound_flight(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, FlightBounds<T>& b) {
   using std::abs;
@@ -51,8 +51,8 @@ void bound_flight(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, 
   b.fastest = max(max(T(1.0), m.ratio), u);
 }
 
-// The fourth derivative within S of a state only: u and x'' change by no more than |x''| S. A spring that is stretched far
-// holds a tip that turns there far below the speeds of its whole flight.
+// The fourth derivative within the time S of a state: u changes by at most |x''| S, and |X| by at most
+// omega_h Xm S (Lemma 1).
 template <class T>
 T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState<T>& now, const FlightBounds<T>& b,
                           const T& S) {

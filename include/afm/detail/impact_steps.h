@@ -1,5 +1,5 @@
-// The steps of the impact search: how far the gap is certainly positive, and where it certainly has one root. The lemmas
-// are those of docs/algorithm.md.
+// The steps of the impact search: the time for which the gap is certainly positive, and intervals that certainly hold
+// one root. The lemmas are those of docs/algorithm.md.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace afm {
 
-// x within [low, high]; `low` if x is no number.
+// x within [low, high]; `low` if x is NaN.
 template <class T>
 T clamp(const T& x, const T& low, const T& high) {
   if (!(x > low)) return low;
@@ -41,9 +41,9 @@ T first_root(const T& g, const T& g1, const T& q, const T& none) {
   return q < T(0.0) ? T((g1 + sqrt(discriminant)) / (-q)) : none;
 }
 
-// Lemma 2: a step over which the gap is certainly positive. On [0, S] the gap is at least g - error + g1 t + (g2 + low
-// S/3) t^2/2. Any trial step S is safe; a good one lies just beyond the root that it gives. No step is possible from a
-// gap that is half rounding, so every step changes the gap by more than its rounding and the search ends.
+// Lemma 2: a step over which the gap is certainly positive. On [0, S] it is at least g - error + g1 t + (g2 + low S/3)
+// t^2/2. Every trial step S is safe; a good one lies just beyond the root of this parabola. From a gap below twice its
+// rounding the step is zero. So every step changes the gap by more than its rounding, and the search ends.
 template <class T>
 T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& trial) {
   using std::min;
@@ -61,11 +61,12 @@ bool positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, c
   if (!(g > T(0.0))) return false;
   const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
   const T q = jet.g2 - over(T(high * back), 3.0), end = g + back * (q * back / T(2.0) - jet.g1);
-  // a parabola that opens downwards has its least value at an end; another may dip in between
+  // a parabola that opens downwards has its minimum at an end; otherwise the minimum may lie in between
   return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
 }
 
-// Lemma 3: an interval [low, high] about the present time on which the gap falls throughout, from positive to negative.
+// Lemma 3: an interval [low, high], relative to the time of the evaluation, in which the gap falls from positive to
+// negative.
 template <class T>
 struct RootInterval {
   bool certain;
@@ -83,7 +84,7 @@ T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
   return mul_add(jet.h, bend, mul_add(T(jet.h1 * x2), mul_add(T(6.0), v2, wh2), T(wv2 * wv2 * q.Y)));
 }
 
-// The root of the gap's series to the fourth order near that of the parabola, `t`: one step of Newton's.
+// The root of the gap's series to the fourth order, by one Newton step from the root `t` of the parabola.
 template <class T>
 T quartic_root(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   const T g4 = fourth_derivative(f, jet);
@@ -96,7 +97,8 @@ RootInterval<T> no_root() {
   return {false, T(0.0), T(0.0), T(0.0)};
 }
 
-// Lemma 3, ahead of a gap that is positive but for its rounding.
+// Lemma 3, ahead of a gap that is positive or within rounding. The interval is 1.25 times as long as the root of the
+// parabola, plus four times the time that the rounding is worth.
 template <class T>
 RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& error) {
   using std::max;
@@ -122,9 +124,9 @@ RootInterval<T> certify_root_behind(const Flight<T>& f, const GapJet<T>& jet, co
   return {slope < T(0.0), clamp(quartic_root(f, jet, t), T(-back), T(0.0)), T(-back), T(0.0)};
 }
 
-// Lemma 5: leaving the surface, the gap is at least g1 s + g2 s^2/2 - bound3 s^3/6 and positive up to the root of that. We
-// take a little less, so that a bounce whose root it nearly is still has a gap to be seen. Where gap rate and
-// acceleration are zero, as at the end of contact, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
+// Lemma 5: on leaving the surface the gap is at least g1 s + g2 s^2/2 - bound3 s^3/6, which is positive up to its root.
+// We use 0.999 of that, so that a gap is left for the next evaluation. If gap rate and acceleration are zero, as at the
+// end of contact, the third derivative decides: g3 s^3/6 - bound4 s^4/24.
 template <class T>
 T time_to_leave(const Flight<T>& f) {
   using std::max;
@@ -136,22 +138,22 @@ T time_to_leave(const Flight<T>& f) {
   return max(b > T(0.0) ? first : T(0.0), T(T(3.0) * f.start().g3 / f.fourth_derivative_bound()));
 }
 
-// angle / 2 pi of the point (x, y), y > 0, within 3e-6.
+// The angle of the point (x, y) in turns, y > 0, with an error below 3e-6.
 inline double rough_turn(double x, double y) {
   const double ax = std::abs(x), t = y > ax ? ax / y : y / ax, z = t * t;
-  // Hastings' polynomial of the arctangent, |error| < 1e-5 rad
+  // Hastings' polynomial of the arctangent, |error| < 1e-5 rad (Abramowitz and Stegun, 4.4.47)
   const double low = std::fma(z, -0.3302995 / kTwoPi, 0.9998660 / kTwoPi);
   const double high = std::fma(z, std::fma(z, 0.0208351 / kTwoPi, -0.0851330 / kTwoPi), 0.1801410 / kTwoPi);
   const double part = t * std::fma(z * z, high, low), turn = y > ax ? 0.25 - part : part;
   return x < 0.0 ? 0.5 - turn : turn;
 }
 
-// Lemma 4: how long the tip needs from here over its top and down to the crest, less a margin; 0 where that is not worth
-// a step. In double, whatever the digits of the flight.
+// Lemma 4: the time that the tip needs from here over its top and down to the crest, less a margin [tau]. 0 if that is
+// not worth a step. In double for every number type.
 template <class T>
 T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
-  constexpr double kMargin = 1e-5;      // [tau]: three times the error of rough_turn
-  constexpr double kWorthwhile = 1e-3;  // [tau]
+  constexpr double kMargin = 1e-5;   // [tau] three times the error of rough_turn
+  constexpr double kMinStep = 1e-3;  // [tau] a choice: a hundred margins
   const double crest = static_cast<double>(T(f.mechanics().H - f.mechanics().y0));
   const double Y = static_cast<double>(q.Y), V = static_cast<double>(T(q.W * f.mechanics().inverse_omega_v));
   // turn from now to the top plus from the top down to the crest: the angle of a product of two complex numbers
@@ -159,16 +161,17 @@ T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
   const double sine = std::fma(Y, Q, V * crest);
   if (!(sine > 0.0)) return T(0.0);
   const double down = rough_turn(std::fma(-V, Q, Y * crest), sine) - kMargin;
-  return T(down > kWorthwhile ? down : 0.0);
+  return T(down > kMinStep ? down : 0.0);
 }
 
-// Lemma 4, for a tip above the crest; otherwise 0.
+// Lemma 4 for a tip above the crest; otherwise 0.
 template <class T>
 T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
   return q.Y > f.mechanics().H - f.mechanics().y0 ? time_to_crest(f, q) : T(0.0);
 }
 
-// Lemma 4, from the surface: the tip has left it up to `s` (Lemma 5), and is certainly above the crest at `s`.
+// Lemma 4 from a launch, if the tip is certainly above the crest at `s`; otherwise 0. Precondition: it is certified up
+// to `s`.
 template <class T>
 T time_above_crest_from_launch(const Flight<T>& f, const T& s) {
   const Mechanics<T>& m = f.mechanics();

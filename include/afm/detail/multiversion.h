@@ -1,9 +1,10 @@
-// The hot functions are compiled twice, for machines with fused multiply-add and without, and chosen when the program
-// is loaded. The fused operations are written out, so both give the same bits; without the instruction it is only
-// slower. Clang cannot clone what it flattens: there the options of the build decide (-mfma, -march=native).
+// The hot functions are compiled twice, for machines with and without fused multiply-add; the loader chooses one. Fused
+// operations are written out, so both versions give the same bits. Clang cannot clone flattened functions: there the
+// options of the build decide (-mfma, -march=native).
 //
-// What such a function calls must be inlined into it, or it is the version without that runs, each fused multiply-add a
-// call of the C library: templates are by themselves, other functions where they are marked.
+// A function that such a function calls must be inlined into it. Otherwise the version without the instruction runs,
+// and each fused multiply-add is a call of the C library. Templates are inlined by themselves, other functions with
+// AFM_INLINED.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \

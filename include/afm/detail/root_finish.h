@@ -1,12 +1,11 @@
-// The last of an impact search: from an evaluation near a certified root to the root itself (Lemma 6 of
-// docs/algorithm.md).
+// The finish of an impact search: from an evaluation near a certified root to the root (Lemma 6 of docs/algorithm.md).
 #pragma once
 
 #include "impact_steps.h"
 
 namespace afm {
 
-// The step to the root near by, by the series of the inverse function to the fourth order:
+// The step to a root nearby, by the series of the inverse function to the fourth order:
 // -r (1 + s2 + (2 s2^2 - s3) + (5 s2^3 - 5 s2 s3 + s4)), r = g/g1, sn = gn/(n! g1) r^(n-1).
 template <class T>
 T root_step(const Flight<T>& f, const GapJet<T>& jet) {
@@ -17,7 +16,7 @@ T root_step(const Flight<T>& f, const GapJet<T>& jet) {
   return -r * mul_add(w, mul_add(T(5.0), s2, T(1.0)), sum);
 }
 
-// The jet a step t later, to the second order. Precondition: t^2 is below the rounding of the state.
+// The jet at a time t later, to the first order in each member. Precondition: t^2 is below the rounding of the state.
 template <class T>
 GapJet<T> nudged(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   const Mechanics<T>& m = f.mechanics();

@@ -1,4 +1,4 @@
-// When samples are taken: evenly from an origin on. A new sample rate begins a new grid.
+// The times of samples (and of kicks): equally spaced from an origin on. A new sample period begins a new grid.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace afm {
 
-// No run gets so far; a difference of two such times is still a number of tau.
+// Later than the end of every run. A difference of two such times still fits in 64 bits.
 constexpr ModelTime kEndOfTime{std::int64_t{1} << 60, 0.0};
 
 struct SampleGrid {
@@ -15,14 +15,14 @@ struct SampleGrid {
   std::uint64_t first = 0;  // running index of the sample at the origin
   ModelTime origin;
 
-  // Of the n-th sample, n >= first; from an origin at 0 to the bits of multiply().
+  // The time of the n-th sample. Precondition: n >= first. From an origin at 0 it has the bits of multiply().
   ModelTime time(std::uint64_t n) const {
     const ModelTime since = multiply(n - first, period);
     const double phase = origin.phase + since.phase;
     return phase < 1.0 ? ModelTime{origin.tau + since.tau, phase} : ModelTime{origin.tau + since.tau + 1, phase - 1.0};
   }
 
-  // The same for any number at all, such as one that was read somewhere; what is not on the grid is at the end of time.
+  // The same without a precondition, for numbers read from elsewhere: kEndOfTime for a sample that is not on the grid.
   ModelTime time_or_end(std::uint64_t n) const {
     const bool reached =
         n >= first && static_cast<double>(n - first) * period < 0.5 * static_cast<double>(kEndOfTime.tau);

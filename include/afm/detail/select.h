@@ -12,14 +12,14 @@ T select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
 
-// x / d; of doubles, and packs of them, within an ulp and a half, faster than a division.
+// x / d. For doubles and packs a product with 1/d: faster, with an error of up to 1.5 ulp.
 template <class T>
 T over(const T& x, double d) {
   return x / T(d);
 }
 AFM_INLINED double over(double x, double d) { return x * (1.0 / d); }
 
-// a b + c; of doubles, and packs of them, rounded once, and faster than a product and a sum.
+// a b + c. For doubles and packs fused, which is rounded once.
 template <class T>
 T mul_add(const T& a, const T& b, const T& c) {
   return a * b + c;

@@ -1,4 +1,5 @@
-// The Taylor series of a slide about a state: Eq. 2-3 with the reaction lambda of the surface along y [a/tau^2].
+// The Taylor series of a slide about a state: Eq. 2-3 of the paper with the reaction lambda of the surface along y
+// [a/tau^2].
 #pragma once
 
 #include <array>
@@ -9,18 +10,19 @@
 
 namespace afm {
 
-// On the surface, moving along it.
+// On the surface, moving along it: phase [a], extension [a], lab velocity [a/tau].
 template <class T>
 struct SlideState {
   T phase, X, u;
 };
 
+// a choice: the work grows like its square, the length like 2^(-kSlideBits/order)
 constexpr std::size_t kSlideOrder = 18;
 
 template <class T>
 using Series = std::array<T, kSlideOrder + 1>;
 
-// Even and odd powers side by side.
+// The sum of a series at s. Even and odd powers are summed separately, which halves the chain of dependent operations.
 template <class T>
 T horner(const Series<T>& c, const T& s) {
   using std::fma;
@@ -33,14 +35,14 @@ T horner(const Series<T>& c, const T& s) {
   return fma(fma(even, s, odd), s, c[0]);
 }
 
-// Powers of the time since the start.
+// Coefficients of the powers of the time since the start.
 template <class T>
 struct SlideSeries {
   Series<T> d, u, lambda;  // x - x(start), x', reaction
 };
 
-// Order n of the product of two series, without its first `skip` terms and its last `skip` terms. From the middle outwards:
-// the coefficients that are known last come last, and little waits for them. Precondition: n >= 2 skip - 1.
+// Order n of the product of two series, without its first and last `skip` terms. The sum runs from the middle outwards,
+// because the outermost coefficients are known last. Precondition: n >= 2 skip - 1.
 template <class T, class A, class B>
 AFM_INLINED T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) {
   using std::fma;
@@ -52,11 +54,11 @@ AFM_INLINED T product_order(const A& a, const B& b, std::size_t n, std::size_t s
   return low + high;
 }
 
-// With r = -h'(x) and c = -h''(x) along the slide: r' = c u and c' = -(2 pi)^2 r u, as the surface is a cosine. Of a tip
-// of mass 1, free along x:
+// With r = -h'(x) and c = -h''(x) along the slide: r' = c u and c' = -(2 pi)^2 r u, as the surface is a cosine. Of a
+// tip of mass 1, free along x:
 //   x'' = -omega_h^2 X + r lambda,   lambda = y'' + omega_v^2 (h - y0) = c - omega_v^2 y0 - (r u)',
 // as y' = -r u and omega_v is the surface's wave number too. Of each order these are two linear equations for x'' and
-// lambda; a tip that is held along x has x'' = 0. What an order waits for from the one before, u[n] and c[n], comes last.
+// lambda; the hammer has x'' = 0. The coefficients of the order before, u[n] and c[n], enter last.
 template <class T>
 AFM_INLINED void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideState<T>& start,
                                     SlideSeries<T>& series) {

@@ -1,5 +1,5 @@
-// When a tip is kicked by its bath, and how hard: a function of the bath, the number of the kick and the times at which the
-// bath was changed.
+// The kicks of a heat bath (docs/temperature.md). Guarantee: their times and sizes are a function of the bath, the
+// number of the kick, and the times at which the bath was changed.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace afm {
 
-// What a kick makes of a velocity relative to the holder: v -> keep v + noise, noise normally distributed.
+// The change of a velocity relative to the holder: v -> keep v + noise; the noise is normally distributed.
 struct VelocityKick {
   double keep = 1.0;
   double noise = 0.0;  // [a/tau]
@@ -20,7 +20,8 @@ struct Kick {
   VelocityKick lateral, vertical;
 };
 
-// Two standard normal deviates, the same bits on every machine; |xi| < 8.6.
+// Two standard normal deviates with the same bits on every machine; |xi| < 8.6, as the smallest uniform number is
+// 2^-53.
 struct NormalPair {
   double first, second;
 };
@@ -30,14 +31,14 @@ class Thermostat {
  public:
   Thermostat() = default;
 
-  // Another bath from `now` on. Times of kicks stay as they are unless their rate changes or the bath was off: then the
-  // next comes one period after `now`. The count of kicks goes on, so no random number is drawn twice.
+  // Another bath from `now` on. The times of kicks stay, unless their rate changes or the bath was off. Then the next
+  // kick comes one period after `now`. The count of kicks goes on, so no random number is drawn twice.
   void set(const Bath& bath, double frequency_ratio, const ModelTime& now);
 
   const ModelTime& next() const { return next_; }  // kEndOfTime without a bath
   const Bath& bath() const { return bath_; }
 
-  Kick draw();  // the next kick, which is then past
+  Kick draw();  // takes the next kick
 
  private:
   friend class StateFields;  // saved_state.cpp
@@ -48,7 +49,7 @@ class Thermostat {
   SampleGrid grid_{1.0, 0, {}};  // kick n at the time of its n-th sample
   std::uint64_t kicks_ = 0;      // so far
   ModelTime next_ = kEndOfTime;
-  Kick scale_;  // with the standard deviations of the noise
+  Kick scale_;  // its noise holds the standard deviations
 };
 
 }  // namespace afm

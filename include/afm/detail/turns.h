@@ -1,6 +1,6 @@
-// Sine and cosine of angles counted in turns. Every angle of the model is one: the surface phase, the vertical spring
-// (1 turn per tau), the horizontal spring (omega_h/omega_v turns per tau). Range reduction is one exact subtraction,
-// and the same bits come out on every machine.
+// Sine and cosine of angles in turns. Every angle of the model is one: the surface phase, the vertical spring (1 turn
+// per tau), the horizontal spring (omega_h/omega_v turns per tau). Range reduction is one exact subtraction. Guarantee:
+// the same bits on every machine.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct SinCos {
   T sin, cos;
 };
 
-// A turn of at most 1/8, with the parts that cancel in small differences kept apart, each to a few ulp of itself.
+// For a turn of at most 1/8. Parts that cancel in small differences are separate, each exact to a few ulp of itself.
 template <class T>
 struct SmallTurn {
   T sin;
@@ -40,7 +40,7 @@ AFM_INLINED double two_pi<double>() {
 
 namespace turns_detail {
 
-// (2 pi)^n / n! with alternating signs: at an eighth turn the first term left out is below 1e-18
+// (2 pi)^n / n! with alternating signs, up to n = 17: at an eighth of a turn the first omitted term is below 1e-18
 constexpr double kTwoPiHigh = 6.283185307179586, kTwoPiLow = 2.4492935982947064e-16;
 constexpr double kS3 = -41.34170224039976, kS3Low = 1.8132498260631558e-15;  // and its rounding
 constexpr double kS5 = 81.60524927607506, kS7 = -76.70585975306139;
@@ -51,10 +51,10 @@ constexpr double kC4 = 64.9393940226683, kC4Low = -4.256320131887783e-15, kC6 = 
 constexpr double kC8 = 60.24464137187666, kC10 = -26.4262567833744, kC12 = 7.903536371318469;
 constexpr double kC14 = -1.714390711088672, kC16 = 0.28200596845579123;
 
-using std::fma;  // of packs of lanes their own
+using std::fma;  // packs of lanes have their own
 
-// (sin(2 pi x) - 2 pi x) / x^3 less kS3, and ((cos(2 pi x) - 1) / x^2 - kC2) / x^2, z = x^2; paired to shorten the
-// chain of dependencies
+// (sin(2 pi x) - 2 pi x) / x^3 - kS3, and ((cos(2 pi x) - 1) / x^2 - kC2) / x^2, with z = x^2. Terms are paired to
+// shorten the chain of dependent operations.
 template <class T>
 AFM_INLINED T sine_rest(T z) {
   const T z2 = z * z, z4 = z2 * z2;
@@ -69,11 +69,11 @@ AFM_INLINED T cosine_rest(T z) {
   const T high = fma(T(kC16), z2, fma(z, T(kC14), T(kC12)));
   return fma(fma(high, z, T(kC10)), z2 * z, low);
 }
-// 1 + z kC2 is kept in two parts and kC2 with its rounding: a cosine too large by 1e-17 on average is energy from
-// nothing
+// 1 + z kC2 is kept in two parts, and kC2 with its rounding: a cosine that is too large by 1e-17 on average would add
+// energy.
 template <class T>
 AFM_INLINED T cosine(T x, T z) {
-  const T over_z = fma(-x, x, z);  // z less the square
+  const T over_z = fma(-x, x, z);  // rounding of z = x^2
   const T head = fma(z, T(kC2), T(1.0)), head_low = fma(z, T(kC2), T(1.0) - head);
   const T rest = head_low + fma(over_z, T(-kC2), z * fma(z, T(kC4Low), T(kC2Low)));
   return head + fma(z * z, cosine_rest(z), rest);
@@ -84,11 +84,11 @@ AFM_INLINED T sine(T x, T z) {
   return fma(x, T(kTwoPiHigh), fma(cube, sine_rest(z), fma(cube, T(kS3), x * T(kTwoPiLow))));
 }
 
-// adding and taking away 1.5 * 2^52 rounds to the nearest whole number, a quarter of it to the nearest quarter
+// Adding and subtracting 1.5 * 2^52 rounds to the nearest integer; a quarter of it to the nearest quarter.
 constexpr double kRounder = 6755399441055744.0, kQuarterRounder = 1688849860263936.0;
 
-// The sine and cosine of an angle, from those of what is left of it less some quarters of a turn: as many as the last
-// digits of `quarters` say, that is, with kQuarterRounder.
+// Sine and cosine of an angle from s and c, those of its rest after subtracting whole quarters of a turn. `quarters` is
+// these quarters plus kQuarterRounder.
 AFM_INLINED SinCos<double> turn_quarters(double quarters, double s, double c) {
   const long long k = static_cast<long long>(4.0 * (quarters - kQuarterRounder));
   const bool swap = (k & 1) != 0;
@@ -130,20 +130,20 @@ AFM_INLINED SmallTurn<T> small_turn_of(T x) {
 // Nearest whole number, |x| < 2^51.
 AFM_INLINED double nearest(double x) { return turns_detail::nearest_of(x); }
 
-// a * b less a whole number: the fraction keeps its bits however large the product, |a b| < 2^51.
+// a * b minus the nearest integer, rounded once. Precondition: |a b| < 2^51.
 AFM_INLINED double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
 
-// Within 0.8 ulp, |x| < 2^49 turns.
+// Error below 0.8 ulp. Precondition: |x| < 2^49.
 AFM_INLINED SinCos<double> sin_cos_turns(double x) { return turns_detail::sin_cos_of(x); }
 
-// Of a * b, to whose fraction the same applies as to that of turn_product. |a b| < 2^49.
+// Of a * b, reduced as in turn_product. Precondition: |a b| < 2^49.
 AFM_INLINED SinCos<double> sin_cos_turn_product(double a, double b) { return turns_detail::sin_cos_of_product(a, b); }
 template <class T>
 SinCos<T> sin_cos_turn_product(const T& a, const T& b) {
   return sin_cos_turns(turn_product(a, b));
 }
 
-constexpr double kSmallTurn = 0.125;
+constexpr double kSmallTurn = 0.125;  // [turns] limit of SmallTurn, which also bounds the error of the series above
 
 // Precondition: |x| <= 1/8.
 AFM_INLINED SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }

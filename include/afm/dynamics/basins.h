@@ -1,4 +1,4 @@
-// Which attractors there are at given parameters, and how large a share of the starts each draws.
+// The attractors at given parameters, and the part of random starts that leads to each.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct BasinSettings {
   AttractorSettings attractor;
 };
 
-// One start: where it led.
+// One start and its attractor.
 struct Visit {
   Attractor attractor;
   double K_f = 0.0, K_f_std_error = 0.0;  // [m/tau]
@@ -25,15 +25,14 @@ struct Visit {
 };
 
 struct Basin {
-  Visit first;                                // of the starts that led here
-  int starts = 0;                             // that did
+  Visit first;                                // the first start that led here
+  int starts = 0;                             // number of starts that led here
   double share = 0.0, share_std_error = 0.0;  // of all starts; binomial
 };
 
 Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings);
 
-// Two visits are of one attractor when kind, impacts and cells agree, and K_f within its errors (five standard errors,
-// 1e-6).
+// Two visits belong to one attractor if kind, impacts and cells agree, and K_f within five standard errors or 1e-6.
 bool same_attractor(const Visit& a, const Visit& b);
 
 // Largest basin first. Precondition: no faults in the point.

@@ -1,5 +1,5 @@
-// A periodic orbit followed through a parameter, around folds, to where it is born or dies, with the bifurcations on
-// its way.
+// Continuation of a periodic orbit in a parameter, around folds, up to its birth or death, with the bifurcations on the
+// way.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct BranchPoint {
 };
 
 enum class BifurcationKind : std::uint8_t {
-  saddle_node,      // a multiplier passes 1: the branch turns round
+  saddle_node,      // a multiplier passes 1: the branch turns back
   period_doubling,  // a multiplier passes -1
   torus,            // a pair passes the unit circle: an invariant circle is born or dies
-  corner,  // an impact's normal speed passes the cutoff, where the slope of the law jumps, and multipliers with it
-  grazing  // a flight touches the surface on its way: the orbit is no more
+  corner,  // the normal speed of an impact passes the cutoff, where the slope of the law and the multipliers jump
+  grazing  // a flight touches the surface on its way: the orbit ends
 };
 
 const char* name(BifurcationKind kind);
@@ -31,15 +31,15 @@ const char* name(BifurcationKind kind);
 struct BranchEvent {
   BifurcationKind kind;
   BranchPoint at;
-  double turns = 0.0;  // torus: argument of the pair, in turns; at 0, 1/2, 1/3 and 1/4 more happens than a circle
+  double turns = 0.0;  // torus: argument of the pair [turns]; 0, 1/2, 1/3 and 1/4 are strong resonances
 };
 
 enum class BranchEnd : std::uint8_t {
-  target,     // the parameter asked for is reached
-  grazing,    // the orbit has ended in an event of that kind
-  resonance,  // the horizontal spring comes to turn whole times in a period: the extension grows beyond all bounds
-  lost,       // no step, however small, leads on; the last points tell why
-  steps_spent
+  target,      // the target is reached
+  grazing,     // the orbit ends in a grazing
+  resonance,   // the horizontal spring turns a whole number of times in a period: the extension diverges
+  lost,        // no step leads on, however small
+  steps_spent  // most_steps were taken
 };
 
 struct Branch {
@@ -49,14 +49,12 @@ struct Branch {
 };
 
 struct ContinuationSettings {
-  double first_step = 1e-3,
-         largest_step = 2e-2;  // of the arclength: parameter, a, a/tau (divided by 1 + |eta|) together
+  double first_step = 1e-3, largest_step = 2e-2;  // arclength of parameter, a, and a/tau divided by 1 + |eta|
   int most_steps = 2000;
   double event_tolerance = 1e-10;  // of the parameter at an event
 };
 
-// From `start`, an orbit of `model` at `eta`, until the varied parameter reaches `target`. Precondition: `start` is
-// one.
+// From `start` until the varied parameter reaches `target`. Precondition: `start` is an orbit of `model` at `eta`.
 Branch continue_orbit(const Model& model, double eta, const PeriodicOrbit& start, Parameter vary, double target,
                       const ContinuationSettings& settings = {});
 

@@ -1,6 +1,6 @@
-// Averages over a chaotic attractor from its periodic orbits (periodic orbit theory, Eq. 7): K_f = <dE> / (eta^2 <dt>).
-// They converge to the true average only when all orbits of the attractor up to a length are there, and fast only when
-// longer ones are nearly made up of shorter ones; the deviation from flow conservation shows how far that holds.
+// Averages over a chaotic attractor from its periodic orbits (periodic orbit theory): K_f = <dE> / (eta^2 <dt>), Eq. 7
+// of the paper. Precondition: all orbits of the attractor up to a length are known. The convergence is fast if longer
+// orbits are nearly combinations of shorter ones. The deviation from flow conservation measures both.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,15 @@ namespace afm {
 struct CycleAverage {
   double order = 0.0;         // truncation: impacts, or the largest instability
   int terms = 0;              // orbits and combinations of orbits used
-  double K_f = 0.0;           // [m/tau]; NaN where it is not defined
-  double conservation = 0.0;  // what must be 0 when nothing escapes: 1/zeta(1), or the determinant at 1
+  double K_f = 0.0;           // [m/tau]; NaN if it is not defined
+  double conservation = 0.0;  // 0 by flow conservation: 1/zeta(1), or the determinant at 1
 };
 
 // 1/zeta = prod (1 - t_p), t_p = 1/|product of expanding multipliers|: combinations of at most N impacts, N = 1 to
 // longest.
 std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest);
 
-// The same with combinations up to an instability, one row for each new combination, in that order (stability
-// ordering).
+// The same with all combinations up to an instability, one row for each, in that order (stability ordering).
 std::vector<CycleAverage> stability_averages(const std::vector<PeriodicOrbit>& orbits, double eta, double largest);
 
 // det(1 - zL) = exp(-sum z^(nr)/r / |det(1 - J^r)|), cut after z^N, taken at z = 1.

@@ -1,8 +1,8 @@
-// How small displacements of the tip are carried along (sections II and IV of the paper). A displacement at one time is
-// (dx, dX, du, dy, dw): lab position and velocity, and the extension X = x - xc, as x alone does not know where the
-// holder is. On the surface, just after an impact, it is (dx, dX, du, dg1), with the gap rate g1: the height follows
-// from the place. The hammer's X and u are its holder's: their rows and columns on the section are 0, so that what is
-// left is the Jacobian of its own two dimensions, dx and dg1.
+// Jacobians of flights and impacts (sections II and IV of the paper). A displacement at one time is (dx, dX, du, dy,
+// dw): lab position and velocity, and the extension X = x - xc, because x does not determine the position of the
+// holder. On the section of impacts it is (dx, dX, du, dg1), with the gap rate g1 just after the impact; the height
+// follows from x. The hammer's X and u are those of its holder: their rows and columns are 0, and dx and dg1 are left.
+// Guarantee: exact derivatives, to rounding.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,9 +21,9 @@ using FlowJacobian = Eigen::Matrix<T, 5, 5>;
 template <class T>
 using SectionJacobian = Eigen::Matrix<T, 4, 4>;
 
-// On the section, or in a slide (dx, dX, du), what a tip held along x cannot do taken out.
+// Sets the rows and columns of X and u to 0 for the hammer, on the section or in a slide (dx, dX, du).
 template <class T, int N>
-Eigen::Matrix<T, N, N> held(const T& is_free_along_x, const Eigen::Matrix<T, N, N>& J) {
+Eigen::Matrix<T, N, N> without_held_directions(const T& is_free_along_x, const Eigen::Matrix<T, N, N>& J) {
   if (is_free_along_x != T(0.0)) return J;
   Eigen::Matrix<T, N, N> H = J;
   for (const int i : {1, 2}) {
@@ -33,7 +33,7 @@ Eigen::Matrix<T, N, N> held(const T& is_free_along_x, const Eigen::Matrix<T, N, 
   return H;
 }
 
-// A flight of duration s (Eq. 9-10), exact; its determinant is 1.
+// A flight of duration s [tau] (Eq. 9-10). Its determinant is 1.
 template <class T>
 FlowJacobian<T> flight_jacobian(const Mechanics<T>& m, const T& s) {
   const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s)), v = sin_cos_turns(s);
@@ -48,7 +48,7 @@ FlowJacobian<T> flight_jacobian(const Mechanics<T>& m, const T& s) {
   return J;
 }
 
-// The velocity in phase space while the tip flies.
+// The velocity in phase space during a flight.
 template <class T>
 FlowVector<T> flight_velocity(const Mechanics<T>& m, const T& eta, const FlightState<T>& q) {
   FlowVector<T> F;
@@ -64,21 +64,8 @@ FlowVector<T> gap_gradient(const SurfaceJet<T>& surface) {
   return G;
 }
 
-// Eq. 2: P carries a displacement along the flow F to where it meets the surface with the gradient G.
-template <class T, int N>
-Eigen::Matrix<T, N, N> onto_surface(const Eigen::Matrix<T, N, 1>& F, const Eigen::Matrix<T, N, 1>& G) {
-  return Eigen::Matrix<T, N, N>::Identity() - F * (G.transpose() / G.dot(F));
-}
-
-// Eq. 5: the Jacobian of a map in a flow: onto the surface, through the map, back to one time in the flow after it.
-template <class T, int N>
-Eigen::Matrix<T, N, N> map_in_flow(const Eigen::Matrix<T, N, 1>& before, const Eigen::Matrix<T, N, 1>& after,
-                                   const Eigen::Matrix<T, N, 1>& G, const Eigen::Matrix<T, N, N>& map) {
-  return map * onto_surface(before, G) + after * (G.transpose() / G.dot(before));
-}
-
-// The outgoing normal speed restitution * speed, and its slope by the incoming one: not the restitution itself below
-// the cutoff.
+// The restitution, and the derivative of the outgoing normal speed by the incoming one. Below the cutoff the two
+// differ.
 template <class T>
 struct RestitutionJet {
   T restitution, slope;
@@ -87,7 +74,7 @@ struct RestitutionJet {
 template <class T>
 RestitutionJet<T> restitution_jet(const Model& model, const T& speed) {
   const T gamma(model.gamma), v_c(model.v_c);
-  if (speed >= v_c) return {gamma, gamma};
+  if (v_c <= speed) return {gamma, gamma};
   const T share = (T(1.0) - gamma) * speed / v_c;
   return {T(1.0) - share, T(1.0) - T(2.0) * share};
 }
@@ -108,7 +95,7 @@ struct Incidence {
   }
 };
 
-// The hammer's: w' = w - (1 + restitution) r, r = w - h'(x) u; u is the holder's.
+// Of the hammer: w -> w - (1 + restitution) r with r = w - h'(x) u; u is that of the holder.
 template <class T>
 FlowJacobian<T> hammer_reflection_derivative(const RestitutionJet<T>& law, const Incidence<T>& in) {
   const T gain = T(1.0) + law.slope;
@@ -119,7 +106,7 @@ FlowJacobian<T> hammer_reflection_derivative(const RestitutionJet<T>& law, const
   return R;
 }
 
-// Derivative of the reflection (Eq. 11) where it takes place, Eq. 4: velocities by velocities, and by the turn of the
+// The derivative of the reflection (Eq. 11) at its place, Eq. 4: velocities by velocities, and by the rotation of the
 // normal.
 template <class T>
 FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in) {
@@ -139,24 +126,6 @@ FlowJacobian<T> reflection_derivative(const Model& model, const Incidence<T>& in
   return R;
 }
 
-// Eq. 13-16 with the signs put right and the slope of the law: in the frame of tangent and normal at the impact,
-// positions before velocities. A_n is the normal acceleration. The determinant is (restitution * slope). Of the
-// oscillator.
-template <class T>
-Eigen::Matrix<T, 4, 4> local_reflection_jacobian(const Model& model, const Incidence<T>& in, const T& A_n) {
-  using std::sqrt;
-  const T N2 = T(1.0) + in.surface.h1 * in.surface.h1;
-  const T k = in.surface.h2 / (N2 * sqrt(N2)), v_n = -in.normal_speed, v_t = in.tangential_velocity;
-  const RestitutionJet<T> law = restitution_jet(model, in.normal_speed);
-  const T kick = T(1.0) + law.restitution, gain = T(1.0) + law.slope;
-  Eigen::Matrix<T, 4, 4> J;
-  J << T(1.0), T(0.0), T(0.0), T(0.0),                  //
-      T(0.0), -law.restitution, T(0.0), T(0.0),         //
-      kick * k * v_n, -kick * k * v_t, T(1.0), T(0.0),  //
-      gain * k * v_t, gain * (A_n - k * v_t * v_t) / v_n, T(0.0), -law.slope;
-  return J;
-}
-
 // From a displacement on the section, at a lab velocity u, to one in the whole phase space.
 template <class T>
 Eigen::Matrix<T, 5, 4> off_section(const SurfaceJet<T>& surface, const T& u) {
@@ -167,7 +136,7 @@ Eigen::Matrix<T, 5, 4> off_section(const SurfaceJet<T>& surface, const T& u) {
   return E;
 }
 
-// And back, for a displacement that lies in the surface already (onto_surface).
+// And back. Precondition: the displacement lies in the surface (Eq. 2).
 template <class T>
 Eigen::Matrix<T, 4, 5> to_section(const SurfaceJet<T>& surface, const T& u) {
   Eigen::Matrix<T, 4, 5> S = Eigen::Matrix<T, 4, 5>::Zero();
@@ -177,9 +146,8 @@ Eigen::Matrix<T, 4, 5> to_section(const SurfaceJet<T>& surface, const T& u) {
   return S;
 }
 
-// From one impact to just after the next: a flight that starts on the surface, and ends after s with the gap rate and
-// state of `landing`. The determinant (of the hammer that of dx and dg1) is slope * restitution * g1(start) /
-// g1(after).
+// From one impact to just after the next: a flight that starts on the surface and ends after s [tau] with the incident
+// state `landing`. The determinant (of the hammer: of dx and dg1) is slope * restitution * g1(start) / g1(after).
 template <class T>
 SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight, const T& s, const GapJet<T>& landing) {
   const Mechanics<T>& m = flight.mechanics();
@@ -193,7 +161,7 @@ SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight,
   const Eigen::Matrix<T, 1, 4> gap = G.transpose() * flown;
   const Eigen::Matrix<T, 5, 4> met = flown - F * (gap / landing.g1);
   const SectionJacobian<T> J = to_section(in.surface, u_after) * (reflection_derivative(model, in) * met);
-  return held(m.is_free_along_x, J);
+  return without_held_directions(m.is_free_along_x, J);
 }
 
 }  // namespace afm

@@ -1,5 +1,6 @@
-// Lyapunov exponents: how fast small displacements grow along an orbit, per tau. Four of them, of the map from impact
-// to impact: a displacement along the orbit itself neither grows nor shrinks and is left out.
+// Lyapunov exponents: the rates of growth of small displacements along an orbit [1/tau] (section II of the paper).
+// There are four, those of the map from impact to impact. The displacement along the orbit neither grows nor shrinks
+// and is left out.
 #pragma once
 
 #include <array>
@@ -20,29 +21,29 @@ struct LyapunovSettings {
 
 enum class LyapunovOutcome : std::uint8_t {
   measured,
-  budget_spent,  // most_events came first: measured up to there
-  no_event,      // too few impacts or slides to measure anything: a tip at rest
-  search_failed,  // the impact search failed on the way; what is reported is up to there
-  no_number       // an exponent is no number, as a Jacobian on the way was none
+  budget_spent,   // most_events came first: measured up to there
+  no_event,       // too few impacts or slides to measure: a tip at rest
+  search_failed,  // an impact search failed: measured up to there
+  no_number       // an exponent is NaN, because a Jacobian on the way was NaN
 };
 
-// Largest first [1/tau]. In contact two directions normal to the surface collapse: once the orbit has slid, the last
-// two exponents are minus infinity. The hammer has two exponents, and after contact none: the others are minus
-// infinity. std_error is that of batch means: the numbers' scatter on a chaotic orbit; on a regular one the exponents
-// come to their limit like 1/duration and it bounds nothing.
+// Largest first [1/tau]. In contact two directions collapse, so after a contact the last two exponents are minus
+// infinity. The hammer has two exponents, and none after contact; the others are minus infinity. std_errors come from
+// batch means. On a chaotic orbit they are the scatter; on a regular one the error falls like 1/duration, and they
+// bound nothing.
 struct LyapunovSpectrum {
   LyapunovOutcome outcome = LyapunovOutcome::no_event;
   int rank = 0;  // exponents that are finite
   std::array<double, 4> exponents{};
   std::array<double, 4> std_errors{};
-  // What the sum must be, from the restitution alone: every impact shrinks volume by gamma_eff times the slope of the
-  // law, flight by nothing. NaN where a burst was taken in one step; minus infinity after contact.
+  // The sum of the exponents, from the restitution alone: an impact shrinks the volume by gamma_eff times the slope of
+  // the law, a flight keeps it. NaN after a chatter sequence; minus infinity after contact.
   double volume_rate = 0.0;
   double duration = 0.0;  // measured [tau]
   std::uint64_t events = 0;
 };
 
-// Of the orbit that `tip` is on; the tip is moved along it. Benettin's method with the exact Jacobians of jacobian.h.
+// Along the orbit of `tip`, which is advanced. Benettin's method with the exact Jacobians of jacobian.h.
 LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& settings = {});
 LyapunovSpectrum lyapunov(const Model& model, double eta, const FreeState& start,
                           const LyapunovSettings& settings = {});

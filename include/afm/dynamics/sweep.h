@@ -1,6 +1,5 @@
-// A sweep takes a parameter over a range, point by point. This is one point of it: the attractor that a start leads to, and
-// the friction on it. Natural units. src/sweep/ makes curves of such points; the scene `sweep` takes the drag velocity of a
-// running emulator over a range.
+// One point of a friction curve: the attractor of a start, and the friction on it (Eq. 1 and 6-8 of the paper). Natural
+// units. src/sweep/ computes curves of such points.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +23,12 @@ struct SweepSettings {
   double duration = 10000.0;  // of the measurement [tau]
   double transient = 1000.0;  // before it [tau]
   std::uint64_t seed = 1;     // of the starts drawn at random
-  Bath bath;                  // none; its own seed and a stream for every point
+  Bath bath;                  // off; every point uses its own stream of the bath's seed
 };
 
 struct SweepResult {
   FrictionAverage friction;
-  Attractor attractor;  // with a bath there is none to be found: thermal, exponents NaN
+  Attractor attractor;  // with a bath: thermal, and NaN exponents
   TipState end;         // of the orbit, for the next point to begin with
 };
 
@@ -39,11 +38,11 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings);
 
 Model model_of(const SweepPoint& point);
 
-// The start of the index-th point: above the surface, at a random phase, with a velocity of the order of the drag's. A
-// function of seed and index alone, so that points can be computed in any order.
+// The start of the index-th point: above the surface, at a random phase, with velocities of the order of the drag
+// velocity. Guarantee: a function of seed and index, so points can be computed in any order.
 TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index);
 
-// A function of its arguments alone, to the last bit. Precondition: no faults.
+// Guarantee: a function of its arguments, to the last bit. Precondition: no faults.
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start);
 
 }  // namespace afm

@@ -1,37 +1,36 @@
-// Displacements that travel with a tip, kept orthonormal: what each event of the tip has stretched them by.
+// Tangent vectors along the orbit of a tip, kept orthonormal, and their growth at each event (section II of the paper).
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 
-#include "jacobian.h"
 #include "afm/model.h"
 #include "afm/tip.h"
+#include "jacobian.h"
 
 namespace afm {
 
-// Natural logarithms of one event's stretching, largest growth first in the long run.
+// Natural logarithms of the growth in one event; in the long run the largest is first.
 struct Stretch {
   std::array<double, 4> logarithms{};
-  double volume = 0.0;  // their sum as the restitution alone gives it; NaN over a burst
+  double volume = 0.0;  // their sum, from the restitution alone; NaN over a chatter sequence
 };
 
 class Tangents {
  public:
-  // The tip is moved by advance(), and by nothing else meanwhile.
+  // Precondition: only advance() moves the tip from now on.
   Tangents(const Model& model, Tip& tip);
 
-  // To the first event after which the displacements are known: an impact, or a slide under way. False where none
-  // comes.
+  // To the first impact or contact, from which the displacements can be followed. False if there is none `within`
+  // [tau].
   bool start(double within);
 
   // To the tip's next event, or to the limit.
   Outcome advance(const ModelTime& limit);
 
   const Stretch& stretch() const { return stretch_; }  // of the last advance
-  const SectionJacobian<double>& jacobian() const {
-    return jacobian_;
-  }  // of the last event [section, or slide in its first three]
+  // Of the last event, on the section; in contact its first three rows and columns are those of the slide.
+  const SectionJacobian<double>& jacobian() const { return jacobian_; }
   ModelTime carried_to() const { return since_; }
   int rank() const { return rank_; }
 
@@ -47,7 +46,7 @@ class Tangents {
   const Model model_;
   const Mechanics<double> mechanics_;
   Tip& tip_;
-  TipState start_;  // of the arc under way
+  TipState start_;  // of the segment under way
   ModelTime since_;
   Eigen::Matrix4d columns_ = Eigen::Matrix4d::Identity();
   SectionJacobian<double> jacobian_ = Eigen::Matrix4d::Identity();

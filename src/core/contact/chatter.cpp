@@ -1,3 +1,4 @@
+// The course of a chatter sequence: when it may begin, its steps, and their control.
 #include "afm/chatter.h"
 
 #include <algorithm>
@@ -6,44 +7,23 @@
 #include <utility>
 
 #include "afm/detail/multiversion.h"
+#include "chatter_control.h"
+#include "chatter_geometry.h"
 #include "projection.h"
 
 namespace afm {
 namespace {
 
-// Step control of a chatter sequence. Where no formula stands, the value is measured: benchmark/burst_error, by which the
-// errors of sequences stay within the contact tolerance. [1] unless a unit is given.
-struct Limit {
-  // When a sequence may begin and go on.
-  static constexpr double kLoss = 0.25;         // of v in a bounce: the series of chatter_flow.h are good to 5e-4
-  static constexpr double kShortness = 0.06;    // duration of a bounce over the time in which the reaction changes
-  static constexpr double kLongerWithin = 2.5;  // times that within a sequence, as only its last bounces matter
-  static constexpr double kSteepRatio = 0.5;    // times that for bounces one by one, which see the reaction as a cubic
-  // A step, as a part of the time in which ...
-  static constexpr double kFall = 2.0;          // ... v falls, with a cutoff
-  static constexpr double kEvenFall = 0.7;      // ... v falls to zero, without a cutoff
-  static constexpr double kChange = 0.9;        // ... the reaction changes
-  static constexpr double kSwing = 2.4;         // ... the reaction swings with the horizontal spring
-  static constexpr double kLoseReaction = 0.6;  // of the reaction that a step may lose by its first two derivatives
-  // What must hold at the end of a step, or it is halved.
-  static constexpr double kLeastReaction = 0.33;  // over that at its beginning
-  static constexpr double kChanged = 1.6;         // step over the time in which the reaction changes at its end
-  static constexpr double kRise = 2.0;            // v over that at its beginning
-  static constexpr double kOutlasting = 4.0;      // bounce over the time in which the reaction changes
-  static constexpr double kFallOfLogV = 10.0;     // of ln v; far more than any step is to take
-  // The last step may end below the threshold, and be longer.
-  static constexpr double kEnd = 0.9;    // v there over the threshold
-  static constexpr double kLast = 1.25;  // over a usual step
-};
+using Control = ChatterControl;
 
-// A step that was too long. Its length came from rates at its beginning: beyond a maximum the reaction falls faster than
-// they say, and at rest on a crest they do not show a holder that has just been made fast.
-bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
-  const double P = to.around.P;
-  return !(P > Limit::kLeastReaction * from.around.P) || (to.s - from.s) * to.around.relative_rate > Limit::kChanged ||
-         2.0 * from.plain.v * to.around.relative_rate > Limit::kOutlasting * P ||
-         !(to.plain.v < Limit::kRise * from.plain.v) || !(from.even.x - to.even.x < Limit::kFallOfLogV) ||
-         !std::isfinite(to.plain.n);
+// A step that was too long. Its length came from the rates at its start. Beyond a maximum the reaction falls faster
+// than they say, and at rest on a crest they do not show the motion of a holder that has just started.
+bool goes_too_far(const ChatterPoint& from, const ChatterPoint& to) {
+  const double P = to.surroundings.P, rate = to.surroundings.relative_rate;
+  return !(P > Control::kMinReaction * from.surroundings.P) || (to.s - from.s) * rate > Control::kMaxChange ||
+         2.0 * from.chatter.v * rate > Control::kMaxBounce * P ||
+         !(to.chatter.v < Control::kMaxSpeedGain * from.chatter.v) ||
+         !(from.smooth.x - to.smooth.x < Control::kMaxFallOfLogV) || !std::isfinite(to.chatter.n);
 }
 
 }  // namespace
@@ -51,21 +31,26 @@ bool goes_too_far(const ChatterPlace& from, const ChatterPlace& to) {
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : v_c_(model.v_c),
       threshold_(threshold),
-      most_loss_(1.0 - model.gamma),
+      max_loss_(1.0 - model.gamma),
       rates_(model, !(model.v_c > threshold)),
-      end_x_(rates_.x_of(std::max(v_c_ > threshold ? Limit::kEnd * threshold : threshold, 1e-300))) {
-  constexpr double kUsualThreshold = 1e-5;
-  fineness_ = std::sqrt(std::sqrt(std::min(1.0, threshold / kUsualThreshold)));
+      end_x_(rates_.x_of(std::max(v_c_ > threshold ? Control::kEndSpeed * threshold : threshold, 1e-300))),
+      // the error of a step is of the fourth order in its length
+      fineness_(std::sqrt(std::sqrt(std::min(1.0, threshold / Control::kUsualThreshold)))) {}
+
+bool ChatterLaw::loses_too_much(double v) const {
+  return v_c_ > threshold_ && (v > v_c_ || rates_.loss(v) > Control::kMaxLoss);
 }
 
-// For the averages.
-bool ChatterLaw::loses_too_much(double v) const { return v_c_ > threshold_ && (v > v_c_ || rates_.loss(v) > Limit::kLoss); }
+bool ChatterLaw::takes_single_bounces(double v) const {
+  return max_loss_ >= Control::kMinSingleLoss && loses_too_much(v);
+}
 
-// The adiabaticity ratio: how long a bounce lasts over how long it may last (1: the limit). The averages leave out terms of
-// the third and fourth order of the bounce's duration against all changes. `within` a sequence, or at its entry.
+// The adiabaticity ratio: the duration of a bounce over the limit for it. The averages leave out terms of the third and
+// fourth order of the duration against every change. The limit is wider `within` a sequence than at its start.
 double ChatterLaw::adiabaticity(const ChatterSurroundings& at, double v, bool within) const {
-  const double longer = within ? Limit::kLongerWithin : 1.0;
-  return 2.0 * v * at.inverse_P * std::max(at.relative_rate, at.slow_rate) / (Limit::kShortness * fineness_ * longer);
+  const double longer = within ? Control::kLongerWithin : 1.0;
+  return 2.0 * v * at.inverse_P * std::max(at.relative_rate, at.slow_rate) /
+         (Control::kMaxDuration * fineness_ * longer);
 }
 
 AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
@@ -73,75 +58,76 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (v <= threshold_) return true;
   if (!(bounce.start().g2 < 0.0)) return false;
   if (loses_too_much(v) && !takes_single_bounces(v)) return false;
-  // most that are asked for are refused
-  if (rates_.certainly_outlasts(bounce, Limit::kShortness * fineness_)) return false;
-  return adiabaticity(rates_.surroundings(bounce), v, false) <= (loses_too_much(v) ? Limit::kSteepRatio : 1.0);
+  // most bounces are refused here, by the faster test
+  if (rates_.geometry().certainly_outlasts(bounce, Control::kMaxDuration * fineness_)) return false;
+  const double limit = loses_too_much(v) ? Control::kSingleRatio : 1.0;
+  return adiabaticity(rates_.geometry().surroundings(bounce), v, false) <= limit;
 }
 
-// Parts of the times in which v and P change by themselves. Smaller thresholds take smaller steps.
-double ChatterLaw::step_length(const ChatterPlace& at) const {
-  const double v = at.plain.v, relative_rate = at.around.relative_rate;
-  // the error of a step is that of a pressure which swings with the horizontal spring and at twice its rate: the less
-  // it changes by, the longer
-  const double fastest = std::max(relative_rate, 2.0 * kTwoPi * at.around.slow_rate);
+double ChatterLaw::step_length(const ChatterPoint& at) const {
+  const double v = at.chatter.v, relative_rate = at.surroundings.relative_rate;
+  // The error of a step is that of a reaction which swings with the horizontal spring, and at twice its rate. The
+  // smaller the swing, the longer the step.
+  const double fastest = std::max(relative_rate, 2.0 * kTwoPi * at.surroundings.slow_rate);
   const double swing = std::sqrt(fastest * std::sqrt(relative_rate * fastest));
-  // with a cutoff, the less a bounce loses the more evenly ln v falls
-  const double falls =
-      v_c_ > threshold_ ? Limit::kFall / (0.5 + 2.5 * std::min(Limit::kLoss, rates_.loss(v))) : Limit::kEvenFall;
-  const double escape = time_to_fall(at.around, Limit::kLoseReaction);
-  const double dt = fineness_ * std::min(std::min(falls * rates_.fall_time(at.around, v), escape),
-                                         std::min(Limit::kChange / relative_rate, Limit::kSwing / swing));
+  // with a cutoff, ln v falls the more evenly the less a bounce loses
+  const double falls = v_c_ > threshold_ ? Control::kFall / (0.5 + 2.5 * std::min(Control::kMaxLoss, rates_.loss(v)))
+                                         : Control::kLinearFall;
+  const double escape = time_to_fall(at.surroundings, Control::kLoseReaction);
+  const double dt = fineness_ * std::min(std::min(falls * rates_.fall_time(at.surroundings, v), escape),
+                                         std::min(Control::kChange / relative_rate, Control::kSwing / swing));
   return at.rate.x < 0.0 ? step_towards_end(at, dt) : dt;
 }
 
-// And not far beyond the threshold, so that n counts the bounces down to it: by x, and as the losses go with the
-// pressure, x + x' (t + P'/P t^2 / 2); without a cutoff v falls too far in a thousandth of the way.
-double ChatterLaw::step_towards_end(const ChatterPlace& at, double dt) const {
-  const double even = (end_x_ - at.even.x) / at.rate.x;
-  if (!(v_c_ > threshold_)) return std::min(dt, 1.02 * even);
-  const double end = 2.0 * even / (1.0 + std::sqrt(std::max(0.0, 1.0 + 6.0 * at.around.c_speed * even)));
-  return end < Limit::kLast * dt ? end : end < 2.0 * dt ? 0.5 * end : dt;
+// Not far beyond the threshold, so that n counts the bounces down to it. With a cutoff the losses go with the reaction,
+// so x falls like x' (t + P'/P t^2 / 2).
+double ChatterLaw::step_towards_end(const ChatterPoint& at, double dt) const {
+  const double linear = (end_x_ - at.smooth.x) / at.rate.x;
+  if (!(v_c_ > threshold_)) return std::min(dt, Control::kLinearEnd * linear);
+  const double end = 2.0 * linear / (1.0 + std::sqrt(std::max(0.0, 1.0 + 6.0 * at.surroundings.c_speed * linear)));
+  return end < Control::kLastStep * dt ? end : end < 2.0 * dt ? 0.5 * end : dt;
 }
 
-// A step that ends where the interpolation no longer holds is gone back from. Without exits, for the state in the
-// middle of a burst, it is not asked.
+// A sequence that may exit goes back from a step at whose end the law no longer holds. Without `exits`, for the state
+// in the middle of a known sequence, the law is not checked.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlideSegment<double>& reference, double from, double until,
                                                const Chatter& start, bool exits) const {
-  constexpr double kFewBounces = 2.0;  // are not worth a step
   ChatterRun first{ChatterEnd::time, from, start};
   if (takes_single_bounces(start.v)) first = follow_single_bounces(reference, from, until, start, exits);
   if (first.end != ChatterEnd::time || takes_single_bounces(first.chatter.v)) return first;
-  // made in place, in turn: a copy of what has just been written would wait until it is in memory
-  ChatterPlace places[2] = {rates_.begin(reference, first.s, first.chatter), {}};
-  ChatterPlace *now = &places[0], *next = &places[1];
+  // built in place, in turns: a copy of a point that has just been written would wait for memory
+  ChatterPoint points[2] = {rates_.begin(reference, first.s, first.chatter), {}};
+  ChatterPoint *now = &points[0], *next = &points[1];
   double until_limit = until;
-  while (now->s < until && now->plain.v > threshold_) {
+  while (now->s < until && now->chatter.v > threshold_) {
     const double rest = until - now->s, longest = step_length(*now);
-    const bool lets_go = -3.0 * now->around.c_speed * rest > Limit::kLoseReaction;
-    // the last two alike, but where there is nothing left at the end
-    double dt = rest <= longest ? rest : rest < 2.0 * longest && !lets_go ? 0.5 * rest : longest;
-    // the last bounce of all lasts beyond the pressure: it is left where it is
-    if (!(now->s + dt > now->s) || 2.0 * now->plain.v * now->around.relative_rate > now->around.P)
-      return {ChatterEnd::exits, now->s, now->plain};
+    const bool reaction_vanishes = -3.0 * now->surroundings.c_speed * rest > Control::kLoseReaction;
+    // the last two steps have one length, unless the reaction vanishes before the end
+    double dt = rest <= longest ? rest : rest < 2.0 * longest && !reaction_vanishes ? 0.5 * rest : longest;
+    // the last bounce outlasts the reaction: the sequence ends here
+    if (!(now->s + dt > now->s) || 2.0 * now->chatter.v * now->surroundings.relative_rate > now->surroundings.P)
+      return {ChatterEnd::exits, now->s, now->chatter};
     dt = std::min(dt, until_limit);
-    new (next) ChatterPlace(rates_.step(reference, *now, dt));
+    new (next) ChatterPoint(rates_.step(reference, *now, dt));
     while (goes_too_far(*now, *next)) {
       dt *= 0.5;
-      if (!(now->s + dt > now->s)) return {ChatterEnd::exits, now->s, now->plain};
-      new (next) ChatterPlace(rates_.step(reference, *now, dt));
+      if (!(now->s + dt > now->s)) return {ChatterEnd::exits, now->s, now->chatter};
+      new (next) ChatterPoint(rates_.step(reference, *now, dt));
     }
     until_limit = until;
-    if (exits && next->plain.n >= std::floor(now->plain.n) + 1.0) {
-      const double ratio = adiabaticity(next->around, next->plain.v, true);
+    if (exits && next->chatter.n >= std::floor(now->chatter.n) + 1.0) {
+      const double ratio = adiabaticity(next->surroundings, next->chatter.v, true);
       if (ratio <= 1.0) until_limit = time_until_limit(*next, ratio);
-      if (ratio > 1.0 || until_limit < kFewBounces * duration(*next)) return whole_bounce(reference, *now, *next, ratio);
+      if (ratio > 1.0 || until_limit < Control::kFewBounces * duration(*next))
+        return whole_bounce(reference, *now, *next, ratio);
     }
     std::swap(now, next);
   }
-  return {now->plain.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, now->s, now->plain};
+  return {now->chatter.v <= threshold_ ? ChatterEnd::died : ChatterEnd::time, now->s, now->chatter};
 }
 
-ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, double until, const Chatter& start) const {
+ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, double until,
+                           const Chatter& start) const {
   return follow(reference, from, until, start, true);
 }
 

@@ -1,6 +1,6 @@
-// One bounce along the reference slide: the series of rho'' = -P(t) - K(t) rho, whose terms are of the third order of the
-// duration 2 v/P. For bounces that lose too large a part of their speed for the averages of chatter_flow.h: above the
-// cutoff, or not far below it. There are few of them. For numbers, and for numbers that carry derivatives.
+// One bounce along the reference slide: the solution of rho'' = -P(t) - K(t) rho to the third order of its duration 2
+// v/P (docs/derive_chatter_law.py). It serves bounces that lose too large a part of their speed for the averages of
+// chatter_flow.h: above the cutoff, or not far below it. For numbers and for dual numbers.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace afm {
 
-// The reaction at a time t after a known one, and its time derivatives over it.
+// The reaction a time t after a known one, and its time derivatives over the reaction: p1 = P'/P and so on.
 template <class T>
 struct Reaction {
   T P, inverse_P, p1, p2, p3;
@@ -26,7 +26,7 @@ AFM_INLINED Reaction<T> later(const ChatterSurroundingsOf<T>& at, const T& t) {
           mul_add(t, at.P3, at.P2) * inverse_P, at.P3 * inverse_P};
 }
 
-// Of a bounce that is launched at v: how long it lasts, and the speed at which it ends.
+// A bounce that is launched at v: how long it lasts [tau], and the normal speed before the impact that ends it [a/tau].
 template <class T>
 struct BounceArc {
   T duration, speed;
@@ -34,7 +34,7 @@ struct BounceArc {
 
 template <class T>
 AFM_INLINED BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsOf<T>& at, const T& v) {
-  const T q = T(2.0) * v * r.inverse_P, p1 = r.p1, p2 = r.p2, p1_2 = p1 * p1, K = at.bend;
+  const T q = T(2.0) * v * r.inverse_P, p1 = r.p1, p2 = r.p2, p1_2 = p1 * p1, K = at.K;
   const T longer2 = mul_add(T(8.0), p1_2, T(T(-3.0) * (p2 + K))) * T(1.0 / 36), longer1 = T(-kThird) * p1;
   const T inner = p1 * mul_add(T(100.0), p1_2, mul_add(T(-75.0), p2, T(T(-54.0) * K)));
   const T longer3 = -(mul_add(T(18.0), at.K1, inner) + T(9.0) * r.p3) / T(540.0);
@@ -45,25 +45,25 @@ AFM_INLINED BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsO
           v * mul_add(q, mul_add(q, mul_add(q, faster3, faster2), T(T(kThird) * p1)), T(1.0))};
 }
 
-// The speed after an impact at speed v: the restitution law. most_loss = 1 - gamma.
+// The normal speed after an impact at v (the restitution law, section V of the paper). max_loss = 1 - gamma.
 template <class T>
-AFM_INLINED T speed_after(double most_loss, const ChatterFlow& flow, const T& v) {
+AFM_INLINED T speed_after(double max_loss, const ChatterFlow& flow, const T& v) {
   using std::min;
-  return v * (T(1.0) - min(T(most_loss), T(T(flow.loss) * v)));
+  return v * (T(1.0) - min(T(max_loss), T(T(flow.loss) * v)));
 }
 
-// What the mean height v^2/(3 P) of a bounce moves the tip off its reference slide by.
+// The displacement from the reference slide after a part dt of a bounce, by its mean height v^2/(3 P).
 template <class T>
-AFM_INLINED ChatterOf<T> moved(const ChatterSurroundingsOf<T>& at, const Reaction<T>& r, const T& dt, bool held,
-                               const ChatterOf<T>& c) {
+AFM_INLINED ChatterOf<T> moved(const ChatterSurroundingsOf<T>& at, const Reaction<T>& r, const T& dt,
+                               bool is_held_along_x, const ChatterOf<T>& c) {
   const T height = T(kThird) * c.v * c.v * r.inverse_P * dt, P1 = r.p1 * r.P;
-  const T p = mul_add(at.c_height, height, mul_add(T(-at.stiffness * c.sigma), dt, c.p));
+  const T p = mul_add(at.c_height, height, mul_add(T(-at.c_sigma * c.sigma), dt, c.p));
   return {c.v,
           c.n,
-          mul_add(T(T(2.0) * at.turn), height, mul_add(T(T(0.5) * (c.p + p)), dt, c.sigma)),
+          mul_add(T(T(2.0) * at.turn_rate), height, mul_add(T(T(0.5) * (c.p + p)), dt, c.sigma)),
           p,
-          mul_add(at.up, height, mul_add(T(at.along * c.sigma), dt, c.drift)),
-          held ? mul_add(P1, height, c.lift) : c.lift};
+          mul_add(at.x_per_rho, height, mul_add(T(at.x_per_sigma * c.sigma), dt, c.drift)),
+          is_held_along_x ? mul_add(P1, height, c.held_work) : c.held_work};
 }
 
 }  // namespace afm

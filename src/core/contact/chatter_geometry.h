@@ -1,4 +1,5 @@
-// The definitions of chatter_geometry.h: inlined into the functions that are compiled for several machines.
+// The coefficients of the averaged law from the state of the reference slide (afm/detail/chatter_geometry.h). Inlined
+// into the functions that are compiled for several machines.
 #pragma once
 
 #include <algorithm>
@@ -17,21 +18,21 @@ AFM_INLINED T square(const T& x) {
 }
 
 template <class T>
-AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::look(const SlideSegment<T>& reference, const T& time) const {
+AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::surroundings(const SlideSegment<T>& reference,
+                                                                   const T& time) const {
   using std::sqrt;
   const T one(1.0), two(2.0), three(3.0), wh2(wh2_), wv2(wv2_), free(free_);
   const SlideState<T> q = reference.at(time);
   const std::array<T, 4> a = reference.pressure_jet(time);
   SurfaceJet<T> h = surface_jet(T(H_), q.phase);
-  // held along x, the tip sees no slope: only that the pressure changes
   h.h1 *= free, h.h2 *= free, h.h3 *= free;
   const T u = q.u, u2 = u * u, N2 = one + square(h.h1), inverse_N2 = one / N2, inverse_N = sqrt(inverse_N2);
-  // time derivatives of x, of the reference slide with the reaction on it, and of the slope
+  // time derivatives: x2, x3 of x along the reference slide (Eq. 2 with the reaction a), s1 to s3 of the slope s
   const T s = h.h1, s1 = h.h2 * u, x2 = -wh2 * q.X - s * a[0];
   const T x3 = -wh2 * (u - reference.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
   const T s3 = u * (three * h.h3 * x2 - T(square(kTwoPi)) * h.h2 * u2) + h.h2 * x3;
-  // the rate at which the surface turns under the tip and its derivatives; from them those of ln N, and from these
-  // P'/P, ... with P = N a
+  // turn rate of the surface (arctan s)' and its derivatives; L1 to L3: derivatives of ln N; p1 to p3: P'/P, P''/P,
+  // P'''/P with P = N a
   const T turn = s1 * inverse_N2, turn1 = s2 * inverse_N2 - two * s * square(turn);
   const T turn2 = s3 * inverse_N2 - two * turn * (s * s2 * inverse_N2 + s1 * turn + two * s * turn1);
   const T L1 = s * turn, L2 = s1 * turn + s * turn1, L3 = s2 * turn + two * s1 * turn1 + s * turn2;
@@ -41,26 +42,28 @@ AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::look(const SlideSegment<T>
   ChatterSurroundingsOf<T> at{};
   at.P = a[0] * N2 * inverse_N;
   at.P1 = at.P * p1, at.P2 = at.P * p2, at.P3 = at.P * p3;
-  at.bend = three * square(turn) + (wh2 * square(s) + wv2) * inverse_N2;
+  at.K = three * square(turn) + (wh2 * square(s) + wv2) * inverse_N2;
   at.K1 = T(6.0) * turn * turn1 + two * L1 * (wh2 - wv2) * inverse_N2;
   set_reaction_terms(at);
-  at.turn = turn;
-  // curvature k = h''/N^3, its rate along the surface, speed N u, acceleration along the surface from the springs alone
-  const T curvature = h.h2 * inverse_N2 * inverse_N, curvature1 = (h.h3 - three * s * square(h.h2) * inverse_N2) * square(inverse_N2);
+  at.turn_rate = turn;
+  // curvature h''/N^3, its derivative along the surface, the acceleration along the surface by the springs, the speed N
+  // u
+  const T curvature = h.h2 * inverse_N2 * inverse_N;
+  const T curvature1 = (h.h3 - three * s * square(h.h2) * inverse_N2) * square(inverse_N2);
   const T pull = (x2 + L1 * u) * N2 * inverse_N, speed2 = u2 * N2;
   at.c_height = s * (wh2 - wv2) * inverse_N2 - curvature * pull - curvature1 * speed2;
-  at.stiffness = (wh2 + wv2 * square(s)) * inverse_N2 - curvature * (curvature * speed2 - at.P);
-  at.along = free * inverse_N;
-  at.up = -s * inverse_N;
-  // these choose steps alone
+  at.c_sigma = (wh2 + wv2 * square(s)) * inverse_N2 - curvature * (curvature * speed2 - at.P);
+  at.x_per_sigma = free * inverse_N;
+  at.x_per_rho = -s * inverse_N;
+  // step control only, so derivatives by the start are not needed
   const double change = static_cast<double>(p1), bend = static_cast<double>(p2);
   at.relative_rate = std::sqrt(std::max(square(change), std::abs(bend)));
-  at.speed = std::abs(static_cast<double>(u));
-  at.slow_rate = std::max(static_cast<double>(at.speed), slow_rate_);
+  at.slow_rate = std::max(std::abs(static_cast<double>(u)), slow_rate_);
   return at;
 }
 
-AFM_INLINED ChatterSurroundings ChatterGeometry::look(const Flight<double>& bounce) const {
+// As above with the state of the flight; the reaction comes from g2 and g3 of the gap.
+AFM_INLINED ChatterSurroundings ChatterGeometry::surroundings(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
   const GapJet<double>& start = bounce.start();
   const double k2 = square(kTwoPi), h1 = start.h1, h2 = -k2 * start.h;
@@ -69,18 +72,17 @@ AFM_INLINED ChatterSurroundings ChatterGeometry::look(const Flight<double>& boun
   at.P = a * std::sqrt(inverse_N2);
   at.inverse_P = 1.0 / at.P;
   at.c_speed = kThird * (a1 / a - free_ * h1 * h2 * q.u * inverse_N2);
-  // the second derivative of the pressure, with what the horizontal spring and the reaction change u by
+  // second derivative of the reaction, with the change of u by the horizontal spring and by the reaction
   const double u = q.u, u2 = square(u), reaction = free_ * a * inverse_N2;
   const double x2 = -wh2_ * q.X - h1 * reaction, x3 = -wh2_ * (u - bounce.eta()) - h2 * u * reaction, x4 = -wh2_ * x2;
   const double a2 =
       h2 * (u2 * (wv2_ - k2 * u2) + 3.0 * square(x2) + 4.0 * u * x3) + h1 * ((wv2_ - 6.0 * k2 * u2) * x2 + x4);
   at.relative_rate = std::sqrt(std::max(9.0 * square(at.c_speed), std::abs(a2) / a));
-  at.speed = std::abs(q.u);
-  at.slow_rate = std::max(at.speed, slow_rate_);
+  at.slow_rate = std::max(std::abs(q.u), slow_rate_);
   return at;
 }
 
-// A bounce lasts 2 v/P, and P is at most the pull a; P'/P = a'/a - h' h'' u / N^2.
+// A bounce lasts 2 v/P, and P is at most a; P'/P = a'/a - h' h'' u / N^2.
 AFM_INLINED bool ChatterGeometry::certainly_outlasts(const Flight<double>& bounce, double part) const {
   const GapJet<double>& start = bounce.start();
   const double slope = free_ * start.h1, N2 = 1.0 + slope * start.h1, a = -start.g2;

@@ -1,20 +1,20 @@
-// One step of an integrator through Lobatto's five points, of order 8, and Hermite's interpolation to them of a
-// function of which the value and three derivatives are known at both ends. At four points at once: all but the first.
+// One step of Lobatto's method of order 8 (five points, the first of them the start of the step), and Hermite
+// interpolation at the other four points of a function whose value and three derivatives are known at both ends.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 
 #include "afm/detail/multiversion.h"
-#include "afm/detail/select.h"
 
 namespace afm {
 
 constexpr double kRoot21 = 4.58257569495584;
+constexpr std::size_t kNodeCount = 4;
 constexpr double kNodes[4] = {0.5 - kRoot21 / 14, 0.5, 0.5 + kRoot21 / 14, 1.0};
 constexpr double kRest[4] = {1.0 - kNodes[0], 1.0 - kNodes[1], 1.0 - kNodes[2], 1.0 - kNodes[3]};
 
-// From the beginning to each: the weights of the rates at all five.
+// kLobatto[k][i]: weight of the rate at point k in the integral from the start to node i.
 constexpr double kLobatto[5][4] = {
     {(119 + 3 * kRoot21) / 1960, 13.0 / 320, (119 - 3 * kRoot21) / 1960, 1.0 / 20},
     {(343 - 9 * kRoot21) / 2520, (392 + 105 * kRoot21) / 2880, (343 + 69 * kRoot21) / 2520, 49.0 / 180},
@@ -22,8 +22,8 @@ constexpr double kLobatto[5][4] = {
     {(343 - 69 * kRoot21) / 2520, (392 - 105 * kRoot21) / 2880, (343 + 9 * kRoot21) / 2520, 49.0 / 180},
     {(-21 + 3 * kRoot21) / 1960, 3.0 / 320, (-21 - 3 * kRoot21) / 1960, 1.0 / 20}};
 
-// Of the polynomial of order 7: what each derivative at the beginning adds at each point to the value and to its first
-// two derivatives. What those at the end add follows by reflection, c -> 1 - c.
+// The polynomial of order 7: what the k-th derivative at the start adds at node i to the value and to its first two
+// derivatives. The weights of the derivatives at the end follow by reflection, c -> 1 - c.
 struct HermiteWeights {
   double value[4][4], slope[4][4], bend[4][4];
 };
@@ -45,34 +45,33 @@ constexpr HermiteWeights hermite_weights(const double (&points)[4]) {
   return w;
 }
 
-constexpr HermiteWeights kFromBeginning = hermite_weights(kNodes), kFromEnd = hermite_weights(kRest);
+constexpr HermiteWeights kFromStart = hermite_weights(kNodes), kFromEnd = hermite_weights(kRest);
 
-// Four numbers, one for each point.
-template <class T>
-T at_every_node(const double (&x)[4]);
+// Value and three derivatives at one end of a step, each times a power of the step's length.
+struct HermiteEnd {
+  double scaled[4];
+};
+AFM_INLINED HermiteEnd hermite_end(double dt, double value, double first, double second, double third) {
+  const double dt2 = dt * dt;
+  return {{value, dt * first, dt2 * second, dt2 * dt * third}};
+}
 
-template <class T>
-struct HermiteOf {
-  T value, slope, bend;
+struct HermitePoint {
+  double value, slope, bend;
 };
 
-// The value and two derivatives at each point, from the value and three derivatives at both ends.
-template <class T>
-AFM_INLINED HermiteOf<T> hermite(double dt, const double (&first)[4], const double (&last)[4]) {
-  const double dt2 = dt * dt, dt3 = dt2 * dt, inverse_dt = 1.0 / dt;
-  const double a[4] = {first[0], dt * first[1], dt2 * first[2], dt3 * first[3]};
-  const double b[4] = {last[0], -dt * last[1], dt2 * last[2], -dt3 * last[3]};
-  T value(0.0), slope(0.0), bend(0.0);
+// Value and first two derivatives at node i. `last` is taken with -dt: seen from the end, time runs backwards.
+AFM_INLINED HermitePoint hermite(double dt, const HermiteEnd& first, const HermiteEnd& last, std::size_t i) {
+  const double inverse_dt = 1.0 / dt;
+  HermitePoint p{0.0, 0.0, 0.0};
 #pragma GCC unroll 4
   for (std::size_t k = 0; k < 4; ++k) {
-    const HermiteWeights &f = kFromBeginning, &g = kFromEnd;
-    const T from_first(a[k]), from_last(b[k]);
-    value = mul_add(at_every_node<T>(f.value[k]), from_first, mul_add(at_every_node<T>(g.value[k]), from_last, value));
-    slope =
-        mul_add(at_every_node<T>(f.slope[k]), from_first, mul_add(T(-at_every_node<T>(g.slope[k])), from_last, slope));
-    bend = mul_add(at_every_node<T>(f.bend[k]), from_first, mul_add(at_every_node<T>(g.bend[k]), from_last, bend));
+    const HermiteWeights &f = kFromStart, &g = kFromEnd;
+    p.value = std::fma(f.value[k][i], first.scaled[k], std::fma(g.value[k][i], last.scaled[k], p.value));
+    p.slope = std::fma(f.slope[k][i], first.scaled[k], std::fma(-g.slope[k][i], last.scaled[k], p.slope));
+    p.bend = std::fma(f.bend[k][i], first.scaled[k], std::fma(g.bend[k][i], last.scaled[k], p.bend));
   }
-  return {value, slope * T(inverse_dt), bend * T(inverse_dt) * T(inverse_dt)};
+  return {p.value, p.slope * inverse_dt, p.bend * inverse_dt * inverse_dt};
 }
 
 }  // namespace afm

@@ -1,4 +1,4 @@
-// Exponential and logarithm with the same bits on every machine, which those of the C library do not have.
+// Exponential and logarithm with the same bits on every machine. Those of the C library differ from version to version.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace afm {
 
-// Natural logarithm to 1e-15 of 0 < x.
+// Natural logarithm, x > 0, error below 1e-15: by the series of artanh(z), z = (m-1)/(m+1), up to z^23.
 AFM_INLINED double portable_log(double x) {
   constexpr double kLog2 = 0.6931471805599453;
   int exponent = 0;
@@ -28,7 +28,8 @@ AFM_INLINED double portable_log(double x) {
 
 namespace exp_detail {
 
-// e^r 2^k, where power(k + kRounder) is 2^k. Terms in pairs, pairs in pairs: little waits for what is before it.
+// e^r 2^k, where power(k + kRounder) is 2^k. The terms are added in pairs, which shortens the chain of dependent
+// operations.
 template <class T, class Power>
 AFM_INLINED T exp_of(const T& x, const Power& power) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
@@ -45,7 +46,7 @@ AFM_INLINED T exp_of(const T& x, const Power& power) {
 
 }  // namespace exp_detail
 
-// e^x to 1e-15 of |x| < 700; beyond it some number or none, the same everywhere.
+// e^x for |x| < 700, error below 1e-15 of it. Beyond that the result means nothing, but is the same on every machine.
 AFM_INLINED double portable_exp(double x) {
   return exp_detail::exp_of(x, [](double shifted) {
     std::uint64_t bits;

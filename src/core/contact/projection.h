@@ -1,5 +1,5 @@
-// From a bouncing tip to the slide that it would make without bouncing (the reference slide), and back: written once for
-// numbers and for numbers that carry derivatives. `free`: 1, or 0 for a tip that is held along x.
+// From a bouncing tip to the reference slide, the slide that it would make without bouncing, and back. For numbers and
+// for dual numbers. `free`: 1, or 0 for the hammer, which is held along x.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace afm {
 
-// The state after a bounce: phase [a], extension [a], lab velocity and gap rate [a/tau].
+// The state after a bounce: phase [a], extension [a], lab velocity [a/tau] and gap rate [a/tau].
 template <class T>
 struct Bounce4 {
   T phase, X, u, g1;
@@ -23,7 +23,7 @@ struct ProjectedOf {
   T normal_speed, tangential_velocity;  // [a/tau]
 };
 
-// Takes the normal velocity out; the tangential velocity stays.
+// Takes the normal velocity out. The tangential velocity stays.
 template <class T>
 AFM_INLINED ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>& state) {
   using std::sqrt;
@@ -40,7 +40,7 @@ AFM_INLINED Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& 
   return {reference.phase, reference.X, reference.u - slope * normal_speed / N, normal_speed * N};
 }
 
-// The reference slide with what the chatter has moved it by: sigma along the surface, and p faster along it.
+// The reference slide, displaced by sigma along the surface, and faster by p along it.
 template <class T>
 AFM_INLINED SlideState<T> moved_reference_of(const T& H, const SlideState<T>& reference, const ChatterOf<T>& chatter) {
   using std::sqrt;

@@ -3,7 +3,10 @@
 namespace afm {
 namespace {
 
-constexpr double kNear = 1e-11;  // of an orbit, while the branch is followed [a, a/tau]
+// [a, a/tau] of an orbit on a branch: a choice, far above the rounding of a map
+constexpr double kResidual = 1e-11;
+constexpr double kParameterStep = 1e-6;  // of the difference quotient: about the cube root of the rounding
+constexpr int kMaxCorrections = 12;      // Newton steps; they converge quadratically or not at all
 
 }  // namespace
 
@@ -60,24 +63,23 @@ Eigen::VectorXd Arclength::tangent(const Place& at, double target) const {
 
 bool Arclength::advance(const Place& from, const Eigen::VectorXd& direction, double step, Place& to) const {
   to = moved(from, step * direction);
-  constexpr int kMostSteps = 12;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxCorrections; ++i) {
     std::vector<MapStep> steps;
     Eigen::VectorXd error;
     if (!residual(to, error, &steps)) return false;
     error[size(from)] = direction.dot(difference(to, from)) - step;
-    if (error.lpNorm<Eigen::Infinity>() < kNear) return same_branch(to, from, step);
+    if (error.lpNorm<Eigen::Infinity>() < kResidual) return same_branch(to, from, step);
     Eigen::MatrixXd A;
     if (!derivative(to, steps, direction, A)) return false;
     to = moved(to, A.partialPivLu().solve(-error));
     if (!std::isfinite(to.parameter)) return false;
   }
   Eigen::VectorXd error;
-  return residual(to, error, nullptr) && error.head(size(from)).lpNorm<Eigen::Infinity>() < kNear &&
+  return residual(to, error, nullptr) && error.head(size(from)).lpNorm<Eigen::Infinity>() < kResidual &&
          same_branch(to, from, step);
 }
 
-// Newton's steps must not land on another orbit.
+// Newton's method must not converge to another orbit.
 bool Arclength::same_branch(const Place& to, const Place& from, double step) const {
   return difference(to, from).norm() < 2.0 * step + 1e-12;
 }
@@ -90,16 +92,16 @@ bool Arclength::derivative(const Place& at, const std::vector<MapStep>& steps, c
     A.block<4, 4>(4 * i, 4 * i) += steps[static_cast<std::size_t>(i)].J * weight_.cwiseInverse().asDiagonal();
     A.block<4, 4>(4 * i, 4 * ((i + 1) % n)) -= weight_.cwiseInverse().asDiagonal();
   }
-  const double kStep = 1e-6;
   Place up = at, down = at;
-  up.parameter += kStep;
-  down.parameter -= kStep;
+  up.parameter += kParameterStep;
+  down.parameter -= kParameterStep;
   Eigen::VectorXd high, low;
   const bool above = residual(up, high, nullptr), below = residual(down, low, nullptr);
   if (!above && !below) return false;
   Eigen::VectorXd here;
   if (!(above && below)) residual(at, here, nullptr);
-  const Eigen::VectorXd slope = ((above ? high : here) - (below ? low : here)) / (above && below ? 2.0 * kStep : kStep);
+  const Eigen::VectorXd slope =
+      ((above ? high : here) - (below ? low : here)) / (above && below ? 2.0 * kParameterStep : kParameterStep);
   A.col(4 * n).head(4 * n) = slope.head(4 * n);
   A.row(4 * n) = direction.transpose();
   return true;

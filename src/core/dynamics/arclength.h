@@ -1,4 +1,5 @@
-// Steps along a branch of periodic orbits: all points of an orbit and the varied parameter together.
+// Steps along a branch of periodic orbits by pseudo-arclength: all points of an orbit and the varied parameter
+// together.
 #pragma once
 
 #include <Eigen/LU>
@@ -24,14 +25,14 @@ class Arclength {
 
   PoincareMap map(double parameter) const { return map_at(model_, eta_, vary_, parameter); }
 
-  // As one vector, in which velocities count less.
+  // As one vector, with velocities divided by 1 + |eta|.
   Eigen::VectorXd difference(const Place& b, const Place& a) const;
   Place moved(const Place& a, const Eigen::VectorXd& d) const;
 
-  // Along the branch, the parameter towards its target.
+  // The direction of the branch towards the target.
   Eigen::VectorXd tangent(const Place& at, double target) const;
 
-  // Newton's method for the orbit at the distance `step` from `from` along `direction`. False where there is none.
+  // Newton's method for the orbit at the distance `step` from `from` along `direction`. False if it does not converge.
   bool advance(const Place& from, const Eigen::VectorXd& direction, double step, Place& to) const;
 
  private:

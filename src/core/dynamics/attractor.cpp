@@ -17,20 +17,22 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The marks of one period, the first of them at both ends; empty where the orbit does not come back.
+// Counts of one period; zero if the orbit does not return.
 struct Period {
   int marks = 0, impacts = 0, cells = 0;
 };
 
-// Where the tip comes to the orbit slowly a multiple of the period may be the first to be within the tolerance.
+// While the tip still converges, a multiple of the period may be the first return within the tolerance.
 int smallest_period(const std::vector<Mark>& marks, int n, double tolerance) {
+  constexpr double kConverging = 100.0;  // a choice: distance of a shorter return, over the tolerance
   for (int d = 1; d < n; ++d) {
-    if (n % d == 0 && distance(marks[static_cast<std::size_t>(d)].state, marks[0].state) < 100.0 * tolerance) return d;
+    if (n % d == 0 && distance(marks[static_cast<std::size_t>(d)].state, marks[0].state) < kConverging * tolerance)
+      return d;
   }
   return n;
 }
 
-// Comes back to where it was, and once more.
+// The orbit must return twice.
 Period find_period(Observer& observer, double eta, const ModelTime& limit, const AttractorSettings& settings) {
   if (!observer.next(limit)) return {};
   std::vector<Mark> marks{observer.mark()};
@@ -49,7 +51,7 @@ Period find_period(Observer& observer, double eta, const ModelTime& limit, const
   return {};
 }
 
-// The exponents of a periodic orbit are its multipliers': no limit has to be waited for.
+// The exponents of a periodic orbit follow from the multipliers of one period.
 LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period) {
   LyapunovSpectrum s;
   Tangents tangents(model, tip);
@@ -80,10 +82,10 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
 }
 
 bool attracts(const PeriodicOrbit& orbit, const TipState& from) {
-  constexpr double kNear = 0.2;  // [a, a/tau]
+  constexpr double kNearOrbit = 0.2;  // [a, a/tau] a choice: four times the distance of a near return
   double nearest = kInfinity;
   for (const TipState& point : orbit.points) nearest = std::min(nearest, distance(point, from));
-  return nearest < kNear && std::abs(orbit.multipliers[0]) < 1.0;
+  return nearest < kNearOrbit && std::abs(orbit.multipliers[0]) < 1.0;
 }
 
 void describe(const PeriodicOrbit& orbit, Attractor& found) {
@@ -95,18 +97,18 @@ void describe(const PeriodicOrbit& orbit, Attractor& found) {
     found.lyapunov.exponents[i] = std::log(std::abs(orbit.multipliers[i])) / orbit.period;
 }
 
-// Comes back slowly: Newton's method finds where it goes, from its nearest return. Impacts one by one only.
+// Slow convergence: Newton's method finds the orbit from a near return. Only for orbits of single impacts.
 bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const ModelTime& limit, Attractor& found) {
-  constexpr std::size_t kLongestOrbit = 32;  // [impacts]: Newton's steps cost the cube
+  constexpr std::size_t kLongestOrbit = 32;  // [impacts] a choice: the cost of a Newton step grows with the cube
   std::vector<TipState> run;
   while (run.size() <= kLongestOrbit && observer.next(limit)) {
     run.push_back(observer.mark().state);
     if (tip.in_contact() || !(run.back().g1 > 0.0)) return false;
   }
-  constexpr double kNearReturn = 0.05;  // [a, a/tau]
-  constexpr int kMostAttempts = 8;
+  constexpr double kNearReturn = 0.05;  // [a, a/tau] a choice
+  constexpr int kMaxAttempts = 8;       // a choice
   int attempts = 0;
-  for (std::size_t n = 1; n <= kLongestOrbit && n < run.size() && attempts < kMostAttempts; ++n) {
+  for (std::size_t n = 1; n <= kLongestOrbit && n < run.size() && attempts < kMaxAttempts; ++n) {
     if (distance(run[n], run[0]) > kNearReturn) continue;
     ++attempts;
     const OrbitResult r =
@@ -119,12 +121,12 @@ bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const Mo
   return false;
 }
 
-// Turns by an impact about the middle of the section, in the plane of extension and gap rate; of the hammer, whose
-// extension is 0, of phase and gap rate.
+// Turns per impact about the centre of the section, in the plane of extension and gap rate. For the hammer, whose
+// extension is 0, the phase replaces the extension.
 double rotation_number(const Model& model, Observer& observer, const ModelTime& limit) {
-  constexpr std::size_t kMost = 4000;
+  constexpr std::size_t kRotationImpacts = 4000;  // a choice: the error of the mean is below 1/4000
   std::vector<TipState> run;
-  while (run.size() < kMost && observer.next(limit)) run.push_back(observer.mark().state);
+  while (run.size() < kRotationImpacts && observer.next(limit)) run.push_back(observer.mark().state);
   if (run.size() < 2) return 0.0;
   if (model.kind == ModelKind::hammer) {
     for (TipState& s : run) s.X = section_difference(s, run.front())[0];
@@ -144,7 +146,8 @@ double rotation_number(const Model& model, Observer& observer, const ModelTime& 
   return std::min(mean, 1.0 - mean);
 }
 
-// An exponent within this of 0 is that of a torus or of a bifurcation [1/tau]; and within so many standard errors.
+// An exponent is zero, as on a torus or at a bifurcation, within 0.01/tau or within four standard errors. A choice: in
+// 500 tau it converges to about 5/500.
 constexpr double kNoGrowth = 0.01, kStandardErrors = 4.0;
 
 AttractorKind kind_of(const LyapunovSpectrum& s) {
@@ -170,7 +173,7 @@ void describe(const Model& model, Tip& tip, const Period& period, Attractor& fou
   found.lyapunov = exponents_of(model, tip, period);
 }
 
-// By its exponents; where they say that it draws its surroundings in, it repeats itself after all, only later.
+// The kind follows from the exponents. If all are negative, the orbit is periodic and has not converged yet.
 void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const AttractorSettings& settings,
                          Attractor& found) {
   found.lyapunov = lyapunov(model, tip, {0.0, settings.duration, observer.left(), 0.0});
@@ -181,9 +184,9 @@ void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const
     found.rotation_number = rotation_number(model, observer, tip.now() + settings.duration);
     return;
   }
-  constexpr double kFolds = 25.0;  // until a displacement is e^-25 of itself
+  constexpr double kConvergence = 25.0;  // e^-25 = 1.4e-11: a displacement of 0.1 a is then below the tolerance
   if (!std::isfinite(found.lyapunov.exponents[0])) return;
-  observer.run_until(tip.now() + kFolds / -found.lyapunov.exponents[0]);
+  observer.run_until(tip.now() + kConvergence / -found.lyapunov.exponents[0]);
   const Period period = search_period(observer, tip, settings);
   if (period.marks > 0) describe(model, tip, period, found);
 }

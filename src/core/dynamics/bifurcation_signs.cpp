@@ -7,6 +7,7 @@
 namespace afm {
 namespace {
 
+// a choice: distance of a multiplier from where it passes, at an event found by bisection
 constexpr double kOnCircle = 1e-3;
 
 double characteristic(const Multipliers& m, double root) {

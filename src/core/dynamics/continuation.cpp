@@ -9,9 +9,14 @@
 namespace afm {
 namespace {
 
-constexpr double kTouch = 1e-9;    // a gap this small on the way is a graze [a]
-constexpr double kNoSpeed = 1e-3;  // an impact this slow, against the drag, is one
-constexpr double kSmallestStep = 1e-13;
+// What ends a branch. All are choices.
+constexpr double kGrazingGap = 1e-5;    // [a] least gap of a flight on the way
+constexpr double kGrazingSpeed = 1e-3;  // [a/tau] normal speed of an impact over 1 + |eta|
+// [turns] distance of the horizontal spring's turns in a period from a whole number
+constexpr double kResonantTurns = 5e-3;
+constexpr double kResonantMultiplier = 0.02;  // distance of a multiplier from 1
+constexpr double kSmallestStep = 1e-13;       // arclength; below it the step is rounding
+constexpr int kMaxBisections = 60;            // down to the rounding of a step of 1
 
 class Continuation {
  public:
@@ -39,10 +44,10 @@ class Continuation {
   }
 
  private:
-  // Without Newton's steps once more: at a fold they would lead to the other branch.
+  // Without further Newton steps: at a fold they could lead to the other branch.
   BranchPoint describe(const Place& p) const { return {p.parameter, orbit_at(line_.map(p.parameter), p.points)}; }
 
-  // What has happened between one point and the next; false where the branch is at its end.
+  // Records the events between one point and the next. False at the end of the branch.
   bool take(const Place& before, const Eigen::VectorXd& direction, double step, const Place& now) {
     const BranchPoint from = branch_.points.back();
     BranchPoint to = describe(now);
@@ -71,12 +76,12 @@ class Continuation {
     return bifurcation_sign(kind, at.orbit, vary_ == Parameter::cutoff ? at.parameter : model_.v_c);
   }
 
-  // By halves of the step.
+  // By bisection of the step.
   void locate(BifurcationKind kind, const Place& before, const Eigen::VectorXd& direction, double step) {
     double low = 0.0, high = step;
     const int first = sign(kind, branch_.points.back());
     BranchPoint at = branch_.points.back();
-    for (int i = 0; i < 60 && high - low > settings_.event_tolerance * 0.1; ++i) {
+    for (int i = 0; i < kMaxBisections && high - low > settings_.event_tolerance * 0.1; ++i) {
       const double middle = 0.5 * (low + high);
       Place there;
       if (!line_.advance(before, direction, middle, there)) break;
@@ -96,7 +101,7 @@ class Continuation {
   Branch end_at_loss() {
     const BranchPoint& last = branch_.points.back();
     branch_.end = resonates(last) ? BranchEnd::resonance : BranchEnd::lost;
-    if (last.orbit.clearance < 1e4 * kTouch || last.orbit.slowest_impact < kNoSpeed * (1.0 + std::abs(eta_))) {
+    if (last.orbit.clearance < kGrazingGap || last.orbit.slowest_impact < kGrazingSpeed * (1.0 + std::abs(eta_))) {
       branch_.end = BranchEnd::grazing;
       branch_.events.push_back({BifurcationKind::grazing, last, 0.0});
     }
@@ -106,7 +111,8 @@ class Continuation {
   bool resonates(const BranchPoint& at) const {
     if (model_.kind == ModelKind::hammer) return false;
     const double turns = at.orbit.period * model_.frequency_ratio;
-    return std::abs(turns - std::round(turns)) < 5e-3 && std::abs(at.orbit.multipliers[1] - 1.0) < 0.02;
+    return std::abs(turns - std::round(turns)) < kResonantTurns &&
+           std::abs(at.orbit.multipliers[1] - 1.0) < kResonantMultiplier;
   }
 
   const Model model_;

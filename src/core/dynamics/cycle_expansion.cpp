@@ -6,7 +6,7 @@
 namespace afm {
 namespace {
 
-// What one orbit, or a product of distinct ones, adds: weight (with its sign) times energy and time.
+// The contribution of a product of distinct orbits: signed weight, energy and time.
 struct Term {
   double weight, energy, time, instability;
   std::size_t length;
@@ -64,8 +64,7 @@ struct Series {
   std::vector<double> value, energy, time;
 };
 
-// Coefficients of sum over orbits and repeats of z^(nr) e^(r field) n / |det(1 - J^r)|: n c_n of the logarithm -sum c_n
-// z^n.
+// n c_n of the logarithm -sum c_n z^n: the sum over orbits and repeats of z^(nr) e^(r field) n / |det(1 - J^r)|.
 Series traces(const std::vector<PeriodicOrbit>& orbits, std::size_t longest) {
   Series c(longest);
   for (const PeriodicOrbit& orbit : orbits) {

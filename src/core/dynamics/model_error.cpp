@@ -6,9 +6,9 @@
 namespace afm {
 namespace {
 
-constexpr double kGolden = 0.6180339887498949;  // [tau]
+constexpr double kSamplingInterval = 0.6180339887498949;  // [tau] the golden section: phases fill [0, 1) evenly
 
-// The deflection at `t`, events on the way taken. Precondition: t is not before now.
+// The deflection at `t`, after all events until then. Precondition: t is not before now.
 Deflection deflection_at(Tip& tip, const ModelTime& t) {
   while (tip.segment_end() <= t) tip.advance_segment(t);
   return tip.deflection(t);
@@ -18,7 +18,7 @@ double events_per_tau(const Attractor& a, double eta) {
   return a.cells_per_impact > 0.0 ? std::abs(eta) / a.cells_per_impact : 0.0;
 }
 
-// What the budget of events allows of the duration, by the events seen before.
+// The duration that the budget of events allows, by the rate of events so far.
 double affordable(const Attractor& a, double eta, const ErrorSettings& settings) {
   const double wanted = a.cells > 0 ? std::min(settings.duration, settings.periodic_duration) : settings.duration;
   return std::min(wanted, static_cast<double>(settings.most_events) / events_per_tau(a, eta));
@@ -28,7 +28,7 @@ void sample(Tip& tip, int samples, LevelRun& run) {
   const ModelTime begin = tip.now();
   double squares = 0.0, stretches = 0.0;
   for (int i = 0; i < samples; ++i) {
-    const Deflection d = deflection_at(tip, begin + kGolden * i);
+    const Deflection d = deflection_at(tip, begin + kSamplingInterval * i);
     run.vertical.push_back(d.vertical);
     squares += d.vertical * d.vertical;
     stretches += d.lateral * d.lateral;
@@ -38,7 +38,7 @@ void sample(Tip& tip, int samples, LevelRun& run) {
   run.stretch_rms = std::sqrt(stretches / samples);
 }
 
-// Before the samples are put in order.
+// Precondition: the samples are in order of time.
 double noise_of(const std::vector<double>& samples) {
   const auto half = static_cast<std::ptrdiff_t>(samples.size() / 2);
   std::vector<double> first(samples.begin(), samples.begin() + half);
@@ -78,7 +78,7 @@ LevelRun run_level(const Model& model, Tip& tip, const ErrorSettings& settings) 
 double quantile_distance(const std::vector<double>& a, const std::vector<double>& b) {
   const std::size_t n = std::min(a.size(), b.size());
   double sum = 0.0;
-  // of sets of different size, the shorter one's quantiles
+  // the quantiles of the smaller set
   const auto quantile = [n](const std::vector<double>& v, std::size_t i) {
     return v[(2 * i + 1) * v.size() / (2 * n)];
   };
@@ -87,10 +87,10 @@ double quantile_distance(const std::vector<double>& a, const std::vector<double>
 }
 
 double tracking_error(const Model& model, const Level& level, Tip& reference, const ErrorSettings& settings) {
-  constexpr int kPoints = 64;  // of one tau
+  constexpr int kPoints = 64;  // per tau, a choice: ten for each turn of mica's horizontal spring
   double squares = 0.0;
   for (int pair = 0; pair < settings.pairs; ++pair) {
-    const ModelTime begin = reference.now() + kGolden * 3.0;
+    const ModelTime begin = reference.now() + kSamplingInterval * 3.0;
     deflection_at(reference, begin);
     reference.advance_segment(begin);
     Tip tip(at_level(model, level), reference.eta(), reference.tip_state(), level.contact_tolerance);

@@ -1,4 +1,4 @@
-// Watches a tip go from impact to impact.
+// Follows a tip from impact to impact and counts.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace afm {
 
-// What an orbit is compared by: its state after an impact or a release, and the sums up to there.
+// A point at which orbits are compared: the state after an impact or a release, its time, and the impacts so far.
 struct Mark {
   TipState state;
   ModelTime time;
@@ -23,18 +23,18 @@ inline double distance(const TipState& a, const TipState& b) {
       {std::abs(phase - std::round(phase)), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)});
 }
 
-// A bounce that does not lift the tip: by less than 1e-5 a where the surface presses as it mostly does.
+// A bounce that hardly lifts the tip. At 0.01 a/tau and a reaction of 4 a/tau^2 it rises by 1.3e-5 a: v^2/2P.
 inline bool is_creeping(const Impact& impact) {
-  constexpr double kSlow = 1e-2;  // [a/tau]
-  return impact.kind == ImpactKind::burst || impact.normal_speed < kSlow;
+  constexpr double kCreepSpeed = 1e-2;  // [a/tau]
+  return impact.kind == ImpactKind::burst || impact.normal_speed < kCreepSpeed;
 }
 
-// Runs a tip from mark to mark, within a budget, and keeps the time spent in contact.
+// Advances a tip from mark to mark within a budget of events, and sums the time in contact.
 class Observer {
  public:
   Observer(Tip& tip, std::uint64_t most_events) : tip_(tip), left_(most_events) {}
 
-  // False where the limit, the budget or a failed search came first.
+  // False if the limit, the end of the budget or a failed search came first.
   bool next(const ModelTime& limit) {
     while (left_ > 0 && !failed_) {
       bool held = tip_.in_contact();

@@ -1,4 +1,4 @@
-// The last digits of a periodic orbit: Newton's method with errors computed in double-double.
+// The last digits of a periodic orbit: Newton's method with residuals in double-double.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +19,13 @@ struct FineStep {
   DoubleDouble dt, energy_loss;
 };
 
-// From an impact to the next, near the time `guess` [tau].
-FineStep fine_map(const Model& model, double eta, const FinePoint& start, double guess);
-
 struct FineOrbit {
   std::vector<FinePoint> points;
   std::vector<FineStep> steps;
 };
 
-// From an orbit good to rounding, the times of its flights, and what solves for Newton's step given the errors of all
-// flights.
+// Precondition: `points` is an orbit to rounding, and `times` are the durations of its flights [tau]. `solve` returns
+// the Newton step for the residuals of all flights.
 FineOrbit polish(const PoincareMap& map, const std::vector<TipState>& points, const std::vector<double>& times,
                  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& solve);
 

@@ -16,14 +16,14 @@ double within(Random& random, double low, double high) {
   return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
 }
 
-// After an impact, anywhere that an orbit may be: speeds of the order of the drag's and of the springs'.
+// A random state after an impact, with velocities of the order of the drag velocity.
 TipState anywhere(const PoincareMap& map, Random& random) {
   const double speed = 1.0 + std::abs(map.eta());
   return {within(random, 0.0, 1.0), within(random, -0.1, 0.1), map.eta() + within(random, -1.0, 1.0) * speed, 0.0,
           within(random, 0.0, 2.0) * speed};
 }
 
-// Begun again where it ends in contact, which is not of this map.
+// A run of impacts. After contact, which this map does not cover, it restarts at random.
 Points run(const PoincareMap& map, std::size_t impacts, Random& random) {
   Points points;
   TipState now = anywhere(map, random);
@@ -35,7 +35,7 @@ Points run(const PoincareMap& map, std::size_t impacts, Random& random) {
   return points;
 }
 
-// Indices at which the run comes back nearest after n impacts, nearest first.
+// Indices of the nearest returns of the run after n impacts, nearest first.
 std::vector<std::size_t> returns(const Points& points, std::size_t n, std::size_t wanted, double& nearest) {
   std::vector<std::pair<double, std::size_t>> distances;
   for (std::size_t i = 0; i + n < points.size(); ++i) {
@@ -53,9 +53,9 @@ class Search {
  public:
   Search(const PoincareMap& map, const OrbitSearchSettings& settings, const std::function<void(double)>& progress)
       : map_(map), settings_(settings), progress_(progress), random_(settings.seed) {
-    constexpr std::size_t kTransient = 1000;
-    run_ = run(map, static_cast<std::size_t>(settings.trajectory) + kTransient, random_);
-    run_.erase(run_.begin(), run_.begin() + kTransient);
+    constexpr std::size_t kTransientImpacts = 1000;  // a choice
+    run_ = run(map, static_cast<std::size_t>(settings.trajectory) + kTransientImpacts, random_);
+    run_.erase(run_.begin(), run_.begin() + kTransientImpacts);
   }
 
   OrbitSearchResult all() {
@@ -68,14 +68,14 @@ class Search {
     report_ = {static_cast<int>(n), 0, 0, 0, 0.0, 0.0};
     found_.clear();
     for (const std::size_t i : returns(run_, n, static_cast<std::size_t>(settings_.guesses), report_.closest_return)) {
-      attempt(piece(run_, i, n));
+      attempt(part(run_, i, n));
     }
-    for (int k = 0; k < settings_.guesses; ++k) attempt(piece(run_, random_() % (run_.size() - n), n));
+    for (int k = 0; k < settings_.guesses; ++k) attempt(part(run_, random_() % (run_.size() - n), n));
     for (int k = 0; k < settings_.guesses; ++k) attempt(run(map_, n, random_));
     close_length();
   }
 
-  static Points piece(const Points& run, std::size_t from, std::size_t n) {
+  static Points part(const Points& run, std::size_t from, std::size_t n) {
     const auto begin = run.begin() + static_cast<std::ptrdiff_t>(from);
     return Points(begin, begin + static_cast<std::ptrdiff_t>(n));
   }

@@ -14,7 +14,7 @@ namespace {
 
 using Points = std::vector<TipState>;
 
-// The map at every point, and how far each image is from the next point.
+// The map at every point, and the distance of each image from the next point.
 struct Shot {
   bool landed = true;
   std::vector<MapStep> steps;
@@ -69,7 +69,7 @@ Multipliers eigenvalues(const SectionJacobian<double>& J) {
   return sorted;
 }
 
-// The points of an orbit good to rounding, its energy, times and friction, all to the last digit.
+// Refines an orbit that is known to rounding: points, energy, times and friction to the last digit.
 void refine(const PoincareMap& map, const Shot& shot, Points points, PeriodicOrbit& orbit) {
   std::vector<double> times;
   for (const MapStep& step : shot.steps) times.push_back(step.dt);
@@ -99,7 +99,7 @@ void turn_to_first(PeriodicOrbit& orbit) {
   std::rotate(orbit.times.begin(), orbit.times.begin() + shift, orbit.times.end());
 }
 
-// All that does not need the last digit. Precondition: every point lands.
+// Everything that does not need double-double. Precondition: every flight ends in an impact.
 void measure(const PoincareMap& map, PeriodicOrbit& orbit) {
   const Shot shot = shoot(map, orbit.points);
   orbit.residual = shot.residual();
@@ -120,9 +120,9 @@ PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot&
   return orbit;
 }
 
-// Cuts the step until the error falls; 0 where no part of it makes it fall.
+// Halves the step until the error falls; returns its part, or 0 if no part makes the error fall.
 double damped_step(const PoincareMap& map, const Points& points, const Eigen::VectorXd& step, const Shot& now,
-                  double smallest, Shot& next) {
+                   double smallest, Shot& next) {
   for (double share = 1.0; share >= smallest; share *= 0.5) {
     next = shoot(map, moved(points, step, share));
     if (next.landed && next.error.norm() < (1.0 - 0.1 * share) * now.error.norm()) return share;
@@ -143,14 +143,14 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
     if (share > 0.0) {
       points = moved(points, step, share);
       shot = std::move(next);
-      continue;  // also below the residual asked for: one step more brings the last digits
+      continue;  // also below the residual: one more step gives the last digits
     }
     outcome = shot.residual() <= settings.residual ? OrbitOutcome::found : OrbitOutcome::singular;
   }
   if (outcome == OrbitOutcome::slow && shot.residual() <= settings.residual) outcome = OrbitOutcome::found;
   if (outcome != OrbitOutcome::found) return {outcome, {}};
   PeriodicOrbit orbit = describe(map, points, shot);
-  // without speed the map is the identity nearly everywhere on the surface: a tip in contact, not an orbit
+  // without speed the map is almost the identity on the surface: a tip in contact, not an orbit
   if (map.eta() != 0.0 && orbit.cells == 0) outcome = OrbitOutcome::contact;
   return {outcome, std::move(orbit)};
 }
@@ -179,10 +179,13 @@ SectionJacobian<double> orbit_jacobian(const PoincareMap& map, const PeriodicOrb
 
 namespace {
 
-// Different orbits of one length are never so close, and one orbit found twice is closer [a, a/tau].
-constexpr double kSame = 1e-7;
+// [a, a/tau] A choice: one orbit found twice agrees to the residual, 1e-13, and different orbits of one length are
+// farther apart.
+constexpr double kSameOrbit = 1e-7;
 
-bool close(const TipState& a, const TipState& b) { return section_difference(a, b).lpNorm<Eigen::Infinity>() < kSame; }
+bool close(const TipState& a, const TipState& b) {
+  return section_difference(a, b).lpNorm<Eigen::Infinity>() < kSameOrbit;
+}
 
 bool matches(const PeriodicOrbit& a, const PeriodicOrbit& b, std::size_t shift) {
   for (std::size_t i = 0; i < a.length(); ++i) {

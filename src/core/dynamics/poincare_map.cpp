@@ -6,18 +6,17 @@
 
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
-#include "core/tip/tip_motion.h"
 
 namespace afm {
 
-TipState PoincareMap::held(const TipState& start) const {
+TipState PoincareMap::constrained(const TipState& start) const {
   return model_.kind == ModelKind::oscillator ? start : TipState{start.phase, 0.0, eta_, start.g, start.g1};
 }
 
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
-  if (!(start.g1 >= kLeastGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
-  Flight<double> flight(mechanics_, eta_, held(start));
+  if (!(start.g1 >= kMinGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
+  Flight<double> flight(mechanics_, eta_, constrained(start));
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
@@ -32,17 +31,17 @@ MapStep PoincareMap::operator()(const TipState& start) const {
   return step;
 }
 
-// Looked for on a grid, which the fastest term of the gap does not slip through, and then by halves.
+// On a grid of 32 points a turn of the fastest term of the gap, then by bisection.
 double PoincareMap::clearance(const TipState& start, double dt) const {
-  const Flight<double> flight(mechanics_, eta_, held(start));
+  const Flight<double> flight(mechanics_, eta_, constrained(start));
   const double turns = dt * (mechanics_.ratio + std::abs(eta_) + 1.0);
   const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 1; i < points; ++i) {
     double low = dt * (i - 1) / points, high = dt * i / points;
     if (!(flight.gap(low).g1 <= 0.0 && flight.gap(high).g1 > 0.0)) continue;
-    constexpr int kHalves = 40;
-    for (int k = 0; k < kHalves; ++k) {
+    constexpr int kBisections = 40;  // the gap at a minimum is then exact to rounding: its error is of the second order
+    for (int k = 0; k < kBisections; ++k) {
       const double middle = 0.5 * (low + high);
       (flight.gap(middle).g1 > 0.0 ? high : low) = middle;
     }

@@ -33,8 +33,8 @@ class Uniform {
   std::uint64_t state_;
 };
 
-constexpr double kLyapunovDuration =
-    2000.0;  // [tau] an exponent within a few per cent; it costs more than the friction
+// [tau] A choice: it gives exponents to a few per cent and costs more than the friction.
+constexpr double kLyapunovDuration = 2000.0;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ std::vector<ParameterError> find_faults(const SweepPoint& point) {
 }
 
 std::vector<ParameterError> find_faults(const SweepSettings& settings) {
-  constexpr double kLongest = 1e12;  // [tau]
+  constexpr double kLongest = 1e12;  // [tau] a choice; model times stay exact far beyond
   std::vector<ParameterError> faults;
   if (!(settings.duration > 0.0 && settings.duration <= kLongest)) {
     faults.emplace_back("duration", settings.duration, "must be above 0 and at most 1e12 tau");
@@ -100,7 +100,7 @@ AttractorSettings search_settings(const SweepSettings& settings) {
   return search;
 }
 
-// With a bath there are no attractors, only averages.
+// With a bath there is no attractor, only averages.
 SweepResult thermal_point(Tip& tip, const SweepSettings& settings) {
   tip.set_bath(settings.bath);
   for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;) continue;

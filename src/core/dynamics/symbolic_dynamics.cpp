@@ -12,9 +12,9 @@
 namespace afm {
 namespace {
 
-constexpr int kTransient = 1000;
+constexpr int kTransient = 1000;  // [impacts] a choice
 
-// One step of a displacement, kept of length 1; the logarithm of its stretching.
+// Maps a displacement and normalizes it; returns the logarithm of its growth.
 double stretch(const SectionJacobian<double>& J, Eigen::Vector4d& displacement) {
   displacement = (J * displacement).eval();
   const double length = displacement.norm();
@@ -40,7 +40,7 @@ double entropy(const Counts& counts) {
   return sum;
 }
 
-// Words of one letter more than those of `shorter`, of which both ends occur.
+// Words that are one letter longer than those of `shorter` and do not occur, although both ends do.
 std::vector<std::string> missing(const Counts& shorter, const Counts& longer, std::size_t alphabet) {
   std::vector<std::string> words;
   for (const auto& head : shorter) {
@@ -53,7 +53,7 @@ std::vector<std::string> missing(const Counts& shorter, const Counts& longer, st
   return words;
 }
 
-// Sum of squared deviations from the mean, carried along (Welford).
+// Running sum of squared deviations from the mean (Welford).
 struct Moments {
   double count = 0.0, mean = 0.0, squares = 0.0;
 
@@ -65,7 +65,7 @@ struct Moments {
   }
 };
 
-// Phases at which bands begin: after each gap of the circle that is wide enough.
+// Phases at which bands begin: after each gap that is wide enough.
 std::vector<double> band_begins(const std::vector<TipState>& points, double gap) {
   std::vector<double> phases, begins;
   for (const TipState& p : points) phases.push_back(p.phase);
@@ -85,7 +85,7 @@ std::size_t band(const std::vector<double>& begins, double phase) {
 }
 
 double unresolved_spread(const Partition& partition, const std::vector<TipState>& points) {
-  constexpr int kLetters = 10;
+  constexpr int kLetters = 10;  // a choice: with 40000 points the 2^10 words have 40 points each
   return word_spread(word_of(partition, points), points, kLetters).mean;
 }
 
@@ -128,7 +128,7 @@ SymbolicRun run_on_section(const PoincareMap& map, std::size_t impacts, std::uin
     run.points.push_back(now);
   }
   for (const double x : logarithms) run.exponent += x / static_cast<double>(logarithms.size());
-  constexpr std::size_t kBatches = 64;
+  constexpr std::size_t kBatches = 64;  // as in time_average.cpp
   std::vector<double> batches(kBatches, 0.0);
   const std::size_t width = logarithms.size() / kBatches;
   for (std::size_t i = 0; i < width * kBatches; ++i) batches[i / width] += logarithms[i] / static_cast<double>(width);
@@ -142,8 +142,8 @@ char Partition::letter(const TipState& point) const {
 }
 
 Partition find_partition(const std::vector<TipState>& points, double gap) {
-  constexpr std::size_t kEnough = 40000;
-  constexpr int kRounds = 2;
+  constexpr std::size_t kEnough = 40000;  // points for the cuts, see kLetters
+  constexpr int kRounds = 2;              // a choice: a second round accounts for the cuts of the other bands
   const std::vector<TipState> some(points.begin(),
                                    points.begin() + static_cast<std::ptrdiff_t>(std::min(kEnough, points.size())));
   Partition partition;

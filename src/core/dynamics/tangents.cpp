@@ -3,17 +3,17 @@
 #include <cmath>
 #include <limits>
 
+#include "afm/detail/multiversion.h"
 #include "afm/dynamics/contact_jacobian.h"
 #include "afm/flight.h"
-#include "afm/detail/multiversion.h"
 #include "afm/reflection.h"
 
 namespace afm {
 namespace {
 
-SlideState<double> guide_of(const TipState& s) { return {s.phase, s.X, s.u}; }
+SlideState<double> slide_state_of(const TipState& s) { return {s.phase, s.X, s.u}; }
 
-// A flight from impact to impact again, to the last digits, and what it does to displacements.
+// A flight from impact to impact, computed again with its Jacobian.
 struct Bounced {
   TipState after;
   double normal_speed;
@@ -33,7 +33,7 @@ AFM_MULTIVERSION void follow(const Model& model, const Mechanics<double>& mechan
 
 }  // namespace
 
-// The hammer's displacements are its own two, of phase and gap rate.
+// The hammer has two displacements, of phase and gap rate.
 Tangents::Tangents(const Model& model, Tip& tip)
     : model_(model), mechanics_(model), tip_(tip), rank_(section_dimension(model)) {
   if (rank_ == 2) columns_.col(1).swap(columns_.col(3));
@@ -62,7 +62,7 @@ Outcome Tangents::advance(const ModelTime& limit) {
   const Outcome outcome = tip_.advance(limit);
   const double dt = tip_.now() - since_;
   if (outcome == Outcome::time_limit) {
-    if (tip_.in_contact()) carry_slide(dt);  // the other arcs are carried when they end
+    if (tip_.in_contact()) carry_slide(dt);  // other segments count when they end
   } else if (outcome == Outcome::impact) {
     tip_.last_impact().kind == ImpactKind::burst ? carry_chatter(dt) : carry_bounce(dt);
   } else if (outcome == Outcome::contact) {
@@ -82,15 +82,15 @@ void Tangents::carry_bounce(double dt) {
   restart(bounced.after);
 }
 
-// From where the tip is: the bounce computed again here is off by rounding, which an unstable orbit would enlarge. A
-// tip that has begun a chatter sequence shows its reference slide alone; then the bounce is as good.
+// From the state of the tip: that of `bounce` differs by rounding, which an unstable orbit would amplify. A tip that
+// has begun a chatter sequence shows only its reference slide; then we use `bounce`.
 void Tangents::restart(const TipState& bounce) {
   start_ = tip_.tip_state();
   if (!(start_.g1 > 0.0)) start_ = bounce;
   since_ = tip_.now();
 }
 
-// A burst that dies has carried the reference slide, and leaves it to the contact that follows; its normal velocity is gone.
+// A sequence that dies ends on the reference slide, without a normal velocity; contact follows.
 void Tangents::carry_chatter(double dt) {
   const TipState end = tip_.tip_state();
   stretch_.volume = std::numeric_limits<double>::quiet_NaN();
@@ -98,9 +98,10 @@ void Tangents::carry_chatter(double dt) {
     carry(chatter_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
   } else {
     SectionJacobian<double> J = projection_jacobian(model_, start_);
-    J.topRows<3>() = slide_jacobian(model_, tip_.eta(), project_onto_surface(model_, start_).reference, dt) * J.topRows<3>().eval();
+    J.topRows<3>() =
+        slide_jacobian(model_, tip_.eta(), project_onto_surface(model_, start_).reference, dt) * J.topRows<3>().eval();
     J.row(3).setZero();
-    J = held(mechanics_.is_free_along_x, J);
+    J = without_held_directions(mechanics_.is_free_along_x, J);
     columns_ = J * columns_;
     jacobian_ = J;
   }
@@ -110,7 +111,7 @@ void Tangents::carry_chatter(double dt) {
 
 void Tangents::begin_contact() {
   const SlideState<double> reference = project_onto_surface(model_, start_).reference;
-  SectionJacobian<double> J = held(mechanics_.is_free_along_x, projection_jacobian(model_, start_));
+  SectionJacobian<double> J = without_held_directions(mechanics_.is_free_along_x, projection_jacobian(model_, start_));
   J.row(3).setZero();
   const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), reference).normalized();
   columns_ = J * columns_;
@@ -124,11 +125,11 @@ void Tangents::begin_contact() {
 
 void Tangents::carry_slide(double dt) {
   SectionJacobian<double> J = SectionJacobian<double>::Zero();
-  J.topLeftCorner<3, 3>() = slide_jacobian(model_, tip_.eta(), guide_of(start_), dt);
+  J.topLeftCorner<3, 3>() = slide_jacobian(model_, tip_.eta(), slide_state_of(start_), dt);
   start_ = tip_.tip_state();
   since_ = tip_.now();
   columns_ = J * columns_;
-  const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), guide_of(start_)).normalized();
+  const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), slide_state_of(start_)).normalized();
   columns_.topRows<3>() -= F * (F.transpose() * columns_.topRows<3>()).eval();
   jacobian_ = J;
   orthonormalize();
@@ -140,7 +141,7 @@ void Tangents::carry(const SectionJacobian<double>& J) {
   orthonormalize();
 }
 
-// Gram and Schmidt, twice: after a graze the columns are nearly parallel.
+// Gram-Schmidt, two passes: after a graze the columns are nearly parallel.
 void Tangents::orthonormalize() {
   for (int j = 0; j < rank_; ++j) {
     double length = 1.0;

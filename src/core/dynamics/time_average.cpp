@@ -14,18 +14,18 @@ namespace afm {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kBatches = 64;  // few enough to be long, enough to tell their spread
+constexpr std::size_t kBatches = 64;  // four times the least number of mean_error(), so that neighbours can merge twice
+// Relative rounding of the friction on a periodic orbit: nine units in the last place.
+constexpr double kRounding = 2e-15;
 
-constexpr double kRounding = 2e-15;  // of the friction on a periodic orbit, relative: a few units in the last place
-
-// The middle of the longest time without an event in the next `span`: a window of whole periods that begins there holds
-// each event of the orbit as often, however the times of events are rounded.
+// The middle of the longest time without an event in the next `span`. A window of whole periods that begins there
+// counts each event of the orbit equally often, despite rounding of the times.
 ModelTime quiet_time(Tip tip, double span) {
-  constexpr int kMostEvents = 10000;
+  constexpr int kMaxEvents = 10000;  // a guard: periodic orbits have up to 128 impacts
   const ModelTime end = tip.now() + span;
   ModelTime last = tip.now(), quiet = last;
   double longest = 0.0;
-  for (int i = 0; i < kMostEvents && tip.now() < end; ++i) {
+  for (int i = 0; i < kMaxEvents && tip.now() < end; ++i) {
     tip.advance(end);
     const double pause = tip.now() - last;
     if (pause > longest) {
@@ -41,9 +41,9 @@ void bring_to(Tip& tip, const ModelTime& end) {
   while (tip.advance(end) != Outcome::time_limit) continue;
 }
 
-// What happens in a stretch of time.
+// Sums over an interval of time.
 struct Totals {
-  CompensatedSum energy, impulse;  // lost in impacts; of the holder
+  CompensatedSum energy, impulse;  // energy lost in impacts; impulse of the holder
   double impacts = 0.0, contact_time = 0.0;
   std::uint64_t search_failures = 0;
 };
@@ -51,7 +51,7 @@ struct Totals {
 // Brings the tip to `end`.
 void follow(Tip& tip, const ModelTime& end, Totals& totals) {
   ModelTime touched = tip.now();
-  totals.impulse.add(-tip.segment().impulse);  // of before
+  totals.impulse.add(-tip.segment().impulse);  // the part before the interval
   Segments ended;
   for (Outcome outcome; (outcome = tip.advance_segment(end, &ended)) != Outcome::time_limit;) {
     for (const Segment& segment : ended) totals.impulse.add(segment.impulse);

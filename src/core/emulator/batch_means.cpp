@@ -24,7 +24,8 @@ Spread spread_of(const std::vector<double>& batches) {
     squares += d * d;
     if (i > 0) products += d * (batches[i - 1] - mean);
   }
-  const double bias = 1.0 / static_cast<double>(n);  // the mean is theirs: independent batches seem correlated by -1/n
+  // with the mean of the batches, independent ones show a correlation of -1/n
+  const double bias = 1.0 / static_cast<double>(n);
   return {squares / static_cast<double>(n - 1), squares > 0.0 ? products / squares + bias : 0.0};
 }
 
@@ -39,8 +40,8 @@ bool correlated(const Spread& spread, std::size_t n) {
   return std::abs(spread.correlation) > 2.0 / std::sqrt(static_cast<double>(n));
 }
 
-// Part of the variance that neighbours leave at least; less is an accident of few batches.
-constexpr double kLeast = 0.25;
+// A choice: the correlation of neighbours reduces the variance at most to this part; less would be chance.
+constexpr double kMinVariance = 0.25;
 
 }  // namespace
 
@@ -58,15 +59,15 @@ double student_widening(double degrees) {
 MeanError mean_error(std::vector<double> batches) {
   double length = 1.0;
   Spread spread = spread_of(batches);
-  while (batches.size() >= 2 * kFewestBatches && correlated(spread, batches.size())) {
+  while (batches.size() >= 2 * kMinBatches && correlated(spread, batches.size())) {
     batches = merged(batches);
     length *= 2.0;
     spread = spread_of(batches);
   }
-  if (batches.size() < kFewestBatches) return {kNaN, 0.0, batches.size()};
+  if (batches.size() < kMinBatches) return {kNaN, 0.0, batches.size()};
   const double n = static_cast<double>(batches.size());
-  const double degrees = n / 3.0;  // 2 over the relative variance of variance (1 + 2 correlation), which is 6/n
-  const double of_sum = spread.variance * std::fmax(kLeast, 1.0 + 2.0 * spread.correlation);
+  const double degrees = n / 3.0;  // 2 over 6/n, the relative variance of variance (1 + 2 correlation)
+  const double of_sum = spread.variance * std::fmax(kMinVariance, 1.0 + 2.0 * spread.correlation);
   return {student_widening(degrees) * std::sqrt(of_sum / n) / length, degrees, batches.size()};
 }
 

@@ -65,7 +65,7 @@ void Emulator::reset() {
 }
 
 void Emulator::drag(double eta) {
-  // the same velocity again is no change: the flight under way stays whole and the friction estimate goes on
+  // setting the current velocity again has no effect
   if (eta == eta_) return;
   tip_.drag(eta);
   eta_ = eta;
@@ -113,8 +113,8 @@ void Emulator::reserve(Batch& batch) const {
 }
 
 ModelTime Emulator::next_boundary() const {
-  // A boundary is the time of every samples_per_batch-th sample. The sample may be the next one although its time has not
-  // come: an advance to an impact stops wherever that is.
+  // A boundary is the time of every samples_per_batch-th sample. An advance to an impact may have stopped before the
+  // time of the next sample, even if that is at a boundary.
   const std::uint64_t n = settings_.samples_per_batch;
   const std::uint64_t last = grid_.first + (next_sample_ - grid_.first) / n * n;
   const ModelTime boundary = grid_.time(last);
@@ -167,9 +167,9 @@ void Emulator::sample_until(const ModelTime& time, Batch& batch) {
   next_sample_ = end;
 }
 
-// Samples are taken arc by arc, before the arc's end replaces it.
-Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
-  constexpr std::uint64_t kFailureCost = 100;  // a failed search takes about as long as so many impacts
+// Samples are taken segment by segment, before the next segment replaces the motion.
+Outcome Emulator::run_segments(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
+  constexpr std::uint64_t kFailureCost = 100;  // [impacts] a choice: a batch with failed searches still ends soon
   Segments ended;
   for (std::uint64_t spent = 0; spent < impacts;) {
     const ModelTime segment_end = tip_.segment_end();
@@ -192,9 +192,9 @@ Outcome Emulator::run_arcs(const ModelTime& end, std::uint64_t impacts, Batch& b
 
 Outcome Emulator::run(const ModelTime& end, std::uint64_t impacts, Batch& batch) {
   begin(batch);
-  const Outcome outcome = run_arcs(end, impacts, batch);
+  const Outcome outcome = run_segments(end, impacts, batch);
   now_ = tip_.now();
-  if (!sampling_) next_sample_ = first_sample_from(now_);  // they are due all the same
+  if (!sampling_) next_sample_ = first_sample_from(now_);  // samples are counted also if not computed
   batch.end = now_;
   batch.friction = friction_.estimate(now_, tip_.segment());
   return outcome;

@@ -8,10 +8,10 @@
 namespace afm {
 namespace {
 
-// Calls work(i) for all i < n. The threads take pieces small enough that none is left with much when the others end.
+// Calls work(i) for all i < n. Threads take shares that are small, so that all end at about the same time.
 template <class Work>
 void on_threads(int threads, std::size_t n, const Work& work) {
-  constexpr std::size_t kSharesPerThread = 8;
+  constexpr std::size_t kSharesPerThread = 8;  // a choice: a thread waits at most an eighth of its time
   const std::size_t all = static_cast<std::size_t>(std::max(1, threads));
   const std::size_t piece = std::max<std::size_t>(1, n / (all * kSharesPerThread));
   std::atomic<std::size_t> next{0};

@@ -8,11 +8,13 @@ namespace afm {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFewestBins = 8;  // below it the spread says nothing about the error
+constexpr std::size_t kMinBins = 8;  // with fewer, the error itself is uncertain by more than 27 %: 1/sqrt(2 (n - 1))
+
+constexpr double kFirstBinWidth = 1.0;  // [tau] a vertical period; the width doubles at every merge
 
 // Standard error of the mean rate over n bins.
 double standard_error(const double* energy, std::size_t n, double width) {
-  if (n < kFewestBins) return kNaN;
+  if (n < kMinBins) return kNaN;
   double mean = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < n; ++i) mean += energy[i];
   mean /= static_cast<double>(n);
@@ -55,7 +57,7 @@ double RateBins::std_error(double age) const {
 void PowerWindow::roll_to(double age) {
   const std::int64_t bin = static_cast<std::int64_t>(age / width_);
   const std::int64_t ring = static_cast<std::int64_t>(energy_.size());
-  // after a long silence clearing the ring once is enough
+  // after a long pause, clearing the ring once is enough
   current_ = std::max(current_, bin - ring);
   while (current_ < bin) energy_[static_cast<std::size_t>(++current_ % ring)] = 0.0;
 }
@@ -66,7 +68,7 @@ void PowerWindow::add(double age, double energy) {
 }
 
 std::size_t PowerWindow::completed() const {
-  return static_cast<std::size_t>(std::min<std::int64_t>(current_, static_cast<std::int64_t>(kBins)));
+  return static_cast<std::size_t>(std::min<std::int64_t>(current_, static_cast<std::int64_t>(kWindowBins)));
 }
 
 double PowerWindow::mean(double age) {
@@ -80,14 +82,10 @@ double PowerWindow::mean(double age) {
 
 double PowerWindow::std_error(double age) {
   roll_to(age);
-  std::array<double, kBins> bins{};
+  std::array<double, kWindowBins> bins{};
   const std::size_t n = completed();
   for (std::size_t i = 0; i < n; ++i) bins[i] = energy_[(static_cast<std::size_t>(current_) - i - 1) % energy_.size()];
   return standard_error(bins.data(), n, width_);
-}
-
-namespace {
-constexpr double kFirstBinWidth = 1.0;  // [tau]: bins begin with a vertical period each and double from there
 }
 
 void CompensatedSum::add(double x) {

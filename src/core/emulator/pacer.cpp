@@ -6,7 +6,7 @@ namespace afm {
 namespace {
 
 double seconds(Pacer::Duration d) { return std::chrono::duration<double>(d).count(); }
-constexpr double kFactorSpan = 1.0;  // [s] over which the real-time factor is measured
+constexpr double kFactorSpan = 1.0;  // [s] averaging time of the real-time factor, a choice
 
 }  // namespace
 

@@ -1,76 +1,23 @@
-// One list of fields for writing and for reading, so that they cannot drift apart. What follows from the rest (the
-// landing of a flight, the constants of a model) and what is not of the run (counters, whether samples are taken) is
-// left out: two emulators that have come to the same point in batches of their own write the same words.
+// One list of fields serves writing and reading, so they agree. Values that follow from others are left out (the
+// landing of a flight, the constants of a model), and values that are not part of the run (counters, whether samples
+// are taken). So two emulators at the same point write the same words, whatever their batches were.
 #include "afm/saved_state.h"
 
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 
 #include "afm/emulator.h"
+#include "state_words.h"
 
 namespace afm {
 namespace {
 
-constexpr bool kLp64 = sizeof(void*) == 8;  // where the sizes below are known
-
-class Writer {
- public:
-  explicit Writer(SavedState& out) : out_(out) { out_.size = 0; }
-  template <class T>
-  void number(const T& value) {
-    put(static_cast<std::uint64_t>(value));
-  }
-  template <class T>
-  void whole(const T& object) {
-    std::memcpy(out_.words.data() + out_.size, &object, sizeof object);
-    out_.size += sizeof object / sizeof(std::uint64_t);
-  }
-
- private:
-  void put(std::uint64_t word) { out_.words[out_.size++] = word; }
-  SavedState& out_;
-};
-
-// Reads nothing beyond the end; what it was asked for there is left as it was.
-class Reader {
- public:
-  explicit Reader(const SavedState& in) : in_(in) {}
-  template <class T>
-  void number(T& value) {
-    std::uint64_t word = 0;
-    whole(word);
-    value = static_cast<T>(word);
-    valid_ = valid_ && static_cast<std::uint64_t>(value) == word;
-  }
-  // of enumerations and booleans: no more than `most`
-  template <class T>
-  void choice(T& value, T most) {
-    std::uint64_t word = 0;
-    whole(word);
-    valid_ = valid_ && word <= static_cast<std::uint64_t>(most);
-    if (valid_) value = static_cast<T>(word);
-  }
-  template <class T>
-  void whole(T& object) {
-    constexpr std::size_t kWords = sizeof object / sizeof(std::uint64_t);
-    valid_ = valid_ && in_.size <= SavedState::kMostWords && kWords <= in_.size - at_;
-    if (!valid_) return;
-    std::memcpy(static_cast<void*>(&object), in_.words.data() + at_, sizeof object);
-    at_ += kWords;
-  }
-  bool valid() const { return valid_ && at_ == in_.size; }
-
- private:
-  const SavedState& in_;
-  std::size_t at_ = 0;
-  bool valid_ = true;
-};
+constexpr bool kLp64 = sizeof(void*) == 8;  // the sizes below are those of 64-bit machines
 
 }  // namespace
 
-// Self is const for a writer. A member more or less: put it into its list (or say there why not), raise kMeaning, and
-// then set the size.
+// Self is const for a writer. After adding or removing a member: add it to its list or say there why not, raise
+// kLayoutVersion, and set the size.
 class StateFields {
  public:
   template <class Archive, class Self>
@@ -94,7 +41,7 @@ class StateFields {
   static void of_kicks(Archive& archive, Self& thermostat);
 };
 
-// An object that is made of doubles and 64-bit numbers alone, and so has no padding: its members in their order.
+// An object of doubles and 64-bit numbers only, so without padding: its members in their order.
 template <class Archive, class T>
 void StateFields::whole(Archive& archive, T& object) {
   static_assert(std::is_trivially_copyable_v<std::remove_const_t<T>>);
@@ -129,7 +76,7 @@ void StateFields::of_impact(Archive& archive, Self& i) {
   archive.number(i.count);
 }
 
-// Not the bath, which is one of the settings.
+// Without the bath, which is one of the settings.
 template <class Archive, class Self>
 void StateFields::of_kicks(Archive& archive, Self& t) {
   static_assert(!kLp64 || sizeof t == 136);
@@ -137,8 +84,8 @@ void StateFields::of_kicks(Archive& archive, Self& t) {
   archive.number(t.kicks_);
 }
 
-// Not mechanics_ and law_, which follow from the model, nor what follows from the tolerance, nor the landing, which
-// follows from the flight.
+// Without mechanics_ and law_, which follow from the model, without values that follow from the tolerance, and without
+// the landing, which follows from the flight.
 template <class Archive, class Self>
 void StateFields::of_tip(Archive& archive, Self& t, double contact_tolerance, const Bath& bath) {
   constexpr std::size_t kParts = sizeof t.flight_ + sizeof t.slide_ + sizeof t.landing_ + sizeof t.law_ +
@@ -202,11 +149,11 @@ void StateFields::of_run(Archive& archive, Self& e) {
 }
 
 std::uint32_t state_layout() {
-  constexpr std::uint32_t kMeaning = 6;  // to be raised whenever the words mean something else
+  constexpr std::uint32_t kLayoutVersion = 6;  // to be raised if the words get another meaning
   static const std::uint32_t layout = [] {
     SavedState state;
     Emulator(EmulatorSettings{}).save(state);
-    return kMeaning * 1000 + static_cast<std::uint32_t>(state.size);
+    return kLayoutVersion * 1000 + static_cast<std::uint32_t>(state.size);
   }();
   return layout;
 }
@@ -219,7 +166,7 @@ bool is_time(const ModelTime& time) {
 
 }  // namespace
 
-// What would keep whoever goes on from it busy for ever, or send it out of its memory. The rest shows in the run.
+// True: a run from this state ends and stays within its memory. Other faults show in the run.
 bool StateFields::is_possible(const Emulator& e) {
   const Tip& tip = e.tip_;
   const bool in_time = is_time(e.now_) && is_time(e.grid_.origin) && is_time(tip.start_) && tip.now_ == e.now_ &&
@@ -240,8 +187,8 @@ bool StateFields::is_possible(const Emulator& e) {
 }
 
 void Emulator::save(SavedState& out) const {
-  // a word a member at most: none is shorter than a byte, and those shorter than a word are few
-  static_assert(sizeof(Emulator) / sizeof(std::uint64_t) + 64 <= SavedState::kMostWords);
+  // a word for each member at most; few members are shorter than a word
+  static_assert(sizeof(Emulator) / sizeof(std::uint64_t) + 64 <= SavedState::kMaxWords);
   Writer writer(out);
   StateFields::of_run(writer, *this);
 }

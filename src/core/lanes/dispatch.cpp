@@ -1,4 +1,4 @@
-// What the compiler could make and the machine can run. For any machine: compiled like the rest.
+// Chooses among the samplers that were compiled by what the machine can run.
 #include "sample_row.h"
 
 namespace afm {

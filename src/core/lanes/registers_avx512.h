@@ -1,9 +1,7 @@
-// One register of lanes, AVX-512: eight. See registers_avx2.h.
+// One vector register of AVX-512, with eight lanes. See registers_avx2.h.
 #pragma once
 
 #include <immintrin.h>
-
-#include <cstdint>
 
 #define AFM_LANE_INLINE inline __attribute__((always_inline))
 
@@ -16,11 +14,8 @@ using RegisterMask = __mmask8;
 typedef unsigned long long Whole __attribute__((vector_size(64)));
 
 AFM_LANE_INLINE Register filled(double x) { return _mm512_set1_pd(x); }
-AFM_LANE_INLINE Register filled_bits(std::int64_t x) { return _mm512_castsi512_pd(_mm512_set1_epi64(x)); }
 AFM_LANE_INLINE Register fused(Register a, Register b, Register c) { return _mm512_fmadd_pd(a, b, c); }
 AFM_LANE_INLINE Register smaller(Register a, Register b) { return _mm512_min_pd(a, b); }
-AFM_LANE_INLINE Register larger(Register a, Register b) { return _mm512_max_pd(a, b); }
-AFM_LANE_INLINE Register root(Register a) { return _mm512_sqrt_pd(a); }
 AFM_LANE_INLINE Register rounded_down(Register a) {
   return _mm512_roundscale_pd(a, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
 }
@@ -28,9 +23,6 @@ AFM_LANE_INLINE Register blended(RegisterMask m, Register yes, Register no) { re
 
 AFM_LANE_INLINE RegisterMask less(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
 AFM_LANE_INLINE RegisterMask less_equal(Register a, Register b) { return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ); }
-AFM_LANE_INLINE RegisterMask mask_and(RegisterMask a, RegisterMask b) { return static_cast<RegisterMask>(a & b); }
-AFM_LANE_INLINE RegisterMask mask_or(RegisterMask a, RegisterMask b) { return static_cast<RegisterMask>(a | b); }
-AFM_LANE_INLINE RegisterMask mask_not(RegisterMask a) { return static_cast<RegisterMask>(~a); }
 AFM_LANE_INLINE unsigned mask_bits(RegisterMask a) { return a; }
 
 AFM_LANE_INLINE RegisterMask odd(Register bits) {

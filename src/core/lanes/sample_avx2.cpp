@@ -1,4 +1,4 @@
-// Compiled for AVX2 and fused multiply-add whatever the rest is compiled for; run only where the machine has them.
+// Compiled for AVX2 and fused multiply-add. It runs only on machines that have both.
 #include "registers_avx2.h"
 #include "samples.h"
 

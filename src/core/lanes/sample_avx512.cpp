@@ -1,4 +1,4 @@
-// Compiled for AVX-512 whatever the rest is compiled for; run only where the machine has it.
+// Compiled for AVX-512. It runs only on machines that have it.
 #include "registers_avx512.h"
 #include "samples.h"
 

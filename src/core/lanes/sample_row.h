@@ -1,5 +1,5 @@
-// Samples of one arc, for lanes to compute. No code of its own: it is shared by files that are compiled for different
-// machines.
+// The samples of one segment of motion as plain data. Without code: files that are compiled for different machines
+// share it.
 #pragma once
 
 #include <cstddef>
@@ -7,32 +7,32 @@
 namespace afm {
 namespace lanes {
 
-// Times of a grid, counted from the start of an arc. All of it is numbers below kMostExact, so that sums of whole tau
-// are exact.
+// The times of a grid relative to the start of the motion. Precondition: all numbers are below kMaxExact, so that sums
+// of whole tau are exact: a double has 53 bits.
 struct SampleClock {
   double period;
-  double origin_tau, origin_phase;  // of the grid; whole tau since the start of the arc
-  double start_phase;               // of the arc
+  double origin_tau, origin_phase;  // of the grid; whole tau since the start of the motion
+  double start_phase;               // of the motion
 };
-constexpr double kMostExact = 0x1p50;
+constexpr double kMaxExact = 0x1p50;
 
 struct SampleRow {
   SampleClock clock;
-  double first;  // count of the first on its grid
+  double first;  // number of the first sample on its grid
   std::size_t n;
   double* vertical;
   double* lateral;
   bool on_slide;
-  // the arc: its start, and of a reference slide the series of its displacement
+  // the motion: its state at the start; of a slide also the series of its displacement
   double phase, X, U, Y, W, g, g1, h, h1, fastest;
   double ratio, omega_h, inverse_omega_h, H, y0, eta;
   const double* displacement;
 };
 
-// Computes them; returns the lowest gap.
+// Computes the samples and returns the lowest gap [a].
 using Sampler = double (*)(const SampleRow&);
 
-// At most so many at once, on the machine this runs on; null where it has no lanes.
+// The widest sampler of at most `width` lanes on this machine; null without lanes.
 Sampler sampler_in(int width);
 
 double sample_avx2(const SampleRow& row);

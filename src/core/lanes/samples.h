@@ -1,17 +1,16 @@
-// Samples of one arc, as many at once as a register has lanes. Include a register first; internal, as that is.
+// Samples of one segment of motion, as many at once as a register has lanes. Include a register first.
 #pragma once
 
 #include <limits>
 
 #include "core/tip/deflection.h"
-#include "pack_turns.h"
+#include "pack.h"
 #include "sample_row.h"
 
 namespace afm {
 namespace {
 
 using lanes::SampleRow;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using PackDeflection = DeflectionOf<Pack>;
 
 AFM_LANE_INLINE PackDeflection select(M m, const PackDeflection& a, const PackDeflection& b) {
@@ -31,7 +30,8 @@ AFM_LANE_INLINE Flight<Pack> flight_of(const SampleRow& row) {
   return Flight<Pack>(m, Pack(row.eta), start, bounds);
 }
 
-// grid.time(n) - start for the count-th sample of the grid, to the same bits.
+// The time since the start of the motion of the count-th sample of the grid, with the bits of SampleGrid::time(n) -
+// start.
 AFM_LANE_INLINE Pack time_in_arc(const lanes::SampleClock& clock, P count) {
   const Pack zero(0.0), one(1.0), period(clock.period);
   const Pack product = count * period, rest = fma(count, period, -product), whole = floor(product);
@@ -44,13 +44,13 @@ AFM_LANE_INLINE Pack time_in_arc(const lanes::SampleClock& clock, P count) {
   return tau_in_arc + (select(same, phase, phase - one) - Pack(clock.start_phase));
 }
 
-// The last pack reaches back over the one before it; where there are not so many at all, the last sample fills it up.
+// The last pack overlaps the one before it. With fewer samples than lanes, the last sample fills the pack.
 template <class At>
 AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
   constexpr std::size_t kWide = kLanes;
   const lanes::SampleClock clock = row.clock;
   const Pack numbers = Pack(lane_numbers()), last(row.first + static_cast<double>(row.n - 1));
-  Pack lowest(kInfinity);
+  Pack lowest(std::numeric_limits<double>::infinity());
   double few[2][kLanes];
   double* const vertical = row.n < kWide ? few[0] : row.vertical;
   double* const lateral = row.n < kWide ? few[1] : row.lateral;
@@ -66,7 +66,7 @@ AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
     row.vertical[i] = few[0][i];
     row.lateral[i] = few[1][i];
   }
-  double gaps[kLanes], least = kInfinity;
+  double gaps[kLanes], least = std::numeric_limits<double>::infinity();
   store_row(gaps, lowest.r);
   for (const double gap : gaps) least = gap < least ? gap : least;
   return least;

@@ -10,12 +10,13 @@
 namespace afm {
 namespace {
 
-constexpr double kSame = 1e-6;  // parameters given in SI come back to natural units but for their last digits
-constexpr double kSaving = 0.9;
-constexpr std::size_t kMostCells = 10000000;
+// Relative. Parameters given in SI differ in their last digits from the natural ones, and a grid has at most 6 digits.
+constexpr double kSameParameter = 1e-6;
+constexpr double kWorthwhileCost = 0.9;      // a choice: a coarser level must save a tenth
+constexpr std::size_t kMaxCells = 10000000;  // a cell holds 200 bytes, so 2 GB
 
-const char* const kAxisNames[LevelTable::kAxes] = {"eta",             "gamma",     "cutoff",
-                                                   "frequency_ratio", "amplitude", "rest_height"};
+const char* const kAxisNames[LevelTable::kAxes] = {"eta",       "gamma",      "cutoff", "frequency_ratio",
+                                                   "amplitude", "rest_height"};
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields;
@@ -41,9 +42,9 @@ double number(const std::string& text, std::size_t line, const std::string& colu
   return value;
 }
 
-bool is_same(double a, double b) { return std::abs(a - b) <= kSame * std::max(std::abs(a), std::abs(b)); }
+bool is_same(double a, double b) { return std::abs(a - b) <= kSameParameter * std::max(std::abs(a), std::abs(b)); }
 
-// Where `value` lies among rising ones: between two, or twice the one that it is. False: outside.
+// The grid values around `value`; both are the same if it is one of them. False: outside the grid.
 bool bracket(const std::vector<double>& axis, double value, std::size_t& low, std::size_t& high) {
   for (std::size_t i = 0; i < axis.size(); ++i) {
     if (is_same(axis[i], value)) {
@@ -123,14 +124,14 @@ LevelTable::LevelTable(std::istream& csv) {
     for (std::size_t i = 0; i < kAxes; ++i) axes_[i].push_back(row.point[i]);
     if (std::find(levels_.begin(), levels_.end(), row.level) == levels_.end()) levels_.push_back(row.level);
   }
-  if (levels_.size() > kMostLevels) throw std::runtime_error("holds more than 8 levels");
+  if (levels_.size() > kMaxLevels) throw std::runtime_error("holds more than 8 levels");
   std::sort(levels_.begin(), levels_.end(), is_finer);
   std::size_t size = 1;
   for (std::vector<double>& axis : axes_) {
     std::sort(axis.begin(), axis.end());
     axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
     size *= axis.size();
-    if (size > kMostCells) throw std::runtime_error("spans more than 1e7 points");
+    if (size > kMaxCells) throw std::runtime_error("spans more than 1e7 points");
   }
   cells_.resize(size);
   for (const Row& row : rows) add(row);
@@ -180,7 +181,7 @@ LevelChoice LevelTable::choose(const Model& model, double eta, double tolerance,
     if (!find(model, eta, i, worst)) continue;
     const double error = of == ToleranceOf::friction ? worst.friction : worst.deflection;
     if (!(error >= best.expected_error)) best = {levels_[i], error};
-    if (!(error < tolerance && worst.cost < kSaving * cost)) continue;
+    if (!(error < tolerance && worst.cost < kWorthwhileCost * cost)) continue;
     cheapest = {levels_[i], error};
     cost = worst.cost;
   }

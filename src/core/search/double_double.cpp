@@ -2,7 +2,7 @@
 
 namespace afm {
 
-// Taylor series: at an eighth turn the first term left out is below 2^-106.
+// Taylor series. At an eighth of a turn the first omitted term is below 2^-106.
 SmallTurn<DoubleDouble> small_turn(const DoubleDouble& x) {
   constexpr int kTerms = 15;
   const DoubleDouble angle = two_pi<DoubleDouble>() * x, square = angle * angle;

@@ -9,8 +9,11 @@
 namespace afm {
 namespace {
 
-constexpr double kFarEnough = 0.1;  // certified so far, a flight of too many looks is begun anew from there [tau]
-constexpr double kTouch = 1e-20;    // no gap at all, where rounding hides it in twice the digits [a]
+// After too many evaluations a flight restarts from where it is certified, if that is later than this [tau]. A choice:
+// each restart then makes progress.
+constexpr double kMinProgress = 0.1;
+// [a] No gap is left: below it rounding hides the gap in double-double too (1e-30 in each of its terms, and a margin).
+constexpr double kNoGap = 1e-20;
 
 AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
   return find_impact(flight, horizon);
@@ -26,8 +29,8 @@ Landing<double> rounded(const Landing<DoubleDouble>& landing) {
 }
 
 SearchOutcome without_end(const Landing<double>& landing) {
-  if (!(landing.jet.g > kTouch)) return SearchOutcome::impact;
-  return landing.s >= kFarEnough ? SearchOutcome::clear : SearchOutcome::cap;
+  if (!(landing.jet.g > kNoGap)) return SearchOutcome::impact;
+  return landing.s >= kMinProgress ? SearchOutcome::clear : SearchOutcome::cap;
 }
 
 }  // namespace

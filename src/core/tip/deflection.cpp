@@ -9,7 +9,7 @@
 namespace afm {
 namespace {
 
-SlidePath<double> guide_of(const SlideSegment<double>& slide) {
+SlidePath<double> path_of(const SlideSegment<double>& slide) {
   const Mechanics<double>& m = slide.mechanics();
   return {slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()};
 }
@@ -17,9 +17,9 @@ SlidePath<double> guide_of(const SlideSegment<double>& slide) {
 AFM_MULTIVERSION Deflection at(const Flight<double>& flight, double s) { return flight_deflection(flight, s); }
 AFM_MULTIVERSION Deflection at(const SlidePath<double>& reference, double s) { return slide_deflection(reference, s); }
 
-// Whether lanes count the times of these samples exactly.
+// True: sums of whole tau are exact in the lanes up to the last sample.
 bool exact(const lanes::SampleClock& clock, double last) {
-  return std::max({last, last * clock.period, std::abs(clock.origin_tau)}) < lanes::kMostExact;
+  return std::max({last, last * clock.period, std::abs(clock.origin_tau)}) < lanes::kMaxExact;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ lanes::SampleRow row_of(const Flight<double>& flight) {
 }
 
 lanes::SampleRow row_of(const SlideSegment<double>& slide) {
-  const SlidePath<double> reference = guide_of(slide);
+  const SlidePath<double> reference = path_of(slide);
   lanes::SampleRow row;
   row.on_slide = true;
   row.phase = reference.phase, row.X = reference.X, row.H = reference.H, row.y0 = reference.y0, row.eta = reference.eta;
@@ -46,18 +46,17 @@ lanes::SampleRow row_of(const SlideSegment<double>& slide) {
 }
 
 Deflection Tip::deflection(const ModelTime& t) const {
-  if (on_slide()) return at(guide_of(slide_), t - start_);
+  if (on_slide()) return at(path_of(slide_), t - start_);
   return at(flight_, t - start_);
 }
 
 double Tip::deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
                         double* lateral) const {
-  constexpr std::size_t kMinInLanes = 3;  // a pack costs as much as a few numbers by themselves
-  constexpr int kWidest = 8;
+  constexpr std::size_t kMinInLanes = 3;  // a pack costs about as much as three numbers
   const lanes::SampleClock clock{grid.period, static_cast<double>(grid.origin.tau - start_.tau), grid.origin.phase,
                                  start_.phase};
   const double count = static_cast<double>(first - grid.first);
-  const lanes::Sampler in_lanes = n < kMinInLanes ? nullptr : lanes::sampler_in(kWidest);
+  const lanes::Sampler in_lanes = n < kMinInLanes ? nullptr : lanes::sampler_in(8);
   if (in_lanes != nullptr && exact(clock, count + static_cast<double>(n))) {
     lanes::SampleRow row = on_slide() ? row_of(slide_) : row_of(flight_);
     row.clock = clock;

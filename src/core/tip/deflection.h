@@ -1,4 +1,4 @@
-// What a sample of the deflection is, for a number or for a pack of lanes.
+// A sample of the deflection, for a number or for a pack of lanes.
 #pragma once
 
 #include "afm/contact.h"
@@ -7,13 +7,13 @@
 
 namespace afm {
 
-// Of a number a plain branch. A pack (src/core/lanes/pack.h) leaves out a way that none of its numbers goes.
+// For a number: a plain branch. A pack (src/core/lanes/pack.h) has its own, which skips a side that no lane takes.
 template <class F, class G>
 auto branch(bool condition, const F& yes, const G& no) {
   return condition ? yes() : no();
 }
 
-// The state and gap of Flight::gap, without the derivatives.
+// The same as Flight::gap, without the derivatives.
 template <class T>
 DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
   const auto near = [&] {
@@ -28,7 +28,7 @@ DeflectionOf<T> flight_deflection(const Flight<T>& flight, const T& s) {
   return branch(flight.is_small(s), near, far);
 }
 
-// Along a piece of contact, or of the reference slide of a burst.
+// A Taylor series of a slide in contact, or of the reference slide.
 template <class T>
 struct SlidePath {
   T phase, X;  // at its start
@@ -39,10 +39,11 @@ struct SlidePath {
 template <class T>
 DeflectionOf<T> slide_deflection(const SlidePath<T>& reference, const T& s) {
   const T d = horner(reference.displacement, s);
-  return {surface_jet(reference.H, T(reference.phase + d)).h - reference.y0, reference.X + (d - reference.eta * s), T(0.0)};
+  return {surface_jet(reference.H, T(reference.phase + d)).h - reference.y0, reference.X + (d - reference.eta * s),
+          T(0.0)};
 }
 
-// What lanes need of an arc, but for which samples.
+// The motion as the lanes need it; the caller adds the samples.
 lanes::SampleRow row_of(const Flight<double>& flight);
 lanes::SampleRow row_of(const SlideSegment<double>& slide);
 

@@ -37,7 +37,7 @@ namespace {
 // A 53-bit number in (0, 1].
 double unit(std::uint64_t bits) { return static_cast<double>((bits >> 11) + 1) * 0x1p-53; }
 
-// By Box and Muller.
+// The method of Box and Muller.
 AFM_MULTIVERSION NormalPair normals_of(double radius, double angle) {
   const double r = std::sqrt(-2.0 * portable_log(radius));
   const SinCos<double> turn = sin_cos_turns(angle);
@@ -46,7 +46,8 @@ AFM_MULTIVERSION NormalPair normals_of(double radius, double angle) {
 
 AFM_MULTIVERSION VelocityKick kick_of(double temperature, double angle, double quality_factor) {
   if (quality_factor == 0.0) return {};
-  const double keep = portable_exp(-std::fmin(angle / quality_factor, 600.0));
+  constexpr double kMaxExponent = 600.0;  // within portable_exp; e^-600 is as good as 0
+  const double keep = portable_exp(-std::fmin(angle / quality_factor, kMaxExponent));
   return {keep, std::sqrt((1.0 - keep) * (1.0 + keep) * temperature)};
 }
 
@@ -66,7 +67,7 @@ void Thermostat::set(const Bath& bath, double frequency_ratio, const ModelTime& 
   prepare(frequency_ratio);
 }
 
-// What follows from the rest.
+// Sets the members that follow from the others.
 void Thermostat::prepare(double frequency_ratio) {
   const double Q_v = bath_.quality_factor,
                Q_h = bath_.lateral_quality_factor > 0.0 ? bath_.lateral_quality_factor : Q_v;

@@ -20,23 +20,25 @@ const TipState& checked(const TipState& start) {
   return start;
 }
 
-// The flight to the next impact may enlarge an error so much (measured over the bursts of docs/stability.md).
+// The flight to the next impact may enlarge an error by this factor (measured: docs/stability.md,
+// benchmark/burst_error).
 constexpr double kErrorGrowth = 100.0;
-// Bounces slower than this may become a burst [a/tau]: what the averages leave out of the first of them is the most of
-// a burst's error. 0.027 at the default. By square roots, which every machine rounds alike.
+// Slower bounces may begin a chatter sequence [a/tau]: 2 tolerance^(5/8), which is 0.027 at the default. The first
+// bounce causes most of a sequence's error; the factor is measured (benchmark/burst_error). Square roots give the same
+// bits on every machine.
 double entry_speed_for(double contact_tolerance) {
-  constexpr double kEntry = 2.0;
-  return kEntry * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
+  return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
 
-// The reference slide of a chatter sequence need be no better than a 2500th of the tolerance. Its pieces are 2.7 times as long
-// for it. The energy account of the sequence holds all the same.
+// Digits of the reference slide: an error of a 2500th of the tolerance is enough. Its segments are 2.7 times as long
+// for it, and 1.7 times as fast at eta = 0.3 (docs/history.md). The energy balance does not depend on it.
 int reference_bits(double contact_tolerance) {
-  constexpr double kPart = 4e-4, kLeast = 1e-15;
-  return std::clamp(-std::ilogb(std::max(kPart * contact_tolerance, kLeast)), 22, kSlideBits);
+  constexpr double kPartOfTolerance = 4e-4;
+  constexpr int kMinReferenceBits = 22;  // that of the default tolerance: a larger one does not coarsen the slide
+  return std::clamp(-std::ilogb(std::max(kPartOfTolerance * contact_tolerance, 1e-15)), kMinReferenceBits, kSlideBits);
 }
 
-// In contact the velocity is good to 1e-14 of itself, or of 1 a/tau.
+// Digits of a slide in contact: the error of the velocity is 1e-14 of itself, or of 1 a/tau if it is slower.
 int contact_bits(double u) { return kSlideBits - std::ilogb(std::fmin(std::fmax(std::fabs(u), 1.0), 0x1p24)); }
 
 }  // namespace
@@ -51,28 +53,28 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       slowest_chatter_(contact_tolerance / kErrorGrowth),
       law_(model, slowest_chatter_),
       entry_speed_(entry_speed_for(contact_tolerance)),
-      flight_(mechanics_, eta, held(checked(start))),
+      flight_(mechanics_, eta, constrained(checked(start))),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
   const TipState& launched = flight_.launch();
   if (launched.g == 0.0 && !(launched.g1 < 0.0)) leave_or_press();
 }
 
-// The hammer moves along x with its holder, whatever it did before; its height and vertical velocity are its own.
-TipState Tip::held(const TipState& state) const {
+// The state with the constraint of the hammer, which moves along x with its holder. Height and vertical velocity stay.
+TipState Tip::constrained(const TipState& state) const {
   TipState s = state;
   if (model_.kind == ModelKind::hammer) {
     const double slope = surface_jet(model_.H, state.phase).h1;
     s = {state.phase, 0.0, eta_, state.g, state.g1 + slope * (state.u - eta_)};
   }
-  if (s.g == 0.0 && std::fabs(s.g1) < kLeastGapRate) s.g1 = 0.0;
+  if (s.g == 0.0 && std::fabs(s.g1) < kMinGapRate) s.g1 = 0.0;
   return s;
 }
 
 void Tip::fly(const TipState& start) {
-  launch(mechanics_, eta_, held(start), flight_);
+  launch(mechanics_, eta_, constrained(start), flight_);
   begin_flight();
   const GapJet<double>& gap = flight_.start();
-  // a hammer that one command throws off and the next, at the same time, does not
+  // a hammer that one command lifts off, and a second command at the same time does not
   if (gap.g == 0.0 && gap.g1 == 0.0 && gap.g2 < 0.0) mode_ = Mode::touching;
 }
 
@@ -97,27 +99,20 @@ void Tip::slide(const SlideState<double>& start, int bits) {
   slide_end_ = slide_releases_ ? release : slide_.length();
 }
 
-void Tip::burst(const SlideState<double>& reference, const Chatter& chatter) {
+void Tip::start_chatter(const SlideState<double>& reference, const Chatter& start) {
   slide(reference, reference_bits(kErrorGrowth * slowest_chatter_));
   mode_ = Mode::chattering;
-  chatter_ = chatter;
-  chatter_run_ = law_.run(slide_, 0.0, slide_end_, chatter);
+  chatter_ = start;
+  chatter_run_ = law_.run(slide_, 0.0, slide_end_, start);
 }
 
-// To where the chatter has moved the tip.
-SlideState<double> Tip::leave_reference(double s, const Chatter& chatter) {
-  const SequenceState r = sequence_state(s, chatter);
-  sequence_gain_ = r.gain;
-  sequence_impulse_ = r.impulse;
-  return r.moved;
-}
-
-// The flight after a bounce has begun: does the surface press, and is it the first bounce of a burst?
+// A flight has just begun on the surface. If the surface presses, contact begins, or a chatter sequence with this
+// bounce.
 void Tip::leave_or_press() {
   const TipState& start = flight_.launch();
   const double g2 = flight_.start().g2;
   if (!(start.g1 > 0.0)) {
-    // also where the surface does not press, but only rounding pulls: on the glide at eta = 1 for ever
+    // a pull within rounding is no release (mechanics.h): on the glide at eta = 1 the reaction is zero for ever
     if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
   } else if (g2 < 0.0 && start.g1 <= entry_speed_ && law_.holds(flight_)) {
     const Projection projected_tip = project_onto_surface(model_, start);
@@ -128,16 +123,8 @@ void Tip::leave_or_press() {
     sequence_gain_ = 0.0;
     sequence_impulse_ = -bounce;
     is_split_ = false;
-    burst(projected_tip.reference, {projected_tip.normal_speed, 0.0});
+    start_chatter(projected_tip.reference, {projected_tip.normal_speed, 0.0});
   }
-}
-
-void Tip::resume(const TipState& launched, const ModelTime& start, const Impact& last) {
-  last_impact_ = last;
-  now_ = start;
-  launch(mechanics_, eta_, launched, flight_);
-  begin_flight();
-  leave_or_press();
 }
 
 void Tip::set_tolerance(double contact_tolerance) {
@@ -155,11 +142,11 @@ TipState Tip::tip_state() const {
   return state;
 }
 
-// To just after the next kick, if that comes first.
+// The search ends just after the next kick, if that comes first.
 void Tip::find_landing() {
-  constexpr double kBeyondKick = 1e-6;  // [tau] far above rounding, so that a kick comes before the end of its search
+  constexpr double kBeyondKick = 1e-6;  // [tau] far above rounding, so that the kick comes before the end of the search
   const double horizon = std::fmin(kSearchHorizon, thermostat_.next() - start_ + kBeyondKick);
-  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, horizon));  // in place (tip_motion.cpp)
+  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, horizon));  // in place, see tip_motion.cpp
   landing_known_ = true;
 }
 
@@ -172,7 +159,7 @@ ModelTime Tip::event_time() {
   if (pending_) return now_;
   if (on_slide()) {
     const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
-    return end < now_ ? now_ : end;  // a jolt ends it now, and not a rounding before the command
+    return end < now_ ? now_ : end;  // a command ends it at now(), not a rounding earlier
   }
   if (mode_ == Mode::touching) return start_;
   if (!landing_known_) find_landing();
@@ -197,7 +184,7 @@ Outcome Tip::advance_segment(const ModelTime& limit, Segments* ended) {
     last_impact_ = pending_impact_;
     return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
   }
-  now_ = now_ < end ? end : now_;  // the end of a jolted contact is now, to its last digit
+  now_ = now_ < end ? end : now_;
   return end_segment(ended);
 }
 

@@ -1,4 +1,4 @@
-// The energy account of the tip. Nothing of it is computed unless someone asks.
+// The energy balance of the tip (docs/algorithm.md, "Energy"). It is computed on demand.
 #include "afm/surface.h"
 #include "afm/tip.h"
 #include "tip_motion.h"
@@ -11,11 +11,11 @@ double energy_of(const Mechanics<double>& m, double eta, const FlightState<doubl
   return 0.5 * (u * u + q.W * q.W + spring_h * spring_h + spring_v * spring_v);
 }
 
-// Of the spring that the holder pulls, from the time integral of its extension [a tau].
+// Impulse of the horizontal spring from the time integral of its extension [a tau].
 double spring_impulse(const Mechanics<double>& m, double stretch) { return -m.omega_h * m.omega_h * stretch; }
 
-// The holder of a held tip balances what the surface pushes along x. Its work is the change of energy; at rest the force
-// is constant.
+// The holder of a hammer balances the reaction along x. Its work is the change of energy. At rest its force is
+// constant.
 double held_impulse(const SlideSegment<double>& slide, double s, double work) {
   if (slide.eta() != 0.0) return work / slide.eta();
   return surface_jet(slide.mechanics().H, slide.start().phase).h1 * slide.pressure(0.0) * s;
@@ -29,8 +29,8 @@ double Tip::slide_impulse(double s) const {
   return held_impulse(slide_, s, end - slide_energy(mechanics_, slide_.start()));
 }
 
-// The end of a piece of the reference slide in a chatter sequence. `gain` is what the sequence loses beyond the fall of
-// v^2/2: the work of the drag, less what the tip stores off the reference slide.
+// A chatter sequence at the time s of slide_. `gain` is the work of the drag minus the change of the energy stored in
+// the slide: the bounces lose it beyond the fall of v^2/2.
 Tip::SequenceState Tip::sequence_state(double s, const Chatter& chatter) const {
   const SlideState<double> reference = slide_at(slide_, s), moved = moved_reference(model_, reference, chatter);
   const double start = slide_energy(mechanics_, slide_.start()), after = slide_energy(mechanics_, moved);
@@ -38,18 +38,18 @@ Tip::SequenceState Tip::sequence_state(double s, const Chatter& chatter) const {
   if (mechanics_.is_free_along_x > 0.0) {
     const double stretch = extension_integral(slide_, s), force = spring_impulse(mechanics_, 1.0) * eta_;
     r.gain += force * stretch;
-    r.gain += force * chatter.drift - (after - start) + chatter.lift;
+    r.gain += force * chatter.drift - (after - start) + chatter.held_work;
     r.impulse = r.impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
   } else {
     const double along = slide_energy(mechanics_, reference);
-    r.gain += chatter.lift - (after - along);
-    r.impulse = r.impulse + held_impulse(slide_, s, along - start) + held_impulse(slide_, 0.0, chatter.lift);
+    r.gain += chatter.held_work - (after - along);
+    r.impulse = r.impulse + held_impulse(slide_, s, along - start) + held_impulse(slide_, 0.0, chatter.held_work);
   }
   return r;
 }
 
-// Right after a bounce the tip is faster than its chatter is on average. What that took along x the holder of a held tip
-// has given, and worked for.
+// Right after a bounce the tip is faster than the average of its chatter. The holder of a hammer has given the impulse
+// along x for it; the spring of the oscillator gives none.
 double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
   return mechanics_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
 }
@@ -61,7 +61,7 @@ Account Tip::account_at_begin() const {
   return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flight_.start().state), 0};
 }
 
-// At a time s of the arc; of a chatter sequence `chatter` is its state there.
+// At the time s of the segment under way; `chatter` is the state of a chatter sequence there.
 Account Tip::account_at(double s, const Chatter& chatter) const {
   if (mode_ == Mode::chattering) {
     const SequenceState r = sequence_state(s, chatter);
@@ -87,9 +87,9 @@ Account Tip::account() const {
 Segment Tip::segment_to(const Account& end) const {
   const Account begin = account_at_begin();
   Segment s;
-  s.kind = mode_ == Mode::chattering  ? SegmentKind::chatter
-           : mode_ == Mode::sliding ? SegmentKind::contact
-                                    : SegmentKind::flight;
+  s.kind = mode_ == Mode::chattering ? SegmentKind::chatter
+           : mode_ == Mode::sliding  ? SegmentKind::contact
+                                     : SegmentKind::flight;
   s.begin = begin.time;
   s.end = end.time;
   s.eta = eta_;
@@ -102,14 +102,14 @@ Segment Tip::segment_to(const Account& end) const {
 
 Segment Tip::segment() const { return segment_to(account()); }
 
-// A command that leaves the tip on the surface ends a segment within the arc.
+// A command that leaves the tip on the surface ends the segment within the phase.
 void Tip::split_account() {
   is_split_ = false;
   split_ = account();
   is_split_ = true;
 }
 
-// The end of the arc, to the last digit: chatter that has died has no normal speed left.
+// At the end of the segment under way, to the last digit. Chatter that has died has no normal speed left.
 Account Tip::account_at_end() const {
   if (mode_ == Mode::touching) return account_at_begin();
   if (mode_ == Mode::sliding) return account_at(slide_end_, {});
@@ -131,7 +131,7 @@ Segment Tip::impact_segment(double energy_before) const {
   s.kind = SegmentKind::impact;
   s.begin = s.end = now_;
   s.eta = eta_;
-  // the holder of a held tip takes what the surface gives along x
+  // the holder of the hammer takes the impulse along x
   if (mechanics_.is_free_along_x == 0.0) s.impulse = landing_.jet.h1 * (after.g1 - landing_.jet.g1);
   s.loss = last_impact_.energy_loss;
   s.stored = energy_of(mechanics_, eta_, after.state) - energy_before;
@@ -139,7 +139,7 @@ Segment Tip::impact_segment(double energy_before) const {
   return s;
 }
 
-// A piece of the reference slide that another follows is no segment yet.
+// A Taylor series of the reference slide that another one follows ends no record.
 Outcome Tip::end_segment(Segments& ended) {
   if (sequence_goes_on()) return end_segment();
   const Account end = account_at_end();

@@ -1,5 +1,5 @@
-// What is changed in the middle of a run: drag velocity, restitution and springs, the level of the model. Whatever the
-// tip is in, flight, burst or contact, is split at the present time, and only there.
+// Commands: drag velocity, parameters and level of the model. A command splits the phase of motion under way (flight,
+// chatter sequence or contact) at the present time.
 #include "afm/tip.h"
 
 namespace afm {
@@ -15,7 +15,7 @@ void Tip::drag(double eta) {
     const Chatter chatter = chatter_now();
     reference = leave_reference(now_ - start_, chatter);
     eta_ = eta;
-    burst(reference, {chatter.v, chatter.n});
+    start_chatter(reference, {chatter.v, chatter.n});
     return split_account();
   }
   eta_ = eta;
@@ -25,15 +25,15 @@ void Tip::drag(double eta) {
   if (due && flight_.launch().g1 == 0.0) mode_ = Mode::touching;
 }
 
-// A held tip that rides on the surface does not follow a new drag velocity smoothly: it is thrown off, or hits, at
-// once.
+// The hammer on the surface gets the new velocity of its holder at once. So its gap rate jumps: it lifts off, or has an
+// impact.
 void Tip::jolt(double eta) {
   end_slide_now();
   eta_ = eta;
   split_account();
 }
 
-// What ends burst or contact at the next advance ends it here.
+// Lets the next advance end the chatter sequence or contact at now().
 void Tip::end_slide_now() {
   const double s = now_ - start_;
   if (mode_ == Mode::sliding) {
@@ -69,7 +69,7 @@ void Tip::set_parameters(const Model& model) {
   if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
 }
 
-// Ends chatter or contact at once. The next advance reports the event.
+// Ends the chatter sequence or contact at once. The next advance reports the event.
 void Tip::leave_now() {
   end_slide_now();
   mode_ == Mode::sliding ? end_slide() : end_chatter();

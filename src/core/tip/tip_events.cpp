@@ -1,4 +1,4 @@
-// What happens at the end of an arc: impact, the end of a chatter sequence, contact, release, the end of a search.
+// What happens at the end of a segment of motion: impact, end of a chatter sequence, contact, release, end of a search.
 #include "afm/reflection.h"
 #include "afm/tip.h"
 #include "tip_motion.h"
@@ -14,20 +14,28 @@ Outcome Tip::land() {
   return Outcome::impact;
 }
 
-// All that the bounces lost: what their normal speed was at first, less what it is now, and what the tip gained meanwhile.
+// The energy that the bounces of a sequence have lost: the fall of v^2/2 since its begin, and `gain` (SequenceState).
 double Tip::chatter_loss(double v, double gain) const {
   return 0.5 * (sequence_normal_speed_ - v) * (sequence_normal_speed_ + v) + gain;
 }
 
-// Only its piece of the reference slide ends.
+// True: only a Taylor series of the reference slide ends, not the sequence.
 bool Tip::sequence_goes_on() const {
   return mode_ == Mode::chattering && chatter_run_.end == ChatterEnd::time && !slide_releases_;
+}
+
+// To the state that the chatter has displaced from the reference slide.
+SlideState<double> Tip::leave_reference(double s, const Chatter& chatter) {
+  const SequenceState r = sequence_state(s, chatter);
+  sequence_gain_ = r.gain;
+  sequence_impulse_ = r.impulse;
+  return r.moved;
 }
 
 Outcome Tip::end_chatter() {
   const ChatterRun run = chatter_run_;
   if (sequence_goes_on()) {
-    burst(leave_reference(run.s, run.chatter), {run.chatter.v, run.chatter.n});
+    start_chatter(leave_reference(run.s, run.chatter), {run.chatter.v, run.chatter.n});
     return Outcome::flying;
   }
   const SlideState<double> reference = leave_reference(run.s, run.chatter);

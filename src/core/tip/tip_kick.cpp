@@ -1,4 +1,4 @@
-// What a kick of the bath does to the tip: in the air, in a chatter sequence, in contact.
+// A kick of the bath, in flight, in a chatter sequence, in contact (docs/temperature.md).
 #include <cmath>
 
 #include "afm/surface.h"
@@ -8,17 +8,17 @@ namespace afm {
 
 void Tip::set_bath(const Bath& bath) {
   thermostat_.set(bath, model_.frequency_ratio, now_);
-  landing_known_ = false;  // the search went to the next kick of the old bath
+  landing_known_ = false;  // the known search ends at the next kick of the old bath
 }
 
-// Relative to the holder both velocities change; the holder of a held tip takes what is along x.
+// Both velocities relative to the holder change. The hammer's lateral velocity is that of its holder and stays.
 TipState Tip::kicked(const Kick& kick, const TipState& state) const {
   const double slope = surface_jet(model_.H, state.phase).h1, w = state.g1 + slope * state.u;
   const double du = mechanics_.is_free_along_x == 0.0 ? 0.0 : kick.lateral.change(state.u - eta_);
   return {state.phase, state.X, state.u + du, state.g, state.g1 + (kick.vertical.change(w) - slope * du)};
 }
 
-// Positions stay: the bath gets the kinetic energy that is lost.
+// Positions stay, so the heat to the bath is the kinetic energy that the tip loses.
 Segment Tip::kick_segment(const TipState& before, const TipState& after) const {
   const double slope = surface_jet(model_.H, before.phase).h1;
   const double w = before.g1 + slope * before.u, kicked_w = after.g1 + slope * after.u;
@@ -31,9 +31,9 @@ Segment Tip::kick_segment(const TipState& before, const TipState& after) const {
   return s;
 }
 
-// Contact stays contact where the kick leaves no gap rate beyond that at which chatter becomes contact.
+// Contact goes on if the gap rate after the kick is below the threshold at which chatter becomes contact.
 bool Tip::stays_after(const Kick& kick) const {
-  const double least = std::fmax(slowest_chatter_, kLeastGapRate);
+  const double least = std::fmax(slowest_chatter_, kMinGapRate);
   return mode_ == Mode::sliding && std::fabs(kicked(kick, tip_state()).g1) < least;
 }
 

@@ -9,15 +9,15 @@
 namespace afm {
 namespace {
 
-// A flight of next to no time, for the fastest turn, under next to no force is none either: its end is rounding, and a
-// drag of 1e-18 a/tau that would bring pressure moves no phase.
+// A flight that is shorter than rounding, under a force within rounding, is no flight: its end is rounding too. Without
+// this a drag of 1e-18 a/tau, which moves no phase, would repeat it for ever.
 bool is_rounding(const Flight<double>& flight, double s) {
   const TipState& start = flight.launch();
-  return s * flight.bounds().fastest < kLeastFlight && start.g1 > 0.0 &&
+  return s * flight.bounds().fastest < kMinFlight && start.g1 > 0.0 &&
          std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
 }
 
-// In one, as what is between them would wait for memory.
+// In one function: between two, the values would wait for memory.
 AFM_MULTIVERSION void reflect_and_launch(const Model& model, const Mechanics<double>& mechanics, double eta,
                                          const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
   const Reflection r = reflect(model, eta, incident);
@@ -38,8 +38,7 @@ void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight
 
 }  // namespace
 
-// Made anew in place: a copy of what has just been written would wait until it is in memory, a tenth of an impact's
-// time.
+// Constructed in place: a copy of the new flight would wait for memory, which costs a tenth of an impact.
 AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
                              Flight<double>& flight) {
   new (&flight) Flight<double>(mechanics, eta, state);
@@ -49,7 +48,7 @@ void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
              Flight<double>& flight, Bounce& bounce) {
   const bool rounding = is_rounding(flight, landing.s);
   reflect_and_launch(model, mechanics, eta, landing.jet, flight, bounce);
-  if (rounding || flight.launch().g1 < kLeastGapRate) stay(mechanics, eta, flight, bounce);
+  if (rounding || flight.launch().g1 < kMinGapRate) stay(mechanics, eta, flight, bounce);
 }
 
 AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }

@@ -31,7 +31,7 @@ void set_live(const LiveParameters& live, Parameters& p) {
 }
 
 LiveParameters least_live(const Parameters& p) {
-  return {0.0, 0.0,         kLowestRest * p.si.lattice_spacing_m, least_sample_rate(p), kLeastFrictionWindow, 0.0, 0.0,
+  return {0.0, 0.0,         kMinRestHeight * p.si.lattice_spacing_m, least_sample_rate(p), kLeastFrictionWindow, 0.0, 0.0,
           0.0, kMinKickRate};
 }
 

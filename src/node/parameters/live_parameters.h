@@ -28,7 +28,7 @@ constexpr LiveField kLiveFields[] = {
     {"cutoff_speed", &LiveParameters::cutoff_speed,
      "[m/s] below it restitution rises towards 1; 0: the same at every speed"},
     {"rest_height_m", &LiveParameters::rest_height_m,
-     "[m] of the harmonic centre above mid-surface; below the crest, or the tip hovers"},
+     "[m] of the holder above mid-surface; below the crest, or the tip hovers"},
     {"sample_rate_hz", &LiveParameters::sample_rate_hz, "[1/s of model time]"},
     {"friction_window_tau", &LiveParameters::friction_window_tau,
      "[tau] length of the sliding window of the friction estimate"},

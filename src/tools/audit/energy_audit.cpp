@@ -92,7 +92,7 @@ void EnergyAudit::gap() {
 }
 
 // dE = (1 - gamma_eff^2) v^2 / 2, with the restitution rising towards 1 below the cutoff. A bounce that would be slower
-// than kLeastGapRate is none: it loses all that came in.
+// than kMinGapRate is none: it loses all that came in.
 void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
   if (impact.kind != afm_emulator::Impact::IMPACT) return;
   const double v = impact.normal_speed / units_.velocity();
@@ -100,7 +100,7 @@ void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
   const double expected = 0.5 * (1.0 - gamma) * (1.0 + gamma) * v * v;
   const double told = impact.energy_loss / units_.energy();
   // near 1 the restitution loses digits: judge against the energy that came in
-  const double came_in = 0.5 * v * v, slow = 2.0 * kLeastGapRate;
+  const double came_in = 0.5 * v * v, slow = 2.0 * kMinGapRate;
   const bool stays = v < slow && std::abs(told - came_in) < std::abs(told - expected);  // too slow for a bounce
   note(report_.law_error, v > 0.0 ? (told - (stays ? came_in : expected)) / came_in : told);
   ++report_.by_law;

@@ -68,7 +68,7 @@ class EnergyAudit {
     double given, stored;
   };
   struct Motion {
-    double X, Y, U, W;  // against the harmonic centre
+    double X, Y, U, W;  // against the holder
   };
 
   double conditioning() const;

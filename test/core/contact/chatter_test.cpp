@@ -104,11 +104,12 @@ TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
   const ChatterRates rates(model_, false);
   for (int i = 0; i < 200; ++i) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
-    const ChatterPlace start = rates.begin(chatter.reference, 0.0, {chatter.v, 0.0});
-    const double fastest = std::max({start.around.relative_rate, kTwoPi * start.around.slow_rate, std::abs(start.rate.x)});
+    const ChatterPoint start = rates.begin(chatter.reference, 0.0, {chatter.v, 0.0});
+    const double fastest =
+        std::max({start.surroundings.relative_rate, kTwoPi * start.surroundings.slow_rate, std::abs(start.rate.x)});
     for (double part = 1e-3; part > 1e-20; part *= 0.1) {
-      const double dt = part / fastest, x = rates.step(chatter.reference, start, dt).even.x;
-      ASSERT_NEAR(x, start.even.x + dt * start.rate.x, 10.0 * part * part + 1e-14) << i << ' ' << part;
+      const double dt = part / fastest, x = rates.step(chatter.reference, start, dt).smooth.x;
+      ASSERT_NEAR(x, start.smooth.x + dt * start.rate.x, 10.0 * part * part + 1e-14) << i << ' ' << part;
     }
   }
 }

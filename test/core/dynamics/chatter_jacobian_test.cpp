@@ -43,7 +43,7 @@ Eigen::Matrix4d quad_jacobian(const Model& model, double eta, const TipState& st
     for (const double s : guess) p = impacts.next(p, s);
     return p;
   };
-  return held(is_free_along_x(model), Eigen::Matrix4d(quad_differences<4>(chain, quad_point(start), Quad(1e-13))));
+  return without_held_directions(is_free_along_x(model), Eigen::Matrix4d(quad_differences<4>(chain, quad_point(start), Quad(1e-13))));
 }
 
 struct Burst {
@@ -110,8 +110,9 @@ std::vector<double> errors(const Model& model, double eta) {
   return found;
 }
 
-// What the averaged law leaves out of each bounce adds up: over forty bursts of up to 3000 bounces at each of these points
-// half were good to 2.2e-4, and all to 7.5e-3 (1500 bounces at eta = 0.5). A law without the cutoff above it is off by all of itself.
+// What the averaged law leaves out of each bounce adds up: over forty bursts of up to 3000 bounces at each of these
+// points half were good to 2.2e-4, and all to 7.5e-3 (1500 bounces at eta = 0.5). A law without the cutoff above it is
+// off by all of itself.
 void expect_derivatives(ModelKind kind) {
   for (const double v_c : {0.3, 0.03, 0.01, 0.003}) {
     for (const double eta : {0.5, 3.0, 5.0, 7.0}) {

@@ -8,6 +8,7 @@
 
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "support/paper_jacobians.h"
 #include "support/quad_impacts.h"
 #include "trials/random_launches.h"
 

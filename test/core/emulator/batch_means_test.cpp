@@ -53,8 +53,8 @@ TEST(BatchMeans, MergesWhatIsCorrelated) {
 }
 
 TEST(BatchMeans, SaysNothingOfTooFew) {
-  EXPECT_TRUE(std::isnan(mean_error(std::vector<double>(kFewestBatches - 1, 1.0)).std_error));
-  EXPECT_EQ(mean_error(std::vector<double>(kFewestBatches, 1.0)).std_error, 0.0);
+  EXPECT_TRUE(std::isnan(mean_error(std::vector<double>(kMinBatches - 1, 1.0)).std_error));
+  EXPECT_EQ(mean_error(std::vector<double>(kMinBatches, 1.0)).std_error, 0.0);
 }
 
 }  // namespace

@@ -229,13 +229,13 @@ TEST(SavedState, IsTheSameWhetherOrNotTheNextImpactIsKnown) {
 TEST(SavedState, IsRefusedWhereItIsCutOrTooLong) {
   const SavedState state = state_at(100.0);
   ASSERT_TRUE(Emulator::restored(state).has_value());
-  for (std::size_t size = 0; size <= SavedState::kMostWords; ++size) {
+  for (std::size_t size = 0; size <= SavedState::kMaxWords; ++size) {
     SavedState other = state;
     other.size = size;
     EXPECT_EQ(Emulator::restored(other).has_value(), size == state.size) << size;
   }
   SavedState beyond = state;
-  beyond.size = SavedState::kMostWords + 1;
+  beyond.size = SavedState::kMaxWords + 1;
   EXPECT_FALSE(Emulator::restored(beyond).has_value());
 }
 

@@ -6,7 +6,7 @@
 
 namespace afm {
 
-constexpr int kProbeLanes = 8, kProbeResults = 24;
+constexpr int kProbeLanes = 8, kProbeResults = 19;
 
 // results[k][i]: the k-th function of x[i], y[i], z[i].
 using LaneProbe = void (*)(const double* x, const double* y, const double* z,

@@ -1,6 +1,6 @@
 #include "core/lanes/registers_avx512.h"
 // after the registers
-#include "core/lanes/pack_turns.h"
+#include "core/lanes/pack.h"
 #include "lane_probe_functions.h"
 
 namespace afm {
