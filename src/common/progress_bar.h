@@ -8,7 +8,7 @@ namespace afm {
 
 class ProgressBar {
  public:
-  // Silent where stderr is no terminal. `before`: done by an earlier run, which tells nothing about the speed of this
+  // Silent where stderr is no terminal. `before`: done by an earlier run, which says nothing about the speed of this
   // one.
   ProgressBar(std::size_t total, std::size_t before);
   ~ProgressBar();

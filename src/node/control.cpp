@@ -9,7 +9,7 @@
 namespace afm::node {
 namespace {
 
-// A batch takes at most 1.5 s, and a step gives up after 8 s.
+// A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kDeadline{12};
 
 std::string to_text(const Answer& answer, const std::string& done) {

@@ -30,7 +30,7 @@ class Control {
   ControlReply step(double tau, std::uint32_t impacts);  // exactly one of them is not 0
 
   void deliver(const Answer& answer);  // from the publishing thread, in its place among what it publishes
-  void close();                        // from now on everyone is told that the end has come
+  void close();                        // from now on every caller learns that the node ends
 
  private:
   ControlReply ask(Request request, const std::string& done);

@@ -1,4 +1,4 @@
-// emulator_node: the AFM tip on the wire. Exits 1 if its parameters are faulty, 0 when it is told to end.
+// emulator_node: the AFM tip on the wire. Exits 1 if its parameters are faulty, 0 when it is ordered to end.
 #include <malloc.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -15,7 +15,7 @@ namespace {
 
 // A step may hold one service for seconds: others, and commands, must come through meanwhile.
 constexpr unsigned kSpinnerThreads = 3;
-// How soon a shutdown that ROS was told of (rosnode kill) is noticed.
+// How soon a shutdown by ROS (rosnode kill) is noticed.
 constexpr std::chrono::milliseconds kShutdownLook{100};
 constexpr int kLargeBuffer = 256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 

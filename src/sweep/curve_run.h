@@ -9,7 +9,7 @@
 namespace afm {
 
 // Returns the exit code: 0, 1 where a file cannot be written, 2 where the output cannot be taken for this run, 130 when
-// interrupted. Faults are told on stderr by rank 0. `output` "-" is standard output, and then there is nothing to go on
+// interrupted. Rank 0 reports faults on stderr. `output` "-" is standard output, and then there is nothing to go on
 // with.
 int run_curve(const CurveSettings& settings, const std::string& output, int threads,
               const TableUnits& units = TableUnits::plain());

@@ -39,7 +39,7 @@ void check(const FlightInput& input) {
   EmulatorSettings settings;
   settings.model = model_of(input);
   settings.eta = input.eta;
-  // a phase that is no phase is told of, not looked up
+  // a phase that is no phase is reported, not used
   const double height = surface_jet(settings.model.H, std::abs(input.phase) <= 1e6 ? input.phase : 0.0).h;
   settings.initial = {input.phase, input.extension, height, input.u, input.w};
   std::string text;
@@ -62,7 +62,7 @@ TipState start_of(const FlightInput& input) {
   throw std::invalid_argument(text.str());
 }
 
-// A search that gives up on a long flight is begun again from where it is certified free of impacts.
+// A search that fails on a long flight is restarted from where it is certified free of impacts.
 Landing<double> land(const Model& model, double eta, TipState start) {
   constexpr int kAttempts = 100;
   const Mechanics<double> mechanics(model);

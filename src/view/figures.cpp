@@ -9,7 +9,7 @@ namespace {
 
 bool has_bath(const afm_emulator::Configuration& c) { return c.quality_factor > 0.0 || c.lateral_quality_factor > 0.0; }
 
-// With a heat bath only the work of the drag tells friction.
+// With a heat bath only the work of the drag gives the friction.
 std::string friction_text(const afm_emulator::Friction& friction, bool by_work, const Units& units) {
   const double unit = units.friction(), K_f = (by_work ? friction.k_f_work : friction.k_f) / unit,
                error = (by_work ? friction.k_f_work_std_error : friction.k_f_std_error) / unit;

@@ -1,5 +1,5 @@
 // Everything heard of a run, live or replayed. The topics come in any order: each message is taken by itself, and a
-// picture is drawn when all that it needs tells of one epoch.
+// picture is drawn when all that it needs is of one epoch.
 #pragma once
 
 #include <afm_emulator/Friction.h>

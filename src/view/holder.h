@@ -1,4 +1,4 @@
-// Where the harmonic centre is over the surface. Nobody is told that: it goes as fast as the drag says, from where the
+// Where the holder is over the surface. No message reports that: it moves with the drag velocity, from where the
 // run began or, for who came late, from where an impact shows the tip to be.
 #pragma once
 
@@ -25,9 +25,9 @@ class Holder {
   // The centre was seen at x at this time, give or take whole cells.
   void correct(const ModelTime& time, double x);
 
-  // Along the surface [a], a crest at every whole number. Empty when neither the start nor an impact has told.
+  // Along the surface [a], a crest at every whole number. Empty if neither the start nor an impact determines it.
   std::optional<double> position(const ModelTime& time) const;
-  // Over mid-surface [a], the latest told of up to that time.
+  // Over mid-surface [a], the latest reported up to that time.
   double height(const ModelTime& time) const;
   double eta(const ModelTime& time) const { return leg(time).eta; }
   // Of the drag velocity, the latest up to that time.

@@ -11,7 +11,7 @@ namespace {
 constexpr std::ptrdiff_t kEventsLookedAt = 200;
 constexpr double kLeastSine = 0.1;  // samples nearly half a turn apart say little about what is between them
 
-// The spring through two samples, at a time after them; nothing where they do not tell.
+// The spring through two samples, at a time after them; empty if they do not determine it.
 std::optional<double> extension_at(const ModelTime& time, const Sample& a, const Sample& b, double frequency_ratio) {
   const auto sine = [&](double dt) { return sin_cos_turns(frequency_ratio * dt).sin; };
   const double spread = sine(b.time - a.time);
@@ -19,7 +19,7 @@ std::optional<double> extension_at(const ModelTime& time, const Sample& a, const
   return (b.X * sine(time - a.time) - a.X * sine(time - b.time)) / spread;
 }
 
-// A burst is told of when it has ended, and a contact slides: neither ends or begins a free flight for certain.
+// A burst is reported when it has ended, and a contact slides: neither ends or begins a free flight for certain.
 bool begins_flight(const Event& event) {
   return event.impact.kind == ImpactKind::impact || event.impact.kind == ImpactKind::contact_ended;
 }

@@ -1,4 +1,4 @@
-// Colours that people with any kind of colour vision can tell apart.
+// Colours that people with any kind of colour vision can distinguish.
 #pragma once
 
 #include <std_msgs/ColorRGBA.h>

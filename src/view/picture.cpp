@@ -36,7 +36,7 @@ std::vector<Corner> until(const ModelTime& moment, std::vector<Corner> path) {
   return path;
 }
 
-// Its last part that is seen in one piece.
+// Its last part without a gap.
 void clip(const Canvas& canvas, std::vector<Corner>& path) {
   const auto unseen = std::find_if(path.rbegin(), path.rend(), [&](const Corner& c) { return !canvas.shows(c.x); });
   path.erase(path.begin(), unseen.base());

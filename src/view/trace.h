@@ -43,7 +43,7 @@ class Trace {
   void add(const afm_emulator::Deflection& message, const Units& units, double sample_period_tau);
   void add(const afm_emulator::ImpactArray& message, const Units& units);
 
-  // Samples and events tell of one and the same epoch, which is the one given.
+  // Samples and events belong to one epoch, which is the one given.
   bool tells_of(std::uint32_t epoch) const {
     return !samples_.empty() && samples_epoch_ == epoch && events_epoch_ == epoch;
   }

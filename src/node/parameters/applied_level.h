@@ -1,4 +1,4 @@
-// The level of the model that a command or a change of parameters brought: what a message tells of it, as plain values.
+// The level of the model that a command or a change of parameters brought, as a message reports it: plain values.
 #pragma once
 
 #include <limits>

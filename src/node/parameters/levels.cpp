@@ -50,7 +50,7 @@ void load_levels(Parameters& p, Faults& faults) {
 
 Level full_level(const Parameters& p) {
   Level level{ModelKind::oscillator, p.contact_tolerance};
-  parse(p.model, level.kind);  // auto, or a fault that is told of elsewhere
+  parse(p.model, level.kind);  // auto, or a fault that is reported elsewhere
   return level;
 }
 

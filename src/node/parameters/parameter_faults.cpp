@@ -110,12 +110,12 @@ void check_drag(const Parameters& p, Check& check) {
                     " (a batch, as commands take effect between batches) and " + text_of(kMaxTimeout));
 }
 
-// The core judges its settings in natural units: tell its faults by the names and values that were given.
+// The core checks its settings in natural units. Reports its faults with the names and values that were given.
 void check_settings(const Parameters& p, Check& check) {
   check.within("friction_window_tau", p.friction_window_tau, kLeastFrictionWindow, kMostFrictionWindow);
   check.within("impact_budget", static_cast<double>(p.impact_budget), 1.0, kMaxImpactBudget);
   EmulatorSettings settings = emulator_settings(p);
-  // told of already, in the user's terms
+  // reported already, with the user's names
   settings.eta = 0.0;
   settings.friction_window = 1.0;
   settings.impact_budget = 1;

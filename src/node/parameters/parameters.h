@@ -1,4 +1,4 @@
-// Everything the node is told at start: read once, checked as a whole, const afterwards.
+// The parameters of the node at start: read once, checked as a whole, const afterwards.
 #pragma once
 
 #include <chrono>
@@ -49,7 +49,7 @@ constexpr char kAuto[] = "auto";  // model: a level of it for every drag velocit
 
 constexpr double kLeastFrictionWindow = 1.0, kMostFrictionWindow = 1e9;  // [tau]
 
-// What is wrong with one parameter, told as given.
+// A fault of one parameter, with the name and value that were given.
 struct Fault {
   std::string name, value, reason;
 };

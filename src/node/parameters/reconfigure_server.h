@@ -24,7 +24,7 @@ class ReconfigureServer {
   ReconfigureServer(ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply);
   void shutdown() { service_.shutdown(); }
 
-  // These have taken effect: clients are told. From the publishing thread, before the answer to who asked for them.
+  // These have taken effect; informs the clients. From the publishing thread, before the answer to who asked for them.
   void applied(const LiveParameters& live);
 
  private:

@@ -33,7 +33,7 @@ void create_exclusively(const std::string& path) {
   ::close(file);
 }
 
-// Not every file system can refuse to overwrite while renaming; there we look first.
+// Not every file system can refuse to overwrite while renaming; there we check first.
 bool rename_without_overwriting(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS) return false;

@@ -87,7 +87,7 @@ std::string BagSeries::close() {
     if (!begun_) begin_bag(to_stamp(wall_now_ns()));
     mark(afm_emulator::Recording::CLOSED, just_after(std::max(last_stamp_, begin_stamp_)));
   } catch (const std::exception&) {
-    // closing fails for the same reason, and tells
+    // closing fails for the same reason and reports it
   }
   return bag_->close();
 }

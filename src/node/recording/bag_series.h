@@ -44,7 +44,7 @@ class BagSeries {
     last_stamp_ = stamp;
   }
 
-  // How many messages the recorder has dropped so far: the marks tell.
+  // How many messages the recorder has dropped so far, from the marks.
   void set_dropped(std::uint64_t messages) { dropped_ = messages; }
   std::string find_trouble(std::uint64_t bytes) { return bag_->find_trouble_before_writing(bytes); }
   std::string close();  // returns what went wrong, or nothing

@@ -1,4 +1,4 @@
-// What a bag must be told first, so that a run under way can be simulated again: the configuration, the last
+// What a bag must contain first, so that a run under way can be simulated again: the configuration, the last
 // checkpoint, and every drag command and change of parameters since then, with those in force there.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What the stepping thread is asked and what it tells: plain values, so that both travel through lock-free queues.
+// Requests to the stepping thread and its reports: plain values, so that both travel through lock-free queues.
 #pragma once
 
 #include <cstdint>

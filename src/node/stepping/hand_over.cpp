@@ -4,7 +4,7 @@ namespace afm::node {
 namespace {
 
 // A request causes at most four events beside batches: reset, drag applied, parameters applied, answer. Batches leave
-// room for them, as a step tells of its batches first and answers last.
+// room for them, as a step reports its batches first and answers last.
 constexpr std::size_t kEventsPerRequest = 4;
 // Commands that may wait for publication, beside all the batches that may.
 constexpr std::size_t kWaitingCommands = 1024;

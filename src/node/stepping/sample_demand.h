@@ -1,4 +1,4 @@
-// Whether anyone wants samples of the deflection. Those who publish tell it, the stepping thread asks before each
+// Whether anyone wants samples of the deflection. The publishing thread sets it; the stepping thread reads it before each
 // batch, and neither waits for the other.
 #pragma once
 

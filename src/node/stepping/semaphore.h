@@ -19,7 +19,7 @@ class Semaphore {
 
   void post() { sem_post(&semaphore_); }
 
-  // Until a post or for `timeout` at most; takes all posts that are there, as one look at a queue answers them all.
+  // Until a post or for `timeout` at most; takes all posts that are there, as one check of a queue answers them all.
   void wait_for(std::chrono::milliseconds timeout) {
     const timespec end = after(timeout);
     while (sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &end) != 0 && errno == EINTR) {

@@ -71,7 +71,7 @@ void Stepper::wait_for_work() {
 }
 
 void Stepper::run_batch() {
-  // A batch cut short by its budget is told of, but its period is not over: the rest follows at once, and lag grows.
+  // A batch cut short by its budget is reported, but its period is not over: the rest follows at once, and lag grows.
   look_for_demand();
   const Outcome outcome = emulator_.run_batch(batch_);
   if (outcome != Outcome::budget_spent) pacer_.batch_done(monotonic_now());

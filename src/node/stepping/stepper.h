@@ -1,5 +1,5 @@
 // The stepping thread: advances the emulator batch by batch at absolute deadlines, obeys requests between batches, and
-// hands everything over. It blocks to wait for the next deadline, or for room to tell of a batch, and neither locks nor
+// hands everything over. It blocks to wait for the next deadline, or for room to report a batch, and neither locks nor
 // allocates.
 #pragma once
 
@@ -49,7 +49,7 @@ class Stepper {
   void lift(double rest_height);
   void watch_for_commands();
   void look_for_checkpoint();
-  bool take_checkpoint();  // false: no room to tell of it
+  bool take_checkpoint();  // false: no room to report it
   void pause(bool paused);
   void reset();
   void run_batch();

@@ -10,7 +10,7 @@ constexpr std::uint64_t kMostCommandsBetweenCheckpoints = 2000;
 
 }  // namespace
 
-// A request stays in its queue until there is room to tell of it, so that no accepted command goes unpublished.
+// A request stays in its queue until there is room to report it, so that no accepted command goes unpublished.
 void Stepper::serve_requests() {
   Request request;
   while (!stopping_ && keep_few_to_remember() && hand_over_.has_room_for_request() && requests_.pop(request)) {
@@ -93,7 +93,7 @@ void Stepper::take_level(double eta) {
   level_ = {choice.level, choice.expected_error, emulator_.set_level(choice.level)};
 }
 
-// A stop is a command like any other, applied and told of at a batch boundary: who simulates the run again needs no
+// A stop is a command like any other, applied and reported at a batch boundary: who simulates the run again needs no
 // clock.
 void Stepper::watch_for_commands() {
   if (parameters_.command_timeout_s == 0.0 || drag_velocity_ == 0.0 || paused_) return;
@@ -141,7 +141,7 @@ void Stepper::look_for_checkpoint() {
   if (anew && monotonic_now() >= checkpoint_due_) take_checkpoint();
 }
 
-// Where there is no room to tell of it, the next look takes it.
+// If there is no room to report it, the next check takes it.
 bool Stepper::take_checkpoint() {
   emulator_.save(saved_);
   if (!hand_over_.offer(event(Event::Kind::checkpoint), saved_)) return false;

@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kDigestPeriod{1000};
 constexpr std::chrono::milliseconds kRequestDeadline{500};
 constexpr std::chrono::milliseconds kDiagnosticsPeriod{1000};  // as diagnostic aggregators expect
 
-// Due at whole periods, so that the rate is right whenever we look; periods that went by are not made up for.
+// Due at whole periods, so that the rate is right whenever we check; periods that went by are not made up for.
 bool is_due(std::chrono::steady_clock::time_point& due, std::chrono::milliseconds period) {
   const auto now = std::chrono::steady_clock::now();
   if (now < due) return false;
@@ -65,7 +65,7 @@ void Broadcaster::run() {
   Batch batch = roomy_batch(parameters_);
   SavedState state;
   for (bool last = false; !last;) {
-    last = stopping_;  // look once more after being told to stop: nothing handed over before it is lost
+    last = stopping_;  // check once more after the order to stop, so that nothing handed over before is lost
     if (!last) sources_.hand_over.wait_for(kStatusPeriod);
     look_for_listeners();
     while (sources_.hand_over.take(event, batch, state)) {

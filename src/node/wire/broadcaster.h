@@ -1,4 +1,4 @@
-// The publishing thread: takes what the stepping thread hands over, publishes and records it, and tells how it goes.
+// The publishing thread: takes what the stepping thread hands over, publishes and records it, and reports the status.
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -47,7 +47,7 @@ class Broadcaster {
   void stop();  // after all that is handed over is published
   // Publishes a digest of all so far; returns when that is done, or after some time when it is not.
   void request_digest();
-  // Whether samples are wanted now. Any thread; this one looks at every batch.
+  // Whether samples are wanted now. Any thread; this one reads it at every batch.
   void look_for_listeners();
   void expect_recording(bool expected);  // samples are wanted for one that is about to begin
 
@@ -64,7 +64,7 @@ class Broadcaster {
   void tell_digest();
   void answer_request();
 
-  Parameters parameters_;  // as they are at the event that is told of
+  Parameters parameters_;  // as they are at the event that is reported
   const Units units_;
   const std::string arithmetic_digest_;
   Sources sources_;

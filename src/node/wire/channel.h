@@ -47,7 +47,7 @@ class Channel {
   bool has_subscribers() const { return publisher_.getNumSubscribers() > 0; }
 
  private:
-  // roscpp counts by itself and would write over our numbers, unless it is not told of the header: what is on the wire
+  // roscpp counts by itself and would write over our numbers, unless it does not know of the header: what is on the wire
   // is what is in a bag, to the byte.
   static ros::Publisher advertise(ros::NodeHandle& node, const char* name, unsigned queue_size, bool latched) {
     ros::AdvertiseOptions options;

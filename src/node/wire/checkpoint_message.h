@@ -13,7 +13,7 @@
 
 namespace afm::node {
 
-// What a checkpoint tells beside the state itself.
+// What a checkpoint reports beside the state itself.
 struct CheckpointContext {
   std::uint32_t epoch = 0;
   std::uint64_t drags = 0;                           // applied in this epoch
@@ -33,7 +33,7 @@ inline std::uint64_t changes_before(const afm_emulator::Checkpoint& checkpoint) 
   return checkpoint.digest.commands - checkpoint.drags;
 }
 
-// Nothing: the state is none that a run can be in, or not the one that the rest of the message tells of.
+// Nothing: the state is none that a run can be in, or not the one that the rest of the message describes.
 // Precondition: of our layout.
 std::optional<Emulator> restored(const afm_emulator::Checkpoint& checkpoint);
 

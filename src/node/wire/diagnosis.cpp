@@ -8,7 +8,7 @@ namespace {
 
 using Severity = diagnostic_msgs::DiagnosticStatus;
 
-// All that is wrong is told, the level is that of the worst.
+// Reports every fault; the level is that of the worst.
 class Troubles {
  public:
   Troubles(Diagnosis& out, const std::string& if_none) : out_(out) { out_.summary(Severity::OK, if_none); }

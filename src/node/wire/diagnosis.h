@@ -9,7 +9,7 @@ namespace afm::node {
 
 constexpr double kTroublingLag = 0.5;        // [s]: what a person notices
 constexpr double kHopelessLag = 2.0;         // [s]
-constexpr double kTroublingLateShare = 0.1;  // of the batches since the last look
+constexpr double kTroublingLateShare = 0.1;  // of the batches since the last check
 constexpr double kPenetration = 1e-10;       // [a]: more is not rounding
 constexpr double kScarceReserves = 2.0;      // a recording comes near its end with less than so many reserves free
 

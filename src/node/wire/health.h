@@ -19,7 +19,7 @@ constexpr std::chrono::seconds kRecently{10};
 struct Health {
   afm_emulator::EmulatorStatus status;
   // pace
-  double late_share = 0.0;   // of the batches since the last look
+  double late_share = 0.0;   // of the batches since the last check
   bool lost_batch = false;   // recently: emulated, but not published
   // commands
   std::uint64_t refused_changes = 0;
@@ -55,7 +55,7 @@ class RecentRise {
   Time last_rise_;
 };
 
-// Follows what changes from one look to the next. Used by the publishing thread alone.
+// Follows what changes from one check to the next. Used by the publishing thread alone.
 class HealthTracker {
  public:
   struct Sources {

@@ -72,7 +72,7 @@ void MasterWatch::run() {
   }
 }
 
-// A master that knows another node by our name is left alone: it has told us to end.
+// A master that knows another node by our name is left alone: it has ordered us to end.
 void MasterWatch::look() {
   const bool was_reachable = std::exchange(reachable_, ask("getPid"));
   if (!reachable_) {

@@ -1,5 +1,5 @@
-// Looks after the ROS master: where it has gone and come back, without knowing us, everything is told to it again.
-// roscpp registers once and never looks again; nobody new would find the node.
+// Watches the ROS master: if it restarts without knowing us, we register everything again.
+// roscpp registers once and never checks again; nobody new would find the node.
 #pragma once
 
 #include <condition_variable>

@@ -46,7 +46,7 @@ afm_emulator::AppliedDrag to_applied_drag(const StepperState& state, double drag
 afm_emulator::AppliedParameters to_applied_parameters(const StepperState& state, const Parameters& parameters,
                                                       const AppliedLevel& level, const Label& label);
 
-// The level that an AppliedDrag or AppliedParameters tells. Throws std::invalid_argument if there is no such model.
+// The level that an AppliedDrag or AppliedParameters reports. Throws std::invalid_argument if there is no such model.
 template <class Applied>
 Level level_of(const Applied& applied) {
   Level level{ModelKind::oscillator, applied.contact_tolerance};
@@ -54,7 +54,7 @@ Level level_of(const Applied& applied) {
   return level;
 }
 
-// The live parameters that an AppliedParameters or a Checkpoint tells.
+// The live parameters that an AppliedParameters or a Checkpoint reports.
 template <class Told>
 LiveParameters to_live(const Told& told) {
   return {told.restitution_gamma, told.cutoff_speed, told.rest_height_m, told.sample_rate_hz,

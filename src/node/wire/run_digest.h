@@ -1,4 +1,4 @@
-// The running digests of one epoch, from the messages that tell of it. Samples, impacts and commands are counted by
+// The running digests of one epoch, from its messages. Samples, impacts and commands are counted by
 // themselves, so that their digests do not depend on how they were put into batches.
 #pragma once
 
@@ -19,7 +19,7 @@ class RunDigest {
   RunDigest() = default;
   // An epoch begins. Stamps and sequence numbers are no part of a run.
   explicit RunDigest(const afm_emulator::Configuration& configuration);
-  // Goes on from what was told.
+  // Goes on from what was reported.
   explicit RunDigest(const afm_emulator::Digest& told);
 
   void add(const afm_emulator::Deflection& batch);

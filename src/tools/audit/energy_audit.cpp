@@ -12,7 +12,7 @@
 namespace afm::audit {
 namespace {
 
-constexpr double kTooNearlyBlind = 100.0;  // amplification beyond which samples do not tell velocities
+constexpr double kTooNearlyBlind = 100.0;  // amplification beyond which samples do not determine velocities
 // Errors add up along sample, unit conversion, sine, and sum: a few dozen roundings, squared amplification.
 constexpr double kRoundings = 64.0 * std::numeric_limits<double>::epsilon();
 
@@ -120,7 +120,7 @@ void EnergyAudit::judge(const ModelTime& until) {
   first_sample_ += dropped;
 }
 
-// Whether the tip leaves the surface with the second event: a burst begins with a bounce too, and is told when it ends.
+// Whether the tip leaves the surface with the second event: a burst begins with a bounce too, and is reported when it ends.
 bool EnergyAudit::flies_off() const {
   const auto next =
       std::find_if(events_.begin() + 2, events_.end(), [](const Event& e) { return e.impact.has_value(); });

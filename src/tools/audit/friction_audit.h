@@ -45,7 +45,7 @@ class FrictionAudit {
   void gap();  // sums begin again at the next estimate
   void finish();
 
-  const ModelTime& since() const { return start_; }  // the estimates tell of
+  const ModelTime& since() const { return start_; }  // start of the estimates
   const FrictionReport& report() const { return report_; }
 
  private:

@@ -1,4 +1,4 @@
-// What the tools for orbits and attractors are told on the command line: which model, at which drag velocity.
+// The command-line options of the tools for orbits and attractors: which model, at which drag velocity.
 #pragma once
 
 #include <string>

@@ -19,7 +19,7 @@ const Level kLadder[] = {{ModelKind::oscillator, 0.0},
                          {ModelKind::hammer, kDefaultContactTolerance}};
 constexpr std::size_t kLevels = std::size(kLadder), kFull = 3;
 constexpr double kTooDear = 1.2;    // times the full model
-constexpr double kWorst = 1e3;      // relative errors beyond it tell no more
+constexpr double kWorst = 1e3;      // larger relative errors contain no more information
 constexpr double kStandardErrors = 2.0;
 
 TipState start_of(const Model& model, double eta, const LevelErrorSettings& settings, int index) {
@@ -59,7 +59,7 @@ std::vector<double> measure_costs(const Model& model, double eta, const TipState
   return costs;
 }
 
-// Never more events in a stretch than half of what the shipped impact budget allows a batch: the mean tells too little,
+// Never more events in a stretch than half of what the shipped impact budget allows a batch: the mean says too little,
 // as one contact in ten thousand may hold millions of bounces.
 bool keeps_time(const Model& model, double eta, const Level& level, const TipState& start) {
   constexpr double kStretch = 50.0;  // [tau]

@@ -14,7 +14,7 @@ namespace afm {
 struct CommandRow {
   std::uint32_t epoch = 0;
   ModelTime time;              // from which the rest holds
-  double drag_velocity = 0.0;  // [m/s]; NaN where the recording does not tell it
+  double drag_velocity = 0.0;  // [m/s]; NaN if the recording does not contain it
   node::LiveParameters live;
   std::string model;
   double contact_tolerance = 0.0;

@@ -1,4 +1,4 @@
-// Where a bag ends by its own account. rosbag's reader never looks behind it: of two bags in one file it reads the
+// Where a bag ends by its own account. rosbag's reader never reads beyond it: of two bags in one file it reads the
 // first.
 #pragma once
 

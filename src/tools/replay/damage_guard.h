@@ -1,5 +1,5 @@
 // rosbag's reader trusts the lengths it finds in a file: a damaged one can make it read beyond its memory. Such an end
-// is told in words, with an exit code, rather than as a crash.
+// is reported in words, with an exit code, rather than as a crash.
 #pragma once
 
 #include <unistd.h>

@@ -15,7 +15,7 @@ MessageStream<afm_emulator::Digest> digests_of(const Recording& recording) {
   return digests;
 }
 
-// Digests come once a second: what tells a time far beyond the last is not followed for ever.
+// Digests come once a second: a time far beyond the last is not followed for ever.
 bool is_plausible(const afm_emulator::Digest& told, const Resimulation& simulation) {
   const ModelTime end = node::from_message(told.time);
   const ModelTime after = simulation.sample_time(told.samples);

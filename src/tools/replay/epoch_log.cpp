@@ -122,7 +122,7 @@ double EpochLog::drag_velocity() const { return start_ ? start_->drag_velocity :
 
 // Whether the commands do, as far as a checkpoint counts them.
 bool EpochLog::reaches_back() const {
-  if (checkpoints.empty()) return true;  // told otherwise by the commands themselves
+  if (checkpoints.empty()) return true;  // reported by the commands themselves
   const auto& c = checkpoints.front();
   const auto first_drag = c.next_drag - static_cast<std::uint32_t>(c.drags);
   const auto first_change = c.next_parameters - static_cast<std::uint32_t>(node::changes_before(c));

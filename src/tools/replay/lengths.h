@@ -1,4 +1,4 @@
-// ROS's reader makes room for as many elements as a message says it holds before it looks whether they are there: many
+// ROS's reader makes room for as many elements as a message says it holds before it checks whether they are there: many
 // gigabytes for a damaged one. So lists are measured against their message first.
 #pragma once
 

@@ -131,7 +131,7 @@ void Recording::check_types(const RecordedBag& bag) const {
   }
 }
 
-// The last mark tells how many messages came before it.
+// The last mark says how many messages came before it.
 void Recording::check_marks(const RecordedBag& bag) const {
   if (bag.marks.empty() || bag.marks.back().kind == afm_emulator::Recording::BEGUN) return;
   rosbag::View view(bag.bag, [this](const rosbag::ConnectionInfo* connection) {

@@ -71,7 +71,7 @@ void Resimulation::apply_next_command() {
   std::visit([this](const auto& command) { apply(command); }, log_.commands[next_command_++]);
 }
 
-// Into the digest goes what we have come to, not what was told.
+// Into the digest goes what we have computed, not what was reported.
 
 // The error that is expected is the choice's, which is not made again; the energy dropped follows.
 template <class Message>
@@ -102,7 +102,7 @@ void Resimulation::apply(const afm_emulator::AppliedParameters& change) {
   digest_.add(node::to_applied_parameters(state, parameters_, level, {{}, log_.configuration.epoch}));
 }
 
-// An impact and the end of a batch may have the same time; then the number tells which is first.
+// An impact and the end of a batch may have the same time; then the number shows which is first.
 void Resimulation::run_flights(const ModelTime& time, std::optional<std::uint64_t> wanted) {
   const auto lacks_impacts = [&] { return wanted && impacts() < *wanted; };
   while (now() < time || (now() == time && lacks_impacts())) {
@@ -153,7 +153,7 @@ void Resimulation::digest_samples(const afm_emulator::Deflection& batch) {
 afm_emulator::Deflection Resimulation::deflection(std::uint64_t first, std::uint64_t count) const {
   afm_emulator::Deflection message;
   message.epoch = log_.configuration.epoch;
-  // a batch without samples may lie before a change that then samples sooner
+  // a batch without samples may lie before a change that then samples faster
   const SampleGrid& grid = emulator_.grid();
   message.time = node::to_message(first < grid.first ? sample_time(first) : grid.time_or_end(first));
   message.first_sample = first;

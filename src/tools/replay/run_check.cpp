@@ -39,7 +39,7 @@ RunCheck::RunCheck(const Recording& recording, Progress progress)
 
 void RunCheck::run() {
   RecordedBatch batch;
-  // after a difference only as far as the next digest, which tells whose it is
+  // after a difference only as far as the next digest, which shows whose it is
   while (!(difference_ && difference_->altered) && batches_.next(batch)) {
     if (epoch_ != batch.epoch) begin_epoch(batch);
     if (!difference_) compare(batch);
@@ -74,7 +74,7 @@ void RunCheck::begin_epoch(const RecordedBatch& batch) {
   check_checkpoints(batch, std::numeric_limits<std::uint64_t>::max());
 }
 
-// Those that were told where the simulation is now, after so many commands. What lies behind it, from before the
+// Those that were reported where the simulation is now, after so many commands. What lies behind it, from before the
 // recording began or from inside of what is missing, has its own digest alone to be judged by.
 void RunCheck::check_checkpoints(const RecordedBatch& batch, std::uint64_t most_commands) {
   if (difference_) return;
@@ -109,7 +109,7 @@ bool RunCheck::is_plausible(const RecordedBatch& batch) {
     differ(batch, field, simulation_->now());
     return false;
   }
-  // where the recording begins, or batches are missing, nothing else tells how far the run had come
+  // where the recording begins, or batches are missing, nothing else shows how far the run had come
   const bool jumps = !next_sample_ || missing_before(batch) > 0;
   if (batch.deflection && jumps && !is_at_its_time(batch)) {
     const ModelTime told = node::from_message(batch.deflection->time);
@@ -148,7 +148,7 @@ bool RunCheck::is_at_its_time(const RecordedBatch& batch) const {
   return node::from_message(batch.deflection->time) == simulation_->sample_time(batch.deflection->first_sample);
 }
 
-// When the next sample is due, whoever tells of it.
+// When the next sample is due, whoever reports it.
 ModelTime RunCheck::latest_end(const RecordedBatch& batch) const {
   if (batch.deflection) return simulation_->sample_time(end_of(*batch.deflection));
   const auto* next = batches_.next_deflection();
@@ -171,7 +171,7 @@ void RunCheck::run_to_end_of(const RecordedBatch& batch) {
   const auto impacts = batch.impacts ? std::optional<std::uint64_t>(end_of(*batch.impacts)) : std::nullopt;
   const ModelTime samples_end = batch.deflection ? simulation_->sample_time(end_of(*batch.deflection)) : ModelTime{};
   const ModelTime end = batch.friction ? node::from_message(batch.friction->time) : samples_end;
-  // a batch whose end is not told may have ended before the next sample was due
+  // a batch whose end is not reported may have ended before the next sample was due
   simulation_->run_to(end, batch.friction ? impacts : std::nullopt);
 }
 
@@ -188,7 +188,7 @@ void RunCheck::compare(const RecordedBatch& batch) {
   }
   if (batch.impacts) {
     const auto& recorded = *batch.impacts;
-    // all that happened, if nothing else tells how many there should be
+    // all that happened, if nothing else shows how many there should be
     const std::uint64_t count = batch.friction
                                     ? simulation_->impacts() - std::min(simulation_->impacts(), recorded.first_index)
                                     : recorded.impacts.size();

@@ -16,7 +16,7 @@
 namespace afm::replay {
 namespace {
 
-// Bags that follow on repeat the history: the same must be told again.
+// Bags that follow on repeat the history: the same must be reported again.
 template <class Message>
 void check_repeated(const Message& known, const Message& again, const std::string& where) {
   const auto difference = find_difference(known, again);
@@ -107,7 +107,7 @@ void RunLog::take(const afm_emulator::Configuration& configuration, const std::s
   last_configuration_ = &log.configuration;
 }
 
-// A bag that follows on begins with one that was told before.
+// A bag that follows on begins with one that was reported before.
 void RunLog::take(const afm_emulator::Checkpoint& checkpoint, const std::string& where) {
   epoch(checkpoint.epoch);
   if (node::digest_of(checkpoint) != checkpoint.state_digest) {
