@@ -1,7 +1,7 @@
 // Chatter: many short bounces under a pressing surface, computed as one sequence instead of one by one. The averaged
 // law of chatter_rates.h runs along the reference slide, the slide that the tip would make without bouncing. At whole n
-// it agrees with the bounces (docs/algorithm.md, "Chatter"). The paper's restitution law (section V) makes the loss of
-// a bounce proportional to its speed, so a bounce-by-bounce computation would not end.
+// it agrees with the bounces (docs/algorithm.md, "Chatter"). Below the cutoff the restitution law (paper, section III)
+// makes the loss of a bounce proportional to its speed, so a bounce-by-bounce computation would not end.
 #pragma once
 
 #include <cstdint>

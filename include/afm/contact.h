@@ -1,5 +1,5 @@
-// Frictionless contact (Eq. 2-3 of the paper with the reaction of the surface): the tip slides on y = h(x) while the
-// surface presses, and leaves it when the reaction would have to pull. One segment is a Taylor series about its start.
+// Frictionless contact: the springs of the paper's section IV with the reaction of the surface. The tip slides on y =
+// h(x) while the surface presses, and leaves it when the reaction would have to pull. One segment is a Taylor series.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// The restitution law (paper, section V) and the reflection (Eq. 11), in terms of the gap rate g1 = sqrt(1 + h'^2) n.v.
-// Guarantees: the tangential velocity stays to rounding, and the loss is exact to a few ulp even where gamma_eff is
-// almost 1.
+// The restitution law (paper, section III) and the reflection (Eq. 11), in terms of the gap rate g1 = sqrt(1 + h'^2)
+// n.v. Guarantees: the tangential velocity stays to rounding, and the loss is exact to a few ulp even where gamma_eff
+// is almost 1.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Segment records, the unit of the energy balance (Eq. 1-3 of the paper; docs/algorithm.md, "Energy"). A segment lies
-// within one phase of motion (flight, impact, chatter sequence, contact) and between two commands or kicks of the bath.
-// A kick is a segment by itself. Guarantee: imbalance() is rounding.
+// Segment records, the unit of the energy balance (paper, section III and Eq. 1; docs/algorithm.md, "Energy"). A
+// segment lies within one phase of motion (flight, impact, chatter sequence, contact) and between two commands or kicks
+// of the bath. A kick is a segment by itself. Guarantee: imbalance() is rounding.
 #pragma once
 
 #include <array>

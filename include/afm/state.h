@@ -1,4 +1,5 @@
-// Model time, the state of the tip, and the record of one impact. Natural units: a, tau, tip mass m.
+// Model time, the state of the tip (paper, section IV), and the record of one impact. Natural units: a, tau, tip mass
+// m.
 #pragma once
 
 #include <cmath>

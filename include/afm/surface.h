@@ -1,4 +1,4 @@
-// The mica surface h(x) = H cos(2 pi x) (paper, section V), crest at x = 0 [a].
+// The mica surface h(x) = H cos(2 pi x) (paper, section III), crest at x = 0 [a].
 #pragma once
 
 #include <cmath>

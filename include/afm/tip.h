@@ -1,4 +1,4 @@
-// The hybrid automaton (docs/algorithm.md): flight, impact, chatter, contact, release (Eq. 2-5 and 9-11 of the paper).
+// The hybrid automaton (docs/algorithm.md): flight, impact, chatter, contact, release (Eq. 9-11 of the paper).
 // Guarantees: no impact is missed, the gap is never negative beyond rounding, and every energy balance closes to
 // rounding. Natural units.
 #pragma once

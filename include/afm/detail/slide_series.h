@@ -1,5 +1,5 @@
-// The Taylor series of a slide about a state: Eq. 2-3 of the paper with the reaction lambda of the surface along y
-// [a/tau^2].
+// The Taylor series of a slide about a state: the springs of the paper's section IV with the reaction lambda of the
+// surface along y [a/tau^2].
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The kind of attractor on which an orbit ends. Natural units.
+// The kind of attractor on which an orbit ends; the paper asks for such a list in section VII. Natural units.
 #pragma once
 
 #include <cstdint>

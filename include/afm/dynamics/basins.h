@@ -1,4 +1,5 @@
-// The attractors at given parameters, and the part of random starts that leads to each.
+// The attractors at given parameters (paper, section VII), and the part of random starts that leads to each. Natural
+// units.
 #pragma once
 
 #include <cstdint>

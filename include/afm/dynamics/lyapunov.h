@@ -1,6 +1,6 @@
-// Lyapunov exponents: the rates of growth of small displacements along an orbit [1/tau] (section II of the paper).
-// There are four, those of the map from impact to impact. The displacement along the orbit neither grows nor shrinks
-// and is left out.
+// Lyapunov exponents: the rates of growth of small displacements along an orbit [1/tau] (the paper expects chaos in
+// section VII). There are four, those of the map from impact to impact. The displacement along the orbit neither grows
+// nor shrinks and is left out.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// The error of a level of the model against a finer one: friction and deflection. Natural units.
+// The error of a level of the model (level.h) against a finer one: friction and deflection (docs/friction.md). Natural
+// units.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A search for all periodic orbits up to a length, with an estimate of how many it has missed.
+// A search for all periodic orbits up to a length (paper, section VIII), with an estimate of how many it has missed.
 #pragma once
 
 #include <cstdint>

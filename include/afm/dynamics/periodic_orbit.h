@@ -1,5 +1,5 @@
-// Periodic orbits of the impact map, stable or unstable, with their periods, friction and multipliers. Newton's method
-// on all points at once (multiple shooting) finds them. Natural units.
+// Periodic orbits of the impact map (paper, section VIII), stable or unstable, with their periods, friction and
+// multipliers. Newton's method on all points at once (multiple shooting) finds them. Natural units.
 #pragma once
 
 #include <array>

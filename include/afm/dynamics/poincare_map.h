@@ -1,4 +1,4 @@
-// The map from just after one impact to just after the next (section II of the paper), without chatter and contact. A
+// The map from just after one impact to just after the next (section IV of the paper), without chatter and contact. A
 // point of its section is a TipState with gap 0. Its coordinates, here and in the Jacobian, are (phase, X, u, g1). For
 // the hammer X and u of a start are replaced by 0 and eta.
 #pragma once

@@ -1,6 +1,6 @@
-// Symbolic dynamics of the hammer (section IX of the paper). Its map has two dimensions, phase and gap rate after an
-// impact. A partition names regions of the section by letters. We count which words occur, and how well they determine
-// the motion.
+// Symbolic dynamics of the hammer (sections VIII and IX of the paper). Its map has two dimensions, phase and gap rate
+// after an impact. A partition names regions of the section by letters. We count which words occur, and how well they
+// determine the motion.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Tangent vectors along the orbit of a tip, kept orthonormal, and their growth at each event (section II of the paper).
+// Tangent vectors along the orbit of a tip, kept orthonormal, and their growth at each event (Eq. 5 of the paper for an
+// impact).
 #pragma once
 
 #include <Eigen/Core>

@@ -45,7 +45,7 @@ AFM_INLINED BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsO
           v * mul_add(q, mul_add(q, mul_add(q, faster3, faster2), T(T(kThird) * p1)), T(1.0))};
 }
 
-// The normal speed after an impact at v (the restitution law, section V of the paper). max_loss = 1 - gamma.
+// The normal speed after an impact at v (the restitution law, section III of the paper). max_loss = 1 - gamma.
 template <class T>
 AFM_INLINED T speed_after(double max_loss, const ChatterFlow& flow, const T& v) {
   using std::min;

@@ -27,7 +27,7 @@ AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::surroundings(const SlideSe
   SurfaceJet<T> h = surface_jet(T(H_), q.phase);
   h.h1 *= free, h.h2 *= free, h.h3 *= free;
   const T u = q.u, u2 = u * u, N2 = one + square(h.h1), inverse_N2 = one / N2, inverse_N = sqrt(inverse_N2);
-  // time derivatives: x2, x3 of x along the reference slide (Eq. 2 with the reaction a), s1 to s3 of the slope s
+  // time derivatives: x2, x3 of x along the reference slide, s1 to s3 of the slope s
   const T s = h.h1, s1 = h.h2 * u, x2 = -wh2 * q.X - s * a[0];
   const T x3 = -wh2 * (u - reference.eta()) - s1 * a[0] - s * a[1], s2 = h.h3 * u2 + h.h2 * x2;
   const T s3 = u * (three * h.h3 * x2 - T(square(kTwoPi)) * h.h2 * u2) + h.h2 * x3;
