@@ -14,6 +14,8 @@ struct MeanError {
   std::size_t batches;  // used, after neighbours were merged until they are uncorrelated
 };
 
+// Batches of a time average: four times the least number, so that neighbours can merge twice.
+constexpr std::size_t kTimeBatches = 64;
 constexpr std::size_t kMinBatches = 16;  // a choice: Student's t of 16/3 degrees widens the error by 1.29
 
 // Precondition: a stationary process whose memory is short against the whole. Batches of length L leave an error of

@@ -41,47 +41,53 @@ AFM_INLINED double two_pi<double>() {
 namespace turns_detail {
 
 // (2 pi)^n / n! with alternating signs, up to n = 17: at an eighth of a turn the first omitted term is below 1e-18
-constexpr double kTwoPiHigh = 6.283185307179586, kTwoPiLow = 2.4492935982947064e-16;
-constexpr double kS3 = -41.34170224039976, kS3Low = 1.8132498260631558e-15;  // and its rounding
-constexpr double kS5 = 81.60524927607506, kS7 = -76.70585975306139;
-constexpr double kS9 = 42.058693944897655, kS11 = -15.09464257682299, kS13 = 3.819952584848282;
-constexpr double kS15 = -0.7181223017785006, kS17 = 0.10422916220813984;
-constexpr double kC2 = -19.739208802178716, kC2Low = -1.2530591017506564e-15;  // and its rounding
-constexpr double kC4 = 64.9393940226683, kC4Low = -4.256320131887783e-15, kC6 = -85.45681720669373;
-constexpr double kC8 = 60.24464137187666, kC10 = -26.4262567833744, kC12 = 7.903536371318469;
-constexpr double kC14 = -1.714390711088672, kC16 = 0.28200596845579123;
+constexpr double kSine[] = {6.283185307179586,  -41.34170224039976,  81.60524927607506,
+                            -76.70585975306139, 42.058693944897655,  -15.09464257682299,
+                            3.819952584848282,  -0.7181223017785006, 0.10422916220813984};  // n = 1, 3 .. 17
+constexpr double kCosine[] = {1.0,
+                              -19.739208802178716,
+                              64.9393940226683,
+                              -85.45681720669373,
+                              60.24464137187666,
+                              -26.4262567833744,
+                              7.903536371318469,
+                              -1.714390711088672,
+                              0.28200596845579123};  // 0, 2 .. 16
+// what the first of them lack to their exact values
+constexpr double kSineLow[] = {2.4492935982947064e-16, 1.8132498260631558e-15};
+constexpr double kCosineLow[] = {0.0, -1.2530591017506564e-15, -4.256320131887783e-15};
 
 using std::fma;  // packs of lanes have their own
 
-// (sin(2 pi x) - 2 pi x) / x^3 - kS3, and ((cos(2 pi x) - 1) / x^2 - kC2) / x^2, with z = x^2. Terms are paired to
-// shorten the chain of dependent operations.
+// (sin(2 pi x) - 2 pi x) / x^3 - kSine[1], and ((cos(2 pi x) - 1) / x^2 - kCosine[1]) / x^2, with z = x^2. Terms are
+// paired to shorten the chain of dependent operations.
 template <class T>
 AFM_INLINED T sine_rest(T z) {
   const T z2 = z * z, z4 = z2 * z2;
-  const T low = fma(fma(z, T(kS9), T(kS7)), z2, fma(z, T(kS5), T(kS3Low)));
-  const T high = fma(fma(z, T(kS17), T(kS15)), z2, fma(z, T(kS13), T(kS11)));
+  const T low = fma(fma(z, T(kSine[4]), T(kSine[3])), z2, fma(z, T(kSine[2]), T(kSineLow[1])));
+  const T high = fma(fma(z, T(kSine[8]), T(kSine[7])), z2, fma(z, T(kSine[6]), T(kSine[5])));
   return fma(high, z4, low);
 }
 template <class T>
 AFM_INLINED T cosine_rest(T z) {
   const T z2 = z * z;
-  const T low = fma(T(kC8), z2, fma(z, T(kC6), T(kC4)));
-  const T high = fma(T(kC16), z2, fma(z, T(kC14), T(kC12)));
-  return fma(fma(high, z, T(kC10)), z2 * z, low);
+  const T low = fma(T(kCosine[4]), z2, fma(z, T(kCosine[3]), T(kCosine[2])));
+  const T high = fma(T(kCosine[8]), z2, fma(z, T(kCosine[7]), T(kCosine[6])));
+  return fma(fma(high, z, T(kCosine[5])), z2 * z, low);
 }
-// 1 + z kC2 is kept in two parts, and kC2 with its rounding: a cosine that is too large by 1e-17 on average would add
-// energy.
+// 1 + z kCosine[1] is kept in two parts, and kCosine[1] with its rounding: a cosine that is too large by 1e-17 on
+// average would add energy.
 template <class T>
 AFM_INLINED T cosine(T x, T z) {
   const T over_z = fma(-x, x, z);  // rounding of z = x^2
-  const T head = fma(z, T(kC2), T(1.0)), head_low = fma(z, T(kC2), T(1.0) - head);
-  const T rest = head_low + fma(over_z, T(-kC2), z * fma(z, T(kC4Low), T(kC2Low)));
+  const T head = fma(z, T(kCosine[1]), T(1.0)), head_low = fma(z, T(kCosine[1]), T(1.0) - head);
+  const T rest = head_low + fma(over_z, T(-kCosine[1]), z * fma(z, T(kCosineLow[2]), T(kCosineLow[1])));
   return head + fma(z * z, cosine_rest(z), rest);
 }
 template <class T>
 AFM_INLINED T sine(T x, T z) {
   const T cube = x * z;
-  return fma(x, T(kTwoPiHigh), fma(cube, sine_rest(z), fma(cube, T(kS3), x * T(kTwoPiLow))));
+  return fma(x, T(kSine[0]), fma(cube, sine_rest(z), fma(cube, T(kSine[1]), x * T(kSineLow[0]))));
 }
 
 // Adding and subtracting 1.5 * 2^52 rounds to the nearest integer; a quarter of it to the nearest quarter.
@@ -121,8 +127,8 @@ AFM_INLINED SinCos<T> sin_cos_of_product(T a, T b) {
 template <class T>
 AFM_INLINED SmallTurn<T> small_turn_of(T x) {
   const T z = x * x, cube = x * z;
-  return {sine(x, z), fma(cube, sine_rest(z), cube * T(kS3)),
-          fma(-(z * z), cosine_rest(z), fma(z, T(-kC2), z * fma(z, T(-kC4Low), T(-kC2Low))))};
+  return {sine(x, z), fma(cube, sine_rest(z), cube * T(kSine[1])),
+          fma(-(z * z), cosine_rest(z), fma(z, T(-kCosine[1]), z * fma(z, T(-kCosineLow[2]), T(-kCosineLow[1]))))};
 }
 
 }  // namespace turns_detail

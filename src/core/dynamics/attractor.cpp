@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "afm/dynamics/periodic_orbit.h"
 #include "afm/dynamics/poincare_map.h"
 #include "afm/dynamics/tangents.h"
+#include "core/not_numbers.h"
 #include "orbit_observer.h"
 
 namespace afm {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Counts of one period; zero if the orbit does not return.
 struct Period {

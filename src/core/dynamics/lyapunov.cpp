@@ -2,28 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "afm/dynamics/tangents.h"
+#include "core/not_numbers.h"
 
 namespace afm {
 namespace {
 
-constexpr std::size_t kTimeBatches = 32;  // a choice: the standard error has an error of 13 %, 1/sqrt(2 * 31)
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kGrowthBatches = 32;  // a choice: the standard error has an error of 13 %, 1/sqrt(2 * 31)
 
 // Sums over equal batches of time.
 class Growth {
  public:
   void add(double age, double duration, const Stretch& stretch) {
     const double share = std::fmin(age / duration, 1.0 - 1e-9);
-    std::array<double, 4>& batch = batches_[static_cast<std::size_t>(share * static_cast<double>(kTimeBatches))];
+    std::array<double, 4>& batch = batches_[static_cast<std::size_t>(share * static_cast<double>(kGrowthBatches))];
     for (std::size_t i = 0; i < 4; ++i) batch[i] += stretch.logarithms[i];
     volume_ += stretch.volume;
   }
 
   void finish(const Model& model, LyapunovSpectrum& s) const {
-    const double n = static_cast<double>(kTimeBatches), width = s.duration / n;
+    const double n = static_cast<double>(kGrowthBatches), width = s.duration / n;
     for (std::size_t i = 0; i < 4; ++i) {
       double sum = 0.0, squares = 0.0;
       for (const auto& batch : batches_) sum += batch[i];
@@ -36,7 +35,7 @@ class Growth {
   }
 
  private:
-  std::array<std::array<double, 4>, kTimeBatches> batches_{};
+  std::array<std::array<double, 4>, kGrowthBatches> batches_{};
   double volume_ = 0.0;
 };
 

@@ -91,7 +91,7 @@ double unresolved_spread(const Partition& partition, const std::vector<TipState>
 
 // The cut of one band that leaves least unsaid, the others as they are.
 void improve(Partition& partition, std::size_t k, const std::vector<TipState>& points) {
-  constexpr std::size_t kTrials = 50;
+  constexpr std::size_t kTrials = 50;  // a choice: cuts to 2 % of the width of a band
   std::vector<double> rates;
   for (const TipState& p : points) {
     if (band(partition.begins, p.phase) == k) rates.push_back(p.g1);
@@ -128,10 +128,10 @@ SymbolicRun run_on_section(const PoincareMap& map, std::size_t impacts, std::uin
     run.points.push_back(now);
   }
   for (const double x : logarithms) run.exponent += x / static_cast<double>(logarithms.size());
-  constexpr std::size_t kBatches = 64;  // as in time_average.cpp
-  std::vector<double> batches(kBatches, 0.0);
-  const std::size_t width = logarithms.size() / kBatches;
-  for (std::size_t i = 0; i < width * kBatches; ++i) batches[i / width] += logarithms[i] / static_cast<double>(width);
+  std::vector<double> batches(kTimeBatches, 0.0);
+  const std::size_t width = logarithms.size() / kTimeBatches;
+  for (std::size_t i = 0; i < width * kTimeBatches; ++i)
+    batches[i / width] += logarithms[i] / static_cast<double>(width);
   if (width > 0) run.exponent_std_error = mean_error(std::move(batches)).std_error;
   return run;
 }

@@ -4,17 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "afm/detail/batch_means.h"
 #include "afm/friction.h"
+#include "core/not_numbers.h"
 
 namespace afm {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kBatches = 64;  // four times the least number of mean_error(), so that neighbours can merge twice
 // Relative rounding of the friction on a periodic orbit: nine units in the last place.
 constexpr double kRounding = 2e-15;
 
@@ -84,10 +82,10 @@ FrictionAverage average_of(const Totals& totals, double eta, double time) {
 
 FrictionAverage average_over_time(Tip& tip, double duration) {
   const ModelTime begin = tip.now();
-  const double eta = tip.eta(), length = duration / static_cast<double>(kBatches);
-  std::vector<double> energies(kBatches), impulses(kBatches);
+  const double eta = tip.eta(), length = duration / static_cast<double>(kTimeBatches);
+  std::vector<double> energies(kTimeBatches), impulses(kTimeBatches);
   Totals totals;
-  for (std::size_t i = 0; i < kBatches; ++i) {
+  for (std::size_t i = 0; i < kTimeBatches; ++i) {
     const double energy = totals.energy.value(), impulse = totals.impulse.value();
     follow(tip, begin + length * static_cast<double>(i + 1), totals);
     energies[i] = totals.energy.value() - energy;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/not_numbers.h"
 
 namespace afm {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMinBins = 8;  // with fewer, the error itself is uncertain by more than 27 %: 1/sqrt(2 (n - 1))
 
 constexpr double kFirstBinWidth = 1.0;  // [tau] a vertical period; the width doubles at every merge

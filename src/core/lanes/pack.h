@@ -8,8 +8,6 @@
 namespace afm {
 namespace {
 
-constexpr int kLanes = kRegisterLanes;
-
 struct Mask {
   RegisterMask r;
 };
@@ -48,10 +46,9 @@ AFM_LANE_INLINE Pack select(M m, P yes, P no) { return Pack(blended(m.r, yes.r, 
 // Both sides where lanes differ; a side that no lane takes is skipped.
 template <class F, class G>
 AFM_LANE_INLINE auto branch(M m, const F& yes, const G& no) {
-  constexpr unsigned kAllLanes = (1u << kLanes) - 1u;
   const unsigned lanes = mask_bits(m.r);
   decltype(yes()) value{};
-  if (lanes != kAllLanes) value = no();
+  if (lanes != (1u << kLanes) - 1u) value = no();
   if (lanes != 0) value = select(m, yes(), value);
   return value;
 }

@@ -9,7 +9,7 @@
 namespace afm {
 namespace {
 
-constexpr int kRegisterLanes = 4;
+constexpr int kLanes = 4;
 using Register = __m256d;
 using RegisterMask = __m256d;  // all bits of a lane, or none
 typedef unsigned long long Whole __attribute__((vector_size(32)));

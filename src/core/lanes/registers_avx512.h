@@ -8,7 +8,7 @@
 namespace afm {
 namespace {
 
-constexpr int kRegisterLanes = 8;
+constexpr int kLanes = 8;
 using Register = __m512d;
 using RegisterMask = __mmask8;
 typedef unsigned long long Whole __attribute__((vector_size(64)));

@@ -47,22 +47,22 @@ AFM_LANE_INLINE Pack time_in_arc(const lanes::SampleClock& clock, P count) {
 // The last pack overlaps the one before it. With fewer samples than lanes, the last sample fills the pack.
 template <class At>
 AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
-  constexpr std::size_t kWide = kLanes;
   const lanes::SampleClock clock = row.clock;
   const Pack numbers = Pack(lane_numbers()), last(row.first + static_cast<double>(row.n - 1));
   Pack lowest(std::numeric_limits<double>::infinity());
   double few[2][kLanes];
-  double* const vertical = row.n < kWide ? few[0] : row.vertical;
-  double* const lateral = row.n < kWide ? few[1] : row.lateral;
-  for (std::size_t i = 0; i < row.n; i += kWide) {
-    const std::size_t from = i + kWide <= row.n || row.n < kWide ? i : row.n - kWide;
+  double* const vertical = row.n < std::size_t{kLanes} ? few[0] : row.vertical;
+  double* const lateral = row.n < std::size_t{kLanes} ? few[1] : row.lateral;
+  for (std::size_t i = 0; i < row.n; i += std::size_t{kLanes}) {
+    const std::size_t from =
+        i + std::size_t{kLanes} <= row.n || row.n < std::size_t{kLanes} ? i : row.n - std::size_t{kLanes};
     const Pack count = min(Pack(row.first + static_cast<double>(from)) + numbers, last);
     const PackDeflection d = at(time_in_arc(clock, count));
     store_row(vertical + from, d.vertical.r);
     store_row(lateral + from, d.lateral.r);
     lowest = min(lowest, d.gap);
   }
-  for (std::size_t i = 0; row.n < kWide && i < row.n; ++i) {
+  for (std::size_t i = 0; row.n < std::size_t{kLanes} && i < row.n; ++i) {
     row.vertical[i] = few[0][i];
     row.lateral[i] = few[1][i];
   }
