@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "arclength.h"
-#include "bifurcation_signs.h"
 
 namespace afm {
 namespace {
@@ -17,6 +17,55 @@ constexpr double kResonantTurns = 5e-3;
 constexpr double kResonantMultiplier = 0.02;  // distance of a multiplier from 1
 constexpr double kSmallestStep = 1e-13;       // arclength; below it the step is rounding
 constexpr int kMaxBisections = 60;            // down to the rounding of a step of 1
+
+constexpr double kOnCircle = 1e-3;  // distance of a multiplier from where it passes, at an event found by bisection
+
+double characteristic(const Multipliers& m, double root) {
+  return std::real((m[0] - root) * (m[1] - root) * (m[2] - root) * (m[3] - root));
+}
+
+bool has_near(const Multipliers& m, double root) {
+  return std::any_of(m.begin(), m.end(), [&](const auto& z) { return std::abs(z - root) < kOnCircle; });
+}
+
+// Argument of the pair on the unit circle [turns]; 0 without such a pair.
+double turns_on_circle(const PeriodicOrbit& orbit) {
+  for (const std::complex<double>& z : orbit.multipliers) {
+    if (z.imag() > 0.0 && std::abs(std::abs(z) - 1.0) < kOnCircle) return std::arg(z) / kTwoPi;
+  }
+  return 0.0;
+}
+
+// An integer that changes at a bifurcation of the kind.
+int bifurcation_sign(BifurcationKind kind, const PeriodicOrbit& orbit, double v_c) {
+  const Multipliers& m = orbit.multipliers;
+  switch (kind) {
+    case BifurcationKind::corner:
+      return orbit.slowest_impact < v_c ? -1 : 1;
+    case BifurcationKind::saddle_node:
+      return characteristic(m, 1.0) < 0.0 ? -1 : 1;
+    case BifurcationKind::period_doubling:
+      return characteristic(m, -1.0) < 0.0 ? -1 : 1;
+    default:
+      return static_cast<int>(
+          std::count_if(m.begin(), m.end(), [](const auto& z) { return z.imag() != 0.0 && std::abs(z) > 1.0; }));
+  }
+}
+
+// True: the orbit at a change of sign is at a bifurcation of that kind. Multipliers may also jump past the unit circle at
+// a corner, or a pair may split on the real axis.
+bool confirms(BifurcationKind kind, const PeriodicOrbit& orbit) {
+  switch (kind) {
+    case BifurcationKind::saddle_node:
+      return has_near(orbit.multipliers, 1.0);
+    case BifurcationKind::period_doubling:
+      return has_near(orbit.multipliers, -1.0);
+    case BifurcationKind::torus:
+      return turns_on_circle(orbit) > 0.0;
+    default:
+      return true;
+  }
+}
 
 class Continuation {
  public:
