@@ -65,6 +65,8 @@ AFM_INLINED void collocation_step(const ChatterFlow& flow, const ChatterPoint& f
   const SmoothChatter start = to.smooth, first = to.rate;
   std::array<ChatterSurroundings, kNodeCount> at;
   AtNodes rates;
+  // the nodes do not wait for each other: unrolled, their chains of operations overlap
+#pragma GCC unroll 4
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     at[i] = between(from.surroundings, to.surroundings, dt, i);
     rates[i] = chatter_rate(flow, at[i], to.n_per_inverse_v, start + kNodes[i] * dt * first);
@@ -72,6 +74,7 @@ AFM_INLINED void collocation_step(const ChatterFlow& flow, const ChatterPoint& f
   constexpr int kIterations = 2;  // after the extrapolation
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const AtNodes before = rates;
+#pragma GCC unroll 4
     for (std::size_t i = 0; i < kNodeCount; ++i) {
       rates[i] = chatter_rate(flow, at[i], to.n_per_inverse_v, integrated(dt, start, first, before, i));
     }
