@@ -20,8 +20,7 @@ std::vector<ParameterError> find_faults(const EmulatorSettings& s) {
   require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window,
           "must be positive and finite");
   require(s.impact_budget >= 1, "impact_budget", static_cast<double>(s.impact_budget), "must be at least 1");
-  const bool in_bursts = s.contact_tolerance >= kMinContactTolerance && s.contact_tolerance <= kMaxContactTolerance;
-  require(in_bursts || s.contact_tolerance == 0.0, "contact_tolerance", s.contact_tolerance,
+  require(has_valid_tolerance({s.model.kind, s.contact_tolerance}), "contact_tolerance", s.contact_tolerance,
           "must be 0 (every bounce by itself), or between 1e-9 and 0.01");
   const FreeState& i = s.initial;
   const auto require_within = [&](const char* name, double value, double most, const char* reason) {
