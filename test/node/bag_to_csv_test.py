@@ -22,6 +22,10 @@ FRICTION_SUFFIX = {'eta': '', 'impact_count': '', 'drag_velocity': '_m_per_s', '
                    'force': '_n', 'force_std_error': '_n', 'window_force': '_n', 'mean_lateral_force': '_n',
                    'mean_lateral_force_std_error': '_n'}  # all others: _kg_per_s
 
+LIVE = {'restitution_gamma': 'restitution_gamma', 'cutoff_speed_m_per_s': 'cutoff_speed', 'rest_height_m': 'rest_height_m',
+        'sample_rate_per_s': 'sample_rate_hz', 'friction_window_tau': 'friction_window_tau', 'temperature_k': 'temperature_k',
+        'quality_factor': 'quality_factor', 'lateral_quality_factor': 'lateral_quality_factor', 'kicks_per_tau': 'kicks_per_tau'}
+
 
 def call(*arguments):
     binary = roslib.packages.find_node(PACKAGE, 'bag_to_csv')[0]
@@ -134,8 +138,10 @@ class BagToCsv(NodeTest):
         first, last = rows[0], rows[-1]
         start = merged(paths, 'configuration')[0]
         self.assertEqual((float(first['time_s']), float(first['drag_velocity_m_per_s'])), (0.0, start.drag_velocity))
-        self.assertEqual((float(last['drag_velocity_m_per_s']), float(last['rest_height_m']), float(last['temperature_k'])),
-                         (-3 * SPEED_UNIT, -1e-11, 300.0))
+        self.assertEqual((float(last['drag_velocity_m_per_s']), float(last['rest_height_m'])), (-3 * SPEED_UNIT, -1e-11))
+        change = merged(paths, 'applied_parameters')[-1]
+        for column, field in LIVE.items():
+            self.assertEqual(float(last[column]), getattr(change, field), column)
         self.assertAlmostEqual(float(self.table(paths, '--topic', 'commands', '--natural')[-1]['drag_velocity_a_per_tau']), -3,
                                delta=1e-14)
 

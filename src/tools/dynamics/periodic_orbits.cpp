@@ -67,7 +67,8 @@ void print_row(double H, const afm::PeriodicOrbit& orbit, afm::TableWriter& to) 
   to.end_row();
 }
 
-void report(const afm::OrbitSearchResult& found) {
+void report(const afm::OrbitSearchResult& found, const afm::TableUnits& units) {
+  const std::string K_f = units.name({"K_f", Q::friction});
   for (const afm::LengthReport& length : found.lengths) {
     std::cerr << "length " << length.length << ": of " << length.prime + length.repeats + length.none << " guesses "
               << length.prime << " led to prime orbits, " << length.repeats << " to repeats of shorter ones, "
@@ -75,8 +76,8 @@ void report(const afm::OrbitSearchResult& found) {
               << "; orbits missed, estimated: " << length.missed << "\n";
     for (const afm::FoundOrbit& orbit : found.orbits) {
       if (orbit.orbit.length() != static_cast<std::size_t>(length.length)) continue;
-      std::cerr << "  K_f " << orbit.orbit.K_f << ": found " << orbit.times_found << " times, the run comes within "
-                << orbit.approach << "\n";
+      std::cerr << "  " << K_f << " " << units.convert(Q::friction, orbit.orbit.K_f) << ": found " << orbit.times_found
+                << " times, the run comes within " << orbit.approach << "\n";
     }
   }
 }
@@ -120,7 +121,7 @@ int run(const afm::CommandLine& app, Options& options) {
   table.write_header();
   for (const afm::FoundOrbit& orbit : found.orbits) print_row(model.H, orbit.orbit, table);
   if (!options.averages.empty()) write_averages(options, found);
-  if (!options.quiet) report(found);
+  if (!options.quiet) report(found, afm::table_units(options.dynamics.si));
   return 0;
 }
 

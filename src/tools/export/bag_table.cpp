@@ -34,26 +34,33 @@ double seconds(const afm_emulator::ModelTime& time, double tau_s) {
   return (static_cast<double>(time.tau) + time.phase) * tau_s;
 }
 
-void write_impacts(const Recording& recording, const Target& to) {
-  TableWriter table(to.out,
-                    {{"epoch"},
-                     {"index"},
-                     {"tau"},
-                     {"phase"},
-                     {"time", Q::time},
-                     {"surface_phase"},
-                     {"normal_speed", Q::velocity},
-                     {"tangential_velocity", Q::velocity},
-                     {"energy_loss", Q::energy},
-                     {"kind"},
-                     {"count"}},
-                    to.table);
+// The epoch and the time, and behind them what else the table holds.
+TableWriter begin_table(const Target& to, const std::vector<Column>& rest) {
+  std::vector<Column> columns{{"epoch"}, {"tau"}, {"phase"}, {"time", Q::time}};
+  columns.insert(columns.end(), rest.begin(), rest.end());
+  TableWriter table(to.out, columns, to.table);
   table.write_header();
+  return table;
+}
+
+void begin_row(TableWriter& table, std::uint32_t epoch, const afm_emulator::ModelTime& time, double tau_s) {
+  table << epoch << time.tau << time.phase << seconds(time, tau_s);
+}
+
+void write_impacts(const Recording& recording, const Target& to) {
+  TableWriter table = begin_table(to, {{"index"},
+                                       {"surface_phase"},
+                                       {"normal_speed", Q::velocity},
+                                       {"tangential_velocity", Q::velocity},
+                                       {"energy_loss", Q::energy},
+                                       {"kind"},
+                                       {"count"}});
   for_each_message<afm_emulator::ImpactArray>(recording, node::kImpactsTopic, [&](const auto& batch) {
     std::uint64_t index = batch.first_index;
     for (const afm_emulator::Impact& i : batch.impacts) {
-      table << batch.epoch << index++ << i.time.tau << i.time.phase << seconds(i.time, to.tau_s) << i.surface_phase
-            << i.normal_speed << i.tangential_velocity << i.energy_loss << unsigned{i.kind} << i.count;
+      begin_row(table, batch.epoch, i.time, to.tau_s);
+      table << index++ << i.surface_phase << i.normal_speed << i.tangential_velocity << i.energy_loss
+            << unsigned{i.kind} << i.count;
       table.end_row();
     }
   });
@@ -73,68 +80,60 @@ void write_deflection(const Recording& recording, const Target& to) {
   });
 }
 
-// Every field of the message but k_f_natural, which is k_f in the other units.
+struct FrictionField {
+  Column column;
+  double afm_emulator::Friction::*value;
+};
+
+// Every field of the message but the count of impacts, and k_f_natural, which is k_f in the other units.
+const std::vector<FrictionField> kFrictionFields{
+    {{"drag_velocity", Q::velocity}, &afm_emulator::Friction::drag_velocity},
+    {{"eta"}, &afm_emulator::Friction::eta},
+    {{"force", Q::force}, &afm_emulator::Friction::force},
+    {{"force_std_error", Q::force}, &afm_emulator::Friction::force_std_error},
+    {{"k_f", Q::friction}, &afm_emulator::Friction::k_f},
+    {{"k_f_std_error", Q::friction}, &afm_emulator::Friction::k_f_std_error},
+    {{"energy_loss", Q::energy}, &afm_emulator::Friction::energy_loss},
+    {{"window_force", Q::force}, &afm_emulator::Friction::window_force},
+    {{"window_k_f", Q::friction}, &afm_emulator::Friction::window_k_f},
+    {{"window_k_f_std_error", Q::friction}, &afm_emulator::Friction::window_k_f_std_error},
+    {{"mean_lateral_force", Q::force}, &afm_emulator::Friction::mean_lateral_force},
+    {{"mean_lateral_force_std_error", Q::force}, &afm_emulator::Friction::mean_lateral_force_std_error},
+    {{"k_f_work", Q::friction}, &afm_emulator::Friction::k_f_work},
+    {{"k_f_work_std_error", Q::friction}, &afm_emulator::Friction::k_f_work_std_error},
+    {{"heat_to_bath", Q::energy}, &afm_emulator::Friction::heat_to_bath}};
+
 void write_friction(const Recording& recording, const Target& to) {
-  TableWriter table(to.out,
-                    {{"epoch"},
-                     {"tau"},
-                     {"phase"},
-                     {"time", Q::time},
-                     {"drag_velocity", Q::velocity},
-                     {"eta"},
-                     {"force", Q::force},
-                     {"force_std_error", Q::force},
-                     {"k_f", Q::friction},
-                     {"k_f_std_error", Q::friction},
-                     {"energy_loss", Q::energy},
-                     {"impact_count"},
-                     {"window_force", Q::force},
-                     {"window_k_f", Q::friction},
-                     {"window_k_f_std_error", Q::friction},
-                     {"mean_lateral_force", Q::force},
-                     {"mean_lateral_force_std_error", Q::force},
-                     {"k_f_work", Q::friction},
-                     {"k_f_work_std_error", Q::friction},
-                     {"heat_to_bath", Q::energy}},
-                    to.table);
-  table.write_header();
-  for_each_message<afm_emulator::Friction>(recording, node::kFrictionTopic, [&](const auto& f) {
-    table << f.epoch << f.time.tau << f.time.phase << seconds(f.time, to.tau_s) << f.drag_velocity << f.eta << f.force
-          << f.force_std_error << f.k_f << f.k_f_std_error << f.energy_loss << f.impact_count << f.window_force
-          << f.window_k_f << f.window_k_f_std_error << f.mean_lateral_force << f.mean_lateral_force_std_error
-          << f.k_f_work << f.k_f_work_std_error << f.heat_to_bath;
+  std::vector<Column> columns{{"impact_count"}};
+  for (const FrictionField& field : kFrictionFields) columns.push_back(field.column);
+  TableWriter table = begin_table(to, columns);
+  for_each_message<afm_emulator::Friction>(recording, node::kFrictionTopic, [&](const auto& friction) {
+    begin_row(table, friction.epoch, friction.time, to.tau_s);
+    table << friction.impact_count;
+    for (const FrictionField& field : kFrictionFields) table << friction.*field.value;
     table.end_row();
   });
 }
 
 void write_commands(const Recording& recording, const Target& to) {
-  TableWriter table(to.out,
-                    {{"epoch"},
-                     {"tau"},
-                     {"phase"},
-                     {"time", Q::time},
-                     {"drag_velocity", Q::velocity},
-                     {"restitution_gamma"},
-                     {"cutoff_speed", Q::velocity},
-                     {"rest_height", Q::length},
-                     {"sample_rate", Q::rate},
-                     {"friction_window_tau"},
-                     {"temperature", Q::temperature},
-                     {"quality_factor"},
-                     {"lateral_quality_factor"},
-                     {"kicks_per_tau"},
-                     {"model"},
-                     {"contact_tolerance"},
-                     {"first_impact"}},
-                    to.table);
-  table.write_header();
+  TableWriter table = begin_table(to, {{"drag_velocity", Q::velocity},
+                                       {"restitution_gamma"},
+                                       {"cutoff_speed", Q::velocity},
+                                       {"rest_height", Q::length},
+                                       {"sample_rate", Q::rate},
+                                       {"friction_window_tau"},
+                                       {"temperature", Q::temperature},
+                                       {"quality_factor"},
+                                       {"lateral_quality_factor"},
+                                       {"kicks_per_tau"},
+                                       {"model"},
+                                       {"contact_tolerance"},
+                                       {"first_impact"}});
   for (const CommandRow& row : commands_of(recording)) {
-    const node::LiveParameters& live = row.live;
-    table << row.epoch << row.time.tau << row.time.phase << seconds(node::to_message(row.time), to.tau_s)
-          << row.drag_velocity << live.restitution_gamma << live.cutoff_speed << live.rest_height_m
-          << live.sample_rate_hz << live.friction_window_tau << live.temperature_k << live.quality_factor
-          << live.lateral_quality_factor << live.kicks_per_tau << row.model << row.contact_tolerance
-          << row.first_impact;
+    begin_row(table, row.epoch, node::to_message(row.time), to.tau_s);
+    table << row.drag_velocity;
+    for (const node::LiveField& field : node::kLiveFields) table << row.live.*field.value;
+    table << row.model << row.contact_tolerance << row.first_impact;
     table.end_row();
   }
 }
