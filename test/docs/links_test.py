@@ -54,7 +54,7 @@ def faults_of(document, root, reached):
 def main(root):
     root, reached, faults = Path(root).resolve(), set(), []
     documents = sorted(root.glob('*.md')) + sorted((root / 'docs').glob('*.md'))
-    for document in documents:
+    for document in documents + sorted(root.glob('examples/**/*.md')):
         faults += ['%s: %s' % (document.name, fault) for fault in faults_of(document, root, reached)]
     for path in documents + sorted((root / 'docs/images').glob('*.png')):
         if path not in reached and path != root / 'README.md':

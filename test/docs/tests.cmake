@@ -24,7 +24,8 @@ set_tests_properties(document_tables PROPERTIES TIMEOUT 30)
 
 add_test(NAME interface_tables
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/interface_tables_test.py ${PROJECT_SOURCE_DIR})
-set_tests_properties(interface_tables PROPERTIES TIMEOUT 30)
+add_test(NAME links COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/links_test.py ${PROJECT_SOURCE_DIR})
+set_tests_properties(interface_tables links PROPERTIES TIMEOUT 30)
 
 # a warning of Doxygen about a public header is an error
 find_program(DOXYGEN_PROGRAM doxygen)

@@ -42,12 +42,19 @@ class Interface(NodeTest):
         return {name for name, owners in self.master.getSystemState()[part] if set(nodes) & set(owners)
                 and not name.endswith(ALL_NODES_HAVE)}
 
+    def assert_come_to(self, wanted, part, *nodes):
+        """Nodes advertise one name after another."""
+        try:
+            wait_until(lambda: self.names(part, *nodes) == wanted, 'all is advertised')
+        except AssertionError:
+            self.assertEqual(self.names(part, *nodes), wanted)
+
     def test_topics(self):
         types = dict(self.master.getTopicTypes())
         out = listed('out')
         self.assertGreater(len(out), 10)
-        self.assertEqual(self.names(0, NAMESPACE, VIEW), set(out))
-        self.assertEqual(self.names(1, NAMESPACE), set(listed('in')))
+        self.assert_come_to(set(out), 0, NAMESPACE, VIEW)
+        self.assert_come_to(set(listed('in')), 1, NAMESPACE)
         for name, (kind, _) in out.items():
             self.assertEqual(types[name], kind, name)
 
@@ -62,7 +69,7 @@ class Interface(NodeTest):
 
     def test_services(self):
         services = {resolved(name): kind for name, kind in SERVICE.findall(document())}
-        self.assertEqual(self.names(2, NAMESPACE), set(services))
+        self.assert_come_to(set(services), 2, NAMESPACE)
         for name, kind in services.items():
             self.assertEqual(rosservice.get_service_type(name), kind, name)
 
