@@ -91,7 +91,7 @@ PARTS = [
          needs={"clang++": "clang"}, keeps_failures=True),
     part("builds", "the same bits from every compiler and for older machines", [], ["scripts/compare_builds --older"], (0, 12),
          keep.builds, needs={"qemu-x86_64": "qemu-user"}, keeps_failures=True),
-    part("platforms", "the package in roots of other systems", [], ["scripts/platforms"], (0, 60), keep.nothing,
+    part("platforms", "the package in roots of other systems", [], ["scripts/platforms"], (0, 240), keep.nothing,
          optional=("scripts/platforms",)),
     # friction.md, temperature.md
     part("temperature", "figures of a tip in a heat bath", [SMALL_FIGURES + " --only load"], [FIGURES + " --only " + THERMAL_FIGURES],
