@@ -63,7 +63,7 @@ def listener(publisher, outputs):
     rows, rates = [], ""
     for line in outputs[0][1].splitlines():
         if "per cent of a core" not in line:
-            rates = line.strip() or rates
+            rates = line.strip() if re.match(r"\d+ [kM]Hz", line) else rates  # the emulator reports in between
             continue
         who, shares = line.split("per cent of a core:")
         rows.append(dict([("rates", rates), ("listener", who.strip())] + [part.rsplit(" ", 1) for part in shares.strip().split(", ")]))

@@ -4,6 +4,8 @@ from collections import OrderedDict
 
 from .results import read_table, text_of
 
+CHANCE = 0.01     # scenes with a wider threshold are chaotic
+ROUNDING = 1e-12  # errors below are
 VERDICTS = ("right", "inaccurate", "misses", "phantom", "stalls", "blows up")
 
 
@@ -71,6 +73,21 @@ def stability_methods(data):
     return [OrderedDict([("method", bold(method))] + [(v, str(count[v])) for v in VERDICTS]) for method, count in counts.items()]
 
 
+def rival_wins(data):
+    """Cells in which a rival is right too, and faster, or clearly nearer where the error is not one of chance or rounding."""
+    rows = read_table(data / "stability.csv")
+    ours = {row["scene"]: row for row in rows if row["method"] == "exact"}
+    table = []
+    for r in (row for row in rows if row["verdict"] == "right" and not row["method"].startswith("exact")):
+        own, chaotic = ours[r["scene"]], float(r.get("right_below") or 0) > CHANCE
+        nearer = not chaotic and float(own["number"]) > ROUNDING and float(r["number"]) < 0.5 * float(own["number"])
+        faster = float(r["ns_per_tau"]) < float(own["ns_per_tau"])
+        if nearer or faster:
+            table.append(OrderedDict([("scene", r["scene"]), ("method", r["method"]), ("error", short(r["number"])), ("ours", short(own["number"])),
+                                      ("time of a tau", short_time(float(r["ns_per_tau"]))), ("ours: time", short_time(float(own["ns_per_tau"])))]))
+    return table or [OrderedDict([("scene", "none"), ("method", "")])]
+
+
 def real_time_slowest(data):
     rows = sorted(read_table(data / "real_time.csv"), key=lambda row: float(row["times_real_time"]))[:10]
     return [OrderedDict([("eta", "%.4g" % float(r["eta"])), ("v_c", "%.4g" % float(r["cutoff"])), ("times real time", r["times_real_time"]),
@@ -120,6 +137,7 @@ SUMMARIES = OrderedDict([
     ("accuracy_methods.csv", (accuracy_methods, ("speed_accuracy.csv", "stability.csv"))),
     ("pace_methods.csv", (pace_methods, ("pace.csv", "stability.csv"))),
     ("stability_methods.csv", (stability_methods, ("stability.csv",))),
+    ("rival_wins.csv", (rival_wins, ("stability.csv",))),
     ("real_time_slowest.csv", (real_time_slowest, ("real_time.csv",))),
     ("real_time_points.csv", (real_time_points, ("real_time.csv",))),
     ("bounce_times.csv", (bounce_times, ("verbs.csv",))),
