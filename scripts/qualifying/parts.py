@@ -7,7 +7,7 @@ from . import keep
 # cores; needs: {command: Debian package}; optional: programs of which a tree may do without
 Part = namedtuple("Part", "name about quick full minutes keep needs optional keeps_failures")
 
-SIMPLE_FIGURES = ("fig1_friction fig1_coexistence fig2_attractor fig3_orbit fig4_scan fig5_averages fig6_even_orbit fig7_atlas "
+SIMPLE_FIGURES = ("model_setup model_restitution model_force fig1_friction fig1_coexistence fig2_attractor fig3_orbit fig4_scan fig5_averages fig6_even_orbit fig7_atlas "
                   "fig8_bifurcations fig9_scaling hammer_friction hammer_error hammer_ratio hammer_section hammer_cycles")
 THERMAL_FIGURES = "thermal_friction thermal_accuracy thermal_hops load"
 SINGLE = "AFM_BUILD_DIR=$PWD/build/single_version"

@@ -1,5 +1,6 @@
 """Where programs are, what a part needs, and the environment in which it runs."""
 import os
+import re
 import shlex
 import shutil
 import sys
@@ -13,9 +14,11 @@ def build_directory():
 
 
 def devel_directory():
-    if "AFM_DEVEL_DIR" in os.environ:  # the test knows where it is built
-        return Path(os.environ["AFM_DEVEL_DIR"])
     return Path(os.environ.get("AFM_BUILD_DIR", str(ROOT))) / "devel"
+
+
+def tools_directory():
+    return Path(os.environ.get("AFM_TOOLS", str(devel_directory() / "lib/afm_emulator")))
 
 
 def use_build():
@@ -36,7 +39,7 @@ def program_of(command):
 def locate(program):
     """A script or a program of the source tree or the build, by its path; a tool by its name; None where there is none."""
     if "/" not in program:
-        path = devel_directory() / "lib/afm_emulator" / program
+        path = tools_directory() / program
     elif program.startswith("build/"):
         path = build_directory() / program[len("build/"):]
     else:
@@ -49,6 +52,14 @@ def missing_programs(parts):
     return ["%s names %s, which is not there" % (part.name, program)
             for part in parts for program in sorted({program_of(c) for c in part.quick + part.full})
             if not locate(program) and program not in part.optional]
+
+
+def figures_left_out(parts):
+    """Figures that scripts/figures knows and no part makes, or the other way round."""
+    known = set(re.findall(r'^    "(\w+)": \w+\.', (ROOT / "scripts/figures").read_text(), re.M))
+    made = {name for part in parts for command in part.full if command.startswith("scripts/figures")
+            for name in command.split("--only ")[1].split()}
+    return ["the figure %s is in no part, or unknown to scripts/figures" % name for name in sorted(known ^ made)]
 
 
 def has(command):

@@ -34,6 +34,5 @@ if(DOXYGEN_PROGRAM)
 endif()
 
 # the parts of scripts/qualify name programs that are there, and the short tables of the documents are those of their data
-add_test(NAME qualify COMMAND ${CMAKE_COMMAND} -E env AFM_BUILD_DIR=${PROJECT_BINARY_DIR} AFM_DEVEL_DIR=${CATKIN_DEVEL_PREFIX}
-  ${PROJECT_SOURCE_DIR}/scripts/qualify --check)
-set_tests_properties(qualify PROPERTIES TIMEOUT 30)
+add_test(NAME qualify COMMAND ${PROJECT_SOURCE_DIR}/scripts/qualify --check --tools ${CATKIN_DEVEL_PREFIX}/lib/afm_emulator)
+set_tests_properties(qualify PROPERTIES TIMEOUT 30 ENVIRONMENT AFM_BUILD_DIR=${PROJECT_BINARY_DIR})
