@@ -34,8 +34,10 @@ struct Options {
   int rounds = 5;
   double seconds = 2.0, tau = 1000.0, run_seconds = 60.0;
   unsigned seed = 1;
-  std::string output;
+  std::string output, pace;
 };
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 struct FlightSceneName {
   std::string name;
@@ -108,10 +110,10 @@ bool check_names(const Options& o) {
 afm::FrictionScene friction_scene(const std::string& name, const Options& o) {
   if (name == "kf_2") return afm::even_scene(2.0);
   if (name == "kf_3") return afm::long_run_scene(name, 3.0, 0.01, o.tau, false);
-  return afm::long_run_scene(name, 3.4, 0.1, 100.0 * o.tau, true);
+  return afm::long_run_scene(name, 3.4, 0.1, o.tau, true);
 }
 
-void run(const Options& o, std::FILE* out) {
+void run(const Options& o, std::FILE* out, std::FILE* pace) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const afm::Progress progress = [&](const std::string& scene, const Contender& c) {
     if (terminal) std::fprintf(stderr, "\r\033[K%s: %s %g", scene.c_str(), c.spec->name.c_str(), c.setting);
@@ -120,6 +122,7 @@ void run(const Options& o, std::FILE* out) {
     std::fprintf(stderr, terminal ? "\r\033[K" : "%s done\n", scene.c_str());
   };
   afm::print_header(out);
+  if (pace != nullptr) afm::print_pace_header(pace);
   std::vector<std::vector<SpeedRow>> scenes;
   for (const FlightSceneName& name : flight_scenes()) {
     if (!chosen(o.scenes, name.name)) continue;
@@ -135,11 +138,22 @@ void run(const Options& o, std::FILE* out) {
   }
   for (const std::string& name : kFrictionScenes) {
     if (!chosen(o.scenes, name)) continue;
-    const auto rows =
-        afm::measure_friction(friction_scene(name, o), contenders(o, true), o.tau, o.run_seconds, progress);
-    for (const SpeedRow& row : rows) afm::print(row, out);
+    const afm::FrictionScene scene = friction_scene(name, o);
+    for (const SpeedRow& row : afm::measure_friction(scene, contenders(o, true), o.tau, o.run_seconds, progress)) {
+      afm::print(row, out);
+      if (pace != nullptr) afm::print_pace(scene, row, pace);
+    }
     done(name);
   }
+}
+
+bool is_written(std::FILE* file) { return std::ferror(file) == 0 && std::fflush(file) == 0; }
+
+// None where there is no name, or nothing can be written.
+File open_output(const std::string& name) {
+  File file(name.empty() ? nullptr : std::fopen(name.c_str(), "w"), std::fclose);
+  if (!name.empty() && file == nullptr) std::fprintf(stderr, "speed_accuracy: cannot write '%s'\n", name.c_str());
+  return file;
 }
 
 }  // namespace
@@ -156,18 +170,17 @@ int main(int argc, char** argv) {
   app.option("tau", o.tau, "length of the runs for K_f", afm::kPositive);
   app.option("run-seconds", o.run_seconds, "a run for K_f ends there, wherever it is");
   app.option("seed", o.seed, "of the choice of flights");
+  app.option("pace", o.pace,
+             "file for a second table: processor time per second of model time against the error of K_f");
   app.option("output", o.output, "file for the table; default: standard output");
   return app.run(argc, argv, [&] {
     if (!check_names(o)) return 1;
     if (o.quick) shorten(o);
-    std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
-    if (out == nullptr) {
-      std::fprintf(stderr, "speed_accuracy: cannot write '%s'\n", o.output.c_str());
-      return 1;
-    }
-    run(o, out);
-    const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
-    if (out != stdout) std::fclose(out);
+    const File out = open_output(o.output), pace = open_output(o.pace);
+    if ((!o.output.empty() && out == nullptr) || (!o.pace.empty() && pace == nullptr)) return 1;
+    std::FILE* table = o.output.empty() ? stdout : out.get();
+    run(o, table, pace.get());
+    const bool written = is_written(table) && (pace == nullptr || is_written(pace.get()));
     if (!written) std::fprintf(stderr, "speed_accuracy: cannot write the output\n");
     return written ? 0 : 1;
   });

@@ -23,6 +23,7 @@ struct SpeedRow {
   double error_median = 0.0, error_p99 = 0.0, error_max = 0.0;
   long long missed = 0, phantom = 0, impacts = 0;
   std::vector<double> errors{};  // for the rows that pool scenes
+  double ns_per_tau = 0.0;       // of runs for K_f
 };
 
 using Progress = std::function<void(const std::string& scene, const Contender& contender)>;
@@ -42,15 +43,20 @@ struct FrictionScene {
   double eta;
   TipState start;
   double K_f, impacts_per_tau;  // reference
+  double chance;                // standard deviation of K_f between runs of ours of the same length, over K_f
 };
 
 FrictionScene even_scene(double eta);  // K_f in closed form
-// K_f of our own impacts one by one, over `tau`
+// K_f of our own impacts one by one, over `tau`; where the motion is chaotic over a hundred runs of `tau`.
 FrictionScene long_run_scene(const std::string& name, double eta, double cutoff_share, double tau, bool chaotic);
 std::vector<SpeedRow> measure_friction(const FrictionScene& scene, const std::vector<Contender>& contenders, double tau,
                                        double most_seconds, const Progress& progress);
 
 void print_header(std::FILE* out);
 void print(const SpeedRow& row, std::FILE* out);
+
+// Can it run an emulator? Processor time per second of model time against the error of K_f.
+void print_pace_header(std::FILE* out);
+void print_pace(const FrictionScene& scene, const SpeedRow& row, std::FILE* out);
 
 }  // namespace afm

@@ -100,7 +100,8 @@ double reference_K_f(double gamma, double eta, const Reference& reference, doubl
 StabilityScene friction_scene(const std::string& name, const std::string& about, double gamma, double eta, double share,
                               const Reference& reference) {
   return {
-      name, about, [=](const MethodSpec& spec, double setting, const Effort& effort) {
+      name, about,
+      [=](const MethodSpec& spec, double setting, const Effort& effort) {
         const Model model = mica(gamma, share * eta);
         const bool chaotic = reference.chaotic;
         // ours goes on for longer where the error is one of statistics: it can
@@ -110,7 +111,8 @@ StabilityScene friction_scene(const std::string& name, const std::string& about,
         const double K_f = reference_K_f(gamma, eta, reference, !chaotic ? 100.0 : effort.quick ? 2000.0 : 20000.0);
         const double tolerance = chaotic ? kRightStatistics : kRightFriction;
         return measure_friction({model, eta, K_f, tolerance, tau, settled(model, eta, 1000)}, spec, setting, effort);
-      }};
+      },
+      nullptr, reference.chaotic ? kRightStatistics : kRightFriction};
 }
 
 double energy(const Model& m, double eta, const TipState& s) {
@@ -198,9 +200,14 @@ Cell measure_hour(const MethodSpec& spec, double setting, const Effort& effort) 
 }
 
 double large_step(const MethodSpec& spec) {
-  static const std::map<std::string, double> large{
-      {"exact", kMaxContactTolerance}, {"sampled_toms748", 0.1},      {"rk4", 0.05},
-      {"moreau_jean", 0.01},           {"semi_implicit_euler", 0.05}, {"penalty", 0.01}};
+  static const std::map<std::string, double> large{{"exact", kMaxContactTolerance},
+                                                   {"certified_plain", 0.0},
+                                                   {"sampled_toms748", 0.1},
+                                                   {"sampled_minima", 0.1},
+                                                   {"rk4", 0.05},
+                                                   {"moreau_jean", 0.01},
+                                                   {"semi_implicit_euler", 0.05},
+                                                   {"penalty", 0.01}};
   const auto found = large.find(spec.name);
   return found == large.end() ? 1e-2 : found->second;  // the others have a tolerance
 }
@@ -212,8 +219,9 @@ double usual_setting(const MethodSpec& method) {
 }
 
 std::vector<StabilityScene> run_scenes() {
-  std::vector<StabilityScene> scenes{{"even", "eta = 2, 4, 6, 8: K_f in closed form", measure_even},
-                                     {"glide", "eta = 1: gliding on the surface without a reaction", measure_glide}};
+  std::vector<StabilityScene> scenes{
+      {"even", "eta = 2, 4, 6, 8: K_f in closed form", measure_even, nullptr, kRightFriction},
+      {"glide", "eta = 1: gliding on the surface without a reaction", measure_glide}};
   const auto add = [&scenes](const std::string& name, double gamma, double eta, double share,
                              const Reference& reference) {
     char about[80];

@@ -17,13 +17,17 @@ ROOT = Path(__file__).resolve().parent.parent
 METHODS = OrderedDict([
     ("exact", ("ours", "#D55E00", "*")),
     ("exact_one_by_one", ("ours, bounces\none by one", "#D55E00", "*")),
-    ("sampled_toms748", ("exact flow, sampled\n+ TOMS 748", "#000000", "s")),
-    ("odeint_dopri5", ("odeint dopri5", "#0072B2", "o")),
-    ("odeint_bulirsch_stoer", ("odeint Bulirsch-Stoer", "#56B4E9", "v")),
-    ("cvode_adams", ("CVODE\nAdams", "#009E73", "^")),
+    ("certified_plain", ("plain certified loop", "#D55E00", "h")),
+    ("sampled_toms748", ("exact flow, sampled", "#000000", "s")),
+    ("sampled_minima", ("exact flow, sampled,\nwith minima", "#000000", "d")),
+    ("odeint_dopri5", ("dopri5", "#0072B2", "o")),
+    ("odeint_dopri5_minima", ("dopri5\nwith minima", "#0072B2", "8")),
+    ("odeint_bulirsch_stoer", ("Bulirsch-Stoer", "#56B4E9", "v")),
+    ("cvode_adams", ("CVODE Adams", "#009E73", "^")),
+    ("cvode_adams_minima", ("CVODE Adams\nwith minima", "#009E73", "2")),
     ("cvode_bdf", ("CVODE BDF", "#009E73", "D")),
     ("siconos", ("Siconos", "#882255", "p")),
-    ("rk4", ("RK4 + TOMS 748", "#CC79A7", "P")),
+    ("rk4", ("RK4", "#CC79A7", "P")),
     ("moreau_jean", ("Moreau-Jean", "#E69F00", "X")),
     ("semi_implicit_euler", ("semi-implicit Euler", "#8A7A00", "<")),
     ("penalty", ("penalty spring", "#666666", ">")),
@@ -37,7 +41,7 @@ def method_style(name):
 def read_rows(path):
     try:
         with open(str(path)) as table:
-            rows = list(csv.DictReader(table))
+            rows = list(csv.DictReader(line for line in table if not line.startswith("#")))
     except OSError as error:
         sys.exit("%s: %s" % (sys.argv[0], error))
     if not rows:

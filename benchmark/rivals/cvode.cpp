@@ -1,5 +1,6 @@
 // SUNDIALS' CVODE with its own root finding, begun again after each impact: Adams' methods with fixed-point iteration,
-// or backward differences with Newton's and the exact Jacobian.
+// or backward differences with Newton's and the exact Jacobian. With minima the gap rate is a second root function: it
+// makes CVODE evaluate the gap at its minima.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -29,6 +30,13 @@ int gap(double s, N_Vector v, double* g, void* user) {
   *g = static_cast<const Oscillator*>(user)->gap(point_of(v), s);
   return 0;
 }
+int gap_and_rate(double s, N_Vector v, double* g, void* user) {
+  const Oscillator& o = *static_cast<const Oscillator*>(user);
+  const Point p = point_of(v);
+  g[0] = o.gap(p, s);
+  g[1] = o.gap_rate(p, s);
+  return 0;
+}
 int jacobian(double, N_Vector, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
   const Oscillator& o = *static_cast<const Oscillator*>(user);
   SM_ELEMENT_D(J, 0, 1) = SM_ELEMENT_D(J, 2, 3) = 1.0;
@@ -43,7 +51,7 @@ void check(int flag, const char* what) {
 
 class Cvode : public Method {
  public:
-  Cvode(int method, double tolerance) {
+  Cvode(int method, double tolerance, bool minima) {
     SUNContext_Create(nullptr, &context_);
     state_ = N_VNew_Serial(4, context_);
     assign(state_, {0.0, 0.0, 0.0, 0.0});
@@ -59,9 +67,9 @@ class Cvode : public Method {
       check(CVodeSetLinearSolver(cvode_, linear_, matrix_), "CVodeSetLinearSolver");
       check(CVodeSetJacFn(cvode_, jacobian), "CVodeSetJacFn");
     }
-    int falling = -1;
-    check(CVodeRootInit(cvode_, 1, gap), "CVodeRootInit");
-    check(CVodeSetRootDirection(cvode_, &falling), "CVodeSetRootDirection");
+    int directions[] = {-1, 1};  // the gap falls, its rate rises
+    check(CVodeRootInit(cvode_, minima ? 2 : 1, minima ? gap_and_rate : gap), "CVodeRootInit");
+    check(CVodeSetRootDirection(cvode_, directions), "CVodeSetRootDirection");
     check(CVodeSetMaxNumSteps(cvode_, 1000000), "CVodeSetMaxNumSteps");
     CVodeSetErrFile(cvode_, nullptr);
     CVodeSetNoInactiveRootWarn(cvode_);
@@ -91,6 +99,9 @@ class Cvode : public Method {
       const Point p = point_of(state_);
       if (flag < 0) return {Hit::gave_up, s, o.tip_state(p, s), 0.0};
       if (flag != CV_ROOT_RETURN) return {Hit::none, horizon, o.tip_state(p, horizon), 0.0};
+      int found[2] = {0, 0};
+      CVodeGetRootInfo(cvode_, found);
+      if (found[0] == 0) continue;  // a minimum above the surface
       if (s >= first_look && o.gap_rate(p, s) < 0.0) return reflect(o, p, s);
     }
   }
@@ -104,16 +115,17 @@ class Cvode : public Method {
   SUNLinearSolver linear_ = nullptr;
 };
 
-MethodSpec spec(const char* name, int method, std::vector<double> settings) {
+MethodSpec spec(const char* name, int method, bool minima, std::vector<double> settings) {
   return {name, "tolerance", std::move(settings), 1e-10,
-          [method](double tolerance) { return std::make_unique<Cvode>(method, tolerance); }};
+          [=](double tolerance) { return std::make_unique<Cvode>(method, tolerance, minima); }};
 }
 
 }  // namespace
 
 std::vector<MethodSpec> cvode_specs() {
-  return {spec("cvode_adams", CV_ADAMS, {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}),
-          spec("cvode_bdf", CV_BDF, {1e-4, 1e-6, 1e-8, 1e-10})};
+  return {spec("cvode_adams", CV_ADAMS, false, {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}),
+          spec("cvode_adams_minima", CV_ADAMS, true, {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}),
+          spec("cvode_bdf", CV_BDF, false, {1e-4, 1e-6, 1e-8, 1e-10})};
 }
 
 }  // namespace rivals

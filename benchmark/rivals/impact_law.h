@@ -25,6 +25,20 @@ inline Hit reflect(const Oscillator& o, const Point& p, double s) {
           0.5 * (1.0 - e * e) * speed * speed};
 }
 
+// The gap and its rate at one time.
+struct GapRate {
+  double gap, rate;
+};
+
+template <class Function>
+double solve_bracketed(const Function& f, double low, double high, double at_low, double at_high) {
+  if (at_high == 0.0) return high;
+  boost::uintmax_t most = 100;
+  const auto root = boost::math::tools::toms748_solve(f, low, high, at_low, at_high,
+                                                      boost::math::tools::eps_tolerance<double>(52), most);
+  return 0.5 * (root.first + root.second);
+}
+
 // Looks for the first fall of a gap through zero, span by span, at a spacing of at most `grid`.
 class CrossingWatch {
  public:
@@ -44,7 +58,33 @@ class CrossingWatch {
     if (at_low <= 0.0) return low;
     while (low < t1) {
       const double high = std::fmin(t1, low + grid_), at_high = gap(high);
-      if (at_high <= 0.0) return solve(gap, low, high, at_low, at_high);
+      if (at_high <= 0.0) return solve_bracketed(gap, low, high, at_low, at_high);
+      low = high;
+      at_low = at_high;
+    }
+    return -1.0;
+  }
+
+  // The same with the gap rate as a second event: where it changes from falling to rising in a span, the minimum between
+  // the samples is found first, and the root before it if the gap is negative there. `both` gives gap and rate.
+  template <class Both>
+  double look_with_minima(const Both& both, double t0, double t1) {
+    const auto gap = [&both](double s) { return both(s).gap; };
+    double low = std::fmax(t0, from_);
+    if (low >= t1) return -1.0;
+    GapRate at_low = both(low);
+    for (int i = 0; first_ && at_low.gap <= 0.0 && i < 60; ++i) at_low = both(low = t0 + 0.5 * (low - t0));
+    first_ = false;
+    if (at_low.gap <= 0.0) return low;
+    while (low < t1) {
+      const double high = std::fmin(t1, low + grid_);
+      const GapRate at_high = both(high);
+      if (at_high.gap <= 0.0) return solve_bracketed(gap, low, high, at_low.gap, at_high.gap);
+      if (at_low.rate < 0.0 && at_high.rate > 0.0) {
+        const auto rate = [&both](double s) { return both(s).rate; };
+        const double least = solve_bracketed(rate, low, high, at_low.rate, at_high.rate), at_least = gap(least);
+        if (at_least <= 0.0) return solve_bracketed(gap, low, least, at_low.gap, at_least);
+      }
       low = high;
       at_low = at_high;
     }
@@ -52,15 +92,6 @@ class CrossingWatch {
   }
 
  private:
-  template <class Gap>
-  static double solve(const Gap& gap, double low, double high, double at_low, double at_high) {
-    if (at_high == 0.0) return high;
-    boost::uintmax_t most = 100;
-    const auto root = boost::math::tools::toms748_solve(gap, low, high, at_low, at_high,
-                                                        boost::math::tools::eps_tolerance<double>(52), most);
-    return 0.5 * (root.first + root.second);
-  }
-
   double from_, grid_;
   bool first_;
 };

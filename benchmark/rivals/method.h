@@ -42,8 +42,11 @@ const std::vector<MethodSpec>& methods();
 const MethodSpec* find_method(const std::string& name);
 
 MethodSpec exact_spec();
+MethodSpec certified_plain_spec();
 MethodSpec sampled_spec();
+MethodSpec sampled_minima_spec();
 MethodSpec dopri5_spec();
+MethodSpec dopri5_minima_spec();
 MethodSpec bulirsch_stoer_spec();
 std::vector<MethodSpec> cvode_specs();  // where SUNDIALS was found
 MethodSpec siconos_spec();              // where Siconos was found

@@ -1,5 +1,5 @@
 // Boost.Odeint with adaptive steps and dense output: each step's interpolant is sampled, and solved where it crosses
-// zero.
+// zero; with minima also where the gap turns from falling to rising.
 #include <boost/numeric/odeint.hpp>
 #include <type_traits>
 
@@ -28,7 +28,8 @@ BulirschStoer make_stepper<BulirschStoer>(double tolerance) {
 template <class Stepper>
 class Odeint : public Method {
  public:
-  Odeint(double tolerance, double first_step) : stepper_(make_stepper<Stepper>(tolerance)), first_step_(first_step) {}
+  Odeint(double tolerance, double first_step, bool minima)
+      : stepper_(make_stepper<Stepper>(tolerance)), first_step_(first_step), minima_(minima) {}
 
   Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
     const Oscillator o(model, eta, start);
@@ -38,11 +39,16 @@ class Odeint : public Method {
       stepper_.calc_state(s, p);
       return o.gap(p, s);
     };
+    const auto both = [&](double s) {
+      stepper_.calc_state(s, p);
+      return GapRate{o.gap(p, s), o.gap_rate(p, s)};
+    };
     CrossingWatch watch(o, grid(o));
     stepper_.initialize(o.begin, 0.0, first_step_);
     for (;;) {
       const std::pair<double, double> span = stepper_.do_step(rate);
-      const double s = watch.look(gap, span.first, std::fmin(span.second, horizon));
+      const double end = std::fmin(span.second, horizon);
+      const double s = minima_ ? watch.look_with_minima(both, span.first, end) : watch.look(gap, span.first, end);
       if (s >= 0.0) {
         stepper_.calc_state(s, p);
         return reflect(o, p, s);
@@ -56,20 +62,24 @@ class Odeint : public Method {
  private:
   Stepper stepper_;
   double first_step_;
+  bool minima_;
 };
 
-}  // namespace
-
-MethodSpec dopri5_spec() {
-  return {"odeint_dopri5", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
-            // near the step that it will project_onto_surface at
-            return std::make_unique<Odeint<Dopri5>>(tolerance, 0.1 * std::pow(tolerance, 0.2));
+MethodSpec dopri5_spec(const char* name, bool minima) {
+  return {name, "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [minima](double tolerance) {
+            // near the step at which it arrives by itself
+            return std::make_unique<Odeint<Dopri5>>(tolerance, 0.1 * std::pow(tolerance, 0.2), minima);
           }};
 }
 
+}  // namespace
+
+MethodSpec dopri5_spec() { return dopri5_spec("odeint_dopri5", false); }
+MethodSpec dopri5_minima_spec() { return dopri5_spec("odeint_dopri5_minima", true); }
+
 MethodSpec bulirsch_stoer_spec() {
   return {"odeint_bulirsch_stoer", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
-            return std::make_unique<Odeint<BulirschStoer>>(tolerance, 0.02);
+            return std::make_unique<Odeint<BulirschStoer>>(tolerance, 0.02, false);
           }};
 }
 

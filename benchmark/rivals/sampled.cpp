@@ -1,4 +1,5 @@
-// The exact flow in closed form, sampled at a fixed spacing; TOMS 748 where the gap has changed sign.
+// The exact flow in closed form, sampled at a fixed spacing; TOMS 748 where the gap has changed sign. With minima: TOMS
+// 748 on the gap rate too, where that has changed from falling to rising, so that a touch between two samples is seen.
 #include <algorithm>
 
 #include "impact_law.h"
@@ -9,7 +10,7 @@ namespace {
 
 class Sampled : public Method {
  public:
-  explicit Sampled(double spacing) : spacing_(spacing) {}
+  Sampled(double spacing, bool minima) : spacing_(spacing), minima_(minima) {}
 
   Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
     const Oscillator o(model, eta, start);
@@ -21,7 +22,11 @@ class Sampled : public Method {
       return Y + o.model.y0 - o.height(o.c + o.eta * s + X);
     };
     CrossingWatch watch(o, spacing_);
-    const double s = watch.look(gap, 0.0, horizon);
+    const auto both = [&o](double s) {
+      const Point p = flow(o, s);
+      return GapRate{o.gap(p, s), o.gap_rate(p, s)};
+    };
+    const double s = minima_ ? watch.look_with_minima(both, 0.0, horizon) : watch.look(gap, 0.0, horizon);
     if (s < 0.0) return {Hit::none, horizon, o.tip_state(flow(o, horizon), horizon), 0.0};
     return reflect(o, flow(o, s), s);
   }
@@ -36,13 +41,20 @@ class Sampled : public Method {
   }
 
   double spacing_;
+  bool minima_;
 };
 
 }  // namespace
 
 MethodSpec sampled_spec() {
   return {"sampled_toms748", "spacing", {0.05, 0.02, 0.005, 0.001}, 0.02, [](double setting) {
-            return std::make_unique<Sampled>(setting);
+            return std::make_unique<Sampled>(setting, false);
+          }};
+}
+
+MethodSpec sampled_minima_spec() {
+  return {"sampled_minima", "spacing", {0.1, 0.05, 0.02, 0.01, 0.005}, 0.02, [](double setting) {
+            return std::make_unique<Sampled>(setting, true);
           }};
 }
 

@@ -38,17 +38,8 @@ SUBSTITUTIONS = [
     (r'(record_throughput\.py \S+) 600', r'\1 3'),
     (r'(listener_cost\.py)', r'\1 1'),
     (r'(loop_delay\.py)', r'\1 --commands 30 --output loop_delay.csv'),
-    (r'--flights 200 --seconds 0\.7 --run-seconds 3', '--methods exact rk4 --flights 20 --seconds 0.01 --run-seconds 0.05'),
-    (r'(rosrun afm_emulator work_cost)', r'\1 --impacts 1000 --tips 10000 --rounds 1'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
-    (r'--bursts \d+', '--bursts 20'),
-    (r'(burst_friction.*) --tau \d+ (.*)--most-events 2e\d', r'\1 --tau 20 \2--most-events 2e4'),
-    (r'--tau (?:20000|100000) +--transient \d+', '--tau 10 --transient 10'),
-    (r'--seconds 110', '--seconds 0.5'),
-    (r'--shipped --tau 100000 --scenes 100', '--shipped --tau 1000 --scenes 1'),
-    (r'(grazes .*)--flights \d+', r'\1--flights 1 --ordinary 100'),
-    (r'(stability_matrix) --seconds 2', r'\1 --seconds 0.05 --methods exact rk4 --scenes even rest'),
     (r'--mutated 1000000', '--mutated 100'),
 ]
 
@@ -56,9 +47,8 @@ SUBSTITUTIONS = [
 NOT_RUN = [
     (r'^scripts/test', 'this test is a part of it'),
     (r'^scripts/run --view', 'installs rviz'),
-    (r'^scripts/sanitize', 'builds and tests for a quarter of an hour'),
+    (r'^scripts/qualify', 'measures for an hour or more; the test qualify checks its parts'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
-    (r'^scripts/soak', 'the test soak runs it in short'),
     (r'^scripts/compare_builds', 'builds with every compiler for minutes'),
     (r'^scripts/platforms( --only.*)?( +#|$)', 'makes roots of other systems and tests in them for an hour'),
     (r'^scripts/cross_arm64', 'builds everything once more'),

@@ -33,3 +33,7 @@ if(DOXYGEN_PROGRAM)
   add_test(NAME api_reference COMMAND ${PROJECT_SOURCE_DIR}/scripts/api_reference)
   set_tests_properties(api_reference PROPERTIES TIMEOUT 60 ENVIRONMENT AFM_BUILD_DIR=${PROJECT_BINARY_DIR})
 endif()
+
+# the parts of scripts/qualify name programs that are there, and the short tables of the documents are those of their data
+add_test(NAME qualify COMMAND ${PROJECT_SOURCE_DIR}/scripts/qualify --check --tools ${CATKIN_DEVEL_PREFIX}/lib/afm_emulator)
+set_tests_properties(qualify PROPERTIES TIMEOUT 30 ENVIRONMENT AFM_BUILD_DIR=${PROJECT_BINARY_DIR})
