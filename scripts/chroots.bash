@@ -55,14 +55,14 @@ make_root() {
 }
 
 # usage: in_root NAME COMMAND [ARGUMENT...]
-# With processes and mounts of its own; with $isolated=yes also with a loopback of its own and no other network.
+# With processes and mounts of its own, which end with this shell; with $isolated=yes also with a loopback of its own and no other network.
 in_root() {
   local root=$afm_cache/$1 namespaces=(--mount --pid --fork --kill-child)
   shift
   [[ ${isolated:-no} == no ]] || namespaces+=(--net)
   cp /etc/resolv.conf /etc/hosts "$root/etc/"
   # shellcheck disable=SC2016  # for the shell in the namespaces
-  unshare "${namespaces[@]}" bash -c '
+  setpriv --pdeathsig KILL unshare "${namespaces[@]}" bash -c '
     set -e
     root=$1; shift
     mount -t proc proc "$root/proc"
