@@ -12,10 +12,11 @@ from pathlib import Path
 ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'include/afm/dynamics': 'dynamics',
          'src/core': 'core', 'src/core/dynamics': 'dynamics', 'src/core/lanes': 'lanes',
          'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
-         'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
+         'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
 ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'}, 'sweep': {'common', 'core', 'dynamics'},
            'node': {'core'}, 'view': {'core', 'node'}, 'tools': {'common', 'core', 'dynamics', 'sweep', 'node'},
-           'trials': {'core', 'dynamics'}, 'benchmark': {'common', 'core', 'dynamics', 'trials'},
+           'python': {'core', 'dynamics', 'sweep'}, 'trials': {'core', 'dynamics'},
+           'benchmark': {'common', 'core', 'dynamics', 'trials'},
            'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'view', 'trials'}}
 # where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
 DOORS = {('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h')}
@@ -37,7 +38,7 @@ def target(root, path, name):
 
 def arrows(root):
     """Of every include: the file, what it includes, and the rooms of both."""
-    for folder in ('include', 'src', 'benchmark', 'test'):
+    for folder in ('include', 'src', 'python', 'benchmark', 'test'):
         for path in sorted((root / folder).rglob('*')):
             if path.suffix not in ('.h', '.cpp'):
                 continue

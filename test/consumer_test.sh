@@ -1,25 +1,34 @@
 #!/usr/bin/env bash
-# A project outside the tree finds the installed package and gets the same bits as one within, also where it is compiled for
-# the machine at hand.
+# The examples in C++, copied out of the tree: they find the installed package, and give the same bits as within the tree, also
+# where they are compiled for the machine at hand.
 #
-# usage: consumer_test.sh BUILD PROGRAM     PROGRAM: consumer/main.cpp, compiled within the tree
+# usage: consumer_test.sh BUILD EXAMPLES PROGRAM...     EXAMPLES: their folder; PROGRAM: each of them, compiled within the tree
 set -euo pipefail
-build=$1 program=$2
-source=$(cd "$(dirname "${BASH_SOURCE[0]}")/consumer" && pwd)
+build=$1 examples=$2
+shift 2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+mkdir "$work/expected"
 
+[[ $# -eq $(find "$examples" -name '*.cpp' | wc -l) ]] || { echo "not every example is tested"; exit 1; }
+cp -r "$examples" "$work/source"
 cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-"$program" >"$work/expected"
+for program in "$@"; do
+  "$program" >"$work/expected/${program##*/}"
+done
 for flags in -O2 "-O3 -march=native"; do
-  if ! { cmake -S "$source" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_FLAGS="$flags" &&
-    cmake --build "$work/build" --clean-first; } >"$work/log" 2>&1; then
+  if ! { cmake -S "$work/source" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_FLAGS="$flags" &&
+    cmake --build "$work/build" --clean-first --parallel 2; } >"$work/log" 2>&1; then
     cat "$work/log"
     exit 1
   fi
-  if ! "$work/build/consumer" | cmp - "$work/expected"; then
-    echo "with $flags the bits differ"
-    exit 1
-  fi
+  for expected in "$work"/expected/*; do
+    name=${expected##*/}
+    if ! "$work/build/${name#example_}" | cmp - "$expected"; then
+      echo "$name: with $flags the bits differ"
+      exit 1
+    fi
+  done
 done
-echo "$(wc -l <"$work/expected") impacts: the same bits"
+wc -l "$work"/expected/*
+echo "the same bits"

@@ -67,13 +67,18 @@ foreach(name command_line table_writer)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
 
-# a project outside the tree
+# projects outside the tree
 if(NOT AFM_SANITIZE)
-  add_executable(consumer_within EXCLUDE_FROM_ALL consumer/main.cpp)
-  target_link_libraries(consumer_within afm_emulator_core)
-  add_dependencies(tests consumer_within)
-  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR} $<TARGET_FILE:consumer_within>)
-  set_tests_properties(consumer PROPERTIES TIMEOUT 180)
+  set(examples)
+  foreach(name impacts_to_csv one_tip periodic_orbit ten_thousand_tips warm_scene)
+    add_executable(example_${name} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/examples/cpp/${name}.cpp)
+    target_link_libraries(example_${name} afm_emulator_dynamics)
+    add_dependencies(tests example_${name})
+    list(APPEND examples $<TARGET_FILE:example_${name}>)
+  endforeach()
+  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR}
+    ${PROJECT_SOURCE_DIR}/examples/cpp ${examples})
+  set_tests_properties(consumer PROPERTIES TIMEOUT 300)
   if(catkin_FOUND)
     add_test(NAME without_ros
       COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/without_ros_test.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/without_ros)
