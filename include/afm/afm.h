@@ -9,6 +9,7 @@
 #include "afm/flight.h"
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "afm/single_flight.h"
 #include "afm/contact.h"
 #include "afm/chatter.h"
 #include "afm/segment.h"

@@ -49,20 +49,6 @@ std::unique_ptr<Journal> open_journal(const std::string& output, const std::stri
   return std::make_unique<Journal>(path, identity, kind == Output::fresh);
 }
 
-std::deque<SweepTask> tasks_left(const SweepGrid& grid, const std::map<std::size_t, PackedResult>& found) {
-  std::deque<SweepTask> tasks;
-  for (std::size_t begin = 0; begin < grid.size(); begin += grid.chain_length()) {
-    SweepTask task{begin, begin + grid.chain_length(), false, {}};
-    for (auto done = found.find(task.first); done != found.end() && task.first < task.end;
-         done = found.find(task.first)) {
-      task.start = unpack(done->second).end;
-      task.carried = ++task.first > begin;
-    }
-    if (task.first < task.end) tasks.push_back(task);
-  }
-  return tasks;
-}
-
 // In each of the ranks so many.
 std::vector<std::thread> start_workers(WorkSource& source, const SweepGrid& grid, const SweepSettings& settings,
                                        int n) {

@@ -7,39 +7,11 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "rows.h"
+
 namespace afm {
-namespace {
-
-using Q = Quantity;
-
-const std::vector<Column> kColumns{{"eta", Q::velocity, "drag_velocity"},
-                                   {"gamma"},
-                                   {"cutoff", Q::velocity},
-                                   {"k_f", Q::friction},
-                                   {"k_f_std_error", Q::friction},
-                                   {"impacts_per_tau"},
-                                   {"mean_energy_loss", Q::energy},
-                                   {"mean_flight_time", Q::time},
-                                   {"largest_lyapunov", Q::rate},
-                                   {"attractor"},
-                                   {"rest_height", Q::length},
-                                   {"amplitude", Q::length},
-                                   {"frequency_ratio"},
-                                   {"k_f_work", Q::friction},
-                                   {"k_f_work_std_error", Q::friction}};
-
-void write_row(const SweepPoint& point, const SweepResult& r, TableWriter& to) {
-  const FrictionAverage& f = r.friction;
-  to << point.eta << point.gamma << point.v_c << f.K_f << f.K_f_std_error << f.impacts_per_tau << f.mean_energy_loss
-     << f.mean_flight_time << r.attractor.lyapunov.exponents[0] << r.attractor.name() << point.y0 << point.H
-     << point.frequency_ratio << f.K_f_work << f.K_f_work_std_error;
-  to.end_row();
-}
-
-}  // namespace
-
 CurveTable::CurveTable(const std::string& path, const SweepGrid& grid, const TableUnits& units)
-    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, kColumns, units) {
+    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, curve_columns(), units) {
   errno = 0;
   if (path != "-") open();
   writer_.write_header();

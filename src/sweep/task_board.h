@@ -6,11 +6,13 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "grid.h"
+#include "packed.h"
 
 namespace afm {
 
@@ -20,6 +22,9 @@ struct SweepTask {
   bool carried = false;  // the start is the end of the point before `first`; otherwise it is drawn at random
   TipState start;
 };
+
+// All of a grid's, without what is found done.
+std::deque<SweepTask> tasks_left(const SweepGrid& grid, const std::map<std::size_t, PackedResult>& found);
 
 struct SweepDone {
   std::size_t position = 0;

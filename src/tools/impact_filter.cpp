@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "afm/single_flight.h"
 #include "common/csv.h"
-#include "single_flight.h"
 
 namespace afm {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "afm/dynamics/interruption.h"
 #include "afm/dynamics/tangents.h"
 #include "core/not_numbers.h"
 
@@ -47,6 +48,7 @@ bool has_numbers(const LyapunovSpectrum& s) {
 bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s) {
   const ModelTime end = tip.now() + time;
   while (tip.now() < end && s.events < most_events) {
+    interruption_point();
     if (tip.advance(end) == Outcome::search_failed) s.outcome = LyapunovOutcome::search_failed;
     ++s.events;
   }
@@ -67,6 +69,7 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
   Growth growth;
   s.outcome = LyapunovOutcome::measured;
   while (tip.now() < end && s.outcome == LyapunovOutcome::measured) {
+    interruption_point();
     const Outcome outcome = tangents.advance(end);
     if (outcome == Outcome::search_failed) s.outcome = LyapunovOutcome::search_failed;
     if (++s.events >= settings.most_events) s.outcome = LyapunovOutcome::budget_spent;

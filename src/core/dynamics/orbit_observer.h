@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "afm/dynamics/interruption.h"
 #include "afm/tip.h"
 
 namespace afm {
@@ -37,6 +38,7 @@ class Observer {
   // False if the limit, the end of the budget or a failed search came first.
   bool next(const ModelTime& limit) {
     while (left_ > 0 && !failed_) {
+      interruption_point();
       bool held = tip_.in_contact();
       const ModelTime before = tip_.now();
       const Outcome outcome = tip_.advance(limit);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "afm/dynamics/interruption.h"
+
 namespace afm {
 namespace {
 
@@ -28,6 +30,7 @@ Points run(const PoincareMap& map, std::size_t impacts, Random& random) {
   Points points;
   TipState now = anywhere(map, random);
   while (points.size() < impacts) {
+    interruption_point();
     const MapStep step = map(now);
     now = step.outcome == MapOutcome::impact ? step.after : anywhere(map, random);
     points.push_back(now);
@@ -81,6 +84,7 @@ class Search {
   }
 
   void attempt(const Points& guess) {
+    interruption_point();
     const OrbitResult r = find_orbit(map_, guess, settings_.newton);
     const double share = static_cast<double>(++attempts_) / (3.0 * settings_.guesses * settings_.longest);
     if (progress_) progress_(share);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "afm/dynamics/interruption.h"
 #include "afm/ensemble.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
@@ -103,7 +104,7 @@ AttractorSettings search_settings(const SweepSettings& settings) {
 // With a bath there is no attractor, only averages.
 SweepResult thermal_point(Tip& tip, const SweepSettings& settings) {
   tip.set_bath(settings.bath);
-  for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;) continue;
+  for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;) interruption_point();
   SweepResult result;
   result.attractor.kind = AttractorKind::thermal;
   result.attractor.lyapunov.exponents.fill(std::numeric_limits<double>::quiet_NaN());

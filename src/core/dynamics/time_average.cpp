@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "afm/detail/batch_means.h"
+#include "afm/dynamics/interruption.h"
 #include "afm/friction.h"
 #include "core/not_numbers.h"
 
@@ -36,7 +37,7 @@ ModelTime quiet_time(Tip tip, double span) {
 }
 
 void bring_to(Tip& tip, const ModelTime& end) {
-  while (tip.advance(end) != Outcome::time_limit) continue;
+  while (tip.advance(end) != Outcome::time_limit) interruption_point();
 }
 
 // Sums over an interval of time.
@@ -52,6 +53,7 @@ void follow(Tip& tip, const ModelTime& end, Totals& totals) {
   totals.impulse.add(-tip.segment().impulse);  // the part before the interval
   Segments ended;
   for (Outcome outcome; (outcome = tip.advance_segment(end, &ended)) != Outcome::time_limit;) {
+    interruption_point();
     for (const Segment& segment : ended) totals.impulse.add(segment.impulse);
     if (outcome == Outcome::search_failed) ++totals.search_failures;
     if (outcome == Outcome::flying || outcome == Outcome::search_failed) continue;

@@ -13,6 +13,7 @@
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
 #include "dynamics_options.h"
+#include "sweep/rows.h"
 
 namespace {
 
@@ -25,28 +26,6 @@ const char kDescription[] =
     "--cutoff is absolute, or a share of eta with --relative-cutoff.";
 
 using Q = afm::Quantity;
-
-const std::vector<afm::Column> kColumns{{"eta", Q::velocity, "drag_velocity"},
-                                        {"gamma"},
-                                        {"cutoff", Q::velocity},
-                                        {"attractor"},
-                                        {"impacts"},
-                                        {"cells"},
-                                        {"k_f", Q::friction},
-                                        {"k_f_std_error", Q::friction},
-                                        {"lyapunov_1", Q::rate},
-                                        {"lyapunov_2", Q::rate},
-                                        {"lyapunov_3", Q::rate},
-                                        {"lyapunov_4", Q::rate},
-                                        {"rotation_number"},
-                                        {"contact_share"},
-                                        {"basin"},
-                                        {"basin_std_error"},
-                                        {"phase"},
-                                        {"extension", Q::length},
-                                        {"y", Q::length},
-                                        {"u", Q::velocity},
-                                        {"w", Q::velocity}};
 
 struct Options {
   afm::DynamicsOptions dynamics;
@@ -112,16 +91,7 @@ std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& op
 }
 
 void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins, afm::TableWriter& to) {
-  for (const afm::Basin& basin : basins) {
-    const afm::Attractor& a = basin.first.attractor;
-    const afm::FreeState start = to_free_state(model_of(point).H, basin.first.start);
-    to << point.eta << point.gamma << point.v_c << a.name() << a.impacts << a.cells << basin.first.K_f
-       << basin.first.K_f_std_error;
-    for (const double exponent : a.lyapunov.exponents) to << exponent;
-    to << a.rotation_number << a.contact_share << basin.share << basin.share_std_error << start.phase << start.X
-       << start.y << start.u << start.w;
-    to.end_row();
-  }
+  for (const afm::Basin& basin : basins) write_row(point, basin, to);
 }
 
 // Rows in the order of the grid, whichever thread is first: the same table for any number of threads.
@@ -156,7 +126,7 @@ int run(const afm::CommandLine& app, Options& options) {
   take_si(app, options);
   const std::vector<afm::SweepPoint> points = grid(app, options);
   const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
-  afm::TableWriter table(std::cout, kColumns, afm::table_units(options.dynamics.si));
+  afm::TableWriter table(std::cout, afm::basin_columns(), afm::table_units(options.dynamics.si));
   table.write_header();
   compute(points, options.basins, options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors, table);
   return 0;

@@ -12,6 +12,7 @@
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
 #include "dynamics_options.h"
+#include "sweep/rows.h"
 
 namespace {
 
@@ -24,13 +25,6 @@ const char kDescription[] =
 
 using Q = afm::Quantity;
 
-// The residual is in natural units always: the largest of errors of several kinds.
-const std::vector<afm::Column> kColumns{
-    {"length"},          {"cells"},           {"period", Q::time},      {"k_f", Q::friction},
-    {"residual"},        {"phase"},           {"extension", Q::length}, {"u", Q::velocity},
-    {"w", Q::velocity},  {"multiplier_1_re"}, {"multiplier_1_im"},      {"multiplier_2_re"},
-    {"multiplier_2_im"}, {"multiplier_3_re"}, {"multiplier_3_im"},      {"multiplier_4_re"},
-    {"multiplier_4_im"}};
 const std::vector<afm::Column> kAverageColumns{
     {"method"}, {"order"}, {"terms"}, {"k_f", Q::friction}, {"conservation"}};
 
@@ -57,14 +51,6 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("attractor-distance", o.attractor_distance,
              "orbits that the long run does not approach so far are not of the attractor: left out of the averages");
   app.flag("quiet", o.quiet, "no report of the search on stderr");
-}
-
-void print_row(double H, const afm::PeriodicOrbit& orbit, afm::TableWriter& to) {
-  const afm::FreeState first = to_free_state(H, orbit.points.front());
-  to << orbit.length() << orbit.cells << orbit.period << orbit.K_f << orbit.residual << first.phase << first.X
-     << first.u << first.w;
-  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
-  to.end_row();
 }
 
 void report(const afm::OrbitSearchResult& found, const afm::TableUnits& units) {
@@ -117,9 +103,9 @@ int run(const afm::CommandLine& app, Options& options) {
   afm::ProgressBar bar(kSteps, 0);
   const auto show = [&](double share) { bar.show(static_cast<std::size_t>(share * kSteps)); };
   const auto found = search_orbits(afm::PoincareMap(model, options.dynamics.eta), options.search, show);
-  afm::TableWriter table(std::cout, kColumns, afm::table_units(options.dynamics.si));
+  afm::TableWriter table(std::cout, afm::orbit_columns(), afm::table_units(options.dynamics.si));
   table.write_header();
-  for (const afm::FoundOrbit& orbit : found.orbits) print_row(model.H, orbit.orbit, table);
+  for (const afm::FoundOrbit& orbit : found.orbits) write_row(model.H, orbit.orbit, table);
   if (!options.averages.empty()) write_averages(options, found);
   if (!options.quiet) report(found, afm::table_units(options.dynamics.si));
   return 0;

@@ -1,4 +1,4 @@
-#include "single_flight.h"
+#include "afm/single_flight.h"
 
 #include <cmath>
 #include <map>
@@ -21,12 +21,17 @@ Model model_of(const FlightInput& input) {
   model.gamma = input.gamma;
   model.v_c = input.cutoff;
   model.kind = input.kind;
+  model.y0 = input.rest_height;
+  model.H = input.amplitude;
+  model.frequency_ratio = input.frequency_ratio;
   return model;
 }
 
 // By the column's name.
 std::string column(const std::string& parameter) {
   static const std::map<std::string, std::string> names{{"v_c", "cutoff"},
+                                                        {"y0", "rest_height"},
+                                                        {"H", "amplitude"},
                                                         {"initial_phase", "phase"},
                                                         {"initial_extension", "extension"},
                                                         {"initial_u", "u"},
@@ -36,17 +41,8 @@ std::string column(const std::string& parameter) {
 }
 
 void check(const FlightInput& input) {
-  EmulatorSettings settings;
-  settings.model = model_of(input);
-  settings.eta = input.eta;
-  // a phase that is no phase is reported, not used
-  const double height = surface_jet(settings.model.H, std::abs(input.phase) <= 1e6 ? input.phase : 0.0).h;
-  settings.initial = {input.phase, input.extension, height, input.u, input.w};
   std::string text;
-  for (const ParameterError& fault : find_faults(settings)) {
-    const ParameterError renamed(column(fault.name), fault.value, fault.reason);
-    text += std::string(text.empty() ? "" : "; ") + renamed.what();
-  }
+  for (const ParameterError& fault : find_faults(input)) text += (text.empty() ? "" : "; ") + std::string(fault.what());
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
@@ -82,6 +78,20 @@ Landing<double> land(const Model& model, double eta, TipState start) {
 }
 
 }  // namespace
+
+std::vector<ParameterError> find_faults(const FlightInput& input) {
+  EmulatorSettings settings;
+  settings.model = model_of(input);
+  settings.eta = input.eta;
+  // a phase that is no phase is reported, not used
+  const double height = surface_jet(settings.model.H, std::abs(input.phase) <= 1e6 ? input.phase : 0.0).h;
+  settings.initial = {input.phase, input.extension, height, input.u, input.w};
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(settings)) {
+    faults.emplace_back(column(fault.name), fault.value, fault.reason);
+  }
+  return faults;
+}
 
 FlightResult fly_to_next_impact(const FlightInput& input) {
   check(input);

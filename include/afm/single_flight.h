@@ -2,8 +2,9 @@
 #pragma once
 
 #include <stdexcept>
+#include <vector>
 
-#include "afm/model.h"
+#include "model.h"
 
 namespace afm {
 
@@ -11,6 +12,7 @@ namespace afm {
 struct FlightInput {
   double eta, gamma, cutoff, phase, extension, u, w;
   ModelKind kind = ModelKind::oscillator;  // of the hammer extension and u are 0 and eta, whatever is given
+  double rest_height = Model{}.y0, amplitude = Model{}.H, frequency_ratio = Model{}.frequency_ratio;
 };
 
 // The next impact; velocities u and w after it, normal speed and tangential velocity before it.
@@ -19,6 +21,9 @@ struct FlightResult {
 };
 
 constexpr double kLongestFlight = 1000.0;  // [tau]
+
+// Every fault, by the names above.
+std::vector<ParameterError> find_faults(const FlightInput& input);
 
 // Throws std::invalid_argument with every fault of the input, std::runtime_error where there is no impact to be found.
 FlightResult fly_to_next_impact(const FlightInput& input);
