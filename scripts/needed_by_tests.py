@@ -5,6 +5,7 @@ usage: needed_by_tests.py OUTPUTS < TESTS      OUTPUTS: a file with the answer t
 """
 import json
 import os
+import re
 import sys
 
 
@@ -14,9 +15,9 @@ def labels(test):
 
 def needs(test, outputs):
     # ctest leaves out the command of a program that is not built yet: its target has the name of the test, or replay_ before it
-    words = ' '.join(test.get('command', [test['name'], 'replay_' + test['name']])).replace('"', ' ').split()
+    words = re.split(r'[\s"=]+', ' '.join(test.get('command', [test['name'], 'replay_' + test['name']])))
     if '_rostest_' in test['name']:
-        return {'emulator', 'afm_clock_jump', 'examples_ros', 'bag_to_csv'}
+        return {'emulator', 'afm_clock_jump', 'examples_ros', 'bag_to_csv'} | ({'afm_python'} & outputs)
     if 'node' in labels(test) or any(os.path.isdir(word) and word.endswith('lib/afm_emulator') for word in words):
         return {'all'}  # runs what it likes
     built = {name for word in words for name in (word, os.path.relpath(word)) if name in outputs}

@@ -30,5 +30,11 @@ for flags in -O2 "-O3 -march=native"; do
     fi
   done
 done
+# the module of Python is installed too, where it was built
+if [[ -d $work/prefix/lib/python3/dist-packages/afm ]]; then
+  PYTHONPATH=$work/prefix/lib/python3/dist-packages /usr/bin/python3 -c "
+import afm
+assert afm.__file__.startswith('$work'), afm.__file__"
+fi
 wc -l "$work"/expected/*
 echo "the same bits"

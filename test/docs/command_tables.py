@@ -41,6 +41,8 @@ SUBSTITUTIONS = [
     (r'(loop_delay\.py)', r'\1 --commands 30 --output loop_delay.csv'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
+    (r'(friction_peaks|bifurcations)\.py', r'\1.py 5'),
+    (r'(thermal_histogram)\.py', r'\1.py 10000'),
     (r'--mutated 1000000', '--mutated 100'),
 ]
 
@@ -57,6 +59,7 @@ NOT_RUN = [
     (r'right_address:=', 'needs a second machine'),
     (r'^(rqt_plot|rosrun rqt_\w+) ', 'opens a window'),
     (r'^npm install', 'fetches a package'),
+    (r'^python3 -m venv', 'builds for minutes; the test python_pip does it in short'),
     (r'running_digests\.js', 'needs a package that no test fetches; the test javascript_reader runs it where it is installed'),
 ]
 

@@ -57,6 +57,11 @@ endforeach()
 # keeps every core busy: what ran beside it would starve
 set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
 
+# of the Python module, where it is built
+if(TARGET afm_python_module)
+  afm_add_rostest(python_module emulator_node replay_check afm_python)
+endif()
+
 # an independent reader, only where someone has installed it: no test fetches anything
 find_program(NODE_PROGRAM NAMES node nodejs)
 set(node_modules ${CMAKE_BINARY_DIR}/node_modules)

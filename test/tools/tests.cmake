@@ -82,6 +82,6 @@ if(NOT AFM_SANITIZE)
   if(catkin_FOUND)
     add_test(NAME without_ros
       COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/without_ros_test.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/without_ros)
-    set_tests_properties(without_ros PROPERTIES TIMEOUT 300)
+    set_tests_properties(without_ros PROPERTIES TIMEOUT 300 RESOURCE_LOCK without_ros)
   endif()
 endif()

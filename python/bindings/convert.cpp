@@ -1,0 +1,128 @@
+#include "convert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+namespace afm::python {
+namespace {
+
+std::string argument_name(std::string name) {
+  static const std::map<std::string, std::string> names{{"v_c", "cutoff"},
+                                                        {"y0", "rest_height"},
+                                                        {"H", "amplitude"},
+                                                        {"initial_phase", "phase"},
+                                                        {"initial_extension", "extension"},
+                                                        {"initial_height", "y"},
+                                                        {"initial_u", "u"},
+                                                        {"initial_w", "w"}};
+  const auto found = names.find(name);
+  if (found != names.end()) return found->second;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+py::object values() { return py::module::import("afm.values"); }
+
+// Raises the first, with all of them in it.
+void raise(const std::vector<ParameterError>& faults) {
+  const py::object type = py::module::import("afm.errors").attr("ParameterError");
+  py::list all;
+  for (const ParameterError& fault : faults) all.append(type(fault.name, fault.value, fault.reason));
+  const py::object first = all[0];
+  first.attr("faults") = py::tuple(all);
+  PyErr_SetObject(type.ptr(), first.ptr());
+}
+
+}  // namespace
+
+void refuse(const std::vector<ParameterError>& faults) {
+  if (faults.empty()) return;
+  std::vector<ParameterError> renamed;
+  for (const ParameterError& fault : faults) renamed.emplace_back(argument_name(fault.name), fault.value, fault.reason);
+  throw Faults(renamed);
+}
+
+void require(bool holds, const char* name, double value, const char* reason) {
+  if (!holds) refuse({ParameterError(name, value, reason)});
+}
+
+ModelKind kind_of(const std::string& name) {
+  ModelKind kind = ModelKind::oscillator;
+  if (!parse(name, kind)) throw py::value_error("kind = " + name + ": must be oscillator or hammer");
+  return kind;
+}
+
+ModelTime to_time(const py::object& time) {
+  constexpr double kLongest = 1e15;  // [tau]
+  ModelTime result;
+  if (py::isinstance<py::tuple>(time)) {
+    const auto parts = time.cast<std::pair<std::int64_t, double>>();
+    result = {parts.first, parts.second};
+    require(result.phase >= 0.0 && result.phase < 1.0, "time", result.phase, "the phase must be in [0, 1)");
+  } else {
+    const double tau = time.cast<double>();
+    require(std::abs(tau) <= kLongest, "time", tau, "must be finite and at most 1e15 tau");
+    result = ModelTime{} + tau;
+  }
+  require(std::abs(static_cast<double>(result.tau)) <= kLongest, "time", static_cast<double>(result.tau),
+          "must be at most 1e15 tau");
+  return result;
+}
+
+py::object to_python(const ModelTime& time) { return values().attr("ModelTime")(time.tau, time.phase); }
+
+py::object to_python(const FreeState& s) { return values().attr("State")(s.phase, s.X, s.y, s.u, s.w); }
+
+py::dict to_python(const FrictionEstimate& f) {
+  using namespace py::literals;
+  return py::dict("force"_a = f.force, "force_std_error"_a = f.force_std_error, "k_f"_a = f.K_f,
+                  "k_f_std_error"_a = f.K_f_std_error, "energy_loss"_a = f.energy_loss,
+                  "impact_count"_a = f.impact_count, "window_force"_a = f.window_force, "window_k_f"_a = f.window_K_f,
+                  "window_k_f_std_error"_a = f.window_K_f_std_error, "mean_lateral_force"_a = f.mean_lateral_force,
+                  "mean_lateral_force_std_error"_a = f.mean_lateral_force_std_error, "k_f_work"_a = f.K_f_work,
+                  "k_f_work_std_error"_a = f.K_f_work_std_error, "heat_to_bath"_a = f.heat_to_bath);
+}
+
+FreeState to_start(double phase, double extension, double y, const py::object& u, double w, double eta) {
+  return {phase, extension, y, u.is_none() ? eta : u.cast<double>(), w};
+}
+
+py::dtype impact_dtype() {
+  struct Field {
+    const char* name;
+    const char* format;
+    std::size_t offset;
+  };
+  constexpr std::size_t kTime = offsetof(Impact, time);
+  const Field fields[] = {{"tau", "<i8", kTime + offsetof(ModelTime, tau)},
+                          {"phase", "<f8", kTime + offsetof(ModelTime, phase)},
+                          {"surface_phase", "<f8", offsetof(Impact, surface_phase)},
+                          {"normal_speed", "<f8", offsetof(Impact, normal_speed)},
+                          {"tangential_velocity", "<f8", offsetof(Impact, tangential_velocity)},
+                          {"energy_loss", "<f8", offsetof(Impact, energy_loss)},
+                          {"kind", "u1", offsetof(Impact, kind)},
+                          {"count", "<u4", offsetof(Impact, count)}};
+  py::list names, formats, offsets;
+  for (const Field& field : fields) {
+    names.append(field.name);
+    formats.append(py::dtype(field.format));
+    offsets.append(field.offset);
+  }
+  return py::dtype(names, formats, offsets, sizeof(Impact));
+}
+
+void add_errors() {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Faults& faults) {
+      raise(faults.all);
+    } catch (const ParameterError& fault) {
+      raise({ParameterError(argument_name(fault.name), fault.value, fault.reason)});
+    }
+  });
+}
+
+}  // namespace afm::python

@@ -1,0 +1,61 @@
+// Between the library and Python: faults, model times, states, arrays that own what the library has made.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "afm/emulator.h"
+#include "afm/model.h"
+#include "afm/state.h"
+
+namespace afm::python {
+
+namespace py = pybind11;
+
+// Every fault of a call; becomes afm.ParameterError.
+struct Faults : std::exception {
+  explicit Faults(std::vector<ParameterError> all_) : all(std::move(all_)) {}
+  std::vector<ParameterError> all;
+};
+
+// Throws Faults unless there are none. The names become those of Python's arguments.
+void refuse(const std::vector<ParameterError>& faults);
+void require(bool holds, const char* name, double value, const char* reason);
+
+ModelKind kind_of(const std::string& name);  // throws ValueError
+
+// A number of tau, or whole tau and a phase.
+ModelTime to_time(const py::object& time);
+py::object to_python(const ModelTime& time);   // afm.ModelTime
+py::object to_python(const FreeState& state);  // afm.State
+py::dict to_python(const FrictionEstimate& friction);
+
+// A start; u None: the drag velocity.
+FreeState to_start(double phase, double extension, double y, const py::object& u, double w, double eta);
+
+py::dtype impact_dtype();  // of the library's own records
+
+// The array becomes the owner of the values: nothing is copied.
+template <class T>
+py::array to_array(std::vector<T> values, const py::dtype& dtype) {
+  auto* kept = new std::vector<T>(std::move(values));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return py::array(dtype, std::vector<py::ssize_t>{static_cast<py::ssize_t>(kept->size())},
+                   std::vector<py::ssize_t>{static_cast<py::ssize_t>(sizeof(T))}, kept->data(), owner);
+}
+inline py::array to_array(std::vector<double> values) { return to_array(std::move(values), py::dtype::of<double>()); }
+inline py::array to_array(std::vector<Impact> impacts) { return to_array(std::move(impacts), impact_dtype()); }
+
+void add_errors();
+void add_model(py::module& m);
+void add_tip(py::module& m);
+void add_emulator(py::module& m);
+void add_tables(py::module& m);
+
+}  // namespace afm::python

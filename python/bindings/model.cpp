@@ -1,0 +1,145 @@
+// Model, Bath, Units.
+#include <sstream>
+
+#include "afm/bath.h"
+#include "afm/units.h"
+#include "convert.h"
+
+namespace afm::python {
+namespace {
+
+using namespace py::literals;
+
+Model to_model(double gamma, double cutoff, double rest_height, double amplitude, double frequency_ratio,
+               const std::string& kind) {
+  Model model;
+  model.gamma = gamma;
+  model.v_c = cutoff;
+  model.y0 = rest_height;
+  model.H = amplitude;
+  model.frequency_ratio = frequency_ratio;
+  model.kind = kind_of(kind);
+  refuse(find_faults(model));
+  return model;
+}
+
+// The fewest digits that give the same number back.
+std::string shortest(double x) { return py::repr(py::float_(x)); }
+
+std::string describe_model(const Model& m) {
+  std::ostringstream text;
+  text << "Model(gamma=" << shortest(m.gamma) << ", cutoff=" << shortest(m.v_c) << ", rest_height=" << shortest(m.y0)
+       << ", amplitude=" << shortest(m.H) << ", frequency_ratio=" << shortest(m.frequency_ratio) << ", kind='"
+       << name(m.kind) << "')";
+  return text.str();
+}
+
+Bath to_bath(double temperature, double quality_factor, double lateral_quality_factor, double kicks_per_tau,
+             std::uint64_t seed, std::uint64_t stream) {
+  const Bath bath{temperature, quality_factor, lateral_quality_factor, kicks_per_tau, seed, stream};
+  refuse(find_faults(bath));
+  require(temperature == 0.0 || bath.is_on(), "temperature", temperature,
+          "needs a quality_factor above 0: without one no heat reaches the tip");
+  return bath;
+}
+
+std::string describe_bath(const Bath& b) {
+  std::ostringstream text;
+  text << "Bath(temperature=" << shortest(b.temperature) << ", quality_factor=" << shortest(b.quality_factor)
+       << ", lateral_quality_factor=" << shortest(b.lateral_quality_factor)
+       << ", kicks_per_tau=" << shortest(b.kicks_per_tau) << ", seed=" << b.seed << ", stream=" << b.stream << ")";
+  return text.str();
+}
+
+struct SiUnits {
+  SiModel si;
+  Units units;
+};
+
+SiUnits to_units(double omega_v, double omega_h, double mass, double spacing, double amplitude, double rest_height,
+                 double gamma, double cutoff) {
+  const SiModel si{omega_v, omega_h, mass, spacing, amplitude, rest_height, gamma, cutoff};
+  refuse(find_faults(si));
+  return {si, Units(si)};
+}
+
+Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, double lateral_quality_factor,
+             double kicks_per_tau, std::uint64_t seed) {
+  const Bath bath =
+      u.units.to_natural(SiBath{temperature_k, quality_factor, lateral_quality_factor, kicks_per_tau, seed});
+  refuse(find_faults(bath));
+  return bath;
+}
+
+void add_bath(py::module& m) {
+  const Bath none;
+  py::class_<Bath>(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
+
+temperature: kT [m a^2/tau^2]; quality_factor, lateral_quality_factor [-]; kicks_per_tau [1/tau];
+seed, stream: of its random numbers; tips with different streams are independent.)")
+      .def(py::init(&to_bath), "temperature"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
+           "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "stream"_a = none.stream)
+      .def_readonly("temperature", &Bath::temperature)
+      .def_readonly("quality_factor", &Bath::quality_factor)
+      .def_readonly("lateral_quality_factor", &Bath::lateral_quality_factor)
+      .def_readonly("kicks_per_tau", &Bath::kicks_per_tau)
+      .def_readonly("seed", &Bath::seed)
+      .def_readonly("stream", &Bath::stream)
+      .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; })
+      .def("__repr__", &describe_bath);
+}
+
+void add_units(py::module& m) {
+  const SiModel mica;
+  const Bath none;
+  const auto unit = [](double (Units::*of)() const) { return [of](const SiUnits& u) { return (u.units.*of)(); }; };
+  py::class_<SiUnits>(m, "Units", R"(A model in SI, and the factors from natural units to SI: value_si = value * factor.
+
+The defaults are mica's. `model` is the same in natural units; `bath(temperature_k=, ...)` gives a heat bath.)")
+      .def(py::init(&to_units), "omega_v_rad_per_s"_a = mica.omega_v_rad_per_s,
+           "omega_h_rad_per_s"_a = mica.omega_h_rad_per_s, "tip_mass_kg"_a = mica.tip_mass_kg,
+           "lattice_spacing_m"_a = mica.lattice_spacing_m, "surface_amplitude_m"_a = mica.surface_amplitude_m,
+           "rest_height_m"_a = mica.rest_height_m, "restitution_gamma"_a = mica.restitution_gamma,
+           "cutoff_speed"_a = mica.cutoff_speed)
+      .def_property_readonly("model", [](const SiUnits& u) { return u.units.to_natural(u.si); })
+      .def("bath", &bath_of, "temperature_k"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
+           "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "The bath in natural units; temperature in K.")
+      .def_property_readonly("length", unit(&Units::length), "[m], of a")
+      .def_property_readonly("time", unit(&Units::time), "[s], of tau")
+      .def_property_readonly("velocity", unit(&Units::velocity), "[m/s], of a/tau")
+      .def_property_readonly("energy", unit(&Units::energy), "[J]")
+      .def_property_readonly("force", unit(&Units::force), "[N]")
+      .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m/tau")
+      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT");
+}
+
+}  // namespace
+
+void add_model(py::module& m) {
+  const Model mica;
+  py::class_<Model>(m, "Model",
+                    R"(Tip, springs and surface, in natural units (a, tau, tip mass m). The defaults are mica's.
+
+gamma: restitution at and above the cutoff [-]; cutoff: speed of the restitution law [a/tau];
+rest_height: of the holder above mid-surface [a]; amplitude: of the surface [a];
+frequency_ratio: omega_h / omega_v; kind: 'oscillator', or 'hammer' without the horizontal spring.
+An object cannot be changed. Throws ParameterError.)")
+      .def(py::init(&to_model), "gamma"_a = mica.gamma, "cutoff"_a = mica.v_c, "rest_height"_a = mica.y0,
+           "amplitude"_a = mica.H, "frequency_ratio"_a = mica.frequency_ratio, "kind"_a = "oscillator")
+      .def_readonly("gamma", &Model::gamma)
+      .def_readonly("cutoff", &Model::v_c)
+      .def_readonly("rest_height", &Model::y0)
+      .def_readonly("amplitude", &Model::H)
+      .def_readonly("frequency_ratio", &Model::frequency_ratio)
+      .def_property_readonly("kind", [](const Model& model) { return name(model.kind); })
+      .def("__eq__",
+           [](const Model& a, const Model& b) {
+             return a.gamma == b.gamma && a.v_c == b.v_c && a.y0 == b.y0 && a.H == b.H &&
+                    a.frequency_ratio == b.frequency_ratio && a.kind == b.kind;
+           })
+      .def("__repr__", &describe_model);
+  add_bath(m);
+  add_units(m);
+}
+
+}  // namespace afm::python

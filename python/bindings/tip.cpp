@@ -1,0 +1,198 @@
+// Tip: one tip in Python's hands.
+#include "afm/tip.h"
+
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "convert.h"
+
+namespace afm::python {
+namespace {
+
+using namespace py::literals;
+
+struct PyTip {
+  Tip tip;
+  std::uint64_t search_failures = 0;
+};
+
+PyTip to_tip(const Model& model, double eta, double phase, double extension, double y, const py::object& u, double w,
+             double contact_tolerance, const Bath& bath) {
+  EmulatorSettings settings;
+  settings.model = model;
+  settings.eta = eta;
+  settings.initial = to_start(phase, extension, y, u, w, eta);
+  settings.contact_tolerance = contact_tolerance;
+  refuse(find_faults(settings));
+  PyTip made{Tip(model, eta, settings.initial, contact_tolerance)};
+  made.tip.set_bath(bath);
+  return made;
+}
+
+void check_eta(double eta) {
+  require(std::abs(eta) <= kMaxEta, "eta", eta, "must be finite and at most 1000 lattice spacings per tau");
+}
+
+ModelTime later(const PyTip& self, const py::object& time) {
+  const ModelTime end = to_time(time);
+  require(self.tip.now() <= end, "time", end - ModelTime{}, "lies before the tip's present");
+  return end;
+}
+
+// Calls step() until it returns true, without the GIL; ten times a second a signal may be raised.
+template <class Step>
+void repeat(const Step& step) {
+  constexpr std::chrono::milliseconds kBetweenLooks(100);
+  constexpr int kStepsAtATime = 64;
+  for (bool done = false; !done;) {
+    {
+      const py::gil_scoped_release released;
+      const auto end = std::chrono::steady_clock::now() + kBetweenLooks;
+      while (!done && std::chrono::steady_clock::now() < end) {
+        for (int i = 0; i < kStepsAtATime && !done; ++i) done = step();
+      }
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+// Of one call: where long quiet flights or slides are cut, so that signals are seen. No bit depends on it.
+ModelTime next_stop(const Tip& tip, const ModelTime& end) {
+  constexpr double kLongest = 1000.0;  // [tau]
+  const ModelTime stop = tip.now() + kLongest;
+  return stop < end ? stop : end;
+}
+
+py::array advance(PyTip& self, const py::object& time, const py::object& most_events) {
+  const ModelTime end = later(self, time);
+  const std::uint64_t most =
+      most_events.is_none() ? std::numeric_limits<std::uint64_t>::max() : most_events.cast<std::uint64_t>();
+  std::vector<Impact> events;
+  if (most > 0) {
+    repeat([&] {
+      const ModelTime stop = next_stop(self.tip, end);
+      const Outcome outcome = self.tip.advance(stop);
+      if (outcome == Outcome::time_limit) return stop == end;
+      if (outcome == Outcome::search_failed)
+        ++self.search_failures;
+      else
+        events.push_back(self.tip.last_impact());
+      return events.size() == most;
+    });
+  }
+  return to_array(std::move(events));
+}
+
+// Samples from now on, evenly, taken segment by segment, before the next replaces it.
+class Sampler {
+ public:
+  Sampler(PyTip& self, double period, std::size_t count)
+      : self_(self), grid_{period, 0, self.tip.now()}, end_(grid_.time(count)), vertical_(count), lateral_(count) {}
+
+  bool step() {
+    Tip& tip = self_.tip;
+    const ModelTime stop = next_stop(tip, end_), segment_end = tip.segment_end();
+    take(segment_end < stop ? segment_end : stop);
+    const Outcome outcome = tip.advance_segment(stop);
+    if (outcome == Outcome::time_limit) return stop == end_;
+    if (outcome == Outcome::search_failed) ++self_.search_failures;
+    if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) {
+      events_.push_back(tip.last_impact());
+    }
+    return false;
+  }
+
+  py::object result() {
+    return py::module::import("afm.values")
+        .attr("Samples")(to_python(grid_.origin), grid_.period, to_array(std::move(vertical_)),
+                         to_array(std::move(lateral_)), to_array(std::move(events_)));
+  }
+
+ private:
+  void take(const ModelTime& until) {
+    std::size_t to = taken_;
+    while (to < vertical_.size() && grid_.time(to) < until) ++to;
+    if (to == taken_) return;
+    self_.tip.deflections(grid_, taken_, to - taken_, &vertical_[taken_], &lateral_[taken_]);
+    taken_ = to;
+  }
+
+  PyTip& self_;
+  SampleGrid grid_;
+  ModelTime end_;
+  std::size_t taken_ = 0;
+  std::vector<double> vertical_, lateral_;
+  std::vector<Impact> events_;
+};
+
+py::object samples(PyTip& self, double period, std::size_t count) {
+  require(period >= 1e-9 && period <= 1e6, "period", period, "must be between 1e-9 and 1e6 tau");
+  Sampler sampler(self, period, count);
+  repeat([&] { return sampler.step(); });
+  return sampler.result();
+}
+
+void change(PyTip& self, const py::object& gamma, const py::object& cutoff, const py::object& rest_height) {
+  Model model = self.tip.model();
+  if (!gamma.is_none()) model.gamma = gamma.cast<double>();
+  if (!cutoff.is_none()) model.v_c = cutoff.cast<double>();
+  if (!rest_height.is_none()) model.y0 = rest_height.cast<double>();
+  refuse(find_faults(model));
+  self.tip.set_parameters(model);
+}
+
+}  // namespace
+
+void add_tip(py::module& m) {
+  const FreeState start = EmulatorSettings{}.initial;
+  py::class_<PyTip>(m, "Tip",
+                    R"(One tip: where it is, what has happened to it, what happens next. Exact, impact by impact.
+
+eta: drag velocity [a/tau]. The start: phase, extension and y [a], u and w [a/tau], in the lab; u None: eta.
+contact_tolerance: error allowed where chatter becomes one event [a, a/tau]; 0: every bounce by itself.
+An object serves one thread at a time. Throws ParameterError.)")
+      .def(py::init(&to_tip), "model"_a = Model{}, "eta"_a = 3.4, "phase"_a = start.phase, "extension"_a = start.X,
+           "y"_a = start.y, "u"_a = py::none(), "w"_a = start.w, "contact_tolerance"_a = kDefaultContactTolerance,
+           "bath"_a = Bath{})
+      .def("advance", &advance, "time"_a, "most_events"_a = py::none(),
+           R"(To a model time [tau] (a number, or a ModelTime), or until so many events have happened.
+
+Returns the events on the way, shape (n,), with the fields tau and phase (their sum is the model time [tau]),
+surface_phase [a], normal_speed and tangential_velocity before the impact [a/tau], energy_loss [m a^2/tau^2],
+kind (afm.Kind), and count, the bounces it stands for. No time is split: any sequence of calls gives the same bits.
+After Ctrl-C the tip stands where it had come to.)")
+      .def("samples", &samples, "period"_a, "count"_a,
+           R"(Samples of the deflection from now on, `period` tau apart; the tip is left at the time of the next one.
+
+Returns Samples: time of the first, period, vertical and lateral of shape (count,) [a], events as advance() does.)")
+      .def(
+          "drag", [](PyTip& self, double eta) { check_eta(eta), self.tip.drag(eta); }, "eta"_a,
+          "A new drag velocity [a/tau] from now on.")
+      .def("change", &change, "gamma"_a = py::none(), "cutoff"_a = py::none(), "rest_height"_a = py::none(),
+           "Another restitution, cutoff [a/tau] or height of the holder [a] from now on; None: as it is.")
+      .def(
+          "set_bath", [](PyTip& self, const Bath& bath) { self.tip.set_bath(bath); }, "bath"_a,
+          "Another heat bath from now on.")
+      .def(
+          "copy", [](const PyTip& self) { return self; }, "Another tip in the same state.")
+      .def_property_readonly(
+          "now", [](const PyTip& self) { return to_python(self.tip.now()); }, "ModelTime")
+      .def_property_readonly(
+          "state", [](const PyTip& self) { return to_python(self.tip.state()); },
+          "State(phase, extension, y, u, w) at now, in the lab [a, a/tau]")
+      .def_property_readonly(
+          "eta", [](const PyTip& self) { return self.tip.eta(); }, "drag velocity [a/tau]")
+      .def_property_readonly("model", [](const PyTip& self) { return self.tip.model(); })
+      .def_property_readonly("in_contact", [](const PyTip& self) { return self.tip.in_contact(); })
+      .def_property_readonly(
+          "stored_energy", [](const PyTip& self) { return self.tip.stored_energy(); },
+          "in springs and motion, in the lab [m a^2/tau^2]")
+      .def_readonly("search_failures", &PyTip::search_failures, "must stay 0: searches that gave up at a safe point");
+}
+
+}  // namespace afm::python

@@ -1,0 +1,41 @@
+#!/usr/bin/python3
+"""Every example in Python runs, small, and draws its picture.
+
+Usage: examples_test.py EXAMPLES     (their folder)
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+EXAMPLES = Path(sys.argv[1] if len(sys.argv) > 1 else '.').resolve()
+SMALL = {'friction_peaks': '20', 'bifurcations': '5', 'thermal_histogram': '100000'}
+BY_A_TEST_OF_ITS_OWN = {'read_bag'}  # it needs a recording
+
+
+class Examples(unittest.TestCase):
+    def test_each(self):
+        self.assertEqual({path.stem for path in EXAMPLES.glob('*.py')}, set(SMALL) | BY_A_TEST_OF_ITS_OWN)
+        for name, size in SMALL.items():
+            with self.subTest(name):
+                output = self.run_example(name, size)
+                if name == 'thermal_histogram':
+                    # 100000 samples in 90 bins differ by 0.01 from their own distribution
+                    self.assertLess(float(re.search(r'distance (\S+)', output).group(1)), 0.02)
+
+    def run_example(self, name, size):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, str(EXAMPLES / (name + '.py')), size], cwd=folder, timeout=120,
+                                  env=dict(os.environ, MPLBACKEND='Agg', MPLCONFIGDIR=folder), stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, universal_newlines=True)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            picture = Path(folder) / (name + '.png')
+            self.assertTrue(picture.exists() and picture.stat().st_size > 5000)
+            return done.stdout
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# `pip install .` gives the module, in an environment of its own and without a network.
+#
+# usage: pip_test.sh ROOT BUILD PYTHON     BUILD: a directory that is kept, so that the next run builds only what changed
+set -euo pipefail
+root=$1 build=$2 python=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+if ! "$python" -m pip --version >/dev/null 2>&1; then
+  echo "pip is not installed"
+  exit 77
+fi
+if ! AFM_WHEEL_BUILD=$build "$python" -m pip install --no-index --no-deps --target "$work/site" "$root" >"$work/log" 2>&1; then
+  tail -n 40 "$work/log"
+  exit 1
+fi
+cd "$work"
+PYTHONPATH=$work/site "$python" -c "
+import afm
+assert afm.__file__.startswith('$work/site'), afm.__file__
+print(afm.__version__, len(afm.Tip().advance(100)), 'events')"
+ls "$work/site"/afm_emulator-*.dist-info/RECORD "$work/site/afm/py.typed"

@@ -1,0 +1,18 @@
+# The module as a user has it: in the folder that setup.bash puts on PYTHONPATH.
+if(TARGET afm_python_module)
+  function(afm_add_python_test name)
+    add_test(NAME python_${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${afm_python_path} PYTHONDONTWRITEBYTECODE=1
+      AFM_MODULE=$<TARGET_FILE:afm_python_module> ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})
+    set_tests_properties(python_${name} PROPERTIES TIMEOUT 300)
+  endfunction()
+  afm_add_python_test(interface)
+  afm_add_python_test(interrupt)
+  afm_add_python_test(bits ${CMAKE_CURRENT_SOURCE_DIR}/data $<TARGET_FILE:friction_curve> $<TARGET_FILE:attractors>
+    $<TARGET_FILE:periodic_orbits> $<TARGET_FILE:next_impact> $<TARGET_FILE:example_impacts_to_csv>
+    $<TARGET_FILE:example_warm_scene>)
+  afm_add_python_test(examples ${PROJECT_SOURCE_DIR}/examples/python)
+  add_test(NAME python_pip COMMAND ${PROJECT_SOURCE_DIR}/python/tests/pip_test.sh ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/without_ros ${PYTHON_EXECUTABLE})
+  # it builds where the test without_ros builds
+  set_tests_properties(python_pip PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77 RESOURCE_LOCK without_ros)
+endif()

@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""The Python module simulates a recorded run again to the last bit."""
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from afm_emulator.srv import StartRecording, Step
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
+from std_srvs.srv import SetBool, Trigger
+
+import afm
+import bags
+import checks
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
+from topics import Topic, wait_until
+
+EXAMPLE = Path(os.path.realpath(__file__)).parents[2] / 'examples' / 'python' / 'read_bag.py'
+
+
+class PythonModule(NodeTest):
+    def run_emulator(self, **parameters):
+        self.directory = Path(self.temporary_directory())
+        self.emulator = self.start(Emulator(dict(parameters, bag_directory=str(self.directory))))
+        self.deflection, self.applied = Topic('deflection'), Topic('applied_drag')
+        self.deflection.wait_for()
+
+    def command(self, *etas):
+        before = len(self.applied.messages)
+        for eta in etas:
+            self.emulator.drag(eta * SPEED_UNIT)
+            time.sleep(0.02)  # spreads the commands over batches; nothing is waited for
+        wait_until(lambda: len(self.applied.messages) >= before + len(etas), 'commands are applied')
+
+    def change(self, **wanted):
+        config = Config(doubles=[DoubleParameter(name, value) for name, value in wanted.items()])
+        answer = self.emulator.call('set_parameters', Reconfigure, config=config).config
+        self.assertEqual({d.name: d.value for d in answer.doubles if d.name in wanted}, wanted)
+
+    def step_through(self):
+        self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
+        for how_far in ({'tau': 10.25}, {'impacts': 7}, {'impacts': 1}):
+            self.assertTrue(self.emulator.call('step', Step, **how_far).success)
+            self.command(2.0, 3.0)
+        self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
+
+    def end(self):
+        self.emulator.assert_alive()
+        self.assertEqual(self.emulator.stop(), 0)
+        path, = self.directory.iterdir()
+        return str(path)
+
+    def assert_repeats(self, path, epoch):
+        """Samples and impacts that the bag holds are those of the module, in SI, bit for bit. Returns how many."""
+        recording = afm.from_bag(path, epoch=epoch)
+        run, units = recording.simulate(), recording.units
+        messages = {name: [m for m in all_of if getattr(m, 'epoch', None) == epoch] for name, all_of in bags.read(path).items()}
+        samples = 0
+        for m in messages['deflection']:
+            first = m.first_sample - run.first_sample
+            for name in ('vertical', 'lateral'):
+                mine = getattr(run, name)[first:first + len(m.vertical)] * units.length
+                np.testing.assert_array_equal(mine, getattr(m, name), '%s from sample %d on' % (name, m.first_sample))
+            samples += len(m.vertical)
+        impacts = [(m.first_index + i, impact) for m in messages['impacts'] for i, impact in enumerate(m.impacts)]
+        mine = run.impacts[[index - run.first_impact for index, _ in impacts]]
+        for name, unit in (('normal_speed', units.velocity), ('tangential_velocity', units.velocity), ('surface_phase', 1),
+                           ('energy_loss', units.energy), ('kind', 1), ('count', 1)):
+            np.testing.assert_array_equal(mine[name] * unit, [getattr(impact, name) for _, impact in impacts], name)
+        np.testing.assert_array_equal(mine['tau'], [impact.time.tau for _, impact in impacts])
+        np.testing.assert_array_equal(mine['phase'], [impact.time.phase for _, impact in impacts])
+        self.assertEqual(run.friction['k_f'] * units.friction, messages['friction'][-1].k_f)
+        self.assertEqual(run.friction['heat_to_bath'] * units.energy, messages['friction'][-1].heat_to_bath)
+        return recording, samples, len(impacts)
+
+    def test_commands_steps_and_resets(self):
+        self.run_emulator(record=True)
+        self.command(2.0, -3.0, 0.0, 5.0, 1.0)
+        self.step_through()
+        self.assertTrue(self.emulator.call('reset', Trigger).success)
+        self.command(3.4, 2.5)
+        self.deflection.wait_for_more(30)
+        path = self.end()
+        checks.assert_identical(self, path)
+        epochs = afm.from_bag(path).epochs
+        self.assertEqual(len(epochs), 2)
+        for epoch in epochs:
+            recording, samples, impacts = self.assert_repeats(path, epoch)
+            self.assertGreater(samples, 10000)
+            self.assertGreater(impacts, 100)
+        self.assertEqual(len(afm.from_bag(path, epochs[0]).commands), 1 + 5 + 6)
+        self.assertRaises(ValueError, afm.from_bag, path, epoch=99)
+        self.assertRaises(ValueError, afm.from_bag, path, namespace='/other')
+        self.run_example(path)
+
+    def run_example(self, path):
+        with tempfile.TemporaryDirectory() as folder:
+            output = subprocess.check_output([sys.executable, str(EXAMPLE), path], cwd=folder, universal_newlines=True, timeout=60,
+                                             env=dict(os.environ, MPLBACKEND='Agg', MPLCONFIGDIR=folder))
+            self.assertIn('um/s', output)
+            self.assertTrue((Path(folder) / 'read_bag.png').exists())
+
+    def test_live_parameters_and_heat(self):
+        self.run_emulator(record=True, sample_rate_hz=50000.0)
+        self.command(2.0)
+        self.change(restitution_gamma=0.5, cutoff_speed=3e-7)
+        self.command(3.0)
+        self.change(temperature_k=300.0, quality_factor=50.0)
+        self.change(rest_height_m=-1e-11, sample_rate_hz=20000.0)
+        self.command(2.5)
+        self.deflection.wait_for_more(30)
+        _, samples, _ = self.assert_repeats(self.end(), 0)
+        self.assertGreater(samples, 5000)
+
+    def test_a_recording_begun_late_goes_on_from_its_checkpoint(self):
+        self.run_emulator(checkpoint_interval_s=0.3)
+        self.command(2.0, 3.0)
+        checkpoint = Topic('checkpoint')
+        checkpoint.wait_for(lambda m: m.time.tau > 0, 'a checkpoint on the way')
+        answer = self.emulator.call('start_recording', StartRecording, name='late')
+        self.assertTrue(answer.success, answer.message)
+        self.command(4.0, 5.0)
+        self.deflection.wait_for_more(30)
+        self.assertTrue(self.emulator.call('stop_recording', Trigger).success)
+        recording, samples, _ = self.assert_repeats(self.end(), 0)
+        self.assertGreater(float(recording.begin), 0.0)
+        self.assertGreater(samples, 10000)
+
+
+if __name__ == '__main__':
+    run(PythonModule)
