@@ -117,8 +117,8 @@ TEST(Deflection, AnyNumberOfLanesGivesTheSame) {
       check(row_of(flight), 0.31, [&](double s) { return flight_deflection(flight, s); });
       check(row_of(slide), 0.001, [&](double s) {
         const Mechanics<double>& m = slide.mechanics();
-        return guide_deflection(
-            Guide<double>{slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()}, s);
+        return slide_deflection(
+            SlidePath<double>{slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()}, s);
       });
     }
   }
