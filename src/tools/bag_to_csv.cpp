@@ -17,7 +17,7 @@ using afm::replay::Verdict;
 const char kDescription[] =
     "Writes one topic of a recording as CSV to the standard output, in SI, 17 digits. The names of the columns tell\n"
     "their units. Topics:\n"
-    "  impacts     epoch, running index, model time (whole tau and a phase, exact; time: both together, rounded),\n"
+    "  impacts     epoch, model time (whole tau and a phase, exact; time: both together, rounded), running index,\n"
     "              surface phase, normal speed, tangential velocity, energy loss, kind (0 impact, 1 burst, 2 contact\n"
     "              begun, 3 contact ended) and the count of bounces that it stands for\n"
     "  deflection  epoch, running index, time, vertical, lateral: a row for each sample\n"

@@ -9,7 +9,7 @@ import roslib.packages
 from std_msgs.msg import Float64MultiArray
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
-from topics import PATIENCE, Topic
+from topics import PATIENCE, Topic, wait_until
 
 
 class Examples(NodeTest):
@@ -20,8 +20,7 @@ class Examples(NodeTest):
     def test_the_detector_gives_volts_with_noise_and_steps(self):
         volts, deflection = Topic('/detector/volts', Float64MultiArray), Topic('deflection')
         example = self.launch('detector.launch')
-        volts.wait_for_more(20)
-        deflection.wait_for_more(5)
+        wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started', deadline_s=60.0)
         message = volts.messages[-1]
         rows, columns = (dimension.size for dimension in message.layout.dim)
         self.assertEqual((rows, columns, len(message.data)), (2, 2000, 4000))
