@@ -132,7 +132,7 @@ def values_in_si(tables, speed, unit):
             ("cutoff, v_c = 0.05", "0.05 a / tau", 0.05 * speed, "m/s"),
             ("K_f at even eta", "%.6f m_tip / tau" % style.closed_form(0.7), style.closed_form(0.7) * TIP_MASS / TAU, "kg/s"),
             ("friction force at eta = 2", "K_f v_0", 2 * style.closed_form(0.7) * unit, "N"),
-            ("static load at mid-surface", "k_v H", TIP_MASS * OMEGA_V ** 2 * AMPLITUDE, "N"),
+            ("static load on a crest", "k_v H", TIP_MASS * OMEGA_V ** 2 * AMPLITUDE, "N"),
             ("thermal energy at 300 K", "kT = %.3f m_tip a^2 / tau^2" % (BOLTZMANN * 300 / (unit * LATTICE)), BOLTZMANN * 300, "J")]
     tables.write("mica_in_si", ["quantity", "formula", "value", "unit"],
                  [(a, b, "%.4g" % value, d) for a, b, value, d in rows])

@@ -62,7 +62,7 @@ def draw_orbit(axes, row, colour):
         offset += math.floor(xs[-1])
     paths.draw_surface(axes, 0.0, max(2.0, row["cells"]) + 1.0)
     multiplier = complex(row["multiplier_1_re"], row["multiplier_1_im"])
-    axes.set_title(r"%d impact%s, $K_f$ = %.6f m/$\tau$, largest multiplier %.3g in size"
+    axes.set_title(r"%d impact%s, $K_f$ = %.6f $m_{tip}/\tau$, largest multiplier %.3g in size"
                    % (row["length"], "s" if row["length"] > 1 else "", row["k_f"], abs(multiplier)), fontsize=10)
     axes.set_ylabel("y / a")
 
@@ -89,7 +89,7 @@ def return_scan(tables):
     point = [row for row in fixed if row["length"] == 1 and row["cells"] == 2][0]
     axes.plot([point["phase"]], [point["w"]], "o", markerfacecolor="none", markeredgecolor=style.ORANGE, markersize=14,
               markeredgewidth=2, label="the orbit of one impact, twice")
-    axes.legend(loc="lower left")
+    axes.legend(loc="lower right")
     axes.set_xlabel("surface phase of the impact")
     axes.set_ylabel(r"w after it / (a/$\tau$)")
     axes.set_title(r"FIG. 4: nearest returns after two impacts, $\eta$ = 3.4, $\gamma$ = 0.7")
