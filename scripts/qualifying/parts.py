@@ -7,13 +7,15 @@ from . import keep
 # cores; needs: {command: Debian package}; optional: programs of which a tree may do without
 Part = namedtuple("Part", "name about quick full minutes keep needs optional keeps_failures")
 
-SIMPLE_FIGURES = ("model_setup model_restitution model_force fig1_friction fig1_coexistence fig2_attractor fig3_orbit fig4_scan fig5_averages fig6_even_orbit fig7_atlas "
-                  "fig8_bifurcations fig9_scaling hammer_friction hammer_error hammer_ratio hammer_section hammer_cycles")
+SIMPLE_FIGURES = ("model_setup model_restitution model_force fig1_friction fig1_coexistence fig2_attractor fig3_orbit fig4_scan "
+                  "fig5_averages fig6_even_orbit fig7_atlas fig8_bifurcations fig9_scaling hammer_friction hammer_error hammer_ratio "
+                  "hammer_section hammer_cycles")
 THERMAL_FIGURES = "thermal_friction thermal_accuracy thermal_hops load"
 SINGLE = "AFM_BUILD_DIR=$PWD/build/single_version"
 VALGRIND = '"valgrind --leak-check=full --error-exitcode=9"'
 FIGURES = "scripts/figures --tables SCRATCH/tables --data SCRATCH"
 SMALL_FIGURES = "scripts/figures --quick --output SCRATCH --tables SCRATCH/tables --data SCRATCH"
+CHART_FILES = "--output SCRATCH/speed_accuracy.csv --pace SCRATCH/pace.csv"
 SHORT_RUNS = "--cutoff 0.1 0.03 --most-events"
 
 
@@ -24,8 +26,8 @@ def part(name, about, quick, full, minutes, keep, needs=None, optional=(), keeps
 PARTS = [
     # accuracy.md
     part("chart", "speed against accuracy of every method",
-         ["speed_accuracy --flights 60 --rounds 2 --seconds 0.05 --tau 200 --run-seconds 0.3 --output SCRATCH/speed_accuracy.csv --pace SCRATCH/pace.csv"],
-         ["speed_accuracy --flights 200 --seconds 0.7 --run-seconds 3 --output SCRATCH/speed_accuracy.csv --pace SCRATCH/pace.csv"],
+         ["speed_accuracy --flights 60 --rounds 2 --seconds 0.05 --tau 200 --run-seconds 0.3 " + CHART_FILES],
+         ["speed_accuracy --flights 200 --seconds 0.7 --run-seconds 3 " + CHART_FILES],
          (4, 25), keep.files("speed_accuracy.csv", "pace.csv"), optional=("speed_accuracy",)),
     part("matrix", "methods against the scenes on which methods fail",
          ["stability_matrix --quick --seconds 0.2 --output SCRATCH/stability.csv"],

@@ -63,7 +63,8 @@ class Run:
                     time.sleep(1.0)
                     spent = (time.monotonic() - begin) / 60.0
                     if sys.stdout.isatty():
-                        print("\r\033[K    %s: %.1f min, about %.0f min left in all" % (command[:60], spent, max(0.0, left(spent))), end="", flush=True)
+                        text = "%s: %.1f min, about %.0f min left in all" % (command[:60], spent, max(0.0, left(spent)))
+                        print("\r\033[K    " + text, end="", flush=True)
             finally:
                 if running.poll() is None:
                     running.terminate()

@@ -83,8 +83,10 @@ def rival_wins(data):
         nearer = not chaotic and float(own["number"]) > ROUNDING and float(r["number"]) < 0.5 * float(own["number"])
         faster = float(r["ns_per_tau"]) < float(own["ns_per_tau"])
         if nearer or faster:
-            table.append(OrderedDict([("scene", r["scene"]), ("method", r["method"]), ("error", short(r["number"])), ("ours", short(own["number"])),
-                                      ("time of a tau", short_time(float(r["ns_per_tau"]))), ("ours: time", short_time(float(own["ns_per_tau"])))]))
+            table.append(OrderedDict([("scene", r["scene"]), ("method", r["method"]),
+                                      ("error", short(r["number"])), ("ours: error", short(own["number"])),
+                                      ("time of a tau", short_time(float(r["ns_per_tau"]))),
+                                      ("ours: time", short_time(float(own["ns_per_tau"])))]))
     return table or [OrderedDict([("scene", "none"), ("method", "")])]
 
 
