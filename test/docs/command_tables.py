@@ -53,7 +53,7 @@ NOT_RUN = [
     (r'^scripts/qualify', 'measures for an hour or more; the test qualify checks its parts'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
     (r'^scripts/compare_builds', 'builds with every compiler for minutes'),
-    (r'^scripts/platforms( --only.*)?( +#|$)', 'makes roots of other systems and tests in them for an hour'),
+    (r'^scripts/platforms( --(only|compilers).*)?( +#|$)', 'makes roots of other systems and tests in them for an hour'),
     (r'^scripts/cross_arm64', 'builds everything once more'),
     (r'^podman', 'needs a container engine'),
     (r'right_address:=', 'needs a second machine'),
