@@ -99,13 +99,12 @@ def leaks(publisher, outputs):
 
 
 def fuzz(publisher, outputs):
-    command, text, code = outputs[0]
-    for part in text.split("fuzz: ")[1:]:
-        target = part.split()[0]
-        runs = re.search(r"number_of_executed_units: (\d+)", part)
-        finding = re.search(r"(SUMMARY: .*|ALARM.*|Test unit written to .*)", part)
-        found = "no finding" if runs and not finding else "FAILED: %s" % (finding[1] if finding else "it did not end")
-        publisher.note("fuzzing: " + target, "scripts/fuzz --runs 1000000 " + target,
+    for command, text, code in outputs:
+        target = command.split()[-2]
+        runs = re.search(r"number_of_executed_units: (\d+)", text)
+        finding = re.search(r"SUMMARY: .*|ALARM.*|Test unit written to .*", text)
+        found = "no finding" if code == 0 and runs and not finding else "FAILED: %s" % (finding[0] if finding else last_line(text))
+        publisher.note("fuzzing: " + target, command.replace(" 2>&1", ""),
                        "%s inputs: %s" % ("{:,}".format(int(runs[1])) if runs else "?", found))
 
 

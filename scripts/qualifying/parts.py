@@ -13,6 +13,7 @@ SIMPLE_FIGURES = ("model_setup model_restitution model_force fig1_friction fig1_
 THERMAL_FIGURES = "thermal_friction thermal_accuracy thermal_hops load"
 SINGLE = "AFM_BUILD_DIR=$PWD/build/single_version"
 VALGRIND = '"valgrind --leak-check=full --error-exitcode=9"'
+FUZZING = ["scripts/fuzz --runs 1000000 %s 2>&1" % target for target in ("csv_filter", "parameters", "bag_messages", "tip")]
 FIGURES = "scripts/figures --tables SCRATCH/tables --data SCRATCH"
 SMALL_FIGURES = "scripts/figures --quick --output SCRATCH --tables SCRATCH/tables --data SCRATCH"
 CHART_FILES = "--output SCRATCH/speed_accuracy.csv --pace SCRATCH/pace.csv"
@@ -89,7 +90,7 @@ PARTS = [
          [SINGLE + " scripts/build --emulator -- -DCMAKE_CXX_FLAGS=-DAFM_SINGLE_VERSION",
           SINGLE + " scripts/soak --duration 300 --time-scale 0.01 --any-memory --under " + VALGRIND],
          (0, 15), keep.leaks, needs={"valgrind": "valgrind"}, keeps_failures=True),
-    part("fuzz", "inputs that reach new code", [], ["scripts/fuzz --runs 1000000 2>&1"], (0, 170), keep.fuzz,
+    part("fuzz", "inputs that reach new code", [], FUZZING, (0, 170), keep.fuzz,
          needs={"clang++": "clang"}, keeps_failures=True),
     part("builds", "the same bits from every compiler and for older machines", [], ["scripts/compare_builds --older"], (0, 12),
          keep.builds, needs={"qemu-x86_64": "qemu-user"}, keeps_failures=True),

@@ -53,8 +53,8 @@ class Run:
 
     @staticmethod
     def run(command, output, left):
-        words = command.split(" ", 1)
-        line = " ".join([str(programs.locate(words[0]))] + words[1:])
+        program = programs.program_of(command)
+        line = command.replace(program, str(programs.locate(program)), 1)
         begin = time.monotonic()
         with open(str(output), "w") as file, open(str(output.with_suffix(".errors")), "w") as errors:
             running = subprocess.Popen(["bash", "-c", line], cwd=str(programs.ROOT), stdin=subprocess.DEVNULL, stdout=file, stderr=errors)
