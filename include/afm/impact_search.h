@@ -1,6 +1,6 @@
 // The first impact of a flight: the first time at which the gap is 0 and falling. docs/algorithm.md explains the search
 // and proves its lemmas. Guarantee: no impact is missed. Every step is shorter than the certified time without an
-// impact, and a root is finished inside an interval in which it is certified to be the only one.
+// impact. A root is finished inside an interval in which it is certified to be the only one.
 #pragma once
 
 #include "afm/detail/impact_steps.h"
@@ -72,9 +72,8 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
   return hidden_root(f, s, root, evaluations);
 }
 
-// Lookahead as a part of the certified step. The next evaluation certifies the time behind itself too (Lemma 2), and
-// such a step reaches as far backwards as forwards if the gap does not shrink. Measured: docs/history.md, "evaluation
-// ahead".
+// Lookahead as a part of the certified step. The next evaluation certifies the time behind itself too (Lemma 2). Such a
+// step reaches as far backwards as forwards if the gap does not shrink. Measured: docs/history.md, "evaluation ahead".
 constexpr double kLookahead = 0.8;
 
 // The lookahead below the crest: the time of a fall of 0.46 H at the greatest vertical speed. Most tips land later

@@ -3,13 +3,13 @@
 //
 // At the distance rho from the surface the tip obeys rho'' = -P - K rho while it flies. P is the reaction along the
 // reference slide, the slide that the tip would make without bouncing. A bounce of normal speed v lasts 2 v/P and keeps
-// the action v^3/P (1 - K v^2 / 5 P^2). The impact at its end takes v to v (1 - w). Below the cutoff w = (1 - gamma) v
-// / v_c; at and above it w = 1 - gamma. The flow that interpolates w -> w (1 - w) is dv/dn = -v w G(w), dt/dn = 2 v/P
-// T(w), so
+// the action v^3/P (1 - K v^2 / 5 P^2). The impact at its end takes v to v (1 - w). Below the cutoff
+// w = (1 - gamma) v / v_c; at and above it w = 1 - gamma. The flow that interpolates w -> w (1 - w) is
+//   dv/dn = -v w G(w),   dt/dn = 2 v/P T(w),
 //   dv/dt = -(P/2) w R(w) + v P'/(3 P T(w)) (1 - w^2 S(w)),   R = G/T.
 // At the mean height v^2/(3 P) of a bounce the forces differ from those on the reference slide. So the tip is displaced
-// from it by sigma, which changes P. We keep all terms up to the third order of w and of a bounce's duration against
-// every change. Of the displacement, and without a cutoff, we keep the second order.
+// from it by sigma, which changes P. We keep all terms up to the third order of w, and of a bounce's duration over the
+// times of all changes. Of the displacement, and without a cutoff, we keep the second order.
 #pragma once
 
 #include "chatter_geometry.h"

@@ -16,8 +16,8 @@ T clamp(const T& x, const T& low, const T& high) {
   return x < high ? x : high;
 }
 
-// Lemma 1: numbers c with which g + g1 t + g2 t^2/2 + c t^3/6 bounds the gap on [0, S] (or [-S, 0]) from below and from
-// above, and likewise the gap rate from above.
+// Lemma 1: with c = low, g + g1 t + g2 t^2/2 + c t^3/6 is a lower bound of the gap on [0, S] (or [-S, 0]). With c =
+// high it is an upper bound, and its derivative is an upper bound of the gap rate.
 template <class T>
 struct ThirdDerivative {
   T low, high;

@@ -1,5 +1,5 @@
-// Continuation of a periodic orbit in a parameter, around folds, up to its birth or death, with the bifurcations on the
-// way (paper, section VII: period doubling, grazing). Natural units.
+// Continuation of a periodic orbit in a parameter, around folds, up to its birth or death. It finds the bifurcations on
+// the way (paper, section VII: period doubling, grazing). Natural units.
 #pragma once
 
 #include <cstdint>

@@ -16,8 +16,8 @@ namespace {
 
 using Control = ChatterControl;
 
-// A step that was too long. Its length came from the rates at its start. Beyond a maximum the reaction falls faster
-// than they say, and at rest on a crest they do not show the motion of a holder that has just started.
+// A step that was too long. Its length came from the rates at its start, and beyond a maximum the reaction falls
+// faster. At rest on a crest they do not show the motion of a holder that has just started.
 bool goes_too_far(const ChatterPoint& from, const ChatterPoint& to) {
   const double P = to.surroundings.P, rate = to.surroundings.relative_rate;
   return !(P > Control::kMinReaction * from.surroundings.P) || (to.s - from.s) * rate > Control::kMaxChange ||

@@ -27,7 +27,7 @@ struct ChatterControl {
   static constexpr double kMaxChange = 1.6;       // step over the time in which the reaction changes at the end
   static constexpr double kMaxSpeedGain = 2.0;    // v over that at the start
   static constexpr double kMaxBounce = 4.0;       // bounce over the time in which the reaction changes
-  static constexpr double kMaxFallOfLogV = 10.0;  // five times the longest step: the step has gone wrong
+  static constexpr double kMaxFallOfLogV = 10.0;  // more than twice the longest step, kFall / 0.5
 
   // The form of a step.
   static constexpr double kFastFall = 1.5;  // of ln v in a step: beyond it n needs its part in 1/v
@@ -43,7 +43,7 @@ struct ChatterControl {
   // The last bounce of a sequence that exits.
   static constexpr double kFewBounces = 2.0;      // left until the limit: not worth a step
   static constexpr double kAcceptedRatio = 1.05;  // adiabaticity ratio there over the limit
-  static constexpr double kMinRatio = 1e-9;       // below it the formula for the time until the limit would overflow
+  static constexpr double kMinRatio = 1e-9;       // a ratio of zero would give NaN in the formula for the limit
   static constexpr double kNearEnd = 0.009;     // fall of the reaction in a bounce: with less no step reaches the limit
   static constexpr double kNearlyWhole = 1e-2;  // of a bounce: error of n from where the end is interpolated
   static constexpr double kMinRest = 1e-6;      // of a bounce: smallest rest that kNearlyWhole is a part of

@@ -11,8 +11,8 @@
 
 namespace afm {
 
-// Ends where the averages hold, where contact begins, or with the last bounce before `until`. Without `exits` it goes
-// on to `until` itself, within the bounce under way, by the flow through its two ends.
+// Ends where the averages hold, where contact begins, or with the last bounce before `until`. Without `exits` it ends
+// at `until`, within the bounce under way: by the flow through both ends of the bounce.
 AFM_MULTIVERSION ChatterRun ChatterLaw::follow_single_bounces(const SlideSegment<double>& reference, double from,
                                                               double until, const Chatter& start, bool exits) const {
   Chatter c = start;

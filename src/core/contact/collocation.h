@@ -1,5 +1,5 @@
-// One step of Lobatto's method of order 8 (five points, the first of them the start of the step), and Hermite
-// interpolation at the other four points of a function whose value and three derivatives are known at both ends.
+// One step of Lobatto's method of order 8. Its five points are the start of the step and four nodes, the last at its
+// end. Hermite interpolation gives a function at the nodes from its value and three derivatives at both ends.
 #pragma once
 
 #include <cmath>

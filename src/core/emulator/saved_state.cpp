@@ -1,6 +1,6 @@
-// One list of fields serves writing and reading, so they agree. Values that follow from others are left out (the
-// landing of a flight, the constants of a model), and values that are not part of the run (counters, whether samples
-// are taken). So two emulators at the same point write the same words, whatever their batches were.
+// One list of fields serves writing and reading, so they agree. It leaves out values that follow from others (the
+// landing of a flight, the constants of a model). It also leaves out counters and whether samples are taken. So two
+// emulators at the same point write the same words, whatever their batches were.
 #include "afm/saved_state.h"
 
 #include <cmath>
