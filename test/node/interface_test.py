@@ -33,7 +33,8 @@ class Interface(NodeTest):
     def setUp(self):
         super().setUp()
         self.start(Emulator({})).assert_alive()
-        self.launch('view.launch', rviz='false')
+        view = self.launch('view.launch', rviz='false')
+        self.addCleanup(view.stop)  # before it is killed, or its node would live on
         self.master = rosgraph.Master('/interface_test')
         wait_until(lambda: VIEW + '/markers' in self.names(0, VIEW), 'the view advertises its markers')
 
