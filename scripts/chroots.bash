@@ -85,18 +85,3 @@ copy_tree() {
   git -C "$tree" fetch --quiet "$afm_root" "$2"
   git -C "$tree" checkout --quiet --force --detach "$2"
 }
-
-# Where programs of this architecture do not run, the kernel is asked to run them by qemu. It holds for the whole machine
-# until the next start.
-emulate() {
-  local binfmt=/proc/sys/fs/binfmt_misc
-  case $1 in
-    "$(dpkg --print-architecture)") return 0 ;;
-    arm64) ;;
-    *) echo "no emulation of $1 here" >&2; return 1 ;;
-  esac
-  [[ -e $binfmt/register ]] || mount -t binfmt_misc binfmt_misc $binfmt || return
-  [[ ! -e $binfmt/qemu-aarch64 ]] || return 0
-  # fixed when it is registered (F), so that no root needs a copy
-  cat /usr/lib/binfmt.d/qemu-aarch64.conf >$binfmt/register
-}
