@@ -34,7 +34,11 @@ afm::LevelTable read_table(const std::string& path) {
 
 int run(const Options& o) {
   const afm::LevelTable table = read_table(o.table);
-  const afm::Model model = afm::checked_model({0.0, o.gamma, o.cutoff, "oscillator", o.frequency_ratio});
+  afm::DynamicsOptions at;
+  at.gamma = o.gamma;
+  at.cutoff = o.cutoff;
+  at.frequency_ratio = o.frequency_ratio;
+  const afm::Model model = afm::checked_model(at);
   afm::ToleranceOf of = afm::ToleranceOf::friction;
   if (!parse(o.of, of)) throw std::invalid_argument("of = " + o.of + ": must be friction or deflection");
   std::cout << "eta,gamma,cutoff,frequency_ratio,tolerance,tolerance_of,model,contact_tolerance,expected_error\n";
