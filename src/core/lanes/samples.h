@@ -49,7 +49,8 @@ template <class At>
 AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
   const lanes::SampleClock clock = row.clock;
   const Pack numbers = Pack(lane_numbers()), last(row.first + static_cast<double>(row.n - 1));
-  Pack lowest(std::numeric_limits<double>::infinity());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();  // a call at run time would be a shared function
+  Pack lowest(kInfinity);
   double few[2][kLanes];
   double* const vertical = row.n < std::size_t{kLanes} ? few[0] : row.vertical;
   double* const lateral = row.n < std::size_t{kLanes} ? few[1] : row.lateral;
@@ -66,7 +67,7 @@ AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
     row.vertical[i] = few[0][i];
     row.lateral[i] = few[1][i];
   }
-  double gaps[kLanes], least = std::numeric_limits<double>::infinity();
+  double gaps[kLanes], least = kInfinity;
   store_row(gaps, lowest.r);
   for (const double gap : gaps) least = gap < least ? gap : least;
   return least;
