@@ -82,5 +82,35 @@ TEST(FrictionAudit, SeesAnEstimateThatMissesAnImpact) {
   EXPECT_GT(run.audit().report().energy_error, 1e-7);
 }
 
+// A weak burst, as a recording had it: its parts gain or lose more than the whole.
+FrictionReport report_of_split_burst(double lost_before) {
+  node::Parameters parameters;
+  parameters.drag_velocity = kEta * Units(parameters.si).velocity();
+  FrictionAudit audit(node::to_configuration(parameters, "", "", {}));
+  audit.change({10, 0.0});
+  afm_emulator::ImpactArray batch;
+  batch.impacts.resize(1);
+  afm_emulator::Impact& burst = batch.impacts.front();
+  burst.kind = afm_emulator::Impact::BURST;
+  burst.count = 8;
+  burst.normal_speed = 1.3e-9;     // m v^2 / 2 = 3.4e-28 J
+  burst.energy_loss = -8.477e-30;  // [J]
+  audit.add(batch);
+  afm_emulator::Friction estimate;
+  estimate.energy_loss = burst.energy_loss - lost_before;
+  audit.judge(estimate);
+  return audit.report();
+}
+
+TEST(FrictionAudit, AcceptsABurstWhosePartsGainWhatItsBouncesLose) {
+  EXPECT_EQ(report_of_split_burst(1.543e-29).miscounted, 0u);
+  EXPECT_LT(report_of_split_burst(1.543e-29).energy_error, 1e-12);
+}
+
+TEST(FrictionAudit, RefusesMoreThanABurstCanHaveLost) {
+  EXPECT_EQ(report_of_split_burst(1e-27).miscounted, 1u);
+  EXPECT_GT(report_of_split_burst(1e-27).energy_error, 0.5);
+}
+
 }  // namespace
 }  // namespace afm::audit

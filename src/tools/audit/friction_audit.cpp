@@ -10,7 +10,9 @@ namespace afm::audit {
 namespace {
 
 constexpr std::size_t kStretches = 5;
-constexpr long double kBurstError = 0.1L;  // of the energy of a part of a burst, over that of the burst
+// Error of the loss of a part of a burst over its energy: what it loses, and m v_n^2 / 2 at its begin, as a weak burst may
+// gain as much from the slide as its bounces lose. The law of chatter divides an energy to some per cent.
+constexpr double kBurstError = 0.1;
 
 // Relative to the larger; NaN agrees with NaN alone.
 double mismatch(double a, double b) {
@@ -61,8 +63,7 @@ void FrictionAudit::gap() {
 void FrictionAudit::take_split(const afm_emulator::Friction& estimate) {
   const long double before = base_->energy + sums_.energy - estimate.energy_loss;
   const std::uint64_t count = base_->count + sums_.count - estimate.impact_count;
-  const long double part = before / split_.energy;
-  if (part > -kBurstError && part < 1.0L + kBurstError && count <= split_.count) {
+  if (before > -split_error_ && before < split_.energy + split_error_ && count <= split_.count) {
     base_ = Sums{base_->energy - before, base_->count - count};
   }
   split_ = {};
@@ -71,7 +72,11 @@ void FrictionAudit::take_split(const afm_emulator::Friction& estimate) {
 void FrictionAudit::add(const afm_emulator::ImpactArray& batch) {
   if (batch.first_index == 0 && start_ == ModelTime{}) base_ = Sums{};
   for (const afm_emulator::Impact& impact : batch.impacts) {
-    if (awaits_first_ && impact.kind == afm_emulator::Impact::BURST) split_ = {impact.energy_loss, impact.count};
+    if (awaits_first_ && impact.kind == afm_emulator::Impact::BURST) {
+      const double v_n = impact.normal_speed / units_.velocity();
+      split_ = {impact.energy_loss, impact.count};
+      split_error_ = kBurstError * (std::abs(impact.energy_loss) + 0.5 * v_n * v_n * units_.energy());
+    }
     awaits_first_ = false;
     sums_.energy += impact.energy_loss;
     sums_.count += impact.count;

@@ -62,6 +62,7 @@ class FrictionAudit {
   ModelTime start_;           // of the present stretch
   Sums sums_;                 // of the impacts in it
   Sums split_;                // a burst that may have begun before the command, or before what is recorded
+  double split_error_ = 0.0;  // of the energy of its parts [J]
   bool awaits_first_ = true;  // the first event since then
   std::optional<Sums> base_;  // what was lost before our sums began, from the first estimate seen
   std::optional<Stretch> last_;
