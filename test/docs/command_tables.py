@@ -43,6 +43,7 @@ SUBSTITUTIONS = [
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
     (r'(friction_peaks|bifurcations)\.py', r'\1.py 5'),
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
+    (r'--tau 400000', '--tau 200'),
     (r'--mutated 1000000', '--mutated 100'),
 ]
 
