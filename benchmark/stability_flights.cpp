@@ -171,9 +171,9 @@ std::vector<StabilityScene> flight_scenes(const Effort& effort) {
     return std::vector<Cases>{commands(7.0, n / 4), commands(0.0, n / 4), commands(-2.0, n / 4)};
   }));
   scenes.push_back(scene_of("eta_50", "eta = 50", [=] { return std::vector<Cases>{attractor(fast(), 50.0, n)}; }));
-  scenes.push_back(scene_of("crest_0.9", "spring centre at 0.9 of the crest's height",
+  scenes.push_back(scene_of("crest_0.9", "holder at 0.9 of the crest's height",
                             [=] { return std::vector<Cases>{attractor(crest(0.9), 3.4, n)}; }));
-  scenes.push_back(scene_of("crest_0.999", "spring centre at 0.999 of the crest's height",
+  scenes.push_back(scene_of("crest_0.999", "holder at 0.999 of the crest's height",
                             [=] { return std::vector<Cases>{attractor(crest(0.999), 3.4, n)}; }));
   scenes.push_back(
       scene_of("steep", "a surface ten times steeper", [=] { return std::vector<Cases>{attractor(steep(), 3.4, n)}; }));

@@ -14,6 +14,9 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE BOTH)  # catkin looks up files in the build directory too
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
+# pybind11 asks the Python of this machine, whose suffix names x86_64; every Python takes the plain one
+set(PYTHON_MODULE_EXTENSION .so)
+
 find_program(AFM_QEMU NAMES qemu-aarch64-static qemu-aarch64)
 if(AFM_QEMU)
   set(CMAKE_CROSSCOMPILING_EMULATOR ${AFM_QEMU} -L ${AFM_SYSROOT})

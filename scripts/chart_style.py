@@ -20,6 +20,7 @@ METHODS = OrderedDict([
     ("certified_plain", ("plain certified loop", "#D55E00", "h")),
     ("sampled_toms748", ("exact flow, sampled", "#000000", "s")),
     ("sampled_minima", ("exact flow, sampled,\nwith minima", "#000000", "d")),
+    ("heyoka", ("heyoka", "#AA3377", "H")),
     ("odeint_dopri5", ("dopri5", "#0072B2", "o")),
     ("odeint_dopri5_minima", ("dopri5\nwith minima", "#0072B2", "8")),
     ("odeint_bulirsch_stoer", ("Bulirsch-Stoer", "#56B4E9", "v")),

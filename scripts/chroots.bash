@@ -37,6 +37,13 @@ apt_can_get() {
   return $status
 }
 
+# usage: runs_here ARCHITECTURE; of its own, or by an emulator that the kernel knows and that is there in any root
+runs_here() {
+  [[ $1 != "$(dpkg --print-architecture)" ]] || return 0
+  [[ $1 == arm64 ]] && grep -qsx enabled /proc/sys/fs/binfmt_misc/qemu-aarch64 &&
+    grep -qsx 'flags:.*F.*' /proc/sys/fs/binfmt_misc/qemu-aarch64
+}
+
 # usage: make_root NAME SUITE ARCHITECTURE; does nothing where the root is there
 make_root() {
   local root=$afm_cache/$1 suite=$2 architecture=$3 mirror

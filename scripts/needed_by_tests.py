@@ -21,6 +21,8 @@ def needs(test, outputs):
     if 'node' in labels(test) or any(os.path.isdir(word) and word.endswith('lib/afm_emulator') for word in words):
         return {'all'}  # runs what it likes
     built = {name for word in words for name in (word, os.path.relpath(word)) if name in outputs}
+    if test['name'] == 'consumer':
+        built.add('all')  # which it installs
     in_ros = any(word.endswith('env_cached.sh') for word in words)
     return built or ({'emulator'} if in_ros else set())
 

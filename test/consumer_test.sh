@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# The examples in C++, copied out of the tree: they find the installed package, and give the same bits as within the tree, also
-# where they are compiled for the machine at hand.
+# The examples in C++, copied out of the tree: they find the installed package, or that of the devel space, and give the same bits
+# as within the tree, also where they are compiled for the machine at hand.
 #
-# usage: consumer_test.sh BUILD EXAMPLES PROGRAM...     EXAMPLES: their folder; PROGRAM: each of them, compiled within the tree
+# usage: consumer_test.sh BUILD DEVEL EXAMPLES PROGRAM...
+#   DEVEL: the devel space, empty without ROS; EXAMPLES: their folder; PROGRAM: each of them, compiled within the tree
 set -euo pipefail
-build=$1 examples=$2
-shift 2
+build=$1 devel=$2 examples=$3
+shift 3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/expected"
@@ -13,23 +14,56 @@ mkdir "$work/expected"
 [[ $# -eq $(find "$examples" -name '*.cpp' | wc -l) ]] || { echo "not every example is tested"; exit 1; }
 cp -r "$examples" "$work/source"
 cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+if grep -v "^$work/prefix/" "$build/install_manifest.txt"; then
+  echo "these were installed outside the prefix"
+  exit 1
+fi
 for program in "$@"; do
   "$program" >"$work/expected/${program##*/}"
 done
-for flags in -O2 "-O3 -march=native"; do
-  if ! { cmake -S "$work/source" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_FLAGS="$flags" &&
-    cmake --build "$work/build" --clean-first --parallel 2; } >"$work/log" 2>&1; then
+# build_in FOLDER SOURCE PREFIX CMAKE_ARGUMENT...
+build_in() {
+  local folder=$work/$1 source=$2 prefix=$3
+  shift 3
+  if ! { cmake -S "$source" -B "$folder" -DCMAKE_PREFIX_PATH="$prefix" "$@" &&
+    cmake --build "$folder" --clean-first --parallel 2; } >"$work/log" 2>&1; then
     cat "$work/log"
     exit 1
   fi
-  for expected in "$work"/expected/*; do
+}
+
+# compare FOLDER [PROGRAM]: all of them, or one
+compare() {
+  local expected
+  for expected in "$work/expected/"*"${2:-}"; do
     name=${expected##*/}
-    if ! "$work/build/${name#example_}" | cmp - "$expected"; then
-      echo "$name: with $flags the bits differ"
+    if ! "$work/$1/${name#example_}" | cmp - "$expected"; then
+      echo "$1: $name: the bits differ"
       exit 1
     fi
   done
+}
+
+for flags in -O2 "-O3 -march=native"; do
+  build_in installed "$work/source" "$work/prefix" -DCMAKE_CXX_FLAGS="$flags"
+  compare installed
 done
+if [[ -n $devel ]]; then
+  build_in devel "$work/source" "$devel"
+  compare devel
+  # another package of catkin
+  mkdir "$work/package"
+  cp "$work/source/one_tip.cpp" "$work/package"
+  cat >"$work/package/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.16)
+project(neighbour LANGUAGES CXX)
+find_package(catkin REQUIRED COMPONENTS afm_emulator)
+add_executable(one_tip one_tip.cpp)
+target_link_libraries(one_tip PRIVATE afm::core)
+END
+  build_in neighbour "$work/package" "$devel"
+  compare neighbour one_tip
+fi
 # the module of Python is installed too, where it was built
 if [[ -d $work/prefix/lib/python3/dist-packages/afm ]]; then
   PYTHONPATH=$work/prefix/lib/python3/dist-packages /usr/bin/python3 -c "

@@ -49,6 +49,7 @@ MethodSpec dopri5_spec();
 MethodSpec dopri5_minima_spec();
 MethodSpec bulirsch_stoer_spec();
 std::vector<MethodSpec> cvode_specs();  // where SUNDIALS was found
+MethodSpec heyoka_spec();               // where heyoka was found
 MethodSpec siconos_spec();              // where Siconos was found
 MethodSpec rk4_spec();
 MethodSpec moreau_jean_spec();

@@ -7,6 +7,9 @@ const std::vector<MethodSpec>& methods() {
   static const std::vector<MethodSpec> all = [] {
     std::vector<MethodSpec> list{exact_spec(),  certified_plain_spec(), sampled_spec(),       sampled_minima_spec(),
                                  dopri5_spec(), dopri5_minima_spec(),   bulirsch_stoer_spec()};
+#ifdef AFM_HAVE_HEYOKA
+    list.push_back(heyoka_spec());
+#endif
 #ifdef AFM_HAVE_CVODE
     for (MethodSpec& spec : cvode_specs()) list.push_back(std::move(spec));
 #endif

@@ -12,15 +12,16 @@ int main() {
   int events = 0;
   double energy_loss = 0.0;             // [m a^2/tau^2]
   const afm::ModelTime end{1000, 0.0};  // whole tau, and a part of one
-  while (tip.advance(end) != afm::Outcome::time_limit) {
+  for (afm::Outcome outcome; (outcome = tip.advance(end)) != afm::Outcome::time_limit;) {
+    if (outcome == afm::Outcome::search_failed) continue;  // nothing has happened: the flight goes on
     energy_loss += tip.last_impact().energy_loss;
     ++events;
   }
 
   const afm::FreeState state = tip.state();
-  const double K_f = energy_loss / (eta * eta * (tip.now() - afm::ModelTime{}));  // Eq. 8 [m/tau]
+  const double K_f = energy_loss / (eta * eta * (tip.now() - afm::ModelTime{}));  // Eq. 8 [m_tip/tau]
   const afm::Units units{afm::SiModel{}};
   std::printf("events %d\n", events);
   std::printf("phase %.17g a, extension %.17g a, height %.17g a\n", state.phase, state.X, state.y);
-  std::printf("K_f %.17g m/tau = %.17g kg/s\n", K_f, K_f * units.friction());
+  std::printf("K_f %.17g m_tip/tau = %.17g kg/s\n", K_f, K_f * units.friction());
 }

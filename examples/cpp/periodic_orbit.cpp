@@ -14,7 +14,7 @@ int main() {
   const afm::OrbitResult found = afm::find_orbit(map, {tip.tip_state()});  // of one impact
   if (found.outcome != afm::OrbitOutcome::found) return 1;
   const afm::PeriodicOrbit& orbit = found.orbit;
-  std::printf("# period %.17g tau, K_f %.17g m/tau, residual %.17g\n", orbit.period, orbit.K_f, orbit.residual);
+  std::printf("# period %.17g tau, K_f %.17g m_tip/tau, residual %.17g\n", orbit.period, orbit.K_f, orbit.residual);
   for (const std::complex<double>& multiplier : orbit.multipliers) {
     std::printf("# multiplier %.17g %+.17gi\n", multiplier.real(), multiplier.imag());  // stable: all within 1
   }

@@ -16,7 +16,7 @@ int main() {
     tips.add(afm::Tip(mica, eta, afm::FreeState{phase, 0.0, 0.2, eta, 0.0}));
   }
 
-  std::vector<double> K_f(kTips, 0.0);            // of each tip [m/tau]
+  std::vector<double> K_f(kTips, 0.0);            // of each tip [m_tip/tau]
   std::vector<afm::Impact> log(kTips * kEvents);  // of one call
   const afm::ModelTime begin{20, 0.0}, end = begin + duration;
   tips.advance(begin);  // onto the attractor
@@ -30,6 +30,6 @@ int main() {
     }
   }
   std::sort(K_f.begin(), K_f.end());
-  std::printf("K_f: median %.6g m/tau, nine in ten within %.6g and %.6g\n", K_f[kTips / 2], K_f[kTips / 20],
+  std::printf("K_f: median %.6g m_tip/tau, nine in ten within %.6g and %.6g\n", K_f[kTips / 2], K_f[kTips / 20],
               K_f[kTips - kTips / 20]);
 }

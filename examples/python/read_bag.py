@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A recording in numbers: the run in a bag is simulated again from its configuration and commands, and drawn.
 
-Argument: the bag. Needs ROS's Python modules: source devel/setup.bash first.
+Arguments: the bag, or in order those of a split recording. Needs ROS's Python modules: source devel/setup.bash first.
 """
 import sys
 
@@ -10,7 +10,7 @@ import numpy as np
 
 import afm
 
-recording = afm.from_bag(sys.argv[1])
+recording = afm.from_bag(sys.argv[1:])
 print(recording.model)
 for command in recording.commands:
     print('%10.2f tau: %.4g um/s' % (command['tau'] + command['phase'], 1e6 * command['drag_velocity']))

@@ -16,7 +16,7 @@ namespace afm {
 struct FrictionEstimate {
   double force = 0.0;  // [m a / tau^2], sign of the drag velocity
   double force_std_error = 0.0;
-  double K_f = 0.0;  // [m / tau]
+  double K_f = 0.0;  // [m_tip/tau]
   double K_f_std_error = 0.0;
   double energy_loss = 0.0;  // since the last change of drag velocity [m a^2 / tau^2]
   std::uint64_t impact_count = 0;
@@ -27,7 +27,7 @@ struct FrictionEstimate {
   // Too large in short runs, because the tip carries momentum across the ends of the bins. At eta = 3.4 it is 2.5 times
   // too large after 1000 tau, and 1.2 times after 10000 (test friction).
   double mean_lateral_force_std_error = 0.0;
-  double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m / tau]
+  double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;
   double heat_to_bath = 0.0;  // since the last change of drag velocity [m a^2/tau^2]
 };

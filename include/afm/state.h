@@ -65,7 +65,7 @@ FreeState to_free_state(double H, const TipState& state);
 struct Impact {
   ModelTime time;
   double surface_phase = 0.0;        // [a] in [0, 1)
-  double normal_speed = 0.0;         // |n.v| [a/tau]
+  double normal_speed = 0.0;         // |n.v| [a/tau]; of the hammer the gap rate |w - h' u|
   double tangential_velocity = 0.0;  // t.v [a/tau]
   double energy_loss = 0.0;          // [m a^2 / tau^2]
   ImpactKind kind = ImpactKind::impact;

@@ -30,6 +30,9 @@ constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
 
+// Slower bounces may begin a chatter sequence [a/tau]: 2 tolerance^(5/8), which is 0.027 at the default.
+double chatter_entry_speed(double contact_tolerance);
+
 class Tip {
  public:
   // contact_tolerance 0: every bounce by itself; contact begins with a gap rate below kMinGapRate. Throws the first
@@ -161,7 +164,7 @@ class Tip {
   double eta_;
   double slowest_chatter_;  // threshold of contact [a/tau]
   ChatterLaw law_;
-  double entry_speed_;  // slower bounces may begin a chatter sequence [a/tau]
+  double entry_speed_;  // chatter_entry_speed()
   Flight<double> flight_;
   SlideSegment<double> slide_;  // of contact, or of the reference slide
   Mode mode_ = Mode::flying;

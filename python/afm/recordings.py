@@ -1,101 +1,17 @@
 """Recordings of the emulator: their model and commands, and the run simulated again to the same bits."""
-from typing import Any, Dict, Iterator, List, Optional
+import os
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from ._afm import Emulator, Units, state_layout
-from .values import Batch, ModelTime
+from .run_log import ZERO, RunLog, time_of
+from .values import Batch
 
-_KINDS = ('AppliedDrag', 'AppliedParameters', 'Checkpoint', 'Configuration', 'Deflection', 'Friction', 'ImpactArray')
 _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_spacing_m', 'surface_amplitude_m',
              'rest_height_m', 'restitution_gamma', 'cutoff_speed')
 _BATH = ('temperature_k', 'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
-_ZERO = ModelTime(0, 0.0)
-
-
-def _time(message):
-    return ModelTime(message.time.tau, message.time.phase)
-
-
-def _open(path):
-    try:
-        import rosbag
-    except ImportError as fault:
-        raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): %s' %
-                          fault)
-    return rosbag.Bag(str(path))
-
-
-def _topics(bag, namespace):
-    """Of each kind of message its topic, of the only emulator in the bag or the one with this namespace."""
-    found = {}
-    for topic, info in bag.get_type_and_topic_info().topics.items():
-        package, kind = info.msg_type.split('/')
-        if package == 'afm_emulator' and kind in _KINDS:
-            found.setdefault(topic.rsplit('/', 1)[0], {})[kind] = topic
-    if namespace is None and len(found) == 1:
-        return next(iter(found.values()))
-    if namespace not in found:
-        raise ValueError('namespace = %s: the bag holds recordings of %s' % (namespace, ', '.join(sorted(found)) or 'nothing'))
-    return found[namespace]
-
-
-class _Log:
-    """The messages of one epoch that its run is a function of, and where it ends."""
-
-    def __init__(self, path, epoch, namespace):
-        with _open(path) as bag:
-            topics = _topics(bag, namespace)
-            if 'Configuration' not in topics:
-                raise ValueError('%s: no configuration of an emulator' % path)
-            read = {kind: [m for _, m, _ in bag.read_messages(topics=[topics[kind]])] if kind in topics else []
-                    for kind in ('AppliedDrag', 'AppliedParameters', 'Checkpoint', 'Configuration', 'Friction')}
-            self.epochs = sorted({m.epoch for m in read['Configuration']})
-            self.epoch = self.epochs[0] if epoch is None else epoch
-            if self.epoch not in self.epochs:
-                raise ValueError('epoch = %s: the bag holds %s' % (epoch, self.epochs))
-            self.configuration, = [m for m in read['Configuration'] if m.epoch == self.epoch][:1]
-            self.drags, self.changes, self.checkpoints, self.frictions = (
-                [m for m in read[kind] if m.epoch == self.epoch]
-                for kind in ('AppliedDrag', 'AppliedParameters', 'Checkpoint', 'Friction'))
-            self.first_epoch = min(m.epoch for m in read['Friction']) if read['Friction'] else self.epoch
-            self.read_batches(bag, topics)
-        self.start = self.choose_start()
-
-    def read_batches(self, bag, topics):
-        def of(kind):
-            return (m for _, m, _ in bag.read_messages(topics=topics.get(kind, '/')) if m.epoch == self.epoch)
-
-        self.first_sample = next((m.first_sample for m in of('Deflection')), 0)
-        numbers = [(m.first_index, m.first_index + len(m.impacts)) for m in of('ImpactArray')]
-        self.first_impact, self.impacts = (numbers[0][0], numbers[-1][1]) if numbers else (0, 0)
-
-    def choose_start(self):
-        """The last checkpoint before the first batch; None where commands reach back to the beginning."""
-        if self.epoch != self.first_epoch or not self.frictions:
-            return None
-        end = _time(self.frictions[0])
-        before = [c for c in self.checkpoints if c.samples <= self.first_sample and c.impacts <= self.first_impact and
-                  _time(c) < end]
-        if not before or (_time(before[-1]) == _ZERO and self.drags and _time(self.drags[0]) == _ZERO):
-            return None
-        return before[-1]
-
-    def commands(self):
-        """Drag velocities and changes of parameters in the order in which they took effect."""
-        drags, changes, before = self.drags, self.changes, 0
-        if self.start is not None:
-            before = self.start.drags
-            drags = [m for m in drags if m.header.seq >= self.start.next_drag]
-            changes = [m for m in changes if m.header.seq >= self.start.next_parameters]
-        elif not drags or _time(drags[0]) != _ZERO:
-            raise ValueError('the commands in the bag do not reach back to a beginning')
-        merged, taken = [], 0
-        for change in changes:
-            count = change.first_command - before
-            merged += drags[taken:count] + [change]
-            taken = max(taken, count)
-        return merged + drags[taken:]
+Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
 
 class Recording:
@@ -106,8 +22,8 @@ class Recording:
     begin, end: model times between which the run is simulated; epochs: all that the bag holds.
     """
 
-    def __init__(self, path: str, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
-        log = _Log(path, epoch, namespace)
+    def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
+        log = RunLog([path] if isinstance(path, (str, os.PathLike)) else path, epoch, namespace)
         self.epoch: int = log.epoch
         self.epochs: List[int] = log.epochs
         self.configuration: Any = log.configuration
@@ -117,8 +33,8 @@ class Recording:
         self.eta: float = log.configuration.drag_velocity / self.units.velocity
         self._start = log.start
         self._applied = log.commands()
-        self.begin = _ZERO if log.start is None else _time(log.start)
-        self.end = max([self.begin] + [_time(m) for m in log.frictions] + [_time(m) for m in self._applied])
+        self.begin = ZERO if log.start is None else time_of(log.start)
+        self.end = max([self.begin] + [time_of(m) for m in log.frictions] + [time_of(m) for m in self._applied])
         self._impacts = log.impacts
         self.commands = np.array([(m.time.tau, m.time.phase, m.drag_velocity / self.units.velocity, m.drag_velocity)
                                   for m in self._applied if hasattr(m, 'drag_velocity')],
@@ -162,7 +78,7 @@ class Recording:
         live = dict(self._live)
         emulator = self._emulator(live)
         for command in self._applied:
-            yield emulator.run(_time(command), command.first_impact)
+            yield emulator.run(time_of(command), command.first_impact)
             self._apply(emulator, command, live)
         yield emulator.run(self.end, self._impacts)
 
@@ -174,6 +90,9 @@ class Recording:
                                   first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact, **joined)
 
 
-def from_bag(path: str, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:
-    """A recording of the emulator. epoch: None is the first in the bag; namespace: of the node, where a bag holds several."""
+def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:
+    """A recording of the emulator. path: of its bag, or a list of the bags that it was split into, in order.
+
+    epoch: None is the first in the bag; namespace: of the node, where a bag holds several.
+    """
     return Recording(path, epoch, namespace)

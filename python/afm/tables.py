@@ -62,9 +62,9 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     temperature: kT [m a^2/tau^2]; quality_factor above 0 gives a heat bath.
     threads: 0 is one for each processor; no bit depends on it. progress(done, all) is called ten times a second.
 
-    Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m/tau], impacts_per_tau,
+    Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m_tip/tau], impacts_per_tau,
     mean_energy_loss [m a^2/tau^2], mean_flight_time [tau], largest_lyapunov [1/tau], attractor (text), rest_height,
-    amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m/tau].
+    amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m_tip/tau].
     """
     chosen = _model(model)
     seed = _count('seed', seed)
@@ -84,7 +84,7 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     Points and models as of friction_curve(); transient, duration, friction_duration [tau]. Several points share the threads.
 
     Returns a structured array, a row for each attractor: eta, gamma, cutoff, attractor (text), impacts and cells in a period (0:
-    it does not repeat), k_f, k_f_std_error [m/tau], lyapunov_1 to lyapunov_4 [1/tau], rotation_number, contact_share, basin
+    it does not repeat), k_f, k_f_std_error [m_tip/tau], lyapunov_1 to lyapunov_4 [1/tau], rotation_number, contact_share, basin
     (share of the starts), basin_std_error, and a start that leads there: phase, extension, y [a], u, w [a/tau].
     """
     chosen = _model(model)
@@ -101,7 +101,7 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
 
     trajectory: impacts of the run that guesses are taken from; guesses: of each of three kinds, for each length.
 
-    Returns a structured array, a row for each orbit: length [impacts], cells, period [tau], k_f [m/tau], residual, the first
+    Returns a structured array, a row for each orbit: length [impacts], cells, period [tau], k_f [m_tip/tau], residual, the first
     point just after an impact (phase, extension [a], u, w [a/tau]), multipliers (4 complex numbers, largest first).
     """
     columns, numbers, _ = _afm.periodic_orbits(_model(model), eta, max_length, trajectory, guesses, _count('seed', seed))

@@ -85,8 +85,14 @@ py::dict to_python(const FrictionEstimate& f) {
                   "k_f_work_std_error"_a = f.K_f_work_std_error, "heat_to_bath"_a = f.heat_to_bath);
 }
 
-FreeState to_start(double phase, double extension, double y, const py::object& u, double w, double eta) {
-  return {phase, extension, y, u.is_none() ? eta : u.cast<double>(), w};
+EmulatorSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
+                             const py::object& u, double w, double contact_tolerance) {
+  EmulatorSettings settings;
+  settings.model = model;
+  settings.eta = eta;
+  settings.initial = {phase, extension, y, u.is_none() ? eta : u.cast<double>(), w};
+  settings.contact_tolerance = contact_tolerance;
+  return settings;
 }
 
 py::dtype impact_dtype() {

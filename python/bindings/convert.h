@@ -36,8 +36,9 @@ py::object to_python(const ModelTime& time);   // afm.ModelTime
 py::object to_python(const FreeState& state);  // afm.State
 py::dict to_python(const FrictionEstimate& friction);
 
-// A start; u None: the drag velocity.
-FreeState to_start(double phase, double extension, double y, const py::object& u, double w, double eta);
+// What every run begins with, unchecked; u None: the drag velocity.
+EmulatorSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
+                             const py::object& u, double w, double contact_tolerance);
 
 py::dtype impact_dtype();  // of the library's own records
 

@@ -24,15 +24,11 @@ struct PyEmulator {
 PyEmulator to_emulator(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
                        double w, double sample_period, std::uint64_t samples_per_batch, double friction_window,
                        std::uint64_t impact_budget, double contact_tolerance, const Bath& bath) {
-  EmulatorSettings settings;
-  settings.model = model;
-  settings.eta = eta;
-  settings.initial = to_start(phase, extension, y, u, w, eta);
+  EmulatorSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   settings.sample_period = sample_period;
   settings.samples_per_batch = samples_per_batch;
   settings.friction_window = friction_window;
   settings.impact_budget = impact_budget;
-  settings.contact_tolerance = contact_tolerance;
   settings.bath = bath;
   refuse(find_faults(settings));
   return {Emulator(settings), {}};

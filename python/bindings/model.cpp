@@ -109,7 +109,7 @@ The defaults are mica's. `model` is the same in natural units; `bath(temperature
       .def_property_readonly("velocity", unit(&Units::velocity), "[m/s], of a/tau")
       .def_property_readonly("energy", unit(&Units::energy), "[J]")
       .def_property_readonly("force", unit(&Units::force), "[N]")
-      .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m/tau")
+      .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m_tip/tau")
       .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT");
 }
 

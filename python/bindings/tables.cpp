@@ -176,11 +176,7 @@ const char* name_of(LyapunovOutcome outcome) {
 
 py::object exponents(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
                      double w, double transient, double duration, std::uint64_t most_events, double contact_tolerance) {
-  EmulatorSettings start;
-  start.model = model;
-  start.eta = eta;
-  start.initial = to_start(phase, extension, y, u, w, eta);
-  start.contact_tolerance = contact_tolerance;
+  const EmulatorSettings start = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(start));
   require(transient >= 0.0 && transient <= 1e12, "transient", transient, "must be within 0 and 1e12 tau");
   require(duration > 0.0 && duration <= 1e12, "duration", duration, "must be above 0 and at most 1e12 tau");

@@ -23,11 +23,7 @@ struct PyTip {
 
 PyTip to_tip(const Model& model, double eta, double phase, double extension, double y, const py::object& u, double w,
              double contact_tolerance, const Bath& bath) {
-  EmulatorSettings settings;
-  settings.model = model;
-  settings.eta = eta;
-  settings.initial = to_start(phase, extension, y, u, w, eta);
-  settings.contact_tolerance = contact_tolerance;
+  const EmulatorSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(settings));
   PyTip made{Tip(model, eta, settings.initial, contact_tolerance)};
   made.tip.set_bath(bath);

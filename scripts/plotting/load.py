@@ -11,7 +11,7 @@ SPEEDS = (0.5, 2, 3.4)
 
 
 def newtons(k_f, eta):
-    """Mean lateral force of K_f [m/tau] at eta."""
+    """Mean lateral force of K_f [m_tip/tau] at eta."""
     return k_f * eta * 4.08e-10 * 5.2e-10 / TAU ** 2
 
 

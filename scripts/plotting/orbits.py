@@ -53,8 +53,7 @@ def attractor(_):
 
 
 def draw_orbit(axes, row, colour):
-    drawn, _ = paths.flights([row[key] for key in ("phase", "extension", "u", "w")], ETA, GAMMA, CUTOFF,
-                             int(row["length"]))
+    drawn, _ = paths.flights([row[key] for key in paths.STATE], ETA, GAMMA, CUTOFF, int(row["length"]))
     offset = 0.0
     for xs, ys in drawn:
         axes.plot([x + offset for x in xs], ys, color=colour, linewidth=1.4)

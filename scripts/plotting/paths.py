@@ -2,7 +2,8 @@
 import math
 
 from . import style
-from .tools import next_impact
+
+STATE = ("phase", "extension", "u", "w")
 
 
 def surface(x):
@@ -28,11 +29,12 @@ def flight(state, eta, dt, points=60):
 
 def flights(start, eta, gamma, cutoff, count):
     """Paths of consecutive flights, each from the cell 0."""
+    import afm  # the other figures do without
     state, paths = list(start), []
     for _ in range(count):
-        row = next_impact([eta, gamma, cutoff] + state)
+        row = afm.next_impact(eta=eta, gamma=gamma, cutoff=cutoff, **dict(zip(STATE, state)))[()]
         paths.append(flight(state, eta, row["dt"]))
-        state = [row[key] for key in ("phase_next", "extension_next", "u_next", "w_next")]
+        state = [row[key + "_next"] for key in STATE]
     return paths, state
 
 

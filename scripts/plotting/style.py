@@ -25,7 +25,7 @@ SWEEPS = {"up": dict(color=BLUE, linestyle="-", linewidth=1.5, label=r"$\eta$ ri
 
 
 def closed_form(gamma):
-    """K_f at even eta [m/tau]."""
+    """K_f at even eta [m_tip/tau]."""
     return 4.0 * (1.0 + gamma) / (1.0 - gamma) * S * S / (1.0 + S * S)
 
 

@@ -74,11 +74,3 @@ class Tables:
             sys.exit("figures: no %s: run scripts/build first" % command[0])
         except subprocess.CalledProcessError:
             sys.exit("figures: %s failed" % tool)  # it has said why
-
-
-def next_impact(row):
-    """From one state after an impact to the next: eta, gamma, cutoff, phase, extension, u, w."""
-    table = "eta,gamma,cutoff,phase,extension,u,w\n" + ",".join(map(repr, row)) + "\n"
-    done = subprocess.run([str(TOOLS / "next_impact")], input=table, stdout=subprocess.PIPE, universal_newlines=True,
-                          check=True)
-    return numbers(next(csv.DictReader(done.stdout.splitlines())))

@@ -81,6 +81,6 @@ def lacks(part):
     if part.name not in ("chart", "matrix"):
         return []
     cache = (build_directory() / "CMakeCache.txt").read_text()
-    found = {"CVODE": "SUNDIALS_INCLUDE_DIR", "Siconos": "SICONOS_INCLUDE_DIR"}
+    found = {"CVODE": "SUNDIALS_INCLUDE_DIR", "Siconos": "SICONOS_INCLUDE_DIR", "heyoka": "heyoka_DIR"}
     return ["without %s, which was not found when the build was configured" % name for name, variable in found.items()
-            if ("%s:PATH=/" % variable) not in cache]
+            if not re.search(r"^%s:\w+=/" % variable, cache, re.M)]

@@ -8,7 +8,7 @@
 namespace afm {
 namespace {
 
-constexpr int kMostDigits = 15;  // of a mantissa, so that sums and products of mantissas stay whole in 64 bits
+constexpr int kMostDigits = 17;  // of a mantissa: all that a double has; sums of two mantissas stay whole in 64 bits
 
 struct Decimal {
   std::int64_t mantissa = 0;
@@ -30,7 +30,7 @@ Decimal parse_digits(const std::string& text, std::size_t& at) {
     }
     ++digits;
     if (d.mantissa != 0 || text[at] != '0') ++significant;
-    if (significant > kMostDigits) refuse("'" + text + "' has more than 15 digits");
+    if (significant > kMostDigits) refuse("'" + text + "' has more than 17 digits");
     d.mantissa = 10 * d.mantissa + (text[at] - '0');
     if (point) --d.exponent;
   }

@@ -33,8 +33,8 @@ void print(const Finding& finding) {
 }
 
 void print(const afm::audit::Stretch& s) {
-  std::printf("      eta %9.5g for %10.6g tau: K_f published %.6g +- %.2g, from the impacts %.6g m/tau\n", s.eta, s.tau,
-              s.published, s.error, s.recomputed);
+  std::printf("      eta %9.5g for %10.6g tau: K_f published %.6g +- %.2g, from the impacts %.6g m_tip/tau\n", s.eta,
+              s.tau, s.published, s.error, s.recomputed);
 }
 
 bool is_sound(const Recording& recording) {

@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
   app.require("bags");
   app.option("node", options.node, "the emulator's name such as /afm, where a bag holds several");
   app.flag("digests-only", options.digests_only,
-           "compare only the digests told every second: reads little, and finds the second of a difference");
+           "compare only the digests of every second: reads little, and finds the second of a difference");
   app.flag("open-end", options.open_end, "accept a recording that was never closed, as far as it goes");
   afm::replay::guard_against_damage();
   return app.run(argc, argv, [&] {

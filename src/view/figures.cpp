@@ -14,10 +14,10 @@ std::string friction_text(const afm_emulator::Friction& friction, bool by_work, 
   const double unit = units.friction(), K_f = (by_work ? friction.k_f_work : friction.k_f) / unit,
                error = (by_work ? friction.k_f_work_std_error : friction.k_f_std_error) / unit;
   if (std::isnan(K_f)) return "K_f: none at rest";
-  if (std::isnan(error)) return text("K_f %.4f m/tau", K_f);
+  if (std::isnan(error)) return text("K_f %.4f m_tip/tau", K_f);
   // two digits of the error
   const int decimals = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(error)), 2.0, 6.0));
-  return text("K_f %.*f +- %.*f m/tau", decimals, K_f, decimals, error);
+  return text("K_f %.*f +- %.*f m_tip/tau", decimals, K_f, decimals, error);
 }
 
 std::string bath_text(const afm_emulator::Configuration& c) {
@@ -37,7 +37,7 @@ std::string speed_text(const Heard& heard, const Strobe& strobe) {
 }  // namespace
 
 void draw_figures(Canvas& canvas, const Heard& heard, const Strobe& strobe) {
-  const double row = -0.72, height = 0.24;
+  const double row = -0.72, height = 0.21;
   const double eta = heard.holder().eta(strobe.moment());
   canvas.add_text("drag", text("drag %.3f um/s", eta * heard.units().velocity() * 1e6), point(-2.45, 0.0, row), height);
   canvas.add_text("eta", text("eta %.3f", eta), point(-0.78, 0.0, row), height);

@@ -46,10 +46,8 @@ void Holder::correct(const ModelTime& time, double x) {
 }
 
 std::optional<double> Holder::position(const ModelTime& time) const {
-  if (legs_.empty()) return {};
-  if (correction_) return travelled(time) + *correction_;
-  if (knows_start()) return travelled(time) + start_;
-  return {};
+  if (legs_.empty() || !(correction_ || knows_start())) return std::nullopt;
+  return travelled(time) + correction_.value_or(start_);
 }
 
 // The first command of an epoch is the drag at its start, at time 0: who heard that one has missed none.
@@ -81,8 +79,8 @@ void Holder::obey(const afm_emulator::AppliedParameters& change) {
 double Holder::height(const ModelTime& time) const {
   const auto after = std::upper_bound(lifts_.begin(), lifts_.end(), time,
                                       [](const ModelTime& t, const Lift& lift) { return t < lift.begin; });
-  const bool told = lifts_epoch_ == start_epoch_ && after != lifts_.begin();
-  return (told ? std::prev(after)->height_m : start_height_m_) / length_unit_;
+  const bool lifted = lifts_epoch_ == start_epoch_ && after != lifts_.begin();
+  return (lifted ? std::prev(after)->height_m : start_height_m_) / length_unit_;
 }
 
 }  // namespace afm::view

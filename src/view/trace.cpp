@@ -45,8 +45,8 @@ void Trace::add(const afm_emulator::ImpactArray& message, const Units& units) {
   }
   events_epoch_ = message.epoch;
   next_event_ = message.first_index;
-  for (const afm_emulator::Impact& told : message.impacts) {
-    const Impact impact = to_impact(told, units);
+  for (const afm_emulator::Impact& published : message.impacts) {
+    const Impact impact = to_impact(published, units);
     events_.push_back({next_event_++, impact, impact.kind == ImpactKind::contact_begun});
   }
   forget_old();

@@ -25,11 +25,12 @@ completed() {
 
 # usage: expect OFFERED WORD...: it is among what is offered for the words
 expect() {
-  local wanted=$1
+  local wanted=$1 offered
   shift
-  if ! completed "$@" | grep -qx -- "$wanted"; then
+  offered=$(completed "$@" || true)
+  if ! grep -qx -- "$wanted" <<<"$offered"; then
     echo "$*<TAB> does not offer $wanted, but:"
-    completed "$@" || true
+    echo "$offered"
     failed=1
   fi
 }

@@ -10,7 +10,7 @@ from pathlib import Path
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
 DEADLINE_S = 120 * PATIENCE
-STAYS_S = 10  # longer than roslaunch takes to start the nodes, and a Python node to import rospy: it ends unwell before that
+STAYS_S = 10 * PATIENCE  # longer than roslaunch takes to start the nodes, and a Python node to import rospy: it ends unwell before that
 COPIED = ('README.md', 'benchmark', 'config', 'docs', 'examples', 'scripts', 'test/data', 'test/node')  # what commands read, and some write
 # until_interrupted: of a command that goes on until Ctrl-C, and fails where it ends earlier
 PRELUDE = '''source "$0/setup.bash" || exit

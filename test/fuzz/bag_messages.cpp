@@ -128,7 +128,7 @@ bool tells(const Entry& e, std::size_t at) {
   return of_the_run && at >= kHeader;
 }
 
-// One edit, told in `story`. Whether it changed what a batch tells.
+// One edit, described in `story`. Returns whether it changed what a batch holds.
 bool edit(Entries& entries, fuzz::Bytes& bytes, std::string& story) {
   if (entries.empty()) return false;
   const std::size_t op = bytes.below(8), index = bytes.below(entries.size());
@@ -142,7 +142,7 @@ bool edit(Entries& entries, fuzz::Bytes& bytes, std::string& story) {
   story += "; edit " + std::to_string(op) + " at byte " + std::to_string(at) + " of " +
            std::to_string(entry.bytes.size()) + " of message " + std::to_string(index) + ", " + entry.topic;
   const std::vector<std::uint8_t> before = entry.bytes;
-  if (op == 3) entry.bytes[at] ^= static_cast<std::uint8_t>(1u << bytes.below(8));
+  if (op == 3) entry.bytes[at] = static_cast<std::uint8_t>(entry.bytes[at] ^ (1u << bytes.below(8)));
   if (op == 4) entry.bytes[at] = bytes.raw<std::uint8_t>();
   if (op == 5) entry.bytes.resize(std::max<std::size_t>(1, at));
   if (op >= 6) {

@@ -1,4 +1,4 @@
-// Any tree of values on the parameter server: every fault is told, and what has none can be run.
+// Any tree of values on the parameter server: every fault is reported, and what has none can be run.
 #include "afm/emulator.h"
 #include "bytes.h"
 #include "node/parameters/parameters.h"
@@ -105,7 +105,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   afm::node::Faults faults;
   const auto parameters = afm::node::read_parameters(tree_of(bytes), faults);
   for (const auto& fault : faults) require(!fault.reason.empty(), "a fault without a reason");
-  require(faults.empty() == afm::node::describe(faults).empty(), "faults that are not told");
+  require(faults.empty() == afm::node::describe(faults).empty(), "faults that are not reported");
   if (faults.empty()) check_runs(parameters);
   return 0;
 }

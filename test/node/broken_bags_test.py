@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A recording of which something is missing or out of order, a broken file, or none at all: each is told by its exit code,
+"""A recording of which something is missing or out of order, a broken file, or none at all: each is reported by its exit code,
 in words."""
 import subprocess
 
@@ -16,23 +16,23 @@ class BrokenBags(SpoiledBag):
         for topic in ('deflection', 'impacts', 'friction', 'applied_drag', 'status'):
             self.setUp()
             self.remove(self.of(topic)[1])
-            self.assert_told(checks.MISSING, 'holds')  # the closing mark counts
+            self.assert_reported(checks.MISSING, 'holds')  # the closing mark counts
 
     def test_a_message_is_missing_and_nobody_counts(self):
         marks = self.of('recording')
         for topic in ('deflection', 'impacts', 'friction'):
             self.setUp()
             self.remove(self.of(topic)[100], *self.of('recording'))
-            self.assert_told(checks.MISSING, 'MISSING', 'before batch 101')
+            self.assert_reported(checks.MISSING, 'MISSING', 'before batch 101')
         self.assertEqual(len(marks), 2)
 
     def test_the_first_command_is_missing(self):
         self.remove(self.of('applied_drag')[0], *self.of('recording'))
-        self.assert_told(checks.MISSING, 'history of commands')
+        self.assert_reported(checks.MISSING, 'history of commands')
 
     def test_the_end_is_missing(self):
         del self.entries[len(self.entries) // 2:]
-        self.assert_told(checks.TRUNCATED, 'IDENTICAL as far as it goes')
+        self.assert_reported(checks.TRUNCATED, 'IDENTICAL as far as it goes')
         self.assertEqual(checks.replay_check(self.write(), '--open-end').code, checks.SOUND)
 
     def test_a_batch_that_was_never_published(self):
@@ -47,12 +47,12 @@ class BrokenBags(SpoiledBag):
                 entry.put(message)
         mark = self.of('recording')[-1]
         mark.edit(messages=mark.message().messages - 3)
-        self.assert_told(checks.MISSING, 'MISSING: 3 messages', 'never published', 'before batch 100')
+        self.assert_reported(checks.MISSING, 'MISSING: 3 messages', 'never published', 'before batch 100')
 
     def test_reordered(self):
         first, second = self.of('deflection')[100:102]
         first.raw, second.raw = second.raw, first.raw
-        self.assert_told(checks.REORDERED, 'order')
+        self.assert_reported(checks.REORDERED, 'order')
 
     def test_cut_off(self):
         path = self.directory / 'cut.bag'
@@ -114,7 +114,7 @@ class BrokenBags(SpoiledBag):
         for entry in self.of('friction'):
             entry.raw = entry.raw[:2] + ('0' * 32,) + entry.raw[3:]
             entry.header = dict(entry.header, md5sum='0' * 32)
-        self.assert_told(checks.FOREIGN, 'another version')
+        self.assert_reported(checks.FOREIGN, 'another version')
 
     def test_wrong_arguments(self):
         self.assertEqual(checks.replay_check().code, checks.USAGE)

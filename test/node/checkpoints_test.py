@@ -65,7 +65,7 @@ class Checkpoints(NodeTest):
 
     def assert_from_checkpoint(self, *paths):
         checks.assert_identical(self, *paths)
-        return self.assert_told(checks.replay_check(*paths), checks.SOUND, 'simulated from the checkpoint at model time')
+        return self.assert_reported(checks.replay_check(*paths), checks.SOUND, 'simulated from the checkpoint at model time')
 
     def late_recording(self):
         """Of a run that has seen many commands, changes and checkpoints. Returns where it is, and what is in it."""
@@ -92,8 +92,8 @@ class Checkpoints(NodeTest):
         self.assertEqual(messages['applied_drag'][0].header.seq, first.next_drag - 1)  # in force there
         self.assertEqual(messages['applied_drag'][0].drag_velocity, first.drag_velocity)
         self.assertEqual(messages['applied_parameters'][0].restitution_gamma, first.restitution_gamma)
-        for told in messages['checkpoint']:
-            self.assertEqual(digest_recipe.of_checkpoint(told), told.state_digest)
+        for reported in messages['checkpoint']:
+            self.assertEqual(digest_recipe.of_checkpoint(reported), reported.state_digest)
         self.assertGreater(len(messages['checkpoint']), 1)
         answer = self.assert_from_checkpoint(path)
         self.assertNotIn(' 0 checkpoints', answer.text)
@@ -115,13 +115,13 @@ class Checkpoints(NodeTest):
     def check_edited(self, path, edit):
         return checks.replay_check(self.rewrite(path, edit))
 
-    def assert_told(self, answer, code, *words):
+    def assert_reported(self, answer, code, *words):
         self.assertEqual(answer.code, code, answer.text)
         for word in words:
             self.assertIn(word, answer.text)
         return answer
 
-    def test_altered_ones_are_told(self):
+    def test_altered_ones_are_reported(self):
         path, _ = self.late_recording()
         self.end()
 
@@ -138,14 +138,14 @@ class Checkpoints(NodeTest):
                 change(message)
                 sign(message)
             return edit
-        self.assert_told(self.check_edited(path, another_word), checks.ALTERED, 'not as it was told')
+        self.assert_reported(self.check_edited(path, another_word), checks.ALTERED, 'not as it was recorded')
         self.assertEqual(checks.bag_check(str(self.directory / 'spoiled.bag')).code, checks.ALTERED)
-        self.assert_told(self.check_edited(path, forged(another_word)), checks.DIFFERS, 'FIRST DIFFERENCE')
-        self.assert_told(self.check_edited(path, forged(lambda m: setattr(m, 'layout', m.layout + 1))), checks.FOREIGN,
+        self.assert_reported(self.check_edited(path, forged(another_word)), checks.DIFFERS, 'FIRST DIFFERENCE')
+        self.assert_reported(self.check_edited(path, forged(lambda m: setattr(m, 'layout', m.layout + 1))), checks.FOREIGN,
                          'layout', 'version')
-        self.assert_told(self.check_edited(path, forged(lambda m: setattr(m, 'state', m.state[:-1]))), checks.ALTERED,
+        self.assert_reported(self.check_edited(path, forged(lambda m: setattr(m, 'state', m.state[:-1]))), checks.ALTERED,
                          'no state of this run')
-        self.assert_told(self.check_edited(path, forged(lambda m: setattr(m, 'samples', m.samples - 1))), checks.ALTERED,
+        self.assert_reported(self.check_edited(path, forged(lambda m: setattr(m, 'samples', m.samples - 1))), checks.ALTERED,
                          'no state of this run')
 
         self.assert_history_is_missing_without(path)
@@ -156,7 +156,7 @@ class Checkpoints(NodeTest):
             for topic, raw, stamp, header in bag.read_messages(raw=True, return_connection_header=True):
                 if topic not in (NAMESPACE + '/checkpoint', NAMESPACE + '/recording'):
                     out.write(topic, raw, stamp, raw=True, connection_header=header)
-        self.assert_told(checks.replay_check(bare), checks.MISSING, 'history of commands')
+        self.assert_reported(checks.replay_check(bare), checks.MISSING, 'history of commands')
 
     def test_a_flood_of_commands_while_paused(self):
         self.run_emulator(checkpoint_interval_s=3600.0)
@@ -191,7 +191,7 @@ class Checkpoints(NodeTest):
         self.assert_from_checkpoint(*paths)
         for path in paths:  # each can be checked without the others
             for tool in (checks.replay_check, checks.bag_check):
-                self.assert_told(tool(path), checks.SOUND)
+                self.assert_reported(tool(path), checks.SOUND)
         self.assertLess(len(bags.read(paths[-1])['applied_drag']), 100)
 
     def test_a_listener_comes_late(self):
@@ -219,7 +219,7 @@ class Checkpoints(NodeTest):
                 for i, message in enumerate(topic.messages):
                     out.write(NAMESPACE + '/' + name, message, rospy.Time(1000 + i))
         self.end()
-        answer = self.assert_told(checks.replay_check('--open-end', bag), checks.SOUND, 'from the checkpoint at model time')
+        answer = self.assert_reported(checks.replay_check('--open-end', bag), checks.SOUND, 'from the checkpoint at model time')
         self.assertNotIn(' 0 checkpoints', answer.text)
 
 

@@ -22,10 +22,10 @@ Health healthy() {
 
 void expect(void (*diagnose)(const Health&, Diagnosis&), const Health& health, std::uint8_t level,
             const std::string& reason) {
-  Diagnosis told;
-  diagnose(health, told);
-  EXPECT_EQ(told.level, level) << told.message;
-  EXPECT_NE(told.message.find(reason), std::string::npos) << told.message;
+  Diagnosis reported;
+  diagnose(health, reported);
+  EXPECT_EQ(reported.level, level) << reported.message;
+  EXPECT_NE(reported.message.find(reason), std::string::npos) << reported.message;
 }
 
 TEST(DiagnosePace, TellsLagLateBatchesAndLosses) {

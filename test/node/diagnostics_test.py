@@ -44,8 +44,8 @@ class Diagnostics(NodeTest):
         return {value.key: value.value for value in entry.values}
 
     def latest(self, name):
-        told = [s for m in self.diagnostics.messages for s in m.status if s.name == 'afm: ' + name]
-        return (told[-1].level, told[-1].message) if told else None
+        reported = [s for m in self.diagnostics.messages for s in m.status if s.name == 'afm: ' + name]
+        return (reported[-1].level, reported[-1].message) if reported else None
 
     def test_well_then_refusing_then_silent(self):
         self.run_emulator(command_timeout_s=2.0, batch_rate_hz=50.0, bag_directory=self.temporary_directory())
@@ -60,8 +60,8 @@ class Diagnostics(NodeTest):
         self.assertEqual(self.expect('commands', WARN, 'drag_velocity = nan m/s: must be finite')['refused drag commands'], '1')
         self.emulator.call('set_parameters', Reconfigure,
                            config=Config(doubles=[DoubleParameter('restitution_gamma', 2.0)]))
-        told = self.expect('commands', WARN, 'restitution_gamma = 2: ')
-        self.assertEqual(told['refused changes of parameters'], '1')
+        reported = self.expect('commands', WARN, 'restitution_gamma = 2: ')
+        self.assertEqual(reported['refused changes of parameters'], '1')
         self.end()
 
     def test_stopped_for_a_second(self):

@@ -22,8 +22,8 @@ class DragSpeeds(EmulatorTest):
             begin = applied.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'eta = %g' % eta).time
             later = status.wait_for_next(lambda m: tau_between(begin, m.time) > EACH_TAU, 'time goes on at eta = %g' % eta)
             self.assert_counters(later)
-            told = friction.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'friction at eta = %g' % eta)
-            self.assertAlmostEqual(told.eta, eta, delta=1e-12)
+            reported = friction.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'friction at eta = %g' % eta)
+            self.assertAlmostEqual(reported.eta, eta, delta=1e-12)
         # a busy machine may hold it up for a while: it catches up
         self.assert_counters(status.wait_for_next(lambda m: m.real_time_factor > 0.99, 'real time'))
 

@@ -20,7 +20,7 @@ PACKAGE = 'afm_emulator'
 TAU_S = 2 * 3.141592653589793 / 40e3
 SPEED_UNIT = 0.52e-9 / TAU_S     # m/s for eta = 1
 ENERGY_UNIT = 408e-12 * SPEED_UNIT ** 2
-FRICTION_UNIT = 408e-12 / TAU_S  # kg/s for a K_f of 1 m/tau
+FRICTION_UNIT = 408e-12 / TAU_S  # kg/s for a K_f of 1 m_tip/tau
 
 
 class Process:

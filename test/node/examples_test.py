@@ -11,6 +11,8 @@ from std_msgs.msg import Float64MultiArray
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
 from topics import PATIENCE, Topic, wait_until
 
+SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose nothing
+
 
 class Examples(NodeTest):
     def end(self, process):
@@ -18,8 +20,14 @@ class Examples(NodeTest):
         self.assertIn(process.stop(), (0, -2), process.output())
 
     def test_the_detector_gives_volts_with_noise_and_steps(self):
+        self.check_detector('python')
+
+    def test_the_detector_in_cpp_too(self):
+        self.check_detector('cpp')
+
+    def check_detector(self, language):
         volts, deflection = Topic('/detector/volts', Float64MultiArray), Topic('deflection')
-        example = self.launch('detector.launch')
+        example = self.launch('detector.launch', language=language)
         wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started', deadline_s=60.0)
         message = volts.messages[-1]
         rows, columns = (dimension.size for dimension in message.layout.dim)
@@ -38,7 +46,7 @@ class Examples(NodeTest):
 
     def test_a_plot_and_a_watch_for_gaps(self):
         output = Path(self.temporary_directory()) / 'force.png'
-        example = self.launch('plot_force.launch', duration=1.5, output=output)
+        example = self.launch('plot_force.launch', duration=1.5, output=output, time_scale=SLOW_MOTION)
         example.wait(deadline_s=60.0)
         text = example.output()
         self.assertGreater(output.stat().st_size, 10000)
@@ -46,7 +54,7 @@ class Examples(NodeTest):
         self.assertRegex(text, r'\d{4,} samples and \d+ impacts; lost: 0 and 0')
 
     def test_a_commander_in_cpp(self):
-        self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0}))
+        self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0, 'time_scale': SLOW_MOTION}))
         binary = roslib.packages.find_node(PACKAGE, 'watch_and_command')[0]
         example = self.start(Process([binary, repr(2 * SPEED_UNIT), repr(3 * SPEED_UNIT), '_hold_s:=0.7']))
         self.assertEqual(example.wait(deadline_s=30.0), 0)

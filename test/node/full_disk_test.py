@@ -76,7 +76,7 @@ class FullDisk(EmulatorTest):
         self.fill(0)
         error = self.wait_for_error()
         closed = os.path.exists(self.answer.path)
-        self.assertEqual('reindex' in error, not closed, error)  # told how to recover it only where that is needed
+        self.assertEqual('reindex' in error, not closed, error)  # says how to recover it only where that is needed
 
 
 if __name__ == '__main__':

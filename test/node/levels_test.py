@@ -28,7 +28,7 @@ def cost(model, tolerance):
     return 1 if model == 'hammer' else 2 if tolerance else 4
 
 
-def told(message):
+def reported(message):
     return (message.model, message.contact_tolerance, message.expected_error)
 
 
@@ -76,17 +76,17 @@ class Levels(NodeTest):
     def test_takes_a_level_for_every_drag_velocity(self):
         self.play()
         first = self.drags.wait_for()
-        self.assert_same(told(first), HAMMER)
-        self.assert_same(told(self.status.wait_for_next(lambda m: m.time.tau > 0)), HAMMER)
+        self.assert_same(reported(first), HAMMER)
+        self.assert_same(reported(self.status.wait_for_next(lambda m: m.time.tau > 0)), HAMMER)
         # it begins with the speed for eta = 3.4, and gets its holder's
         self.assertAlmostEqual(first.energy_dropped / ENERGY_UNIT, 0.5 * (3.4 ** 2 - 2 ** 2), places=9)
         for eta, level in ((3, BURSTS), (4, EVERY), (2, HAMMER), (-2, HAMMER), (2.5, BURSTS), (3.5, EVERY), (1.5, UNKNOWN),
                            (0, UNKNOWN), (2, HAMMER)):
             before = self.drags.messages[-1]
             message = self.drag(eta)
-            self.assert_same(told(message), level)
+            self.assert_same(reported(message), level)
             self.assertEqual(message.energy_dropped != 0.0, level == HAMMER and before.model != 'hammer')
-            self.assert_same(told(self.status.wait_for_next(lambda m: key(m.time) > key(message.time))), level)
+            self.assert_same(reported(self.status.wait_for_next(lambda m: key(m.time) > key(message.time))), level)
         recorded = self.finish()
         self.assertEqual(len(recorded['applied_drag']), 10)
         configuration = recorded['configuration'][0]
@@ -95,17 +95,17 @@ class Levels(NodeTest):
 
     def test_live_parameters_and_resets_bring_levels_too(self):
         self.play()
-        self.assert_same(told(self.changes.wait_for()), HAMMER)
-        self.assert_same(told(self.set_gamma(0.8)), ('oscillator', 0.0, 0.005))
-        self.assert_same(told(self.set_gamma(0.75)), ('oscillator', 0.0, 0.005))  # between the two
-        self.assert_same(told(self.set_gamma(0.9)), UNKNOWN)
+        self.assert_same(reported(self.changes.wait_for()), HAMMER)
+        self.assert_same(reported(self.set_gamma(0.8)), ('oscillator', 0.0, 0.005))
+        self.assert_same(reported(self.set_gamma(0.75)), ('oscillator', 0.0, 0.005))  # between the two
+        self.assert_same(reported(self.set_gamma(0.9)), UNKNOWN)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
-        self.assert_same(told(self.drags.wait_for(lambda m: m.epoch == 1)), UNKNOWN)
-        self.assert_same(told(self.set_gamma(0.7)), HAMMER)
-        self.assert_same(told(self.set_parameter('quality_factor', 100.0)), UNKNOWN)  # the table was measured without a bath
-        self.assert_same(told(self.set_parameter('quality_factor', 0.0)), HAMMER)
+        self.assert_same(reported(self.drags.wait_for(lambda m: m.epoch == 1)), UNKNOWN)
+        self.assert_same(reported(self.set_gamma(0.7)), HAMMER)
+        self.assert_same(reported(self.set_parameter('quality_factor', 100.0)), UNKNOWN)  # the table was measured without a bath
+        self.assert_same(reported(self.set_parameter('quality_factor', 0.0)), HAMMER)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
-        self.assert_same(told(self.drags.wait_for(lambda m: m.epoch == 2)), HAMMER)
+        self.assert_same(reported(self.drags.wait_for(lambda m: m.epoch == 2)), HAMMER)
         self.finish()
 
     def test_many_changes_in_a_pause_happen_at_one_time(self):
@@ -124,9 +124,9 @@ class Levels(NodeTest):
     def test_other_models_tell_their_level(self):
         self.parameters.update(model='hammer', tolerance=0.0, level_table='')
         self.play()
-        self.assert_same(told(self.drags.wait_for()), ('hammer', 0.002, math.nan))
-        self.assert_same(told(self.drag(4)), ('hammer', 0.002, math.nan))
-        self.assert_same(told(self.status.wait_for_next()), ('hammer', 0.002, math.nan))
+        self.assert_same(reported(self.drags.wait_for()), ('hammer', 0.002, math.nan))
+        self.assert_same(reported(self.drag(4)), ('hammer', 0.002, math.nan))
+        self.assert_same(reported(self.status.wait_for_next()), ('hammer', 0.002, math.nan))
         self.finish()
 
     def refusal(self, **parameters):

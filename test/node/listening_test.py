@@ -36,8 +36,8 @@ class Listening(EmulatorTest):
             first = deflection.messages[0]
             self.assertGreaterEqual(first.first_sample, seen)
             period = 1 / (200000 * TAU_S)
-            told = tau_between(unheard.time, first.time)
-            self.assertAlmostEqual(told, (first.first_sample - unheard.samples) * period, delta=1e-6)
+            reported = tau_between(unheard.time, first.time)
+            self.assertAlmostEqual(reported, (first.first_sample - unheard.samples) * period, delta=1e-6)
             self.assertEqual({len(m.vertical) for m in deflection.messages}, {800})
             self.assert_gapless(deflection)
             seen = deflection.messages[-1].first_sample + 800

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""A drag command takes effect at a model time that is told, and the friction is the one known for that speed."""
+"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed."""
 import math
 
 from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, EmulatorTest, run
 from topics import Topic, key, tau_between
 
 SLOPE = 2 * math.pi * 0.05 / 0.52
-K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed form at even eta [m/tau]
-K_F_AT_3_4 = 0.2533                                                  # of the chaotic attractor [m/tau]
+K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed form at even eta [m_tip/tau]
+K_F_AT_3_4 = 0.2533                                                  # of the chaotic attractor [m_tip/tau]
 SETTLED_TAU = 10000
 
 
@@ -39,10 +39,10 @@ class ObeysCommands(EmulatorTest):
 
     def test_takes_effect_at_a_batch_boundary(self):
         applied = self.command(2.0)
-        self.deflection.wait_for(lambda m: key(m.time) == key(applied.time), 'a batch begins at the time told')
+        self.deflection.wait_for(lambda m: key(m.time) == key(applied.time), 'a batch begins at the time reported')
         self.friction.wait_for(lambda m: m.drag_velocity == applied.drag_velocity, 'the new speed')
         for friction in list(self.friction.messages):
-            # an estimate is told at the end of a batch: at the boundary itself the old speed held
+            # an estimate is reported at the end of a batch: at the boundary itself the old speed held
             old = key(friction.time) <= key(applied.time)
             self.assertEqual(friction.drag_velocity == applied.drag_velocity, not old)
 

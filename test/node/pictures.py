@@ -1,4 +1,4 @@
-"""Shared by the tests of the view: its pictures, and what they must show, computed anew from what the emulator told."""
+"""Shared by the tests of the view: its pictures, and what they must show, computed anew from what the emulator reported."""
 import math
 import subprocess
 
@@ -69,7 +69,7 @@ class Picture:
 
 
 class Told:
-    """What the emulator has told so far, of its present epoch, and what follows from it."""
+    """What the emulator has reported so far, of its present epoch, and what follows from it."""
 
     def __init__(self, topics):
         self.epoch = topics['configuration'].messages[-1].epoch

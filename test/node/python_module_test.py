@@ -51,14 +51,14 @@ class PythonModule(NodeTest):
     def end(self):
         self.emulator.assert_alive()
         self.assertEqual(self.emulator.stop(), 0)
-        path, = self.directory.iterdir()
-        return str(path)
+        return sorted(str(path) for path in self.directory.iterdir())
 
-    def assert_repeats(self, path, epoch):
-        """Samples and impacts that the bag holds are those of the module, in SI, bit for bit. Returns how many."""
-        recording = afm.from_bag(path, epoch=epoch)
+    def assert_repeats(self, paths, epoch):
+        """Samples and impacts that the bags hold are those of the module, in SI, bit for bit. Returns how many."""
+        recording = afm.from_bag(paths, epoch=epoch)
         run, units = recording.simulate(), recording.units
-        messages = {name: [m for m in all_of if getattr(m, 'epoch', None) == epoch] for name, all_of in bags.read(path).items()}
+        messages = {name: [m for path in paths for m in bags.read(path)[name] if m.epoch == epoch]
+                    for name in ('deflection', 'impacts', 'friction')}
         samples = 0
         for m in messages['deflection']:
             first = m.first_sample - run.first_sample
@@ -84,12 +84,12 @@ class PythonModule(NodeTest):
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         self.command(3.4, 2.5)
         self.deflection.wait_for_more(30)
-        path = self.end()
+        path, = self.end()
         checks.assert_identical(self, path)
         epochs = afm.from_bag(path).epochs
         self.assertEqual(len(epochs), 2)
         for epoch in epochs:
-            recording, samples, impacts = self.assert_repeats(path, epoch)
+            recording, samples, impacts = self.assert_repeats([path], epoch)
             self.assertGreater(samples, 10000)
             self.assertGreater(impacts, 100)
         self.assertEqual(len(afm.from_bag(path, epochs[0]).commands), 1 + 5 + 6)
@@ -103,6 +103,21 @@ class PythonModule(NodeTest):
                                              env=dict(os.environ, MPLBACKEND='Agg', MPLCONFIGDIR=folder))
             self.assertIn('um/s', output)
             self.assertTrue((Path(folder) / 'read_bag.png').exists())
+
+    def test_a_split_recording(self):
+        self.run_emulator(record=True, split_duration_s=0.4)
+        self.command(*[2.0, -3.0, 5.0] * 15)
+        self.deflection.wait_for_more(50)
+        paths = self.end()
+        self.assertGreaterEqual(len(paths), 3)
+        recording, samples, _ = self.assert_repeats(paths, 0)
+        self.assertEqual(len(recording.commands), 1 + 45)
+        one_by_one = [self.assert_repeats([path], 0)[1] for path in paths]
+        self.assertEqual(samples, sum(one_by_one))
+        self.assert_repeats(paths[1:], 0)
+        for wrong in (paths[::-1], paths[:1] + paths[2:], paths[:1] * 2):
+            self.assertRaisesRegex(ValueError, 'does not go on', afm.from_bag, wrong)
+        self.assertRaises(ValueError, afm.from_bag, [])
 
     def test_live_parameters_and_heat(self):
         self.run_emulator(record=True, sample_rate_hz=50000.0)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Reset starts the same run again, pause holds model time, and a step goes exactly as far as it is told."""
+"""Reset starts the same run again, pause holds model time, and a step goes exactly as far as it is asked to."""
 import math
 
 from afm_emulator.srv import Step

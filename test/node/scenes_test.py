@@ -13,7 +13,7 @@ from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeT
 from topics import NAMESPACE, TOPICS, Topic, wait_until
 
 CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
-PEAK = 6.061052  # m/tau, at every even eta, in closed form
+PEAK = 6.061052  # m_tip/tau, at every even eta, in closed form
 
 
 class Scenes(NodeTest):
@@ -118,11 +118,11 @@ class Scenes(NodeTest):
         eta = yaml.safe_load((CONFIG / 'commands' / 'sweep.yaml').read_text())['eta']
         drags = self.topics['applied_drag']
 
-        def told():
+        def reported():
             return [round(m.drag_velocity / SPEED_UNIT, 9) for m in drags.messages]
-        begin = wait_until(lambda: eta[0] in told()[1:] and told().index(eta[0], 1), 'from the first on')
+        begin = wait_until(lambda: eta[0] in reported()[1:] and reported().index(eta[0], 1), 'from the first on')
         wait_until(lambda: len(drags.messages) > begin + len(eta), 'once up and down', deadline_s=30.0)
-        self.assertEqual(told()[begin:begin + len(eta)], eta)
+        self.assertEqual(reported()[begin:begin + len(eta)], eta)
         # a moment of their own, for estimates come by another way than drags
         self.friction.wait_for(lambda m: m.time.tau > drags.messages[begin + len(eta)].time.tau, 'of the next round')
         ends = {}  # the last estimate of each

@@ -81,7 +81,7 @@ class SpoiledBag(NodeTest):
                 bag.write(NAMESPACE + '/' + e.topic, e.raw, e.stamp, raw=True, connection_header=e.header)
         return path
 
-    def assert_told(self, code, *words, arguments=()):
+    def assert_reported(self, code, *words, arguments=()):
         answer = checks.replay_check(self.write(), *arguments)
         self.assertEqual(answer.code, code, answer.text)
         for word in words:

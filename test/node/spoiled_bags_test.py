@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A recording with something altered in it: it is told what and where, and by the exit code."""
+"""A recording with something altered in it: what and where is reported, also by the exit code."""
 import bags
 import checks
 import digest_recipe
@@ -9,13 +9,13 @@ from spoiled_bag import SpoiledBag, flip_last_bit
 
 class SpoiledBags(SpoiledBag):
     def test_as_it_was(self):
-        self.assert_told(checks.SOUND, 'IDENTICAL')
+        self.assert_reported(checks.SOUND, 'IDENTICAL')
 
     def test_an_independent_reader_gets_the_same_digests(self):
         messages = bags.read(str(self.good))
         self.assertEqual(digest_recipe.of_configuration(messages['configuration'][0]),
                          messages['digest'][-1].configuration_digest)
-        for told in messages['digest']:
+        for reported in messages['digest']:
             def part(topic, count, size=lambda m: 1):
                 got, total = [], 0
                 for message in messages[topic]:
@@ -24,55 +24,55 @@ class SpoiledBags(SpoiledBag):
                         total += size(message)
                 self.assertEqual(total, count, topic)
                 return got
-            self.assertEqual(digest_recipe.of_samples(part('deflection', told.samples, lambda m: len(m.vertical))),
-                             told.samples_digest)
-            self.assertEqual(digest_recipe.of_impacts(part('impacts', told.impacts, lambda m: len(m.impacts))),
-                             told.impacts_digest)
+            self.assertEqual(digest_recipe.of_samples(part('deflection', reported.samples, lambda m: len(m.vertical))),
+                             reported.samples_digest)
+            self.assertEqual(digest_recipe.of_impacts(part('impacts', reported.impacts, lambda m: len(m.impacts))),
+                             reported.impacts_digest)
             applied = digest_recipe.in_order(messages['applied_drag'], messages['applied_parameters'])
-            self.assertEqual(digest_recipe.of_messages(applied[:told.commands]), told.commands_digest)
-            self.assertEqual(digest_recipe.of_messages(part('friction', told.estimates)), told.estimates_digest)
+            self.assertEqual(digest_recipe.of_messages(applied[:reported.commands]), reported.commands_digest)
+            self.assertEqual(digest_recipe.of_messages(part('friction', reported.estimates)), reported.estimates_digest)
 
     def test_one_bit_of_one_sample(self):
         flip_last_bit(self.of('deflection')[100], -8)
-        told = self.assert_told(checks.ALTERED, 'deflection.lateral', 'ALTERED')
-        self.assertIn('batch 100', told.text)
-        self.assertIn('last command', told.text)
+        reported = self.assert_reported(checks.ALTERED, 'deflection.lateral', 'ALTERED')
+        self.assertIn('batch 100', reported.text)
+        self.assertIn('last command', reported.text)
 
     def test_one_bit_of_one_impact(self):
         full = next(e for e in self.of('impacts')[90:] if e.message().impacts)
         flip_last_bit(full, -13)  # of the energy loss, before kind and count
-        self.assert_told(checks.ALTERED, 'impacts.energy_loss', 'ALTERED')
+        self.assert_reported(checks.ALTERED, 'impacts.energy_loss', 'ALTERED')
 
     def test_one_bit_of_one_estimate(self):
         flip_last_bit(self.of('friction')[100], -8)
-        self.assert_told(checks.ALTERED, 'friction.heat_to_bath', 'ALTERED')
+        self.assert_reported(checks.ALTERED, 'friction.heat_to_bath', 'ALTERED')
 
     def test_another_command(self):
         self.of('applied_drag')[1].edit(drag_velocity=2.1 * SPEED_UNIT)
-        self.assert_told(checks.ALTERED, 'ALTERED')
+        self.assert_reported(checks.ALTERED, 'ALTERED')
 
     def test_another_configuration(self):
         self.of('configuration')[0].edit(initial_height=0.21)
-        self.assert_told(checks.ALTERED, 'ALTERED')
+        self.assert_reported(checks.ALTERED, 'ALTERED')
 
     def test_another_change_of_parameters(self):
         first, second = self.of('applied_parameters')
         second.edit(rest_height_m=-2.1e-12)
-        self.assert_told(checks.ALTERED, 'ALTERED')
+        self.assert_reported(checks.ALTERED, 'ALTERED')
         second.edit(rest_height_m=1.0)
-        self.assert_told(checks.ALTERED, 'rest_height_m = 1: ')
+        self.assert_reported(checks.ALTERED, 'rest_height_m = 1: ')
         second.edit(rest_height_m=-2.0e-12, first_sample=second.message().first_sample + 1)
-        self.assert_told(checks.ALTERED, 'not between its samples')
+        self.assert_reported(checks.ALTERED, 'not between its samples')
         first.edit(restitution_gamma=0.71)
-        self.assert_told(checks.ALTERED, 'live parameters of its configuration')
+        self.assert_reported(checks.ALTERED, 'live parameters of its configuration')
 
     def test_a_configuration_that_cannot_be(self):
         self.of('configuration')[0].edit(restitution_gamma=7.0)
-        self.assert_told(checks.ALTERED, 'restitution_gamma')
+        self.assert_reported(checks.ALTERED, 'restitution_gamma')
 
     def test_a_digest(self):
         self.of('digest')[1].edit(samples_digest=1)
-        self.assert_told(checks.ALTERED, 'digest.samples_digest')
+        self.assert_reported(checks.ALTERED, 'digest.samples_digest')
         self.assertEqual(checks.replay_check('--digests-only', self.write()).code, checks.DIFFERS)
 
     def test_a_true_recording_of_something_else(self):
@@ -82,14 +82,14 @@ class SpoiledBags(SpoiledBag):
         digest = digest_recipe.of_configuration(configuration.message())
         for entry in self.of('digest'):
             entry.edit(configuration_digest=digest)
-        self.assert_told(checks.DIFFERS, 'DIFFERENT', 'as it was published')
+        self.assert_reported(checks.DIFFERS, 'DIFFERENT', 'as it was published')
         self.assertEqual(checks.replay_check('--digests-only', self.write()).code, checks.DIFFERS)
 
     def test_a_time_far_away_is_not_run_to(self):
         message = self.of('friction')[100].message()
         message.time.tau += 10**15
         self.of('friction')[100].put(message)
-        self.assert_told(checks.ALTERED, 'friction.time')
+        self.assert_reported(checks.ALTERED, 'friction.time')
 
     def begin_with_batch_50(self):
         """As of a recording that was begun later, by someone who leaves nothing that counts or tells."""
@@ -98,12 +98,12 @@ class SpoiledBags(SpoiledBag):
 
     def test_a_beginning_far_away_is_not_run_to(self):
         self.begin_with_batch_50()
-        self.assert_told(checks.TRUNCATED, 'IDENTICAL as far as it goes')
+        self.assert_reported(checks.TRUNCATED, 'IDENTICAL as far as it goes')
         for sample in (10**12, 10**18, 2**64 - 1):
             self.of('deflection')[0].edit(first_sample=sample)
-            self.assert_told(checks.ALTERED, 'deflection.time', 'for sample %d' % sample)
-        self.remove(self.of('friction')[0])  # so that no end is told
-        self.assert_told(checks.ALTERED, 'deflection.time')
+            self.assert_reported(checks.ALTERED, 'deflection.time', 'for sample %d' % sample)
+        self.remove(self.of('friction')[0])  # so that no end is reported
+        self.assert_reported(checks.ALTERED, 'deflection.time')
 
     def test_an_end_far_away_without_samples_is_not_run_to(self):
         for batch in (0, 1):
@@ -125,7 +125,7 @@ class SpoiledBags(SpoiledBag):
                 message = self.of(topic)[100].message()
                 message.time.tau, message.time.phase = tau, phase
                 self.of(topic)[100].put(message)
-                self.assert_told(checks.ALTERED, topic, 'batch 100', 'no run can be')
+                self.assert_reported(checks.ALTERED, topic, 'batch 100', 'no run can be')
 
     def assert_bad(self, *subjects):
         answer = checks.bag_check(self.write())
@@ -182,7 +182,7 @@ class SpoiledBags(SpoiledBag):
         message = self.of('deflection')[100].message()
         message.time.phase = (message.time.phase + 0.25) % 1
         self.of('deflection')[100].put(message)
-        self.assert_told(checks.ALTERED, 'deflection.time', 'or itself')
+        self.assert_reported(checks.ALTERED, 'deflection.time', 'or itself')
 
 
 if __name__ == '__main__':

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Live parameters take effect as they are told, faulty ones change nothing; without commands the drag stops."""
+"""Live parameters take effect as they are reported, faulty ones change nothing; without commands the drag stops."""
 import math
 import random
 import subprocess
@@ -61,9 +61,9 @@ class Steering(NodeTest):
         before = len(self.applied.messages)
         answer = self.set(**wanted)
         self.assertEqual({name: answer[name] for name in wanted}, wanted)
-        told = self.applied.wait_for(lambda m: all(getattr(m, name) == wanted[name] for name in wanted), str(wanted), before)
-        wait_until(lambda: self.in_force() == answer, 'clients are told')
-        return told
+        reported = self.applied.wait_for(lambda m: all(getattr(m, name) == wanted[name] for name in wanted), str(wanted), before)
+        wait_until(lambda: self.in_force() == answer, 'clients see it')
+        return reported
 
     def test_dynparam_and_clients_work(self):
         self.run_emulator()
@@ -81,35 +81,35 @@ class Steering(NodeTest):
         client.close()
         self.end()
 
-    def test_a_change_takes_effect_at_a_batch_boundary_and_is_told(self):
+    def test_a_change_takes_effect_at_a_batch_boundary_and_is_reported(self):
         self.run_emulator()
         self.friction.wait_for_more(30)
-        told = self.change(restitution_gamma=0.4, rest_height_m=-1.0e-11)
-        first = self.friction.wait_for(lambda m: key(m.time) > key(told.time), 'the first batch after it')
-        batch = self.deflection.wait_for(lambda m: m.first_sample == told.first_sample, 'begins with that sample')
-        self.assertEqual(key(batch.time), key(told.time))
+        reported = self.change(restitution_gamma=0.4, rest_height_m=-1.0e-11)
+        first = self.friction.wait_for(lambda m: key(m.time) > key(reported.time), 'the first batch after it')
+        batch = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample, 'begins with that sample')
+        self.assertEqual(key(batch.time), key(reported.time))
         # the friction of the other model is forgotten, and the running estimate is of this batch alone
         self.assertLess(first.energy_loss, self.friction.messages[self.friction.messages.index(first) - 1].energy_loss)
-        self.assertEqual(told.sample_rate_hz, 50000.0)
+        self.assertEqual(reported.sample_rate_hz, 50000.0)
         self.end()
 
     def test_a_new_sample_rate_begins_a_new_grid(self):
         self.run_emulator()
-        told = self.change(sample_rate_hz=80000.0)
-        self.assertEqual(told.samples_per_batch, 800)
-        batch = self.deflection.wait_for(lambda m: m.first_sample == told.first_sample, 'the first of the new grid')
-        self.assertEqual(key(batch.time), key(told.time))
+        reported = self.change(sample_rate_hz=80000.0)
+        self.assertEqual(reported.samples_per_batch, 800)
+        batch = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample, 'the first of the new grid')
+        self.assertEqual(key(batch.time), key(reported.time))
         self.assertEqual((len(batch.vertical), batch.sample_period), (800, 1.0 / 80000.0))
-        later = self.deflection.wait_for(lambda m: m.first_sample == told.first_sample + 80000, 'a second later')
-        tau = tau_between(told.time, later.time)
-        self.assertAlmostEqual(tau, 80000 * told.sample_period_tau, delta=1e-9)
+        later = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample + 80000, 'a second later')
+        tau = tau_between(reported.time, later.time)
+        self.assertAlmostEqual(tau, 80000 * reported.sample_period_tau, delta=1e-9)
         self.end()
 
     def refuse(self, why, config):
         before = len(self.updates)
         answer = values(self.emulator.call('set_parameters', Reconfigure, config=config).config)
         self.assertEqual(answer, AT_START)
-        wait_until(lambda: len(self.updates) > before, 'clients are told the old values')
+        wait_until(lambda: len(self.updates) > before, 'clients see the old values')
         self.assertEqual(self.in_force(), AT_START)
         self.assertIn(why, self.emulator.output())
 
@@ -155,9 +155,9 @@ class Steering(NodeTest):
             if i == 35:
                 self.assertTrue(self.emulator.call('reset', Trigger).success)
                 # what was changed stays changed: the new epoch begins with it
-                told = self.applied.wait_for(lambda m: m.epoch == 1, 'a new epoch')
-                self.assertEqual({name: getattr(told, name) for name in LIVE}, self.in_force())
-                self.assertEqual((key(told.time), told.first_sample), ((0, 0.0), 0))
+                reported = self.applied.wait_for(lambda m: m.epoch == 1, 'a new epoch')
+                self.assertEqual({name: getattr(reported, name) for name in LIVE}, self.in_force())
+                self.assertEqual((key(reported.time), reported.first_sample), ((0, 0.0), 0))
         self.deflection.wait_for_more(100)
         paths = self.end()
         self.assertGreater(len(paths), 1)
@@ -186,20 +186,20 @@ class Steering(NodeTest):
         # the last path: with 3 kicks a tau there are pairs of samples without one between them
         self.assertRegex(answer.text, r'ok  work .* at [1-9]\d* estimates of friction')
 
-    def test_the_rest_height_is_commanded_by_topic_told_and_repeated(self):
+    def test_the_rest_height_is_commanded_by_topic_reported_and_repeated(self):
         self.run_emulator()
         height = rospy.Publisher(NAMESPACE + '/rest_height', Float64, queue_size=100)
         wait_until(lambda: height.get_num_connections() > 0, 'the node listens')
         before = len(self.applied.messages)
         for i in range(20):
             height.publish(-1e-12 * (i + 1))
-        told = self.applied.wait_for(lambda m: m.rest_height_m == -20e-12, 'the last of them', before)
+        reported = self.applied.wait_for(lambda m: m.rest_height_m == -20e-12, 'the last of them', before)
         self.assertEqual([m.rest_height_m for m in self.applied.messages[before:]], [-1e-12 * (i + 1) for i in range(20)])
         for value, reason in ((6e-11, 'never touches'), (math.nan, 'finite'), (-1.0, 'at most 10 lattice spacings')):
             height.publish(value)
             wait_until(lambda: reason in self.emulator.output(), reason)
-            time.sleep(1.1)  # refusals are told once a second
-        self.assertEqual(self.in_force()['rest_height_m'], told.rest_height_m)
+            time.sleep(1.1)  # refusals are reported once a second
+        self.assertEqual(self.in_force()['rest_height_m'], reported.rest_height_m)
         paths = self.end()
         checks.assert_identical(self, *paths)
 

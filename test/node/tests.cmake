@@ -35,8 +35,9 @@ endforeach()
 # nodes to copy
 set(example_tests controllers examples)
 foreach(name IN LISTS example_tests)
-  afm_add_rostest(${name} emulator_node view_node watch_and_command loop_delay)
+  afm_add_rostest(${name} emulator_node view_node examples_ros)
 endforeach()
+set_tests_properties(${rostest_prefix}controllers.test PROPERTIES TIMEOUT 330)  # one after the other in two languages
 
 # of the tools that read recordings
 set(recording_tests

@@ -58,14 +58,14 @@ class ViewTest(NodeTest):
         """In short steps: the batches of a step come all at once, and a queue holds 100 of them."""
         for _ in range(2 * tau):
             end = self.emulator.call('step', Step, tau=0.5).time
-            wait_until(lambda: self.told_until(end), 'what was stepped')
+            wait_until(lambda: self.reported_until(end), 'what was stepped')
 
-    def told_until(self, end):
+    def reported_until(self, end):
         """Whether the last batch before that time has come, with its samples and its impacts."""
-        told = Told(self.topics)
+        reported = Told(self.topics)
         batch, impacts = [self.topics[name].messages[-1] for name in ('deflection', 'impacts')]
-        return (told.batches and batch.header.seq == impacts.header.seq and
-                tau_between(told.last_sample()[0], end) < told.configuration.sample_period_tau)
+        return (reported.batches and batch.header.seq == impacts.header.seq and
+                tau_between(reported.last_sample()[0], end) < reported.configuration.sample_period_tau)
 
     def wait_for_tip(self):
         return self.view.markers.wait_for(lambda m: Picture(m).has('tip'), 'a picture with the tip')
@@ -73,12 +73,12 @@ class ViewTest(NodeTest):
     def picture_of_now(self):
         """And what it must show: the emulator is paused, and the view comes to where it stands."""
         def shown():
-            picture, told = Picture(self.view.markers.messages[-1]), Told(self.topics)
-            time, X, Y = told.last_sample()
-            right = (told.centre(time) - told.middle(time) + X, told.height(time) + Y)
+            picture, reported = Picture(self.view.markers.messages[-1]), Told(self.topics)
+            time, X, Y = reported.last_sample()
+            right = (reported.centre(time) - reported.middle(time) + X, reported.height(time) + Y)
             here = picture.has('tip') and math.dist(picture.tip(), right) < EXACT
-            complete = picture.spots() == len(told.events_seen(time))  # impacts come on another topic than the tip
-            return (picture, told, time) if here and complete else None
+            complete = picture.spots() == len(reported.events_seen(time))  # impacts come on another topic than the tip
+            return (picture, reported, time) if here and complete else None
         return wait_until(shown, 'a picture of where the emulator has stopped')
 
     def assert_sane(self, picture):
@@ -97,15 +97,15 @@ class ViewTest(NodeTest):
         for x, y in places:
             self.assertGreater(y, surface(x + middle) - 10 * EXACT)
 
-    def assert_impacts(self, picture, told, time):
-        seen = told.events_seen(time)
+    def assert_impacts(self, picture, reported, time):
+        seen = reported.events_seen(time)
         for name, kinds in (('impacts', (Impact.IMPACT, Impact.BURST)),
                             ('contacts', (Impact.CONTACT_BEGUN, Impact.CONTACT_ENDED))):
             wanted, places = [x for x, e in seen if e.kind in kinds], picture.places(name)
             self.assertEqual(len(places), len(wanted), name)
             for (x, y), right in zip(places, wanted):
                 self.assertAlmostEqual(x, right, delta=EXACT)
-                self.assertAlmostEqual(y, surface(x + told.middle(time)), delta=10 * EXACT)
+                self.assertAlmostEqual(y, surface(x + reported.middle(time)), delta=10 * EXACT)
         return [e for _, e in seen if e.kind in (Impact.IMPACT, Impact.BURST)]
 
     def assert_lighter_is_more(self, picture, impacts):
@@ -115,22 +115,22 @@ class ViewTest(NodeTest):
         self.assertGreater(len(set(light)), 1)
 
     def shows_friction(self):
-        """K_f and its error as they were told last, to the decimals shown."""
+        """K_f and its error as they were reported last, to the decimals shown."""
         friction = self.topics['friction'].messages[-1]
-        shown = re.match(r'K_f ([\d.]+) \+- ([\d.]+) m/tau$', Picture(self.view.markers.messages[-1]).text('friction'))
+        shown = re.match(r'K_f ([\d.]+) \+- ([\d.]+) m_tip/tau$', Picture(self.view.markers.messages[-1]).text('friction'))
         return shown and all(
             float(number) > 0.0 and abs(float(number) - right) < 0.51 * 10.0 ** -len(number.split('.')[1])
             for number, right in zip(shown.groups(), (friction.k_f_natural, friction.k_f_std_error / FRICTION_UNIT)))
 
     def assert_shows_all(self):
-        picture, told, time = self.picture_of_now()
-        middle = told.middle(time)
+        picture, reported, time = self.picture_of_now()
+        middle = reported.middle(time)
         self.assert_sane(picture)
         self.assert_surface(picture, middle)
         self.assert_above_surface(picture.places('path') + [picture.tip()], middle)
-        impacts = self.assert_impacts(picture, told, time)
+        impacts = self.assert_impacts(picture, reported, time)
         self.assertFalse(picture.has('positions'))
-        self.assertEqual(picture.has('contact'), told.events[-1].kind == Impact.CONTACT_BEGUN)
+        self.assertEqual(picture.has('contact'), reported.events[-1].kind == Impact.CONTACT_BEGUN)
         return picture, impacts
 
     def test_tip_path_and_impacts(self):
@@ -145,7 +145,7 @@ class ViewTest(NodeTest):
             self.assertLess(min(math.dist(place, corner) for corner in path), EXACT)
         self.assertEqual(picture.text('drag'), 'drag 11.255 um/s')
         self.assertEqual(picture.text('eta'), 'eta 3.400')
-        wait_until(self.shows_friction, 'K_f as told')
+        wait_until(self.shows_friction, 'K_f as reported')
 
     def test_finds_its_place_when_it_comes_late(self):
         self.begin(SLOW, view_first=False)
@@ -191,10 +191,10 @@ class ViewTest(NodeTest):
             self.advance(1)
             return Told(self.topics).events[-1].kind == Impact.CONTACT_BEGUN
         wait_until(slides, 'contact', deadline_s=60.0)
-        picture, told, time = self.picture_of_now()
-        self.assert_surface(picture, told.middle(time))
+        picture, reported, time = self.picture_of_now()
+        self.assert_surface(picture, reported.middle(time))
         x, y = picture.tip()
-        self.assertAlmostEqual(y, surface(x + told.middle(time)), delta=1e-3)
+        self.assertAlmostEqual(y, surface(x + reported.middle(time)), delta=1e-3)
         self.assertEqual(picture.text('contact'), 'contact')
         for colour in (picture.markers['tip'].color, picture.markers['path'].colors[-1],
                        picture.markers['contacts'].colors[-1]):

@@ -80,11 +80,11 @@ class SameBytes(Case):
         while self.lines('stopped.csv') < 4 and process.poll() is None and time.monotonic() < deadline:
             pass
         process.send_signal(number)
-        told = process.communicate(timeout=DEADLINE)[1]
+        reported = process.communicate(timeout=DEADLINE)[1]
         before = self.lines('stopped.csv')
         self.assertGreaterEqual(before, 4)
         self.assertLess(before, 120, 'it was finished before it was stopped')
-        return process.returncode, told, self.table(arguments, 'stopped.csv')
+        return process.returncode, reported, self.table(arguments, 'stopped.csv')
 
     def lines(self, name):
         try:
@@ -96,10 +96,10 @@ class SameBytes(Case):
         for sweep in ('fresh', 'up'):
             long = ['--eta', '3:6:0.025', '--cutoff', '0.3', '--duration', '2000', '--sweep', sweep]
             whole = self.table(long, 'whole.csv')
-            code, told, finished = self.interrupted(long, signal.SIGINT)
+            code, reported, finished = self.interrupted(long, signal.SIGINT)
             self.assertEqual(finished, whole)
             self.assertEqual(code, 130)
-            self.assertIn(b'the same command goes on from there', told)
+            self.assertIn(b'the same command goes on from there', reported)
             os.remove(self.path('stopped.csv'))
             code, _, finished = self.interrupted([*long, '--threads', '1'], signal.SIGKILL)
             self.assertEqual((code, finished), (-signal.SIGKILL, whole))

@@ -44,7 +44,7 @@ class PlotRun(unittest.TestCase):
                     bag.write('/tip/friction', Friction(epoch=epoch, k_f=1e-6, k_f_natural=0.4))
         return path
 
-    def test_draws_beside_the_bag_or_where_told(self):
+    def test_draws_beside_the_bag_or_where_asked(self):
         path = self.bag(20)
         done = plot(path)
         self.assertEqual(done.returncode, 0, done.stdout)

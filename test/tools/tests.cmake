@@ -76,7 +76,7 @@ if(NOT AFM_SANITIZE)
     add_dependencies(tests example_${name})
     list(APPEND examples $<TARGET_FILE:example_${name}>)
   endforeach()
-  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR}
+  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR} "${CATKIN_DEVEL_PREFIX}"
     ${PROJECT_SOURCE_DIR}/examples/cpp ${examples})
   set_tests_properties(consumer PROPERTIES TIMEOUT 300)
   if(catkin_FOUND)

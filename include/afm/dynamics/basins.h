@@ -20,7 +20,7 @@ struct BasinSettings {
 // One start and its attractor.
 struct Visit {
   Attractor attractor;
-  double K_f = 0.0, K_f_std_error = 0.0;  // [m/tau]
+  double K_f = 0.0, K_f_std_error = 0.0;  // [m_tip/tau]
   TipState start;
   TipState end;  // on the attractor
 };

@@ -13,7 +13,7 @@ namespace afm {
 struct CycleAverage {
   double order = 0.0;         // truncation: impacts, or the largest instability
   int terms = 0;              // orbits and combinations of orbits used
-  double K_f = 0.0;           // [m/tau]; NaN if it is not defined
+  double K_f = 0.0;           // [m_tip/tau]; NaN if it is not defined
   double conservation = 0.0;  // 0 by flow conservation: 1/zeta(1), or the determinant at 1
 };
 

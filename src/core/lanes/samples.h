@@ -49,7 +49,8 @@ template <class At>
 AFM_LANE_INLINE double sample_all(const SampleRow& row, const At& at) {
   const lanes::SampleClock clock = row.clock;
   const Pack numbers = Pack(lane_numbers()), last(row.first + static_cast<double>(row.n - 1));
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();  // a call at run time would be a shared function
+  // a constant, as a call at run time would be a shared function
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Pack lowest(kInfinity);
   double few[2][kLanes];
   double* const vertical = row.n < std::size_t{kLanes} ? few[0] : row.vertical;

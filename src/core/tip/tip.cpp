@@ -23,13 +23,6 @@ const TipState& checked(const TipState& start) {
 // The flight to the next impact may enlarge an error by this factor (measured: docs/stability.md,
 // benchmark/burst_error).
 constexpr double kErrorGrowth = 100.0;
-// Slower bounces may begin a chatter sequence [a/tau]: 2 tolerance^(5/8), which is 0.027 at the default. The first
-// bounce causes most of a sequence's error; the factor is measured (benchmark/burst_error). Square roots give the same
-// bits on every machine.
-double entry_speed_for(double contact_tolerance) {
-  return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
-}
-
 // Digits of the reference slide: an error of a 2500th of the tolerance is enough. Its segments are 2.7 times as long
 // for it, and 1.7 times as fast at eta = 0.3 (docs/history.md). The energy balance does not depend on it.
 int reference_bits(double contact_tolerance) {
@@ -43,6 +36,12 @@ int contact_bits(double u) { return kSlideBits - std::ilogb(std::fmin(std::fmax(
 
 }  // namespace
 
+// The first bounce causes most of a sequence's error; the factor is measured (benchmark/burst_error). Square roots give
+// the same bits on every machine.
+double chatter_entry_speed(double contact_tolerance) {
+  return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
+}
+
 Tip::Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance)
     : Tip(model, eta, to_tip_state(model.H, start), contact_tolerance) {}
 
@@ -52,7 +51,7 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       eta_(eta),
       slowest_chatter_(contact_tolerance / kErrorGrowth),
       law_(model, slowest_chatter_),
-      entry_speed_(entry_speed_for(contact_tolerance)),
+      entry_speed_(chatter_entry_speed(contact_tolerance)),
       flight_(mechanics_, eta, constrained(checked(start))),
       slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
   const TipState& launched = flight_.launch();
@@ -129,7 +128,7 @@ void Tip::leave_or_press() {
 
 void Tip::set_tolerance(double contact_tolerance) {
   slowest_chatter_ = contact_tolerance / kErrorGrowth;
-  entry_speed_ = entry_speed_for(contact_tolerance);
+  entry_speed_ = chatter_entry_speed(contact_tolerance);
 }
 
 TipState Tip::tip_state() const {

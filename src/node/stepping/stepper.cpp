@@ -81,9 +81,9 @@ void Stepper::run_batch() {
 // Behind, as after the process was stopped, we may be faster than publishing: then lag grows rather than that a batch
 // is lost.
 bool Stepper::hand_over_batch() {
-  const Event told = batch_event();
+  const Event report = batch_event();
   const auto give_up = monotonic_now() + kPublishingPatience;
-  while (!hand_over_.offer(told, batch_)) {
+  while (!hand_over_.offer(report, batch_)) {
     if (stopping_ || monotonic_now() > give_up) return false;
     sleep_until(monotonic_now() + kRoomLook);
   }
@@ -96,15 +96,15 @@ void Stepper::look_for_demand() {
 }
 
 Event Stepper::batch_event() {
-  Event told = event(Event::Kind::batch);
-  told.batch.stretch = stretch_;
-  return told;
+  Event report = event(Event::Kind::batch);
+  report.batch.stretch = stretch_;
+  return report;
 }
 
-void Stepper::publish(Event::Kind kind, const Answer& told) {
-  Event told_of = event(kind);
-  told_of.answer = told;
-  hand_over_.offer(told_of);
+void Stepper::publish(Event::Kind kind, const Answer& answer) {
+  Event report = event(kind);
+  report.answer = answer;
+  hand_over_.offer(report);
 }
 
 Event Stepper::event(Event::Kind kind) {

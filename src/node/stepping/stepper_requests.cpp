@@ -24,7 +24,7 @@ bool Stepper::keep_few_to_remember() {
 }
 
 void Stepper::serve(const Request& request) {
-  Answer told = answer(Answer::Result::done, 0);
+  Answer reply = answer(Answer::Result::done, 0);
   switch (request.kind) {
     case Request::Kind::drag:
       timed_out_ = false;
@@ -47,17 +47,17 @@ void Stepper::serve(const Request& request) {
       reset();
       break;
     case Request::Kind::step_time:
-      told = step_time(request.value);
+      reply = step_time(request.value);
       break;
     case Request::Kind::step_impacts:
-      told = step_impacts(request.impacts);
+      reply = step_impacts(request.impacts);
       break;
     case Request::Kind::nothing:
       break;
   }
-  told.ticket = request.ticket;
-  told.time = emulator_.now();
-  if (told.ticket != 0) publish(Event::Kind::answer, told);
+  reply.ticket = request.ticket;
+  reply.time = emulator_.now();
+  if (reply.ticket != 0) publish(Event::Kind::answer, reply);
 }
 
 void Stepper::apply_drag(double drag_velocity) {

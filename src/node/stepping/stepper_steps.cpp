@@ -13,8 +13,8 @@ constexpr std::chrono::seconds kPatience{8};
 }  // namespace
 
 bool Stepper::hand_over_step() {
-  const Event told = batch_event();
-  while (!hand_over_.offer(told, batch_)) {
+  const Event report = batch_event();
+  while (!hand_over_.offer(report, batch_)) {
     if (stopping_) return false;
     sleep_until(monotonic_now() + kRoomLook);
   }

@@ -139,7 +139,7 @@ void Broadcaster::publish_checkpoint(const Event& event, const SavedState& state
 template <class Message>
 void Broadcaster::send(Message&& message, Channel<Message>& channel) {
   run_digest_.add(message);
-  digest_told_ = false;
+  digest_published_ = false;
   channel.send(std::move(message));
 }
 
@@ -157,11 +157,11 @@ void Broadcaster::expect_recording(bool expected) {
 }
 
 void Broadcaster::tell_digest() {
-  if (digest_told_) return;
+  if (digest_published_) return;
   auto message = run_digest_.message();
   message.header.stamp = to_stamp(wall_now_ns());
   digest_.send(std::move(message));
-  digest_told_ = true;
+  digest_published_ = true;
 }
 
 void Broadcaster::request_digest() {

@@ -83,7 +83,7 @@ class Broadcaster {
   HealthTracker health_tracker_;
   Health health_;
   RunDigest run_digest_;  // of all that is published
-  bool digest_told_ = true;
+  bool digest_published_ = true;
   std::chrono::steady_clock::time_point status_due_, digest_due_, diagnostics_due_;
   std::mutex listening_;
   bool recording_expected_ = false;

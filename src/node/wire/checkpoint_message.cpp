@@ -37,9 +37,9 @@ std::optional<Emulator> restored(const afm_emulator::Checkpoint& c) {
   std::copy(c.state.begin(), c.state.end(), state.words.begin());
   state.size = c.state.size();
   auto emulator = Emulator::restored(state);
-  const bool as_told = emulator && emulator->now() == from_message(c.time) && emulator->impacts() == c.impacts &&
-                       emulator->samples() == c.samples;
-  return as_told ? emulator : std::nullopt;
+  const bool agrees = emulator && emulator->now() == from_message(c.time) && emulator->impacts() == c.impacts &&
+                      emulator->samples() == c.samples;
+  return agrees ? emulator : std::nullopt;
 }
 
 }  // namespace afm::node

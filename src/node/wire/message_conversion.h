@@ -55,23 +55,23 @@ Level level_of(const Applied& applied) {
 }
 
 // The live parameters that an AppliedParameters or a Checkpoint reports.
-template <class Told>
-LiveParameters to_live(const Told& told) {
-  return {told.restitution_gamma, told.cutoff_speed, told.rest_height_m, told.sample_rate_hz,
-          told.friction_window_tau, told.temperature_k, told.quality_factor, told.lateral_quality_factor,
-          told.kicks_per_tau};
+template <class Report>
+LiveParameters to_live(const Report& report) {
+  return {report.restitution_gamma, report.cutoff_speed,           report.rest_height_m,
+          report.sample_rate_hz,    report.friction_window_tau,    report.temperature_k,
+          report.quality_factor,    report.lateral_quality_factor, report.kicks_per_tau};
 }
-template <class Told>
-void write_live(const LiveParameters& live, Told& told) {
-  told.restitution_gamma = live.restitution_gamma;
-  told.cutoff_speed = live.cutoff_speed;
-  told.rest_height_m = live.rest_height_m;
-  told.sample_rate_hz = live.sample_rate_hz;
-  told.friction_window_tau = live.friction_window_tau;
-  told.temperature_k = live.temperature_k;
-  told.quality_factor = live.quality_factor;
-  told.lateral_quality_factor = live.lateral_quality_factor;
-  told.kicks_per_tau = live.kicks_per_tau;
+template <class Report>
+void write_live(const LiveParameters& live, Report& report) {
+  report.restitution_gamma = live.restitution_gamma;
+  report.cutoff_speed = live.cutoff_speed;
+  report.rest_height_m = live.rest_height_m;
+  report.sample_rate_hz = live.sample_rate_hz;
+  report.friction_window_tau = live.friction_window_tau;
+  report.temperature_k = live.temperature_k;
+  report.quality_factor = live.quality_factor;
+  report.lateral_quality_factor = live.lateral_quality_factor;
+  report.kicks_per_tau = live.kicks_per_tau;
 }
 
 // Those fields of the status that the stepping thread knows.

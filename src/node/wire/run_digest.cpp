@@ -7,19 +7,19 @@ namespace afm::node {
 RunDigest::RunDigest(const afm_emulator::Configuration& configuration)
     : epoch_(configuration.epoch), configuration_digest_(digest_of_message(configuration)) {}
 
-RunDigest::RunDigest(const afm_emulator::Digest& told)
-    : epoch_(told.epoch),
-      time_(told.time),
-      first_sample_(told.first_sample),
-      samples_(told.samples),
-      impacts_(told.impacts),
-      commands_(told.commands),
-      estimates_(told.estimates),
-      configuration_digest_(told.configuration_digest),
-      samples_digest_(told.samples_digest),
-      impacts_digest_(told.impacts_digest),
-      commands_digest_(told.commands_digest),
-      estimates_digest_(told.estimates_digest) {}
+RunDigest::RunDigest(const afm_emulator::Digest& message)
+    : epoch_(message.epoch),
+      time_(message.time),
+      first_sample_(message.first_sample),
+      samples_(message.samples),
+      impacts_(message.impacts),
+      commands_(message.commands),
+      estimates_(message.estimates),
+      configuration_digest_(message.configuration_digest),
+      samples_digest_(message.samples_digest),
+      impacts_digest_(message.impacts_digest),
+      commands_digest_(message.commands_digest),
+      estimates_digest_(message.estimates_digest) {}
 
 void RunDigest::add(const afm_emulator::Deflection& batch) {
   for (std::size_t i = 0; i < batch.vertical.size() && i < batch.lateral.size(); ++i) {

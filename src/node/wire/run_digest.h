@@ -20,7 +20,7 @@ class RunDigest {
   // An epoch begins. Stamps and sequence numbers are no part of a run.
   explicit RunDigest(const afm_emulator::Configuration& configuration);
   // Goes on from what was reported.
-  explicit RunDigest(const afm_emulator::Digest& told);
+  explicit RunDigest(const afm_emulator::Digest& message);
 
   void add(const afm_emulator::Deflection& batch);
   void begin_samples(std::uint64_t first);  // with this one: those before are not covered

@@ -69,6 +69,7 @@ void BagAudit::begin_where_known(const replay::EpochLog& log) {
   last_time_ = log.emulator().now();
   kicks_ = log.emulator().thermostat();
   energy_->set_bath(kicks_);
+  friction_->set_tolerance(level_.contact_tolerance);
   if (log.start() == nullptr) return;
   energy_->change(settings.model, grid_);
   energy_->add_command(last_time_, log.drag_velocity());
@@ -105,6 +106,7 @@ void BagAudit::follow_level(const Level& level, const ModelTime& time) {
   level_ = level;
   energy_->change(at_level(node::emulator_settings(parameters_).model, level), grid_);
   friction_->change(time);
+  friction_->set_tolerance(level.contact_tolerance);
 }
 
 void BagAudit::follow(const afm_emulator::AppliedDrag& drag) {

@@ -69,8 +69,7 @@ void BagAudit::report_sequence(std::vector<Finding>& findings) const {
 
 void BagAudit::report_digests(std::vector<Finding>& findings) const {
   if (digests_ == 0) {
-    findings.push_back(
-        {Finding::Kind::note, "digests", "none in the recording: whether it was altered cannot be told"});
+    findings.push_back({Finding::Kind::note, "digests", "none in the recording: whether it was altered is unknown"});
     return;
   }
   findings.push_back(judge(!contradiction_, "digests",

@@ -98,11 +98,12 @@ void EnergyAudit::judge_law(const afm_emulator::Impact& impact) {
   const double v = impact.normal_speed / units_.velocity();
   const double gamma = v >= model_.v_c ? model_.gamma : 1.0 - (1.0 - model_.gamma) * v / model_.v_c;
   const double expected = 0.5 * (1.0 - gamma) * (1.0 + gamma) * v * v;
-  const double told = impact.energy_loss / units_.energy();
+  const double published = impact.energy_loss / units_.energy();
   // near 1 the restitution loses digits: judge against the energy that came in
   const double came_in = 0.5 * v * v, slow = 2.0 * kMinGapRate;
-  const bool stays = v < slow && std::abs(told - came_in) < std::abs(told - expected);  // too slow for a bounce
-  note(report_.law_error, v > 0.0 ? (told - (stays ? came_in : expected)) / came_in : told);
+  // too slow for a bounce
+  const bool stays = v < slow && std::abs(published - came_in) < std::abs(published - expected);
+  note(report_.law_error, v > 0.0 ? (published - (stays ? came_in : expected)) / came_in : published);
   ++report_.by_law;
 }
 
@@ -156,13 +157,13 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
     return;
   if (grid_.time(last - 1) < before.time || after.time < grid_.time(last + 2)) return;
   const Motion in = motion(last - 1, event.time), out = motion(last + 1, event.time);
-  const afm_emulator::Impact& told = *event.impact;
-  const double loss = told.energy_loss / units_.energy(), scale = energy(in) + 0.5 * square(event.eta);
+  const afm_emulator::Impact& published = *event.impact;
+  const double loss = published.energy_loss / units_.energy(), scale = energy(in) + 0.5 * square(event.eta);
   // a tip that has come to rest still has its place rounded as a height of the surface is
   const double length = std::sqrt(2.0 * scale) / omega_[1] + model_.H + std::abs(model_.y0);
   const double speed = omega_[1] * length, energy_scale = 0.5 * std::sqrt(2.0 * scale) * speed;
   // the holder moves on through the springs: what is conserved in flight is the energy in its frame
-  const double angle = kTwoPi * told.surface_phase, slope = -kTwoPi * model_.H * std::sin(angle);
+  const double angle = kTwoPi * published.surface_phase, slope = -kTwoPi * model_.H * std::sin(angle);
   // of the hammer it takes what the surface gives along x
   const double free = is_free_along_x(model_), given = free * (out.U - in.U) - (1.0 - free) * slope * (out.W - in.W);
   note(report_.balance_error, (energy(out) - energy(in) + event.eta * given + loss) / energy_scale);
@@ -171,11 +172,11 @@ void EnergyAudit::judge_impact(const Event& before, const Event& event, const Ev
   note(report_.position_error, (model_.y0 + in.Y - model_.H * std::cos(angle)) / length);
   const double u = in.U + event.eta, inverse_norm = 1.0 / std::sqrt(1.0 + free * square(slope));
   note(report_.speed_error,
-       (std::abs(in.W - slope * u) * inverse_norm - told.normal_speed / units_.velocity()) / speed);
+       (std::abs(in.W - slope * u) * inverse_norm - published.normal_speed / units_.velocity()) / speed);
   note(report_.speed_error,
-       ((u + free * slope * in.W) * inverse_norm - told.tangential_velocity / units_.velocity()) / speed);
+       ((u + free * slope * in.W) * inverse_norm - published.tangential_velocity / units_.velocity()) / speed);
   note(report_.allowed, kRoundings * square(conditioning_));
-  report_.judged_energy += told.energy_loss;
+  report_.judged_energy += published.energy_loss;
   ++report_.judged;
 }
 

@@ -19,7 +19,7 @@ namespace afm::audit {
 struct Stretch {
   double drag_velocity = 0.0, eta = 0.0;  // [m/s], [a/tau]
   double tau = 0.0;                       // its length
-  double published = 0.0, error = 0.0;    // K_f at its end and its standard error [m/tau]
+  double published = 0.0, error = 0.0;    // K_f at its end and its standard error [m_tip/tau]
   double recomputed = 0.0;                // K_f from the impacts
 };
 
@@ -39,7 +39,8 @@ class FrictionAudit {
   explicit FrictionAudit(const afm_emulator::Configuration& configuration);
 
   void command(const ModelTime& time, double drag_velocity);
-  void change(const ModelTime& time);  // of the model: the estimate begins anew
+  void change(const ModelTime& time);            // of the model: the estimate begins anew
+  void set_tolerance(double contact_tolerance);  // of the level in force [a, a/tau]
   void add(const afm_emulator::ImpactArray& batch);
   void judge(const afm_emulator::Friction& estimate);
   void gap();  // sums begin again at the next estimate
@@ -59,12 +60,12 @@ class FrictionAudit {
 
   const Units units_;
   double drag_velocity_;
-  ModelTime start_;           // of the present stretch
-  Sums sums_;                 // of the impacts in it
-  Sums split_;                // a burst that may have begun before the command, or before what is recorded
-  double split_error_ = 0.0;  // of the energy of its parts [J]
-  bool awaits_first_ = true;  // the first event since then
-  std::optional<Sums> base_;  // what was lost before our sums began, from the first estimate seen
+  ModelTime start_;             // of the present stretch
+  Sums sums_;                   // of the impacts in it
+  Sums split_;                  // a burst that may have begun before the command, or before what is recorded
+  double fastest_burst_ = 0.0;  // m v^2 / 2 of the fastest bounce that may begin a burst [J]
+  bool awaits_first_ = true;    // the first event since then
+  std::optional<Sums> base_;    // what was lost before our sums began, from the first estimate seen
   std::optional<Stretch> last_;
   FrictionReport report_;
 };

@@ -62,8 +62,8 @@ Emulator restore(const afm_emulator::Checkpoint& checkpoint, const afm_emulator:
                                         " of the emulator, which recorded it");
   }
   const auto emulator = node::restored(checkpoint);
-  const std::uint64_t told = checkpoint.digest.configuration_digest;
-  if (!emulator || told != node::RunDigest(configuration).message().configuration_digest) {
+  const std::uint64_t recorded = checkpoint.digest.configuration_digest;
+  if (!emulator || recorded != node::RunDigest(configuration).message().configuration_digest) {
     nonsense(checkpoint.epoch, "the checkpoint that it begins with is no state of this run");
   }
   return *emulator;

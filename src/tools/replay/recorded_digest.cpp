@@ -38,13 +38,13 @@ void RecordedDigest::follow(const RecordedBatch& batch, const OnDigest& on_diges
   const ModelTime end = node::from_message(batch.friction->time);
   const std::uint64_t samples = end_of(*batch.deflection), impacts = end_of(*batch.impacts);
   for (; digests_.head() != nullptr; digests_.pop()) {
-    const afm_emulator::Digest& told = *digests_.head();
-    if (told.epoch > batch.epoch) return;
-    if (told.epoch < batch.epoch) continue;
-    if (told.samples > samples || told.impacts > impacts) return;
-    if (told.samples < samples || told.impacts < impacts) continue;
-    if (end < node::from_message(told.time)) return;  // a batch without samples and impacts is still to come
-    on_digest(told, check(told));
+    const afm_emulator::Digest& recorded = *digests_.head();
+    if (recorded.epoch > batch.epoch) return;
+    if (recorded.epoch < batch.epoch) continue;
+    if (recorded.samples > samples || recorded.impacts > impacts) return;
+    if (recorded.samples < samples || recorded.impacts < impacts) continue;
+    if (end < node::from_message(recorded.time)) return;  // a batch without samples and impacts is still to come
+    on_digest(recorded, check(recorded));
   }
 }
 
@@ -59,16 +59,16 @@ void RecordedDigest::count_commands(const EpochLog& log, std::uint64_t commands)
   }
 }
 
-std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest& told) {
-  const EpochLog& log = log_.epoch(told.epoch);
-  count_commands(log, told.commands);
-  afm_emulator::Digest found = whole_ ? digest_.message() : told;
+std::optional<FieldDifference> RecordedDigest::check(const afm_emulator::Digest& recorded) {
+  const EpochLog& log = log_.epoch(recorded.epoch);
+  count_commands(log, recorded.commands);
+  afm_emulator::Digest found = whole_ ? digest_.message() : recorded;
   found.commands = commands_.message().commands;
   found.commands_digest = commands_.message().commands_digest;
   found.configuration_digest = node::RunDigest(log.configuration).message().configuration_digest;
-  digest_ = node::RunDigest(told);
+  digest_ = node::RunDigest(recorded);
   whole_ = true;
-  return find_difference(found, told);
+  return find_difference(found, recorded);
 }
 
 }  // namespace afm::replay

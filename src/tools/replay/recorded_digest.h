@@ -27,7 +27,7 @@ class RecordedDigest {
  private:
   void begin_epoch(const RecordedBatch& batch);
   void add(const RecordedBatch& batch);
-  std::optional<FieldDifference> check(const afm_emulator::Digest& told);
+  std::optional<FieldDifference> check(const afm_emulator::Digest& recorded);
   void count_commands(const EpochLog& log, std::uint64_t commands);
 
   const RunLog& log_;

@@ -137,13 +137,13 @@ void Recording::check_marks(const RecordedBag& bag) const {
   rosbag::View view(bag.bag, [this](const rosbag::ConnectionInfo* connection) {
     return connection->topic.compare(0, node_.size() + 1, node_ + "/") == 0;
   });
-  const std::uint64_t found = view.size() - 1, told = bag.marks.back().messages;
-  if (found < told) {
-    throw Problem(Verdict::missing, bag.path + ": was closed with " + std::to_string(told) + " messages, and holds " +
-                                        std::to_string(found));
+  const std::uint64_t found = view.size() - 1, expected = bag.marks.back().messages;
+  if (found < expected) {
+    throw Problem(Verdict::missing, bag.path + ": was closed with " + std::to_string(expected) +
+                                        " messages, and holds " + std::to_string(found));
   }
-  if (found > told) {
-    throw Problem(Verdict::altered, bag.path + ": was closed with " + std::to_string(told) +
+  if (found > expected) {
+    throw Problem(Verdict::altered, bag.path + ": was closed with " + std::to_string(expected) +
                                         " messages, and now holds " + std::to_string(found));
   }
 }

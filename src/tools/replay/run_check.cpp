@@ -43,8 +43,8 @@ void RunCheck::run() {
   while (!(difference_ && difference_->altered) && batches_.next(batch)) {
     if (epoch_ != batch.epoch) begin_epoch(batch);
     if (!difference_) compare(batch);
-    recorded_.follow(batch,
-                     [&](const auto& told, const auto& contradiction) { check_digest(batch, told, contradiction); });
+    recorded_.follow(
+        batch, [&](const auto& recorded, const auto& contradiction) { check_digest(batch, recorded, contradiction); });
     check_checkpoints(batch, std::numeric_limits<std::uint64_t>::max());
     last_batch_ = batch.sequence;
     progress_(static_cast<double>(batches_.read()) / static_cast<double>(batches_.size()), end_);
@@ -80,24 +80,25 @@ void RunCheck::check_checkpoints(const RecordedBatch& batch, std::uint64_t most_
   if (difference_) return;
   const auto& checkpoints = log_.epoch(batch.epoch).checkpoints;
   for (; next_checkpoint_ < checkpoints.size() && !difference_; ++next_checkpoint_) {
-    const auto& told = checkpoints[next_checkpoint_];
-    const ModelTime time = node::from_message(told.time);
-    const bool ahead = simulation_->now() < time || simulation_->impacts() < told.impacts;
-    if (ahead || most_commands < told.digest.commands) return;
-    const bool here = time == simulation_->now() && told.impacts == simulation_->impacts();
-    if (here && told.layout == state_layout()) check_checkpoint(batch, told);
+    const auto& recorded = checkpoints[next_checkpoint_];
+    const ModelTime time = node::from_message(recorded.time);
+    const bool ahead = simulation_->now() < time || simulation_->impacts() < recorded.impacts;
+    if (ahead || most_commands < recorded.digest.commands) return;
+    const bool here = time == simulation_->now() && recorded.impacts == simulation_->impacts();
+    if (here && recorded.layout == state_layout()) check_checkpoint(batch, recorded);
   }
 }
 
-void RunCheck::check_checkpoint(const RecordedBatch& batch, const afm_emulator::Checkpoint& told) {
-  simulation_->apply_commands(told.digest.commands);
+void RunCheck::check_checkpoint(const RecordedBatch& batch, const afm_emulator::Checkpoint& recorded) {
+  simulation_->apply_commands(recorded.digest.commands);
   auto simulated = simulation_->checkpoint();
-  simulated.digest.estimates = told.digest.estimates;  // not repeated before the recording began
-  simulated.digest.estimates_digest = told.digest.estimates_digest;
+  simulated.digest.estimates = recorded.digest.estimates;  // not repeated before the recording began
+  simulated.digest.estimates_digest = recorded.digest.estimates_digest;
   // nor what was never published, as the emulator had to let it go
-  if (told.digest.samples != told.samples || told.digest.impacts != told.impacts) simulated.digest = told.digest;
+  if (recorded.digest.samples != recorded.samples || recorded.digest.impacts != recorded.impacts)
+    simulated.digest = recorded.digest;
   simulated.state_digest = node::digest_of(simulated);
-  if (const auto field = find_difference(told, simulated)) differ(batch, *field, simulation_->now());
+  if (const auto field = find_difference(recorded, simulated)) differ(batch, *field, simulation_->now());
   ++extent_.checkpoints;
 }
 
@@ -112,10 +113,10 @@ bool RunCheck::is_plausible(const RecordedBatch& batch) {
   // where the recording begins, or batches are missing, nothing else shows how far the run had come
   const bool jumps = !next_sample_ || missing_before(batch) > 0;
   if (batch.deflection && jumps && !is_at_its_time(batch)) {
-    const ModelTime told = node::from_message(batch.deflection->time);
+    const ModelTime recorded = node::from_message(batch.deflection->time);
     const std::uint64_t sample = batch.deflection->first_sample;
     const std::string due = to_text(simulation_->sample_time(sample)) + " for sample " + std::to_string(sample);
-    differ(batch, {"deflection.time", to_text(told), due, 0}, told);
+    differ(batch, {"deflection.time", to_text(recorded), due, 0}, recorded);
     difference_->altered = true;
     return false;
   }
@@ -195,8 +196,8 @@ void RunCheck::compare(const RecordedBatch& batch) {
     expect_same(batch, recorded, simulation_->impacts(recorded.first_index, count));
     // an empty list shows nothing else of where it stands
     if (batch.friction && !difference_ && end_of(recorded) != simulation_->impacts()) {
-      const std::string told = std::to_string(end_of(recorded)), found = std::to_string(simulation_->impacts());
-      differ(batch, {"impacts so far", told, found, 0}, simulation_->now());
+      const std::string so_far = std::to_string(end_of(recorded)), found = std::to_string(simulation_->impacts());
+      differ(batch, {"impacts so far", so_far, found, 0}, simulation_->now());
     }
     extent_.impacts += recorded.impacts.size();
   }
@@ -223,22 +224,22 @@ void RunCheck::differ(const RecordedBatch& batch, const FieldDifference& field, 
   difference_ = Difference{field, batch.epoch, batch.sequence, time, simulation_->last_command(), std::nullopt};
 }
 
-void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told,
+void RunCheck::check_digest(const RecordedBatch& batch, const afm_emulator::Digest& recorded,
                             const std::optional<FieldDifference>& contradiction) {
   ++extent_.digests;
   if (difference_) {
     difference_->altered = difference_->altered.value_or(false) || contradiction.has_value();
   } else if (contradiction) {
-    differ(batch, *contradiction, node::from_message(told.time));
+    differ(batch, *contradiction, node::from_message(recorded.time));
     difference_->altered = true;
   }
-  check_checkpoints(batch, told.commands);
+  check_checkpoints(batch, recorded.commands);
   if (difference_) return;
-  simulation_->apply_commands(told.commands);
+  simulation_->apply_commands(recorded.commands);
   auto simulated = simulation_->digest().message();
-  simulated.estimates = told.estimates;  // not repeated before the recording began
-  simulated.estimates_digest = told.estimates_digest;
-  if (const auto field = find_difference(told, simulated)) differ(batch, *field, node::from_message(told.time));
+  simulated.estimates = recorded.estimates;  // not repeated before the recording began
+  simulated.estimates_digest = recorded.estimates_digest;
+  if (const auto field = find_difference(recorded, simulated)) differ(batch, *field, node::from_message(recorded.time));
 }
 
 void RunCheck::finish_epoch() {

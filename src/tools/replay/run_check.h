@@ -63,8 +63,8 @@ class RunCheck {
   void expect_same(const RecordedBatch& batch, const Message& recorded, const Message& simulated);
   void differ(const RecordedBatch& batch, const FieldDifference& field, const ModelTime& time);
   void check_checkpoints(const RecordedBatch& batch, std::uint64_t most_commands);
-  void check_checkpoint(const RecordedBatch& batch, const afm_emulator::Checkpoint& told);
-  void check_digest(const RecordedBatch& batch, const afm_emulator::Digest& told,
+  void check_checkpoint(const RecordedBatch& batch, const afm_emulator::Checkpoint& recorded);
+  void check_digest(const RecordedBatch& batch, const afm_emulator::Digest& recorded,
                     const std::optional<FieldDifference>& contradiction);
   void finish_epoch();
 

@@ -22,7 +22,7 @@ void check_repeated(const Message& known, const Message& again, const std::strin
   const auto difference = find_difference(known, again);
   if (!difference) return;
   throw Problem(Verdict::altered, where + ": " + difference->field + " is " + difference->second + ", and was " +
-                                      difference->first + " when it was told before");
+                                      difference->first + " when it was recorded before");
 }
 
 template <class Message>
@@ -112,7 +112,7 @@ void RunLog::take(const afm_emulator::Checkpoint& checkpoint, const std::string&
   epoch(checkpoint.epoch);
   if (node::digest_of(checkpoint) != checkpoint.state_digest) {
     throw Problem(Verdict::altered, where + ": number " + std::to_string(checkpoint.header.seq) +
-                                        " is not as it was told: its digest is another");
+                                        " is not as it was recorded: its digest is another");
   }
   auto& checkpoints = epochs_[checkpoint.epoch].checkpoints;
   for (const auto& known : checkpoints) {

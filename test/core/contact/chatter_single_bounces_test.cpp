@@ -78,7 +78,7 @@ TEST_P(Descents, AllTheWayDownNumbersAndSpeedsAreThoseOfTheBounces) {
   EXPECT_LT(median(errors), 1e-6);
 }
 
-// The flow through the bounces is one of a constant restitution: at the cutoff it is told a little wrong.
+// The flow through the bounces is one of a constant restitution: at the cutoff it is a little wrong.
 TEST_P(Descents, BegunAgainInTheMiddleItGoesOnTheSameButForPartOfABounce) {
   RandomLaunches random(3);
   std::vector<double> shifts;

@@ -120,11 +120,12 @@ TEST(DecimalRange, EveryValueIsTheNumberMeant) {
   EXPECT_EQ(parse_range("-0.2:.1:1e-1"), (std::vector<double>{-0.2, -0.1, 0.0, 0.1}));
   EXPECT_EQ(parse_range("3.4"), std::vector<double>{3.4});
   EXPECT_EQ(parse_range("1:1:1"), std::vector<double>{1.0});
+  EXPECT_EQ(parse_range("3.4000000000000004"), std::vector<double>{3.4000000000000004});
 }
 
 TEST(DecimalRange, WhatIsNoRangeIsRefused) {
   for (const char* text : {"",     "a",    "1:2", "1:2:3:4", "1:2:0", "1:2:-1",   "2:1:1",     "1:2:x",
-                           "nan",  "inf",  "1e",  "--1",     "1 ",    "0:1:1e-9", "1:2:1e-30", "1.2345678901234567",
+                           "nan",  "inf",  "1e",  "--1",     "1 ",    "0:1:1e-9", "1:2:1e-30", "1.23456789012345678",
                            "0x10", "1..2", ":",   "1::2"}) {
     EXPECT_THROW(parse_range(text), std::invalid_argument) << text;
   }

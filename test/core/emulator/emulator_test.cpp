@@ -276,9 +276,9 @@ TEST(Emulator, TheErrorOfTheMeanLateralForceIsThatOfRepeatedRuns) {
     square += e.mean_lateral_force * e.mean_lateral_force / kRuns;
     variance += e.mean_lateral_force_std_error * e.mean_lateral_force_std_error / kRuns;
   }
-  const double told_over_found = std::sqrt(variance / (square - mean * mean));
-  EXPECT_GT(told_over_found, 0.9);
-  EXPECT_LT(told_over_found, 1.6);
+  const double reported_over_found = std::sqrt(variance / (square - mean * mean));
+  EXPECT_GT(reported_over_found, 0.9);
+  EXPECT_LT(reported_over_found, 1.6);
 }
 
 }  // namespace

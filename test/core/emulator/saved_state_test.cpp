@@ -154,13 +154,13 @@ TEST_P(SavedStates, GoOnToTheSameBits) {
     if (chance.one_in(3.0)) obey(chance.deed(emulator), emulator);
     Emulator copy = copy_by_words(emulator);
     const ModelTime begin = emulator.now();
-    bool told = false;
+    bool reported = false;
     for (int i = 0; i < 6; ++i) {
       emulator.run_batch(batch);
       copy.run_batch(again);
       ASSERT_NO_FATAL_FAILURE(expect_same(batch, again)) << states;
-      if (!told && !batch.impacts.empty()) ++next[batch.impacts.front().kind];
-      told = told || !batch.impacts.empty();
+      if (!reported && !batch.impacts.empty()) ++next[batch.impacts.front().kind];
+      reported = reported || !batch.impacts.empty();
       const Deed deed = chance.deed(emulator);
       obey(deed, emulator);
       obey(deed, copy);

@@ -133,7 +133,7 @@ double worst_deviation(double theta, const Thermo& thermo) {
   return worst;
 }
 
-// `scale`: of the variance of the noise; `slope`: what of the surface's slope the gap rate is told.
+// `scale`: of the variance of the noise; `slope_part`: of the surface's slope that the thermostat knows.
 Thermo thermostat(double theta, double scale, double slope_part) {
   const double c_v = std::exp(-0.5 * kTwoPi / 5.0), c_h = std::exp(-0.5 * kTwoPi * Model{}.frequency_ratio / 5.0);
   return [=](const TipState& s, const NormalPair& xi) {

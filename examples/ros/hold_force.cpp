@@ -1,0 +1,34 @@
+// A controller: holds the mean lateral force by commanding ~rest_height, the normal load.
+//
+// Friction is not monotonic in the load, so the height stays within limits between which force rises as the tip is
+// lowered (docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on
+// ~commanded_height.
+// Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time.
+#include <algorithm>
+
+#include "afm_client.h"
+
+int main(int argc, char** argv) try {
+  ros::init(argc, argv, "hold_force");
+  ros::NodeHandle own("~");
+  const double setpoint = own.param("force", 60e-12);
+  const double gain = own.param("gain", 1.0);  // half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
+  const double lowest = own.param("lowest", -0.33e-9), highest = own.param("highest", -0.03e-9);
+  const double settle = own.param("settle_s", 0.02), window = own.param("window_s", 0.1);
+  const ros::Publisher measured = own.advertise<std_msgs::Float64>("measured_force", 10);
+  const ros::Publisher commanded = own.advertise<std_msgs::Float64>("commanded_height", 10);
+  Client tip(own.param<std::string>("emulator", "/afm"));
+  double height = std::clamp(tip.rest_height(), lowest, highest);
+  while (ros::ok()) {
+    const auto force = tip.mean_force(tip.set_rest_height(height), settle, window);
+    if (!force) continue;
+    measured.publish(to_message(*force));
+    commanded.publish(to_message(height));
+    ROS_INFO("force %.1f pN, height %.1f pm", 1e12 * *force, 1e12 * height);
+    height = std::clamp(height - gain * (setpoint - *force), lowest, highest);  // a lower holder presses harder
+  }
+  return 0;
+} catch (const std::exception& error) {
+  ROS_FATAL("%s", error.what());
+  return 1;
+}
