@@ -54,6 +54,10 @@ class TipWatch {
     ++count_.commands;
   }
 
+  void set_bath(const Bath& bath) {
+    balance_.command(tip_, [&] { tip_.set_bath(bath); });
+  }
+
   const Tip& tip() const { return tip_; }
   const TipCount& count() const { return count_; }
 

@@ -38,7 +38,15 @@ const char* const kNames[] = {"omega_v_rad_per_s",
                               "compression",
                               "split_size_mb",
                               "split_duration_s",
-                              "diagnostic_period"};
+                              "diagnostic_period",
+                              "temperature_k",
+                              "quality_factor",
+                              "lateral_quality_factor",
+                              "kicks_per_tau",
+                              "seed",
+                              "tolerance",
+                              "command_timeout_s",
+                              "checkpoint_interval_s"};
 
 std::string text_of(Bytes& bytes) {
   const char* const known[] = {"oscillator", "hammer", "none", "lz4", "", "1e-4"};

@@ -1,5 +1,7 @@
-// Any model that may be run, from any start in the air, under any commands: the tip stays finite, above the surface, in
-// balance with its energy, and moves on.
+// Any model that may be run, from any start in the air, under any commands, in any heat bath: the tip stays finite, above
+// the surface, in balance with its energy, and moves on.
+#include <algorithm>
+
 #include "afm/surface.h"
 #include "afm/tip.h"
 #include "bytes.h"
@@ -57,19 +59,42 @@ void run_to(afm::TipWatch& watch, const afm::ModelTime& end, bool accumulates) {
   }
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+// False if they do not make a tip that may be run.
+bool fly(const std::uint8_t* data, std::size_t size, const afm::Bath& bath) {
   Bytes bytes(data, size);
   const afm::Model model = model_of(bytes);
   const double tolerance = tolerance_of(bytes);
   const double eta = eta_of(bytes);
   const afm::FreeState start = start_of(bytes, model, eta);
-  if (!afm::find_faults(model).empty() || !(afm::to_tip_state(model.H, start).g > 0.0)) return -1;
+  if (!afm::find_faults(model).empty() || !(afm::to_tip_state(model.H, start).g > 0.0)) return false;
   afm::TipWatch watch(model, eta, start, tolerance);
+  watch.set_bath(bath);
   do {
     run_to(watch, watch.tip().now() + bytes.within(0.0, 4.0), tolerance < 1e-12);
     watch.drag(eta_of(bytes));
   } while (!bytes.empty() && watch.count().arcs < kMostArcs);
+  return true;
+}
+
+afm::Bath bath_of(Bytes bytes) {
+  afm::Bath bath;
+  bath.quality_factor = bytes.within(0.0, 1e4);
+  if (bytes.below(2) == 0) bath.lateral_quality_factor = bytes.within(0.0, 1e4);
+  bath.temperature = bytes.below(4) == 0 ? bytes.within(0.0, afm::kMaxTemperature) : bytes.within(0.0, 1.0);
+  bath.kicks_per_tau =
+      bytes.below(4) == 0 ? bytes.within(afm::kMinKickRate, afm::kMaxKickRate) : bytes.within(1.0, 50.0);
+  bath.seed = bytes.raw<std::uint64_t>();
+  return bath;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (!fly(data, size, {})) return -1;
+  if (size % 2 == 0) return 0;
+  // once more in a bath, which the end of the input chooses: the rest means what it meant without
+  const std::size_t end = std::min<std::size_t>(size, 24);
+  const afm::Bath bath = bath_of(Bytes(data + size - end, end));
+  if (afm::find_faults(bath).empty()) fly(data, size, bath);
   return 0;
 }

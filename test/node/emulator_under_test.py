@@ -43,7 +43,11 @@ class Process:
         return self.wait()
 
     def clean_up(self):
-        if self.child.poll() is None:
+        """Asked first, so that the master forgets it: the address of a dead node can hide that of its heir from a subscriber."""
+        try:
+            if self.child.poll() is None:
+                self.stop()
+        except subprocess.TimeoutExpired:
             self.child.kill()
             self.child.wait()
         print(self.output())

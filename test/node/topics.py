@@ -51,19 +51,20 @@ class Topic:
 
     def _subscribe(self):
         path = self.name if self.name.startswith('/') else NAMESPACE + '/' + self.name
+        self._asked = time.monotonic()
         self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
 
-    def wait_for_connection(self):
-        """rospy asks a publisher once; where that goes wrong it never asks again. So we do."""
-        def connected():
-            return self._subscriber.get_num_connections() > 0
-        try:
-            wait_until(connected, 'connected', deadline_s=2.0)
-        except AssertionError:
+    def _is_connected(self):
+        """rospy never asks a publisher that the master names while it still answers who was there before. So we ask again."""
+        if self._subscriber.get_num_connections() > 0:
+            return True
+        if time.monotonic() > self._asked + 2.0:
             self._subscriber.unregister()
-            self.raw, self.messages = [], []  # what came just before would look like a gap
             self._subscribe()
-            wait_until(connected, self.name + ': connected at the second attempt')
+        return False
+
+    def wait_for_connection(self):
+        wait_until(self._is_connected, self.name + ': connected')
 
     def close(self):
         self._subscriber.unregister()
@@ -86,7 +87,10 @@ class Topic:
 
     def wait_for(self, wanted=lambda message: True, what='a message', begin=0):
         """The first message from the `begin`-th on that is wanted."""
-        return wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), self.name + ': ' + what)
+        def found():
+            self._is_connected()
+            return next((m for m in self.messages[begin:] if wanted(m)), None)
+        return wait_until(found, self.name + ': ' + what)
 
     def wait_for_next(self, wanted=lambda message: True, what='a message'):
         return self.wait_for(wanted, what, begin=len(self.messages))
