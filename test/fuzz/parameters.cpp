@@ -99,7 +99,7 @@ void check_runs(const afm::node::Parameters& parameters) {
   require(afm::find_faults(settings).empty(), "the core refuses what the node took");
   settings.impact_budget = 20;
   settings.samples_per_batch = std::min<std::uint64_t>(settings.samples_per_batch, 100);
-  settings.sample_period = std::min(settings.sample_period, 1.0);
+  settings.sample_period = std::min(settings.sample_period, 0.1);
   afm::Emulator emulator(settings);
   afm::Batch batch;
   emulator.run_batch(batch);

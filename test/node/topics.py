@@ -55,7 +55,7 @@ class Topic:
         self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
 
     def _is_connected(self):
-        """rospy never asks a publisher that the master names while it still answers who was there before. So we ask again."""
+        """rospy misses a publisher that the master names while it still answers who was there before: we ask again."""
         if self._subscriber.get_num_connections() > 0:
             return True
         if time.monotonic() > self._asked + 2.0:
