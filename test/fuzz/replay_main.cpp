@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -20,8 +21,6 @@
 namespace {
 
 using afm::fuzz::Input;
-
-constexpr unsigned kPatience = 30;  // [s] for one input
 
 Input g_input;            // that is being tried
 std::string g_file_name;  // for it, if it breaks something
@@ -37,9 +36,16 @@ void keep_input(int signal) {
   raise(signal);
 }
 
+// [s] for one input; AFM_PATIENCE times as long on a slow machine
+unsigned patience() {
+  const char* times = std::getenv("AFM_PATIENCE");
+  return 30U * static_cast<unsigned>(std::max(1, times ? std::atoi(times) : 1));
+}
+
 void try_input(Input input) {
+  static const unsigned seconds = patience();
   g_input = std::move(input);
-  alarm(kPatience);
+  alarm(seconds);
   LLVMFuzzerTestOneInput(g_input.data(), g_input.size());
 }
 
