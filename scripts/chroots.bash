@@ -37,9 +37,12 @@ apt_can_get() {
   return $status
 }
 
-# usage: runs_here ARCHITECTURE; of its own, or by an emulator that the kernel knows and that is there in any root
+# usage: is_foreign ARCHITECTURE
+is_foreign() { [[ $1 != "$(dpkg --print-architecture)" ]]; }
+
+# usage: runs_here ARCHITECTURE; of itself, or by a qemu that the kernel knows and that is there in any root
 runs_here() {
-  [[ $1 != "$(dpkg --print-architecture)" ]] || return 0
+  is_foreign "$1" || return 0
   [[ $1 == arm64 ]] && grep -qsx enabled /proc/sys/fs/binfmt_misc/qemu-aarch64 &&
     grep -qsx 'flags:.*F.*' /proc/sys/fs/binfmt_misc/qemu-aarch64
 }

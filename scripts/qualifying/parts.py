@@ -13,7 +13,7 @@ SIMPLE_FIGURES = ("model_setup model_restitution model_force fig1_friction fig1_
 THERMAL_FIGURES = "thermal_friction thermal_accuracy thermal_hops load"
 SINGLE = "AFM_BUILD_DIR=$PWD/build/single_version"
 VALGRIND = '"valgrind --leak-check=full --error-exitcode=9"'
-FUZZING = (("csv_filter", 60), ("parameters", 30), ("bag_messages", 60), ("tip", 60))  # targets, and minutes of each
+FUZZING = (("csv_filter", 30), ("parameters", 5), ("bag_messages", 60), ("tip", 140))  # targets, and minutes of each
 FIGURES = "scripts/figures --tables SCRATCH/tables --data SCRATCH"
 SMALL_FIGURES = "scripts/figures --quick --output SCRATCH --tables SCRATCH/tables --data SCRATCH"
 CHART_FILES = "--output SCRATCH/speed_accuracy.csv --pace SCRATCH/pace.csv"

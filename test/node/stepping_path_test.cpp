@@ -1,5 +1,5 @@
 // What steps a tip in real time neither allocates, nor locks, nor calls the system: every allocation and every lock of
-// the thread is counted, and where nothing may be called the kernel is reported to kill whoever calls it.
+// the thread is counted, and where nothing may be called the kernel has orders to kill whoever calls it.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>

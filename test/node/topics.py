@@ -54,17 +54,20 @@ class Topic:
         self._asked = time.monotonic()
         self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
 
-    def _is_connected(self):
-        """rospy misses a publisher that the master names while it still answers who was there before: we ask again."""
-        if self._subscriber.get_num_connections() > 0:
-            return True
-        if time.monotonic() > self._asked + 2.0:
+    def _ask_again(self):
+        """rospy misses a publisher that the master names while it still answers who was there before: we ask every 2 s."""
+        if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._asked + 2.0:
             self._subscriber.unregister()
             self._subscribe()
-        return False
+
+    def _wait_until(self, condition, what):
+        def looked_after():
+            self._ask_again()
+            return condition()
+        return wait_until(looked_after, self.name + ': ' + what)
 
     def wait_for_connection(self):
-        wait_until(self._is_connected, self.name + ': connected')
+        self._wait_until(lambda: self._subscriber.get_num_connections() > 0, 'connected')
 
     def close(self):
         self._subscriber.unregister()
@@ -87,14 +90,11 @@ class Topic:
 
     def wait_for(self, wanted=lambda message: True, what='a message', begin=0):
         """The first message from the `begin`-th on that is wanted."""
-        def found():
-            self._is_connected()
-            return next((m for m in self.messages[begin:] if wanted(m)), None)
-        return wait_until(found, self.name + ': ' + what)
+        return self._wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), what)
 
     def wait_for_next(self, wanted=lambda message: True, what='a message'):
         return self.wait_for(wanted, what, begin=len(self.messages))
 
     def wait_for_more(self, count):
         target = len(self.messages) + count
-        wait_until(lambda: len(self.messages) >= target, '%s: %d more' % (self.name, count))
+        self._wait_until(lambda: len(self.messages) >= target, '%d more' % count)

@@ -29,13 +29,13 @@ TEST(SampleGrid, CountsFromItsOrigin) {
 }
 
 TEST(EmulatorChange, ToTheSameIsNoChange) {
-  Emulator plain(settings_at(3.4, 0.03, 500)), reported(settings_at(3.4, 0.03, 500));
+  Emulator plain(settings_at(3.4, 0.03, 500)), changed(settings_at(3.4, 0.03, 500));
   RecordedRun truth, run;
   Batch a, b;
   for (int i = 0; i < 50; ++i) {
     plain.run_batch(a);
-    reported.change(live_settings(reported.settings()));
-    reported.run_batch(b);
+    changed.change(live_settings(changed.settings()));
+    changed.run_batch(b);
     truth.append(a);
     run.append(b);
     ASSERT_EQ(a.friction.K_f, b.friction.K_f);

@@ -1,25 +1,24 @@
-# Each target takes any bytes. Without a fuzzer it is run over the inputs that are kept in ../data/fuzz and what chance makes of
+# Each target takes any bytes. Without a fuzzer it is run over the inputs that are kept in data/fuzz and what chance makes of
 # them; with clang's libFuzzer (AFM_FUZZ, scripts/fuzz) it looks for new ones by what they reach.
 option(AFM_FUZZ "Build the fuzzers too: needs clang, and what is fuzzed must be built with -fsanitize=fuzzer-no-link" OFF)
 
 function(afm_add_fuzz_target name mutated)
-  add_executable(replay_fuzz_${name} EXCLUDE_FROM_ALL ${name}.cpp replay_main.cpp)
+  add_executable(replay_fuzz_${name} EXCLUDE_FROM_ALL fuzz/${name}.cpp fuzz/replay_main.cpp)
   set(programs replay_fuzz_${name})
   if(AFM_FUZZ)
-    add_executable(fuzz_${name} EXCLUDE_FROM_ALL ${name}.cpp)
+    add_executable(fuzz_${name} EXCLUDE_FROM_ALL fuzz/${name}.cpp)
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
     list(APPEND programs fuzz_${name})
   endif()
   foreach(program IN LISTS programs)
-    target_include_directories(${program} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/test/fuzz ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
     target_include_directories(${program} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
     target_link_libraries(${program} PRIVATE ${ARGN})
     add_dependencies(tests ${program})
   endforeach()
   # some seconds of new inputs in every run, the same ones each time
-  math(EXPR timeout "60 * ${AFM_PATIENCE}")
   add_test(NAME fuzz_${name} COMMAND replay_fuzz_${name} ${PROJECT_SOURCE_DIR}/test/data/fuzz/${name} --mutated ${mutated})
-  set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT ${timeout} ENVIRONMENT AFM_PATIENCE=${AFM_PATIENCE} LABELS fast)
+  set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT 60)
 endfunction()
 
 afm_add_fuzz_target(tip 1000 afm_emulator_core)
