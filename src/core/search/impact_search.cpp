@@ -12,8 +12,10 @@ namespace {
 // After too many evaluations a flight restarts from where it is certified, if that is later than this [tau]. A choice:
 // each restart then makes progress.
 constexpr double kMinProgress = 0.1;
-// [a] No gap is left: below it rounding hides the gap in double-double too (1e-30 in each of its terms, and a margin).
-constexpr double kNoGap = 1e-20;
+// [a] No gap is left: a tenth of the rounding of a height of 1 a. A tip that keeps so close glides on the surface
+// (eta = 1, the springs at rest). Above this the evaluations reach further than kMinProgress: the gap of a glide has
+// only its fourth derivative, below 1e4 a/tau^4, so that each step is at least 1e-5 tau.
+constexpr double kNoGap = 1e-17;
 
 AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
   return find_impact(flight, horizon);

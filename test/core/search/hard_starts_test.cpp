@@ -47,5 +47,19 @@ TEST(HardStart, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
   }
 }
 
+// It would land a quarter of a turn later. Until then the gap has only its fourth derivative, so the steps are short.
+TEST(HardStart, OnTheGlideAGapHoweverSmallExhaustsNoSearch) {
+  Model model;
+  model.kind = ModelKind::hammer;
+  model.H = 0.83993305622109515;
+  const Mechanics<double> mechanics(model);
+  for (const double gap : {1e-21, 1.2e-20, 1e-19, 1e-18, 9e-18, 1.1e-17, 1e-16, 1e-14}) {
+    const Flight<double> flight(mechanics, -1.0, TipState{0.53955942957884762, 0.0, -1.0, gap, 0.0});
+    const Landing<double> landing = find_landing(model, flight, kSearchHorizon);
+    EXPECT_NE(landing.outcome, SearchOutcome::cap) << gap;
+    EXPECT_LE(landing.s, 0.25 + 1e-6) << gap;
+  }
+}
+
 }  // namespace
 }  // namespace afm
