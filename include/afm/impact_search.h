@@ -30,6 +30,9 @@ constexpr int kMaxSearchSteps = 20000;
 // A flight without an impact is searched so far and then restarted there [tau]. A choice: rare, and the turns stay
 // small.
 constexpr double kSearchHorizon = 8.0;
+// A root that may be further away is not finished: the horizon comes first [tau]. A tip that falls without a force may
+// land beyond all time that can be counted. Any number between the horizon and 1e18 will do.
+constexpr double kFarthestRoot = 1e6;
 
 namespace search_detail {
 
@@ -130,7 +133,7 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
     }
     now.s = p;
     const RootInterval<T> root = certify_root(f, jet, error);
-    if (root.certain) return search_detail::finish(f, p, jet, root, evaluations);
+    if (root.certain && root.high < T(kFarthestRoot)) return search_detail::finish(f, p, jet, root, evaluations);
     const T above = time_above_crest(f, jet.state);
     if (above > T(0.0)) {
       now = {p + above, search_detail::descent(f, now.trial), now.trial};

@@ -61,5 +61,16 @@ TEST(HardStart, OnTheGlideAGapHoweverSmallExhaustsNoSearch) {
   }
 }
 
+// It falls without an acceleration, and would land after 2.6e302 tau.
+TEST(HardStart, ALandingBeyondAllTimeIsNone) {
+  Model model;
+  model.H = 0.096153846153846159;
+  const double u = 3.7580843034835234e-308, g = 5.8310409491468441e-06, g1 = -2.2704557726318621e-308;
+  const Flight<double> flight(Mechanics<double>(model), u, TipState{0.74999034839449363, 0.0, u, g, g1});
+  const Landing<double> landing = find_landing(model, flight, kHorizon);
+  EXPECT_EQ(landing.outcome, SearchOutcome::clear);
+  EXPECT_EQ(landing.s, kHorizon);
+}
+
 }  // namespace
 }  // namespace afm
