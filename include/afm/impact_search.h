@@ -150,8 +150,8 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
 
 // Searches in double precision. If rounding leaves the result undecided, the search is repeated in double-double from
 // the same start (Lemma 7). Guarantee: an impact or a miss is that of exact arithmetic on the given doubles, down to a
-// gap of 1e-30 a. If double-double cannot decide either, or the evaluations run out, the outcome is: an impact if no
-// gap is left, clear if at least 0.1 tau are certified, otherwise cap.
+// gap of 1e-30 a. If double-double cannot decide either, or the evaluations run out, the outcome is: an impact if the
+// gap is at most 1e-17 a, clear if at least 0.1 tau are certified, otherwise cap.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 
 }  // namespace afm
