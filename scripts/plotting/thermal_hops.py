@@ -12,7 +12,8 @@ STARTS = 48
 def windows(tables, eta, theta, quality=QUALITY, window=20, duration=20000):
     """K_f of the windows of each start."""
     tips = {}
-    for row in tables.make("windows_%g_%g_%g" % (eta, quality, theta), "friction_windows", "--eta", eta, "--temperature",
+    name = "windows_%g_%g_%g_%g_%g" % (eta, quality, theta, window, duration)
+    for row in tables.make(name, "friction_windows", "--eta", eta, "--temperature",
                            theta, "--quality-factor", quality, "--window", window, "--duration",
                            duration / 10 if tables.quick else duration, "--transient", 300, "--starts", STARTS):
         tips.setdefault(row["start"], []).append(row["k_f_work"])

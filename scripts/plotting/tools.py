@@ -32,11 +32,14 @@ class Tables:
         directory.mkdir(parents=True, exist_ok=True)
 
     def make(self, name, tool, *arguments):
-        """The rows of the tool's table, kept in the directory as NAME.csv."""
-        path = self.directory / (name + ".csv")
-        if not ((self.keep or name in self.made) and path.exists()):
-            part = self.directory / (name + ".part")
-            begin = time.time()
+        """The rows of the tool's table, kept in the directory as NAME.csv, with the command that made it in NAME.command."""
+        path, made_by = self.directory / (name + ".csv"), self.directory / (name + ".command")
+        command = " ".join(str(word) for word in (tool,) + arguments)
+        may_be_used = self.keep or name in self.made
+        if not (may_be_used and path.exists() and made_by.exists() and made_by.read_text() == command):
+            path.unlink(missing_ok=True)
+            made_by.write_text(command)
+            begin, part = time.time(), self.directory / (name + ".part")
             with open(str(part), "w") as file:
                 self.run(file, tool, *arguments)
             self.times(name).write_text("%g\n" % (time.time() - begin))

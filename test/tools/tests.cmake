@@ -51,6 +51,10 @@ endif()
 add_test(NAME arrows COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(arrows PROPERTIES TIMEOUT 30)
 
+add_test(NAME figure_tables COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/figure_tables_test.py
+  ${PROJECT_SOURCE_DIR}/scripts)
+set_tests_properties(figure_tables PROPERTIES TIMEOUT 30)
+
 add_test(NAME package COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(package PROPERTIES TIMEOUT 30)
 
