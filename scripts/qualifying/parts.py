@@ -67,7 +67,7 @@ PARTS = [
          (1, 5), keep.stress, keeps_failures=True),
     # scenes.md, recording.md, steering.md
     part("levels", "the table of levels, measured again beside the shipped one",
-         [], ["level_table --output SCRATCH/levels.csv"], (0, 60), keep.levels),
+         ["level_table --output SCRATCH/levels.csv"], ["level_table --output SCRATCH/levels.csv"], (0.5, 0.5), keep.levels),
     part("scenes", "what each scene's level gives, and the pictures of the scenes",
          ["scripts/scene_levels --duration 500 --output SCRATCH/scene_levels.csv"],
          ["scripts/scene_levels --output SCRATCH/scene_levels.csv", "scripts/plot_scenes"], (1, 3), keep.files("scene_levels.csv")),
@@ -92,7 +92,7 @@ PARTS = [
          (0, 15), keep.leaks, needs={"valgrind": "valgrind"}, keeps_failures=True),
     *[part("fuzz_" + target, "inputs that reach new code of " + target, [], ["scripts/fuzz --runs 1000000 %s 2>&1" % target],
            (0, minutes), keep.fuzz, needs={"clang++": "clang"}, keeps_failures=True) for target, minutes in FUZZING],
-    part("builds", "the same bits from every compiler and for older machines", [], ["scripts/compare_builds --older"], (0, 12),
+    part("builds", "the same bits from every compiler and for older machines", [], ["scripts/compare_builds --older"], (0, 3),
          keep.builds, needs={"qemu-x86_64": "qemu-user"}, keeps_failures=True),
     part("platforms", "the package in roots of other systems", [], ["scripts/platforms"], (0, 240), keep.nothing,
          optional=("scripts/platforms",)),
@@ -100,5 +100,5 @@ PARTS = [
     part("temperature", "figures of a tip in a heat bath", [SMALL_FIGURES + " --only load"], [FIGURES + " --only " + THERMAL_FIGURES],
          (0.5, 15), keep.figures),
     part("figures", "figures of the paper and of the hammer", [SMALL_FIGURES + " --only fig1_friction"],
-         [FIGURES + " --only " + SIMPLE_FIGURES], (0.5, 30), keep.figures),
+         [FIGURES + " --only " + SIMPLE_FIGURES], (0.5, 10), keep.figures),
 ]

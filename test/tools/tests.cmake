@@ -32,6 +32,9 @@ set_tests_properties(si PROPERTIES TIMEOUT 120)
 add_test(NAME scene_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/scene_levels_test.py
   $<TARGET_FILE_DIR:choose_level> ${PROJECT_SOURCE_DIR}/scripts)
 set_tests_properties(scene_levels PROPERTIES TIMEOUT 180)
+add_test(NAME shipped_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/shipped_levels_test.py
+  $<TARGET_FILE:level_table> ${PROJECT_SOURCE_DIR}/config/levels.csv)
+set_tests_properties(shipped_levels PROPERTIES TIMEOUT 180)
 foreach(tool attractors model_error periodic_orbits symbolic_dynamics)
   add_test(NAME ${tool} COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/${tool}_test.py $<TARGET_FILE:${tool}>)
   set_tests_properties(${tool} PROPERTIES TIMEOUT 120)

@@ -22,9 +22,10 @@ const char kDescription[] =
     "every bounce) is from the finest, over a grid of parameters (units a, tau, tip mass), and writes the table from "
     "which\n"
     "`model: auto` takes its levels. Without options it is the one that is shipped as config/levels.csv, but for the "
-    "last digits of\n"
-    "its costs, which are measured. --eta, --gamma, --cutoff and --frequency-ratio may be ranges FROM:TO:STEP and "
-    "lists A,B.";
+    "costs, which\n"
+    "are measured, and for coarse levels that these leave out. --eta, --gamma, --cutoff and --frequency-ratio may be "
+    "ranges\n"
+    "FROM:TO:STEP and lists A,B.";
 
 // The shipped cutoff is 0.166 um/s, in these units.
 struct Options {
