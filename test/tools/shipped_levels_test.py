@@ -11,7 +11,7 @@ ETAS = '0.7,1,2.1,3,5.3'  # chatter, glide, coexisting attractors, splash, chaos
 def errors_of(lines):
     """{level at a drag speed: what the table says of it, but for the cost, which is of the machine}"""
     errors = {}
-    for row in csv.DictReader(lines):
+    for row in csv.DictReader(line for line in lines if not line.startswith('#')):  # where the table comes from
         del row['cost']
         errors[row['eta'], row['model'], row['contact_tolerance']] = row
     return errors

@@ -1,11 +1,9 @@
 #include "level_errors.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "afm/dynamics/sweep.h"
-#include "common/cpu_clock.h"
+#include "tip_times.h"
 
 namespace afm {
 namespace {
@@ -26,34 +24,11 @@ TipState start_of(const Model& model, double eta, const LevelErrorSettings& sett
   return random_start({eta, model.gamma, model.v_c}, settings.seed, static_cast<std::uint64_t>(index));
 }
 
-double nanoseconds_per_tau(Tip& tip) {
-  constexpr double kDuration = 40.0;  // [tau]
-  constexpr int kMostEvents = 20000;
-  const ModelTime begin = tip.now(), end = begin + kDuration;
-  const double from = thread_seconds();
-  for (int i = 0; i < kMostEvents && tip.advance(end) != Outcome::time_limit; ++i) {
-  }
-  const double passed = tip.now() - begin;
-  return passed > 0.0 ? 1e9 * (thread_seconds() - from) / passed : std::numeric_limits<double>::infinity();
-}
-
-// All by turns: what else the machine does meets them alike. The first rounds are the transient.
+// Over that of the full model.
 std::vector<double> measure_costs(const Model& model, double eta, const TipState& start) {
-  constexpr int kRounds = 12, kTransientRounds = 3;
   std::vector<Tip> tips;
   for (const Level& level : kLadder) tips.emplace_back(at_level(model, level), eta, start, level.contact_tolerance);
-  std::vector<std::vector<double>> times(kLevels);
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < kLevels; ++i) {
-      const double time = nanoseconds_per_tau(tips[i]);
-      if (round >= kTransientRounds) times[i].push_back(time);
-    }
-  }
-  std::vector<double> costs;
-  for (std::vector<double>& t : times) {
-    std::nth_element(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2), t.end());
-    costs.push_back(t[t.size() / 2]);
-  }
+  std::vector<double> costs = nanoseconds_per_tau(tips);
   const double full = costs[kFull];
   for (double& cost : costs) cost /= full;
   return costs;

@@ -1,18 +1,16 @@
 // How far a simpler level of the model is from the full one, and what it saves.
 #include "afm/dynamics/model_error.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "afm/dynamics/sweep.h"
 #include "common/csv.h"
-#include "common/cpu_clock.h"
-#include "dynamics_options.h"
 #include "common/progress_bar.h"
+#include "dynamics_options.h"
+#include "tip_times.h"
 
 namespace {
 
@@ -84,34 +82,6 @@ std::vector<Point> grid(const Options& o) {
   return points;
 }
 
-struct Cost {
-  double level, reference;  // [ns per tau]
-};
-
-double nanoseconds_per_tau(afm::Tip& tip, double duration, std::uint64_t most_events) {
-  const afm::ModelTime begin = tip.now(), end = begin + duration;
-  const double from = afm::thread_seconds();
-  for (std::uint64_t i = 0; i < most_events && tip.advance(end) != afm::Outcome::time_limit; ++i) {
-  }
-  const double spent = afm::thread_seconds() - from, passed = tip.now() - begin;
-  return passed > 0.0 ? 1e9 * spent / passed : std::numeric_limits<double>::quiet_NaN();
-}
-
-// Both by turns: what else the machine does meets them alike.
-Cost measure_cost(afm::Tip& level, afm::Tip& reference) {
-  constexpr int kRounds = 9;
-  constexpr double kDuration = 50.0;  // [tau]
-  constexpr std::uint64_t kMostEvents = 20000;
-  std::vector<double> a, b;
-  for (int i = 0; i < kRounds; ++i) {
-    a.push_back(nanoseconds_per_tau(level, kDuration, kMostEvents));
-    b.push_back(nanoseconds_per_tau(reference, kDuration, kMostEvents));
-  }
-  std::sort(a.begin(), a.end());
-  std::sort(b.begin(), b.end());
-  return {a[kRounds / 2], b[kRounds / 2]};
-}
-
 void compare(const Options& o, const Point& point, int start) {
   const afm::Model model = at_level(point.model, o.level);
   const afm::SweepPoint drawn{point.eta, model.gamma, model.v_c};
@@ -119,7 +89,7 @@ void compare(const Options& o, const Point& point, int start) {
   afm::Tip tip(model, point.eta, begin, o.level.contact_tolerance);
   afm::Tip full(point.model, point.eta, begin, o.reference_tolerance);
   const afm::LevelRun level = run_level(model, tip, o.settings), reference = run_level(point.model, full, o.settings);
-  const Cost cost = measure_cost(tip, full);
+  const std::vector<double> times = afm::nanoseconds_per_tau({tip, full});
   const double tracking = tracking_error(point.model, o.level, full, o.settings);
   const double K = level.friction.K_f, R = reference.friction.K_f, ratio = K / R;
   const double share = std::hypot(level.friction.K_f_std_error / R, ratio * reference.friction.K_f_std_error / R);
@@ -131,7 +101,7 @@ void compare(const Options& o, const Point& point, int start) {
             << reference.attractor.name() << ","
             << afm::join_numbers({ratio - 1.0, share, afm::quantile_distance(level.vertical, reference.vertical),
                                   reference.vertical_noise, reference.vertical_rms, tracking, reference.stretch_rms,
-                                  reference.stretch_largest, cost.level, cost.reference, cost.reference / cost.level})
+                                  reference.stretch_largest, times[0], times[1], times[1] / times[0]})
             << "\n";
 }
 
