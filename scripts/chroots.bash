@@ -84,8 +84,9 @@ in_root() {
   ' in_root "$root" "$@"
 }
 
-install_in_root() {
-  in_root "$1" sh -c 'apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends "$@"' sh "${@:2}"
+install_in_root() {  # after an installation that was interrupted, too
+  in_root "$1" env DEBIAN_FRONTEND=noninteractive sh -c \
+    'dpkg --configure -a && apt-get update && apt-get install --yes --no-install-recommends "$@"' sh "${@:2}"
 }
 
 # usage: copy_tree NAME COMMIT; a clone, in which only what changed is written, so that builds go on from the last
