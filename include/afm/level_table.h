@@ -47,8 +47,9 @@ class LevelTable {
   // then it is not used. No allocation.
   bool find(const Model& model, double eta, std::size_t level, LevelError& worst) const;
 
-  // The cheapest level whose error is below the tolerance; a coarser level must save a tenth. If no error is below it,
-  // the level with the smallest error. If no level has data, `full`. No allocation.
+  // The cheapest level whose error is below the tolerance; a coarser level must save a tenth. Every bounce by itself is
+  // taken only where no other error is below it. If none is, the level with the smallest error. If no level has data,
+  // `full`. No allocation.
   LevelChoice choose(const Model& model, double eta, double tolerance, ToleranceOf of, const Level& full) const;
 
  private:

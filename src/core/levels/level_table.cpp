@@ -183,7 +183,8 @@ LevelChoice LevelTable::choose(const Model& model, double eta, double tolerance,
     if (!(error >= best.expected_error)) best = {levels_[i], error};
     if (!(error < tolerance && worst.cost < kWorthwhileCost * cost)) continue;
     cheapest = {levels_[i], error};
-    cost = worst.cost;
+    // The mean says little of the time of every bounce by itself: in a rare shower it is a thousand times as much.
+    cost = levels_[i].contact_tolerance > 0.0 ? worst.cost : std::numeric_limits<double>::infinity();
   }
   return std::isnan(cheapest.expected_error) ? best : cheapest;
 }

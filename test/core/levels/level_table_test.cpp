@@ -51,6 +51,14 @@ TEST(LevelTable, TakesTheCheapestThatTheToleranceAllows) {
   EXPECT_TRUE(choose(-2.0, 0.5).level == kHammer);
 }
 
+TEST(LevelTable, EveryBounceIsTakenOnlyWhereNoChatterLevelWillDo) {
+  const LevelTable table = table_of(std::string(kHead) +
+                                    "1,0.7,0.05,6.25,0.1,0,oscillator,0,0,0,1\n"
+                                    "1,0.7,0.05,6.25,0.1,0,oscillator,0.001,0.001,0.001,1.1\n");
+  EXPECT_TRUE(table.choose(model_at(), 1.0, 0.01, ToleranceOf::friction, kFull).level == kBursts);
+  EXPECT_TRUE(table.choose(model_at(), 1.0, 1e-4, ToleranceOf::friction, kFull).level == kEvery);
+}
+
 TEST(LevelTable, ToleranceIsOfFrictionOrOfDeflection) {
   EXPECT_TRUE(choose(2.0, 0.02, ToleranceOf::friction).level == kEvery);
   EXPECT_TRUE(choose(2.0, 0.02, ToleranceOf::deflection).level == kBursts);
