@@ -55,10 +55,12 @@ LEVEL = ("eta", "gamma", "cutoff", "frequency_ratio", "amplitude", "rest_height"
 
 
 def levels(publisher, outputs):
-    new, shipped = read_table(publisher.scratch / "levels.csv"), read_table(ROOT / "config/levels.csv")
+    path = publisher.scratch / "levels.csv"
+    path.write_text("# %s\n%s" % (publisher.stamp, path.read_text()))  # to be copied as it is
+    new, shipped = read_table(path), read_table(ROOT / "config/levels.csv")
     errors = {tuple(row[name] for name in LEVEL): row["k_f_error"] for row in shipped}
     same = sum(errors.get(tuple(row[name] for name in LEVEL)) == row["k_f_error"] for row in new)
-    print("    %d of %d levels have the error of config/levels.csv; the new table is %s" % (same, len(new), publisher.scratch / "levels.csv"))
+    print("    %d of %d levels have the error of config/levels.csv; the new table is %s" % (same, len(new), path))
 
 
 def listener(publisher, outputs):

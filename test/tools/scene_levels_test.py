@@ -24,7 +24,7 @@ class SceneLevels(unittest.TestCase):
                 self.assertLessEqual(found['error'], found['expected'] + found['noise'])
                 self.assertLess(found['noise'], 0.05)
                 known.add(found['scene'])
-        self.assertEqual(known, {p.stem for p in (scene_levels.CONFIG / 'scenes').glob('*.yaml')} - {'rest', 'room', 'loop', 'slow_motion'})
+        self.assertEqual(known, {p.stem for p in (scene_levels.CONFIG / 'scenes').glob('*.yaml')} - {'rest', 'room', 'loop'})
 
 
 if __name__ == '__main__':
