@@ -14,17 +14,17 @@ def labels(test):
 
 
 def needs(test, outputs):
-    # ctest leaves out the command of a program that is not built yet: its target has the name of the test, or replay_ before it
-    words = re.split(r'[\s"=]+', ' '.join(test.get('command', [test['name'], 'replay_' + test['name']])))
+    # ctest leaves out the command of a program that is not built yet: its target has the name of the test behind a prefix
+    words = re.split(r'[\s"=]+', ' '.join(test.get('command', ['afm_' + test['name'], 'afm_replay_' + test['name']])))
     if '_rostest_' in test['name']:
-        return {'emulator', 'afm_clock_jump', 'examples_ros', 'bag_to_csv'} | ({'afm_python'} & outputs)
+        return {'afm_emulator', 'afm_clock_jump', 'afm_examples_ros', 'afm_bag_to_csv'} | ({'afm_python'} & outputs)
     if 'node' in labels(test) or any(os.path.isdir(word) and word.endswith('lib/afm_emulator') for word in words):
         return {'all'}  # runs what it likes
     built = {name for word in words for name in (word, os.path.relpath(word)) if name in outputs}
     if test['name'] == 'consumer':
         built.add('all')  # which it installs
     in_ros = any(word.endswith('env_cached.sh') for word in words)
-    return built or ({'emulator'} if in_ros else set())
+    return built or ({'afm_emulator'} if in_ros else set())
 
 
 def main(path):

@@ -37,7 +37,7 @@ compare() {
   local expected
   for expected in "$work/expected/"*"${2:-}"; do
     name=${expected##*/}
-    if ! "$work/$1/${name#example_}" | cmp - "$expected"; then
+    if ! "$work/$1/${name#afm_example_}" | cmp - "$expected"; then
       echo "$1: $name: the bits differ"
       exit 1
     fi
@@ -48,6 +48,28 @@ for flags in -O2 "-O3 -march=native"; do
   build_in installed "$work/source" "$work/prefix" -DCMAKE_CXX_FLAGS="$flags"
   compare installed
 done
+# the core needs no Eigen
+mkdir "$work/core"
+cp "$work/source/one_tip.cpp" "$work/core"
+cat >"$work/core/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.16)
+project(core_alone LANGUAGES CXX)
+find_package(afm_emulator 0.1 REQUIRED)
+add_executable(one_tip one_tip.cpp)
+target_link_libraries(one_tip PRIVATE afm::core)
+END
+build_in core_alone "$work/core" "$work/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
+compare core_alone one_tip
+# a version that is still to come is refused
+sed -i 's/afm_emulator 0.1/afm_emulator 99.0/' "$work/core/CMakeLists.txt"
+for prefix in "$work/prefix" ${devel:+"$devel"}; do
+  if cmake -S "$work/core" -B "$work/too_new" -DCMAKE_PREFIX_PATH="$prefix" >"$work/log" 2>&1 || ! grep -q "version: 0\.1" "$work/log"; then
+    echo "version 99.0 is not refused in favour of ours"
+    exit 1
+  fi
+  rm -rf "$work/too_new"
+done
+
 if [[ -n $devel ]]; then
   build_in devel "$work/source" "$devel"
   compare devel

@@ -6,7 +6,7 @@ set -euo pipefail
 root=$1 build=$2
 mkdir -p "$build"
 if ! { cmake -S "$root" -B "$build" -DAFM_ROS=OFF -DBUILD_TESTING=OFF -DCMAKE_BUILD_TYPE=Release &&
-  cmake --build "$build" --target next_impact --parallel 2; } >"$build/log" 2>&1; then
+  cmake --build "$build" --target afm_next_impact --parallel 2; } >"$build/log" 2>&1; then
   tail -n 30 "$build/log"
   exit 1
 fi

@@ -2,6 +2,7 @@
 // tau = 2 pi / omega_v, tip mass m.
 #pragma once
 
+#include "afm/number_text.h"
 #include "afm/model.h"
 #include "afm/units.h"
 #include "afm/state.h"

@@ -7,9 +7,9 @@ if(TARGET afm_python_module)
   endfunction()
   afm_add_python_test(interface)
   afm_add_python_test(interrupt)
-  afm_add_python_test(bits ${CMAKE_CURRENT_SOURCE_DIR}/data $<TARGET_FILE:friction_curve> $<TARGET_FILE:attractors>
-    $<TARGET_FILE:periodic_orbits> $<TARGET_FILE:next_impact> $<TARGET_FILE:example_impacts_to_csv>
-    $<TARGET_FILE:example_warm_scene>)
+  afm_add_python_test(bits ${CMAKE_CURRENT_SOURCE_DIR}/data $<TARGET_FILE:afm_friction_curve> $<TARGET_FILE:afm_attractors>
+    $<TARGET_FILE:afm_periodic_orbits> $<TARGET_FILE:afm_next_impact> $<TARGET_FILE:afm_example_impacts_to_csv>
+    $<TARGET_FILE:afm_example_warm_scene>)
   afm_add_python_test(examples ${PROJECT_SOURCE_DIR}/examples/python)
   add_test(NAME python_pip COMMAND ${PROJECT_SOURCE_DIR}/python/tests/pip_test.sh ${PROJECT_SOURCE_DIR}
     ${PROJECT_BINARY_DIR}/without_ros ${PYTHON_EXECUTABLE})

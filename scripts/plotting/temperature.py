@@ -1,4 +1,6 @@
 """docs/temperature.md: friction with a heat bath, and what its kicks cost."""
+import numpy as np
+
 from . import style
 
 KELVIN = 0.926 / 300.0  # kT of mica's tip [m a^2/tau^2] for each kelvin; docs/temperature.md
@@ -36,6 +38,7 @@ def friction(tables):
                    [(kelvin, quality, row["eta"], row["k_f_work"], row["k_f_work_std_error"], row["k_f"])
                     for (kelvin, quality), rows in curves.items() for row in rows])
     publish_peaks(tables, curves)
+    publish_maxima(tables)
     figure, axes = style.new(9.0, 10.0, len(QUALITIES), 1, sharex=True, sharey=True)
     for ax, quality in zip(axes, QUALITIES):
         draw_curve(ax, curves[0, 0], "#bbbbbb", "no bath")
@@ -64,15 +67,72 @@ def averaging_time(peak, trough, duration):
 
 
 def publish_peaks(tables, curves):
+    """K_f at even and odd eta, and the time that averages it."""
     duration = 1000 if tables.quick else 20000
     rows = []
     for (kelvin, quality), curve_rows in curves.items():
-        peaks = [at(curve_rows, eta) for eta in (2, 4, 6)]
+        at_even = [at(curve_rows, eta) for eta in (2, 4, 6)]
         troughs = [at(curve_rows, eta) for eta in (3, 5, 7)]
-        rows.append([kelvin, quality or "no bath"] + ["%.3f" % row["k_f_work"] for row in peaks + troughs]
-                    + ["%.2g" % max(averaging_time(peaks[2], trough, duration) for trough in troughs[1:]) if kelvin else ""])
-    tables.write("thermal_peaks", ("T / K", "Q", "eta = 2", "eta = 4", "eta = 6", "eta = 3", "eta = 5", "eta = 7",
-                                     "averaging time / tau"), rows)
+        needed = max(averaging_time(at_even[2], trough, duration) for trough in troughs[1:])
+        rows.append([kelvin, quality or "no bath"] + ["%.3f" % row["k_f_work"] for row in at_even + troughs]
+                    + [("below 1" if needed < 1.0 else "%.2g" % needed) if kelvin else ""])
+    tables.write("thermal_even_odd", ("T / K", "Q", "eta = 2", "eta = 4", "eta = 6", "eta = 3", "eta = 5", "eta = 7",
+                                      "averaging time / tau"), rows)
+
+
+def maximum(rows):
+    """Place and height of the peak: the vertex of a parabola through the five points about the greatest K_f.
+
+    Each with its standard error, from the scatter of the points about the parabola or from their own errors, whichever
+    is greater.
+    """
+    top = max(range(2, len(rows) - 2), key=lambda i: rows[i]["k_f_work"])
+    near = rows[top - 2:top + 3]
+    x = np.array([row["eta"] for row in near]) - rows[top]["eta"]
+    y = np.array([row["k_f_work"] for row in near])
+    powers = np.vander(x, 3)
+    c, _, _, _ = np.linalg.lstsq(powers, y, rcond=None)
+    scatter = np.sum((y - powers @ c) ** 2) / (len(x) - 3)
+    variance = max(scatter, np.mean([row["k_f_work_std_error"] ** 2 for row in near]))
+    covariance = variance * np.linalg.inv(powers.T @ powers)
+    place = -c[1] / (2.0 * c[0])
+    by_c = np.array([-place / c[0], -1.0 / (2.0 * c[0]), 0.0])  # derivatives of the place
+    by_height = np.array([place ** 2, place, 1.0])
+    return (rows[top]["eta"] + place, (by_c @ covariance @ by_c) ** 0.5,
+            np.polyval(c, place), (by_height @ covariance @ by_height) ** 0.5)
+
+
+def width(rows, height):
+    """For how much of eta K_f is above half the peak's height, and its standard error."""
+    total, variance = 0.0, 0.0
+    for left, right in zip(rows, rows[1:]):
+        step = right["eta"] - left["eta"]
+        above = [row["k_f_work"] - 0.5 * height for row in (left, right)]
+        rise = above[1] - above[0]
+        if above[0] * above[1] < 0.0:  # K_f is linear between two points
+            total += step * max(above) / abs(rise)
+            noise = max(left["k_f_work_std_error"], right["k_f_work_std_error"])
+            variance += (step * noise / rise) ** 2
+        elif above[0] > 0.0:
+            total += step
+    return total, variance ** 0.5
+
+
+def publish_maxima(tables):
+    """Place, height and width of the first three peaks, on a fine grid about each."""
+    duration, step = (500, 0.05) if tables.quick else (20000, 0.01)
+    baths = [(0, 0)] + [(kelvin, quality) for quality in QUALITIES for kelvin in TEMPERATURES]
+    rows = []
+    for kelvin, quality in baths:
+        bath = [] if quality == 0 else ["--quality-factor", quality, "--temperature", kelvin * KELVIN]
+        for eta in (2, 4, 6):
+            fine = tables.make("thermal_peak_%g_%g_%g" % (kelvin, quality, eta), "friction_curve", "--eta",
+                               "%g:%g:%g" % (eta - 0.5, eta + 0.5, step), "--duration", duration, *bath)
+            place, place_error, height, height_error = maximum(fine)
+            half, half_error = width(fine, height)
+            rows.append([kelvin, quality or "no bath", "%d" % (eta / 2)] + ["%.3f ± %.3f" % (value, 1.96 * error)
+                        for value, error in ((place, place_error), (height, height_error), (half, half_error))])
+    tables.write("thermal_peaks", ("T / K", "Q", "peak", "at eta", "K_f / (m_tip/tau)", "width"), rows)
 
 
 def measured(tables, eta, quality, theta, kicks, duration):

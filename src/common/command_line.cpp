@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "afm/number_text.h"
+
 namespace afm {
 namespace po = boost::program_options;
 namespace {
@@ -27,6 +29,7 @@ const std::string kUnexpected = "unexpected";
 
 template <class T>
 std::string text_of(const T& value) {
+  if constexpr (std::is_floating_point<T>::value) return number_text(value);
   std::ostringstream text;
   text << value;
   return text.str();

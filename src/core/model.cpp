@@ -1,23 +1,14 @@
 #include "afm/model.h"
 
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "afm/number_text.h"
+
 namespace afm {
-namespace {
-
-std::string to_text(const std::string& name, double value, const std::string& reason) {
-  std::ostringstream out;
-  out.precision(17);
-  out << name << " = " << value << ": " << reason;
-  return out.str();
-}
-
-}  // namespace
 
 ParameterError::ParameterError(std::string name_, double value_, std::string reason_)
-    : std::invalid_argument(to_text(name_, value_, reason_)),
+    : std::invalid_argument(name_ + " = " + number_text(value_) + ": " + reason_),
       name(std::move(name_)),
       value(value_),
       reason(std::move(reason_)) {}

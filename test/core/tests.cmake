@@ -4,9 +4,9 @@
 function(afm_add_core_test path)
   get_filename_component(name ${path} NAME)
   afm_add_gtest(${name}_test core/${path}_test.cpp)
-  target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${name}_test afm_emulator_core afm_quad ${ARGN})
-  target_compile_definitions(${name}_test PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
+  target_include_directories(afm_${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(afm_${name}_test afm_emulator_core afm_quad ${ARGN})
+  target_compile_definitions(afm_${name}_test PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
 endfunction()
 
@@ -28,6 +28,7 @@ set(core_tests
   emulator/saved_state
   levels/level_table
   model
+  number_text
   search/double_double
   search/first_fall
   search/flight
@@ -76,33 +77,33 @@ endforeach()
 foreach(name IN LISTS dynamics_tests)
   afm_add_core_test(${name} afm_emulator_dynamics)
 endforeach()
-target_link_libraries(sweep_test afm_emulator_sweep)
+target_link_libraries(afm_sweep_test afm_emulator_sweep)
 
 # The bits of a run depend on no compiler and no option: reference runs as shipped and without any optimisation, against
 # digests that are written down. scripts/compare_builds does it for every compiler there is.
 get_target_property(core_sources afm_emulator_core SOURCES)
 list(FILTER core_sources EXCLUDE REGEX "^\\$<")  # objects of lanes
 list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
-add_executable(reference_digest EXCLUDE_FROM_ALL core/reference_digest.cpp)
-target_link_libraries(reference_digest afm_emulator_core)
-add_executable(reference_digest_O0 EXCLUDE_FROM_ALL core/reference_digest.cpp ${core_sources})
-target_compile_options(reference_digest_O0 PRIVATE -O0)
-target_compile_definitions(reference_digest_O0 PRIVATE AFM_SINGLE_VERSION)
-target_include_directories(reference_digest_O0 PRIVATE ${PROJECT_SOURCE_DIR}/include)
-target_link_libraries(reference_digest_O0 afm_options Eigen3::Eigen Threads::Threads)
-foreach(program reference_digest reference_digest_O0)
+add_executable(afm_reference_digest EXCLUDE_FROM_ALL core/reference_digest.cpp)
+target_link_libraries(afm_reference_digest afm_emulator_core)
+add_executable(afm_reference_digest_O0 EXCLUDE_FROM_ALL core/reference_digest.cpp ${core_sources})
+target_compile_options(afm_reference_digest_O0 PRIVATE -O0)
+target_compile_definitions(afm_reference_digest_O0 PRIVATE AFM_SINGLE_VERSION)
+target_include_directories(afm_reference_digest_O0 PRIVATE ${PROJECT_SOURCE_DIR}/include)
+target_link_libraries(afm_reference_digest_O0 afm_options Eigen3::Eigen Threads::Threads)
+foreach(program afm_reference_digest afm_reference_digest_O0)
   target_include_directories(${program} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
   add_dependencies(tests ${program})
 endforeach()
 add_test(NAME reference_digest
   COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/reference_digest_test.sh ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
-    $<TARGET_FILE:reference_digest> $<TARGET_FILE:reference_digest_O0>)
+    $<TARGET_FILE:afm_reference_digest> $<TARGET_FILE:afm_reference_digest_O0>)
 set_tests_properties(reference_digest PROPERTIES TIMEOUT 120)
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT AFM_SANITIZE)
   add_test(NAME older_machines
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/older_machines_test.sh ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
-      $<TARGET_FILE:reference_digest> $<TARGET_FILE:next_impact> $<TARGET_FILE:friction_curve>
+      $<TARGET_FILE:afm_reference_digest> $<TARGET_FILE:afm_next_impact> $<TARGET_FILE:afm_friction_curve>
       ${CMAKE_CURRENT_SOURCE_DIR}/data/next_impact.csv)
   set_tests_properties(older_machines PROPERTIES TIMEOUT 180 SKIP_RETURN_CODE 77)
 endif()
@@ -113,24 +114,24 @@ foreach(lanes IN LISTS afm_lanes)
   get_target_property(sources afm_lanes_${lanes} SOURCES)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
   set_source_files_properties(${sources} core/lanes/lane_probe_${lanes}.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
-  add_library(lanes_${lanes}_unoptimized OBJECT ${sources})
-  target_include_directories(lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
-  target_compile_options(lanes_${lanes}_unoptimized PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options} -O0)
-  target_link_libraries(lanes_${lanes}_unoptimized PRIVATE afm_options)
-  list(APPEND lane_objects $<TARGET_OBJECTS:afm_lanes_${lanes}> $<TARGET_OBJECTS:lanes_${lanes}_unoptimized>)
+  add_library(afm_lanes_${lanes}_unoptimized OBJECT ${sources})
+  target_include_directories(afm_lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+  target_compile_options(afm_lanes_${lanes}_unoptimized PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options} -O0)
+  target_link_libraries(afm_lanes_${lanes}_unoptimized PRIVATE afm_options)
+  list(APPEND lane_objects $<TARGET_OBJECTS:afm_lanes_${lanes}> $<TARGET_OBJECTS:afm_lanes_${lanes}_unoptimized>)
 endforeach()
 if(lane_objects)
   afm_add_core_test(lanes/lanes)
   foreach(lanes IN LISTS afm_lanes)
-    set(probe lane_probe_${lanes})
-    add_library(${probe} OBJECT core/lanes/${probe}.cpp)
+    set(probe afm_lane_probe_${lanes})
+    add_library(${probe} OBJECT core/lanes/lane_probe_${lanes}.cpp)
     target_include_directories(${probe} PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
     target_compile_options(${probe} PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options})
     target_link_libraries(${probe} PRIVATE afm_options)
-    target_sources(lanes_test PRIVATE $<TARGET_OBJECTS:${probe}>)
+    target_sources(afm_lanes_test PRIVATE $<TARGET_OBJECTS:${probe}>)
   endforeach()
   if("avx512" IN_LIST afm_lanes)
-    target_compile_definitions(lanes_test PRIVATE AFM_WIDE_LANES)
+    target_compile_definitions(afm_lanes_test PRIVATE AFM_WIDE_LANES)
   endif()
   add_test(NAME lane_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/lane_symbols_test.sh ${lane_objects}
     COMMAND_EXPAND_LISTS)

@@ -23,19 +23,19 @@ set(node_tests
   shutdown
   standstill)
 foreach(name IN LISTS node_tests)
-  afm_add_rostest(${name} emulator_node)
+  afm_add_rostest(${name} afm_emulator_node)
 endforeach()
 
 # of the picture
 set(view_tests interface pair view)
 foreach(name IN LISTS view_tests)
-  afm_add_rostest(${name} emulator_node view_node)
+  afm_add_rostest(${name} afm_emulator_node afm_view_node)
 endforeach()
 
 # nodes to copy
 set(example_tests controllers examples)
 foreach(name IN LISTS example_tests)
-  afm_add_rostest(${name} emulator_node view_node examples_ros)
+  afm_add_rostest(${name} afm_emulator_node afm_view_node afm_examples_ros)
 endforeach()
 set_tests_properties(${rostest_prefix}controllers.test PROPERTIES TIMEOUT 330)  # one after the other in two languages
 
@@ -53,21 +53,21 @@ set(recording_tests
   spoiled_bags
   steering)
 foreach(name IN LISTS recording_tests)
-  afm_add_rostest(${name} emulator_node replay_check bag_check bag_to_csv)
+  afm_add_rostest(${name} afm_emulator_node afm_replay_check afm_bag_check afm_bag_to_csv)
 endforeach()
 # keeps every core busy: what ran beside it would starve
 set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
 
 # of the Python module, where it is built
 if(TARGET afm_python_module)
-  afm_add_rostest(python_module emulator_node replay_check afm_python)
+  afm_add_rostest(python_module afm_emulator_node afm_replay_check afm_python)
 endif()
 
 # an independent reader, only where someone has installed it: no test fetches anything
 find_program(NODE_PROGRAM NAMES node nodejs)
 set(node_modules ${CMAKE_BINARY_DIR}/node_modules)
 if(NODE_PROGRAM AND EXISTS ${node_modules}/@foxglove/rosbag)
-  afm_add_rostest(javascript_reader emulator_node)
+  afm_add_rostest(javascript_reader afm_emulator_node)
   set_property(TEST ${rostest_prefix}javascript_reader.test APPEND PROPERTY ENVIRONMENT NODE_PATH=${node_modules})
 else()
   message(STATUS "The test by a reader in JavaScript is left out; for it you need Node.js 16, and: "
@@ -77,8 +77,8 @@ endif()
 # node/NAME_test.cpp: parts of the node that need no master
 foreach(name diagnosis run_history)
   afm_add_gtest(${name}_test node/${name}_test.cpp)
-  target_include_directories(${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-  target_link_libraries(${name}_test afm_emulator_ros)
+  target_include_directories(afm_${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(afm_${name}_test afm_emulator_ros)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
 
@@ -109,7 +109,7 @@ set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOS
 if(NOT AFM_SANITIZE)
   # it stands between the program and its allocator itself
   afm_add_gtest(stepping_path_test node/stepping_path_test.cpp)
-  target_include_directories(stepping_path_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-  target_link_libraries(stepping_path_test afm_emulator_ros ${CMAKE_DL_LIBS})
+  target_include_directories(afm_stepping_path_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(afm_stepping_path_test afm_emulator_ros ${CMAKE_DL_LIBS})
   set_tests_properties(${gtest_prefix}stepping_path_test PROPERTIES TIMEOUT 60)
 endif()

@@ -3,8 +3,8 @@
 if(catkin_FOUND)
   foreach(name friction_audit message_difference)
     afm_add_gtest(${name}_test tools/${name}_test.cpp)
-    target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/benchmark)
-    target_link_libraries(${name}_test afm_replay)
+    target_include_directories(afm_${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/benchmark)
+    target_link_libraries(afm_${name}_test afm_replay)
   endforeach()
 
   add_test(NAME plot_run
@@ -15,39 +15,39 @@ endif()
 
 add_test(NAME next_impact
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
-    $<TARGET_FILE:next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
+    $<TARGET_FILE:afm_next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
 set_tests_properties(next_impact PROPERTIES TIMEOUT 120)
 
 # with mpirun where the tool was built with MPI
 add_test(NAME friction_curve
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
-    $<TARGET_FILE:friction_curve> ${MPIEXEC_EXECUTABLE})
+    $<TARGET_FILE:afm_friction_curve> ${MPIEXEC_EXECUTABLE})
 set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
 
 add_test(NAME orbit_tools COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/orbit_tools_test.py
-  $<TARGET_FILE_DIR:continue_orbits>)
+  $<TARGET_FILE_DIR:afm_continue_orbits>)
 set_tests_properties(orbit_tools PROPERTIES TIMEOUT 120)
-add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py $<TARGET_FILE_DIR:friction_curve>)
+add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py $<TARGET_FILE_DIR:afm_friction_curve>)
 set_tests_properties(si PROPERTIES TIMEOUT 120)
 add_test(NAME scene_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/scene_levels_test.py
-  $<TARGET_FILE_DIR:choose_level> ${PROJECT_SOURCE_DIR}/scripts)
+  $<TARGET_FILE_DIR:afm_choose_level> ${PROJECT_SOURCE_DIR}/scripts)
 set_tests_properties(scene_levels PROPERTIES TIMEOUT 180)
 add_test(NAME shipped_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/shipped_levels_test.py
-  $<TARGET_FILE:level_table> ${PROJECT_SOURCE_DIR}/config/levels.csv)
+  $<TARGET_FILE:afm_level_table> ${PROJECT_SOURCE_DIR}/config/levels.csv)
 set_tests_properties(shipped_levels PROPERTIES TIMEOUT 180)
 foreach(tool attractors model_error periodic_orbits symbolic_dynamics)
-  add_test(NAME ${tool} COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/${tool}_test.py $<TARGET_FILE:${tool}>)
+  add_test(NAME ${tool} COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/${tool}_test.py $<TARGET_FILE:afm_${tool}>)
   set_tests_properties(${tool} PROPERTIES TIMEOUT 120)
 endforeach()
 
 # a short form; for longer ones give the program more --seconds
-add_test(NAME stress COMMAND stress --seconds 15)
-add_test(NAME stress_shipped COMMAND stress --shipped --tau 100000 --scenes 3)
+add_test(NAME stress COMMAND afm_stress --seconds 15)
+add_test(NAME stress_shipped COMMAND afm_stress --shipped --tau 100000 --scenes 3)
 set_tests_properties(stress stress_shipped PROPERTIES TIMEOUT 120)
 
-if(TARGET stability_matrix)
+if(TARGET afm_stability_matrix)
   # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first instant
-  add_test(NAME stability COMMAND stability_matrix --quick --methods exact)
+  add_test(NAME stability COMMAND afm_stability_matrix --quick --methods exact)
   set_tests_properties(stability PROPERTIES TIMEOUT 120)
 endif()
 
@@ -63,14 +63,14 @@ set_tests_properties(package PROPERTIES TIMEOUT 30)
 
 # every program answers --help, and refuses an option that it does not have
 get_property(tools GLOBAL PROPERTY AFM_COMMAND_LINES)
-list(TRANSFORM tools REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+list(TRANSFORM tools REPLACE "(.+)" "$<TARGET_FILE:afm_\\1>")
 add_test(NAME help COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/help_test.py ${tools})
 set_tests_properties(help PROPERTIES TIMEOUT 60)
 
 # common/NAME_test.cpp: what tools share
 foreach(name command_line table_writer)
   afm_add_gtest(${name}_test common/${name}_test.cpp)
-  target_link_libraries(${name}_test afm_common)
+  target_link_libraries(afm_${name}_test afm_common)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
 
@@ -78,14 +78,16 @@ endforeach()
 if(NOT AFM_SANITIZE)
   set(examples)
   foreach(name impacts_to_csv one_tip periodic_orbit ten_thousand_tips warm_scene)
-    add_executable(example_${name} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/examples/cpp/${name}.cpp)
-    target_link_libraries(example_${name} afm_emulator_dynamics)
-    add_dependencies(tests example_${name})
-    list(APPEND examples $<TARGET_FILE:example_${name}>)
+    add_executable(afm_example_${name} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/examples/cpp/${name}.cpp)
+    target_link_libraries(afm_example_${name} afm_emulator_dynamics)
+    add_dependencies(tests afm_example_${name})
+    list(APPEND examples $<TARGET_FILE:afm_example_${name}>)
   endforeach()
   add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR} "${CATKIN_DEVEL_PREFIX}"
     ${PROJECT_SOURCE_DIR}/examples/cpp ${examples})
   set_tests_properties(consumer PROPERTIES TIMEOUT 300)
+  add_test(NAME neighbours COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/neighbours_test.sh ${PROJECT_SOURCE_DIR} ${catkin_EXTRAS_DIR}/..)
+  set_tests_properties(neighbours PROPERTIES TIMEOUT 300)
   if(catkin_FOUND)
     add_test(NAME without_ros
       COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/without_ros_test.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/without_ros)

@@ -61,7 +61,7 @@ std::vector<double> etas(const afm::CommandLine& app, const Options& o) {
 
 void check_duration(const char* name, double tau) {
   if (tau >= 1.0 && tau <= 1e9) return;
-  throw std::invalid_argument(std::string("--") + name + ": must be between 1 and 1e+09 tau");
+  throw std::invalid_argument(std::string("--") + name + ": must be between 1 and 1e9 tau");
 }
 
 // A cutoff that is a share of eta has no unit.

@@ -99,7 +99,7 @@ void check(const afm::CommandLine& app, Options& o) {
   if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");
   s.sweep.seed = s.sweep.bath.seed = static_cast<std::uint64_t>(o.seed);
   if (s.sweep.bath.temperature > 0.0 && !s.sweep.bath.is_on()) {
-    refuse("temperature = " + std::to_string(s.sweep.bath.temperature) +
+    refuse("temperature = " + afm::number_text(s.sweep.bath.temperature) +
            ": needs a quality-factor above 0: without one no heat reaches the tip");
   }
   const std::vector<afm::ParameterError> faults = afm::find_faults(s);

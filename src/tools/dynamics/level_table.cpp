@@ -56,7 +56,7 @@ struct Point {
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
   for (const afm::DynamicsOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
-    if (!(at.eta > 0.0)) throw std::invalid_argument("eta = " + std::to_string(at.eta) + ": must be above 0");
+    if (!(at.eta > 0.0)) throw std::invalid_argument("eta = " + afm::number_text(at.eta) + ": must be above 0");
     points.push_back({afm::checked_model(at), at.eta});
   }
   return points;

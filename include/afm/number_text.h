@@ -1,0 +1,12 @@
+// Numbers as people write them, in every message of ours.
+#pragma once
+
+#include <string>
+
+namespace afm {
+
+// The fewest digits that give the same double back. Decimal notation from 0.0001 up to ten million, such as 0.1, 300000
+// and 1e-06; a decimal point, whatever the locale.
+std::string number_text(double value);
+
+}  // namespace afm
