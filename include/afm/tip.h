@@ -3,6 +3,8 @@
 // rounding. Natural units.
 #pragma once
 
+#include <optional>
+
 #include "afm/detail/sample_grid.h"
 #include "afm/detail/thermostat.h"
 #include "bath.h"
@@ -11,6 +13,7 @@
 #include "flight.h"
 #include "impact_search.h"
 #include "model.h"
+#include "saved_state.h"
 #include "segment.h"
 #include "state.h"
 
@@ -95,6 +98,10 @@ class Tip {
   // the machine has vector registers. Returns the lowest gap [a].
   double deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
                      double* lateral) const;
+
+  // Guarantee: a tip that is restored goes on with the same bits (saved_state.h).
+  void save(SavedState& out) const;
+  static std::optional<Tip> restored(const SavedState& state);  // empty: no tip can be in that state
 
  private:
   friend class StateFields;  // saved_state.cpp

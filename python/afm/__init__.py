@@ -7,21 +7,29 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
     >>> events = tip.advance(1000)                    # to 1000 tau: a structured array
     >>> curve = afm.friction_curve([1.8, 2.0, 2.2])   # columns as of the tool friction_curve
 
-Tip, Emulator           one tip; a run in batches, as the node runs it
+Tip, Ensemble, Emulator   one tip; many on threads; a run in batches, as the node runs it
 Model, Bath, Units      what they are made of
 friction_curve, attractors, periodic_orbits, lyapunov, next_impact     what the tools of these names compute
 from_bag                a recording: its model, its commands, and its run simulated again
 
+Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1 of the
+paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with one k_f is no
+friction, as the bath feeds the impacts: at eta = 0.1 and 300 K k_f is 25 times as much.
+
 What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL and end
-at Ctrl-C.
+at Ctrl-C. Models, baths, units, tips and emulators can be copied, pickled, and sent to the processes of a Pool.
 """
-from .errors import ParameterError
+from .errors import ArgumentTypeError, ParameterError
 from .values import Batch, Kind, Lyapunov, ModelTime, Samples, State
-from ._afm import Bath, Emulator, Model, Tip, Units
+from ._afm import Bath, Emulator, Ensemble, Model, Tip, Units
 from ._afm import VERSION as __version__
+from .arguments import explain
 from .tables import attractors, friction_curve, lyapunov, next_impact, periodic_orbits
 from .recordings import Recording, from_bag
 
-__all__ = ['Bath', 'Batch', 'Emulator', 'Kind', 'Lyapunov', 'Model', 'ModelTime', 'ParameterError', 'Recording', 'Samples',
-           'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag', 'lyapunov', 'next_impact',
-           'periodic_orbits', '__version__']
+__all__ = ['ArgumentTypeError', 'Bath', 'Batch', 'Emulator', 'Ensemble', 'Kind', 'Lyapunov', 'Model', 'ModelTime',
+           'ParameterError', 'Recording', 'Samples', 'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag',
+           'lyapunov', 'next_impact', 'periodic_orbits', '__version__']
+
+explain(Bath, Emulator, Ensemble, Model, Tip, Units)
+del explain

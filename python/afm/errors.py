@@ -1,5 +1,9 @@
 """What is wrong with an argument."""
-from typing import Tuple
+from typing import Any, Tuple
+
+
+def _text(value: Any) -> str:
+    return repr(int(value)) if isinstance(value, float) and value.is_integer() and abs(value) < 1e7 else repr(value)
 
 
 class ParameterError(ValueError):
@@ -7,10 +11,14 @@ class ParameterError(ValueError):
 
     faults: Tuple['ParameterError', ...]
 
-    def __init__(self, name: str, value: float, reason: str) -> None:
+    def __init__(self, name: str, value: Any, reason: str) -> None:
         super().__init__(name, value, reason)
         self.name, self.value, self.reason = name, value, reason
         self.faults = (self,)
 
     def __str__(self) -> str:
-        return '\n'.join('%s = %.17g: %s' % fault.args for fault in self.faults)
+        return '\n'.join('%s = %s: %s' % (fault.name, _text(fault.value), fault.reason) for fault in self.faults)
+
+
+class ArgumentTypeError(ParameterError, TypeError):
+    """An argument of a wrong type."""

@@ -5,26 +5,20 @@ import numpy as np
 
 from . import _afm
 from ._afm import Bath, Model
-from .errors import ParameterError
+from .arguments import count, number, numbers
+from .errors import ArgumentTypeError, ParameterError
 
 Axis = Union[float, np.ndarray]
 _NAME = 'U16'  # of an attractor
 
 
-def _structured(columns, numbers, names, whole=()):
-    """Numbers (n, m) under the names of the columns; a column `attractor` takes the names of attractors."""
-    table = np.empty(len(numbers), [(c, _NAME if c == 'attractor' else 'i8' if c in whole else 'f8') for c in columns])
-    values = iter(numbers.T)
+def _structured(columns, rows, names, whole=()):
+    """Rows (n, m) under the names of the columns; a column `attractor` takes the names of attractors."""
+    table = np.empty(len(rows), [(c, _NAME if c == 'attractor' else 'i8' if c in whole else 'f8') for c in columns])
+    values = iter(rows.T)
     for column in columns:
         table[column] = names if column == 'attractor' else next(values)
     return table
-
-
-def _axis(name, values):
-    array = np.atleast_1d(np.asarray(values, float))
-    if array.ndim != 1:
-        raise ValueError('%s: must be a number or a one-dimensional array' % name)
-    return array
 
 
 def _axes(model, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio):
@@ -33,25 +27,22 @@ def _axes(model, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio):
                  rest_height=model.rest_height if rest_height is None else rest_height,
                  amplitude=model.amplitude if amplitude is None else amplitude,
                  frequency_ratio=model.frequency_ratio if frequency_ratio is None else frequency_ratio)
-    return [_axis(name, values) for name, values in given.items()]
+    return [numbers(name, values) for name, values in given.items()]
 
 
 def _model(model: Union[str, Model]) -> Model:
+    if not isinstance(model, (str, Model)):
+        raise ArgumentTypeError('model', model, "must be 'oscillator', 'hammer', or a Model")
     return Model(kind=model) if isinstance(model, str) else model
-
-
-def _count(name, value, least=0):
-    if value != int(value) or value < least:
-        raise ParameterError(name, value, 'must be a whole number, at least %d' % least)
-    return int(value)
 
 
 def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[Axis] = None,
                    rest_height: Optional[Axis] = None, amplitude: Optional[Axis] = None,
                    frequency_ratio: Optional[Axis] = None, model: Union[str, Model] = 'oscillator',
                    duration: float = 10000.0, transient: float = 1000.0, sweep: str = 'fresh',
-                   temperature: float = 0.0, quality_factor: float = 0.0, lateral_quality_factor: float = 0.0,
-                   kicks_per_tau: float = Bath().kicks_per_tau, seed: int = 1, threads: int = 0,
+                   bath: Optional[Bath] = None, temperature: float = 0.0, quality_factor: float = 0.0,
+                   lateral_quality_factor: float = 0.0, kicks_per_tau: float = Bath().kicks_per_tau,
+                   seed: Optional[int] = None, threads: int = 0,
                    progress: Optional[Callable[[int, int], None]] = None) -> np.ndarray:
     """K_f against drag velocity, restitution, cutoff, load and surface: the same bits as the tool friction_curve.
 
@@ -59,40 +50,68 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     model's. The points are all combinations, eta changing fastest, then gamma and so on.
     model: 'oscillator', 'hammer', or a Model; duration and transient: of the measurement and before it [tau].
     sweep: 'fresh' from random starts; 'up', 'down' from where the point before ended, along eta.
-    temperature: kT [m a^2/tau^2]; quality_factor above 0 gives a heat bath.
+    bath: a heat bath; or in place of it its numbers: temperature kT [m a^2/tau^2], quality_factor (above 0: there is a
+    bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's, or 1.
     threads: 0 is one for each processor; no bit depends on it. progress(done, all) is called ten times a second.
 
     Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m_tip/tau], impacts_per_tau,
     mean_energy_loss [m a^2/tau^2], mean_flight_time [tau], largest_lyapunov [1/tau], attractor (text), rest_height,
     amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m_tip/tau].
+    Plot k_f_work against eta: it is friction, from the work of the drag. k_f, from the energy lost in impacts, agrees with it
+    without a bath alone.
     """
     chosen = _model(model)
-    seed = _count('seed', seed)
-    bath = Bath(temperature, quality_factor, lateral_quality_factor, kicks_per_tau, seed)
+    if bath is None:
+        bath = Bath(temperature, quality_factor, lateral_quality_factor, kicks_per_tau, 1 if seed is None else count('seed', seed))
+    elif not isinstance(bath, Bath):
+        raise ArgumentTypeError('bath', bath, 'must be a Bath')
+    elif (temperature, quality_factor, lateral_quality_factor, kicks_per_tau) != (0.0, 0.0, 0.0, Bath().kicks_per_tau):
+        raise ParameterError('bath', bath, 'is given beside temperature, quality factors or kicks_per_tau: give either')
+    seed = bath.seed if seed is None else count('seed', seed)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
-    return _structured(*_afm.friction_curve(axes, chosen.kind, sweep, duration, transient, bath, seed,
-                                            _count('threads', threads), progress))
+    return _structured(*_afm.friction_curve(axes, chosen.kind, sweep, number('duration', duration),
+                                            number('transient', transient), bath, seed, count('threads', threads), progress))
 
 
 def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optional[Axis] = None,
                rest_height: Optional[Axis] = None, amplitude: Optional[Axis] = None,
-               frequency_ratio: Optional[Axis] = None, model: Union[str, Model] = 'oscillator', starts: int = 200,
-               seed: int = 1, transient: float = 500.0, duration: float = 500.0, friction_duration: float = 1000.0,
-               threads: int = 0) -> np.ndarray:
-    """What attractors there are, found from so many random starts at each point.
+               frequency_ratio: Optional[Axis] = None, model: Union[str, Model] = 'oscillator',
+               starts: Union[int, np.ndarray] = 200, seed: int = 1, transient: float = 500.0, duration: float = 500.0,
+               friction_duration: float = 1000.0, labels: bool = False, threads: int = 0):
+    """What attractors there are, and from which starts.
 
     Points and models as of friction_curve(); transient, duration, friction_duration [tau]. Several points share the threads.
+    starts: how many random ones at each point; or an array (n, 5) of phase, extension, y [a], u, w [a/tau].
 
     Returns a structured array, a row for each attractor: eta, gamma, cutoff, attractor (text), impacts and cells in a period (0:
     it does not repeat), k_f, k_f_std_error [m_tip/tau], lyapunov_1 to lyapunov_4 [1/tau], rotation_number, contact_share, basin
     (share of the starts), basin_std_error, and a start that leads there: phase, extension, y [a], u, w [a/tau].
+    With labels=True (table, starts): a row of `starts` for each start at each point, in their order, with the fields point
+    (0 for the first), attractor_row (in the table), and phase, extension, y, u, w. This is a map of the basins.
     """
     chosen = _model(model)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
     mesh = np.meshgrid(*reversed(axes), indexing='ij')  # eta changes fastest
     points = np.stack([axis.ravel() for axis in reversed(mesh)], axis=1)
-    return _structured(*_afm.attractors(points, chosen.kind, starts, _count('seed', seed), transient, duration,
-                                        friction_duration, _count('threads', threads)), whole=('impacts', 'cells'))
+    given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
+    *table, where = _afm.attractors(points, chosen.kind, count('starts', starts) if np.ndim(starts) == 0 else len(given), given,
+                                    count('seed', seed), number('transient', transient), number('duration', duration),
+                                    number('friction_duration', friction_duration), count('threads', threads))
+    found = _structured(*table, whole=('impacts', 'cells'))
+    if not labels:
+        return found
+    return found, _structured(('point', 'attractor_row', 'phase', 'extension', 'y', 'u', 'w'), where, [],
+                              whole=('point', 'attractor_row'))
+
+
+def _rows_of_starts(starts):
+    try:
+        rows = np.array([tuple(row) for row in starts], float)
+    except (TypeError, ValueError):
+        rows = np.empty(0)
+    if rows.ndim != 2 or rows.shape[1] != 5:
+        raise ArgumentTypeError('starts', starts, 'must be a whole number, or rows of phase, extension, y, u, w')
+    return rows
 
 
 def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', max_length: int = 6,
@@ -104,13 +123,14 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
     Returns a structured array, a row for each orbit: length [impacts], cells, period [tau], k_f [m_tip/tau], residual, the first
     point just after an impact (phase, extension [a], u, w [a/tau]), multipliers (4 complex numbers, largest first).
     """
-    columns, numbers, _ = _afm.periodic_orbits(_model(model), eta, max_length, trajectory, guesses, _count('seed', seed))
-    count = len(columns) - 8  # behind them the multipliers' real and imaginary parts
+    columns, rows, _ = _afm.periodic_orbits(_model(model), number('eta', eta), count('max_length', max_length),
+                                            count('trajectory', trajectory), count('guesses', guesses), count('seed', seed))
+    width = len(columns) - 8  # behind them the multipliers' real and imaginary parts
     whole = ('length', 'cells')
-    orbits = np.empty(len(numbers), [(c, 'i8' if c in whole else 'f8') for c in columns[:count]] + [('multipliers', 'c16', 4)])
-    for column, values in zip(columns[:count], numbers.T):
+    orbits = np.empty(len(rows), [(c, 'i8' if c in whole else 'f8') for c in columns[:width]] + [('multipliers', 'c16', 4)])
+    for column, values in zip(columns[:width], rows.T):
         orbits[column] = values
-    orbits['multipliers'] = np.ascontiguousarray(numbers[:, count:]).view('c16')
+    orbits['multipliers'] = np.ascontiguousarray(rows[:, width:]).view('c16')
     return orbits
 
 
@@ -121,8 +141,9 @@ def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase
 
     The start as of Tip; transient and duration: before and of the measurement [tau]; most_events: allowed to both together.
     """
-    return _afm.lyapunov(_model(model), eta, phase, extension, y, u, w, transient, duration,
-                         _count('most_events', most_events, 1), contact_tolerance)
+    return _afm.lyapunov(_model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u,
+                         number('w', w), number('transient', transient), number('duration', duration),
+                         count('most_events', most_events, 1), number('contact_tolerance', contact_tolerance))
 
 
 _INPUTS = ('eta', 'gamma', 'cutoff', 'phase', 'extension', 'u', 'w')
@@ -154,7 +175,7 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
     shape = inputs[0].shape
     constants = [np.full(shape, x) for x in (chosen.rest_height, chosen.amplitude, chosen.frequency_ratio)]
     rows = np.stack([column.ravel() for column in list(inputs) + constants], axis=1)
-    results, fault = _afm.next_impact(rows, chosen.kind, _count('threads', threads))
+    results, fault = _afm.next_impact(rows, chosen.kind, count('threads', threads))
     results = results.reshape(-1, len(_RESULTS))
     if fault is not None and on_error == 'raise':
         _afm.check_flight(rows[fault[0]], chosen.kind)

@@ -6,13 +6,23 @@ from typing import Any, Dict, NamedTuple
 import numpy as np
 
 
+def _document(class_, **fields):
+    for name, text in fields.items():
+        getattr(class_, name).__doc__ = text
+
+
 class Kind(enum.IntEnum):
-    """Of an event, as in the messages."""
+    """What an event is, as in the messages: IMPACT, BURST, CONTACT_BEGUN or CONTACT_ENDED; each has a docstring."""
 
     IMPACT = 0
     BURST = 1
     CONTACT_BEGUN = 2
     CONTACT_ENDED = 3
+
+
+_document(Kind, IMPACT='one impact', BURST='a chatter sequence as one event: `count` bounces and all the energy that they lose',
+          CONTACT_BEGUN='the tip no longer bounces: the surface presses on it from here on',
+          CONTACT_ENDED='the surface lets go, and the tip flies')
 
 
 class ModelTime(NamedTuple):
@@ -35,26 +45,34 @@ class ModelTime(NamedTuple):
 class State(NamedTuple):
     """Where the tip is, in the lab."""
 
-    phase: float  # of the surface, crest = 0 [a]
-    extension: float  # x - xc [a]
-    y: float  # height above mid-surface [a]
-    u: float  # horizontal velocity [a/tau]
-    w: float  # vertical velocity [a/tau]
+    phase: float
+    extension: float
+    y: float
+    u: float
+    w: float
+
+
+_document(State, phase='of the surface, crest = 0 [a]', extension='x - xc [a]', y='height above mid-surface [a]',
+          u='horizontal velocity [a/tau]', w='vertical velocity [a/tau]')
 
 
 class Samples(NamedTuple):
     """Evenly spaced samples of the deflection, and the events in their time."""
 
-    time: ModelTime  # of the first sample
-    period: float  # [tau]
-    vertical: np.ndarray  # (n,): y - y0 [a]
-    lateral: np.ndarray  # (n,): x - xc [a]
-    events: np.ndarray  # (m,): as of Tip.advance
+    time: ModelTime
+    period: float
+    vertical: np.ndarray
+    lateral: np.ndarray
+    events: np.ndarray
 
     @property
     def times(self) -> np.ndarray:
-        """(n,) [tau]"""
+        """of each sample: (n,) [tau]"""
         return float(self.time) + self.period * np.arange(len(self.vertical))
+
+
+_document(Samples, time='of the first sample', period='from sample to sample [tau]', vertical='(n,): y - y0 [a]',
+          lateral='(n,): x - xc [a]', events='(m,): as of Tip.advance')
 
 
 class Batch(NamedTuple):
@@ -62,24 +80,39 @@ class Batch(NamedTuple):
 
     begin: ModelTime
     end: ModelTime
-    first_sample: int  # running index
+    first_sample: int
     first_sample_time: ModelTime
-    sample_period: float  # [tau], at the end
-    vertical: np.ndarray  # (n,): y - y0 [a]
-    lateral: np.ndarray  # (n,): x - xc [a]
-    first_impact: int  # running index
-    impacts: np.ndarray  # (m,): as of Tip.advance
-    eta: float  # drag velocity at the end [a/tau]
-    friction: Dict[str, Any]  # at the end; the fields of the topic, in natural units
+    sample_period: float
+    vertical: np.ndarray
+    lateral: np.ndarray
+    first_impact: int
+    impacts: np.ndarray
+    eta: float
+    friction: Dict[str, Any]
+
+
+_document(Batch, begin='of the stretch', end='of the stretch', first_sample='running index of the first sample',
+          first_sample_time='of the first sample', sample_period='at the end [tau]', vertical='(n,): y - y0 [a]',
+          lateral='(n,): x - xc [a]', first_impact='running index of the first event', impacts='(m,): as of Tip.advance',
+          eta='drag velocity at the end [a/tau]',
+          friction='the estimate at the end: a dict with the fields of the topic ~friction, in natural units. Friction is '
+                   'k_f_work [m_tip/tau], by the work of the drag; k_f counts the losses in impacts, and agrees without a '
+                   'bath alone')
 
 
 class Lyapunov(NamedTuple):
     """Lyapunov exponents of the map from impact to impact, largest first."""
 
-    exponents: np.ndarray  # (4,) [1/tau]; minus infinity where a direction collapses in contact
-    std_errors: np.ndarray  # (4,) [1/tau]
-    outcome: str  # measured, budget_spent, no_event, search_failed, no_number
-    rank: int  # exponents that are finite
-    volume_rate: float  # what their sum must be [1/tau]
-    duration: float  # measured [tau]
+    exponents: np.ndarray
+    std_errors: np.ndarray
+    outcome: str
+    rank: int
+    volume_rate: float
+    duration: float
     events: int
+
+
+_document(Lyapunov, exponents='(4,) [1/tau]; minus infinity where a direction collapses in contact',
+          std_errors='(4,) [1/tau]', outcome='measured, budget_spent, no_event, search_failed or no_number',
+          rank='how many exponents are finite', volume_rate='what their sum must be [1/tau]', duration='measured [tau]',
+          events='on the way')

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <map>
 
 namespace afm::python {
@@ -35,6 +36,12 @@ void raise(const std::vector<ParameterError>& faults) {
   PyErr_SetObject(type.ptr(), first.ptr());
 }
 
+[[noreturn]] void refuse_type(const char* name, const py::handle& value, const char* reason) {
+  const py::object type = py::module::import("afm.errors").attr("ArgumentTypeError");
+  PyErr_SetObject(type.ptr(), type(name, value, reason).ptr());
+  throw py::error_already_set();
+}
+
 }  // namespace
 
 void refuse(const std::vector<ParameterError>& faults) {
@@ -48,6 +55,39 @@ void require(bool holds, const char* name, double value, const char* reason) {
   if (!holds) refuse({ParameterError(name, value, reason)});
 }
 
+double real(const char* name, const py::handle& value) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  refuse_type(name, value, "must be a number");
+}
+
+std::uint64_t whole(const char* name, const py::handle& value) {
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  const std::uint64_t number = index ? PyLong_AsUnsignedLongLong(index.ptr()) : 0;
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  refuse_type(name, value, "must be a whole number, not below 0");
+}
+
+py::tuple to_pickle(const SavedState& state) {
+  const auto* bytes = reinterpret_cast<const char*>(state.words.data());
+  return py::make_tuple(state_layout(), py::bytes(bytes, state.size * sizeof(std::uint64_t)));
+}
+
+SavedState from_pickle(const py::tuple& pickled) {
+  const auto layout = pickled[0].cast<std::uint32_t>();
+  const auto bytes = pickled[1].cast<std::string>();
+  SavedState state;
+  state.size = bytes.size() / sizeof(std::uint64_t);
+  if (layout != state_layout() || state.size > SavedState::kMaxWords) {
+    throw py::value_error("pickled by another version: layout " + std::to_string(layout) + ", here " +
+                          std::to_string(state_layout()));
+  }
+  std::memcpy(state.words.data(), bytes.data(), state.size * sizeof(std::uint64_t));
+  return state;
+}
+
 ModelKind kind_of(const std::string& name) {
   ModelKind kind = ModelKind::oscillator;
   if (!parse(name, kind)) throw py::value_error("kind = " + name + ": must be oscillator or hammer");
@@ -58,11 +98,14 @@ ModelTime to_time(const py::object& time) {
   constexpr double kLongest = 1e15;  // [tau]
   ModelTime result;
   if (py::isinstance<py::tuple>(time)) {
-    const auto parts = time.cast<std::pair<std::int64_t, double>>();
-    result = {parts.first, parts.second};
+    const auto parts = py::reinterpret_borrow<py::tuple>(time);
+    if (parts.size() != 2 || !py::isinstance<py::int_>(parts[0])) {
+      refuse_type("time", time, "must be a number of tau, or whole tau and a phase");
+    }
+    result = {parts[0].cast<std::int64_t>(), real("time", parts[1])};
     require(result.phase >= 0.0 && result.phase < 1.0, "time", result.phase, "the phase must be in [0, 1)");
   } else {
-    const double tau = time.cast<double>();
+    const double tau = real("time", time);
     require(std::abs(tau) <= kLongest, "time", tau, "must be finite and at most 1e15 tau");
     result = ModelTime{} + tau;
   }
@@ -90,7 +133,7 @@ EmulatorSettings to_settings(const Model& model, double eta, double phase, doubl
   EmulatorSettings settings;
   settings.model = model;
   settings.eta = eta;
-  settings.initial = {phase, extension, y, u.is_none() ? eta : u.cast<double>(), w};
+  settings.initial = {phase, extension, y, u.is_none() ? eta : real("u", u), w};
   settings.contact_tolerance = contact_tolerance;
   return settings;
 }

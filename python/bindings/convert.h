@@ -28,6 +28,10 @@ struct Faults : std::exception {
 void refuse(const std::vector<ParameterError>& faults);
 void require(bool holds, const char* name, double value, const char* reason);
 
+// An argument that takes more than one type. Raises afm.ParameterError if it is something else.
+double real(const char* name, const py::handle& value);
+std::uint64_t whole(const char* name, const py::handle& value);
+
 ModelKind kind_of(const std::string& name);  // throws ValueError
 
 // A number of tau, or whole tau and a phase.
@@ -39,6 +43,10 @@ py::dict to_python(const FrictionEstimate& friction);
 // What every run begins with, unchecked; u None: the drag velocity.
 EmulatorSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
                              const py::object& u, double w, double contact_tolerance);
+
+// What pickle keeps of a run. Throws ValueError if it is of another version.
+py::tuple to_pickle(const SavedState& state);
+SavedState from_pickle(const py::tuple& pickled);
 
 py::dtype impact_dtype();  // of the library's own records
 
@@ -56,6 +64,7 @@ inline py::array to_array(std::vector<Impact> impacts) { return to_array(std::mo
 void add_errors();
 void add_model(py::module& m);
 void add_tip(py::module& m);
+void add_ensemble(py::module& m);
 void add_emulator(py::module& m);
 void add_tables(py::module& m);
 

@@ -3,8 +3,11 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -50,27 +53,47 @@ PyEmulator restored(const py::array_t<std::uint64_t, py::array::c_style | py::ar
 void change(PyEmulator& self, const py::kwargs& what) {
   LiveSettings live = live_settings(self.emulator.settings());
   EmulatorSettings settings = self.emulator.settings();
+  const std::map<std::string, std::pair<double*, double*>> numbers{
+      {"gamma", {&settings.model.gamma, &live.gamma}},
+      {"cutoff", {&settings.model.v_c, &live.v_c}},
+      {"rest_height", {&settings.model.y0, &live.y0}},
+      {"sample_period", {&settings.sample_period, &live.sample_period}},
+      {"friction_window", {&settings.friction_window, &live.friction_window}}};
   for (const auto& item : what) {
     const auto name = item.first.cast<std::string>();
-    if (name == "gamma")
-      settings.model.gamma = live.gamma = item.second.cast<double>();
-    else if (name == "cutoff")
-      settings.model.v_c = live.v_c = item.second.cast<double>();
-    else if (name == "rest_height")
-      settings.model.y0 = live.y0 = item.second.cast<double>();
-    else if (name == "sample_period")
-      settings.sample_period = live.sample_period = item.second.cast<double>();
+    const auto number = numbers.find(name);
+    if (number != numbers.end())
+      *number->second.first = *number->second.second = real(name.c_str(), item.second);
     else if (name == "samples_per_batch")
-      settings.samples_per_batch = live.samples_per_batch = item.second.cast<std::uint64_t>();
-    else if (name == "friction_window")
-      settings.friction_window = live.friction_window = item.second.cast<double>();
-    else if (name == "bath")
+      settings.samples_per_batch = live.samples_per_batch = whole("samples_per_batch", item.second);
+    else if (name == "bath" && py::isinstance<Bath>(item.second))
       settings.bath = live.bath = item.second.cast<Bath>();
+    else if (name == "bath")
+      throw py::type_error("bath = " + std::string(py::repr(item.second)) + ": must be a Bath");
     else
       throw py::type_error("change() has no argument " + name);
   }
   refuse(find_faults(settings));
   self.emulator.change(live);
+}
+
+py::tuple pickled(const PyEmulator& self) {
+  static_assert(std::is_trivially_copyable_v<FrictionEstimate>);
+  SavedState state;
+  self.emulator.save(state);
+  const py::bytes friction(reinterpret_cast<const char*>(&self.friction), sizeof self.friction);
+  return to_pickle(state) + py::make_tuple(friction);
+}
+
+PyEmulator unpickled(const py::tuple& t) {
+  const std::optional<Emulator> emulator = Emulator::restored(from_pickle(t));
+  const auto friction = t[2].cast<std::string>();
+  if (!emulator || friction.size() != sizeof(FrictionEstimate)) {
+    throw py::value_error("no emulator can be in this state");
+  }
+  PyEmulator result{*emulator, {}};
+  std::memcpy(&result.friction, friction.data(), friction.size());
+  return result;
 }
 
 double set_level(PyEmulator& self, const std::string& kind, double contact_tolerance) {
@@ -170,7 +193,7 @@ py::object run(PyEmulator& self, const py::object& time, const py::object& impac
   } else {
     const ModelTime end = to_time(time);
     require(self.emulator.now() <= end, "time", end - ModelTime{}, "lies before the emulator's present");
-    run_to(self, end, impacts.is_none() ? 0 : impacts.cast<std::uint64_t>(), stretch);
+    run_to(self, end, impacts.is_none() ? 0 : whole("impacts", impacts), stretch);
   }
   return stretch.result();
 }
@@ -197,15 +220,21 @@ eta [a/tau]; start as of Tip; sample_period, friction_window [tau]. Throws Param
 With `impacts`, of the impacts at that very time only so many as make this number in all. Returns a Batch: begin, end,
 first_sample, first_sample_time, sample_period [tau], vertical and lateral [a], first_impact, impacts (as Tip.advance),
 eta, friction (a dict with the fields of the topic, in natural units).)")
+      .def(py::pickle(&pickled, &unpickled))
       .def("drag", &drag, "eta"_a, "A new drag velocity [a/tau] from now on.")
       .def("change", &change,
            "Other gamma, cutoff, rest_height, sample_period, samples_per_batch, friction_window, bath from now on.")
       .def("set_level", &set_level, "kind"_a, "contact_tolerance"_a,
            "Another level of the model from now on. Returns the energy dropped [m a^2/tau^2].")
-      .def_property_readonly("now", [](const PyEmulator& self) { return to_python(self.emulator.now()); })
-      .def_property_readonly("eta", [](const PyEmulator& self) { return self.emulator.eta(); })
-      .def_property_readonly("state", [](const PyEmulator& self) { return to_python(self.emulator.state()); })
-      .def_property_readonly("model", [](const PyEmulator& self) { return self.emulator.settings().model; })
+      .def_property_readonly(
+          "now", [](const PyEmulator& self) { return to_python(self.emulator.now()); }, "ModelTime")
+      .def_property_readonly(
+          "eta", [](const PyEmulator& self) { return self.emulator.eta(); }, "drag velocity [a/tau]")
+      .def_property_readonly(
+          "state", [](const PyEmulator& self) { return to_python(self.emulator.state()); },
+          "State(phase, extension, y, u, w) at now, in the lab [a, a/tau]")
+      .def_property_readonly(
+          "model", [](const PyEmulator& self) { return self.emulator.settings().model; }, "Model")
       .def_property_readonly(
           "samples", [](const PyEmulator& self) { return self.emulator.samples(); }, "due so far")
       .def_property_readonly(

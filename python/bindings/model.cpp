@@ -1,5 +1,7 @@
 // Model, Bath, Units.
 #include <sstream>
+#include <type_traits>
+#include <utility>
 
 #include "afm/bath.h"
 #include "afm/units.h"
@@ -71,6 +73,17 @@ Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, doub
   return bath;
 }
 
+// What was pickled are the arguments, in their order.
+template <class T, class... Arguments, std::size_t... I>
+T unpickled(T (*make)(Arguments...), const py::tuple& t, std::index_sequence<I...>) {
+  return make(t[I].template cast<std::decay_t<Arguments>>()...);
+}
+template <class T, class... Arguments>
+T unpickled(T (*make)(Arguments...), const py::tuple& t) {
+  if (t.size() != sizeof...(Arguments)) throw py::value_error("pickled by another version");
+  return unpickled(make, t, std::index_sequence_for<Arguments...>{});
+}
+
 void add_bath(py::module& m) {
   const Bath none;
   py::class_<Bath>(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
@@ -79,13 +92,20 @@ temperature: kT [m a^2/tau^2]; quality_factor, lateral_quality_factor [-]; kicks
 seed, stream: of its random numbers; tips with different streams are independent.)")
       .def(py::init(&to_bath), "temperature"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
            "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "stream"_a = none.stream)
-      .def_readonly("temperature", &Bath::temperature)
-      .def_readonly("quality_factor", &Bath::quality_factor)
-      .def_readonly("lateral_quality_factor", &Bath::lateral_quality_factor)
-      .def_readonly("kicks_per_tau", &Bath::kicks_per_tau)
-      .def_readonly("seed", &Bath::seed)
-      .def_readonly("stream", &Bath::stream)
+      .def_readonly("temperature", &Bath::temperature, "kT [m a^2/tau^2]; 0: damping alone")
+      .def_readonly("quality_factor", &Bath::quality_factor, "of the vertical spring; 0: no bath")
+      .def_readonly("lateral_quality_factor", &Bath::lateral_quality_factor,
+                    "of the horizontal spring; 0: as the vertical one")
+      .def_readonly("kicks_per_tau", &Bath::kicks_per_tau, "rate of the kicks [1/tau]: speed against accuracy")
+      .def_readonly("seed", &Bath::seed, "of the random numbers")
+      .def_readonly("stream", &Bath::stream, "which sequence of the seed; tips with different streams are independent")
       .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; })
+      .def(py::pickle(
+          [](const Bath& b) {
+            return py::make_tuple(b.temperature, b.quality_factor, b.lateral_quality_factor, b.kicks_per_tau, b.seed,
+                                  b.stream);
+          },
+          [](const py::tuple& t) { return unpickled(&to_bath, t); }))
       .def("__repr__", &describe_bath);
 }
 
@@ -101,7 +121,15 @@ The defaults are mica's. `model` is the same in natural units; `bath(temperature
            "lattice_spacing_m"_a = mica.lattice_spacing_m, "surface_amplitude_m"_a = mica.surface_amplitude_m,
            "rest_height_m"_a = mica.rest_height_m, "restitution_gamma"_a = mica.restitution_gamma,
            "cutoff_speed"_a = mica.cutoff_speed)
-      .def_property_readonly("model", [](const SiUnits& u) { return u.units.to_natural(u.si); })
+      .def_property_readonly(
+          "model", [](const SiUnits& u) { return u.units.to_natural(u.si); }, "the Model in natural units")
+      .def(py::pickle(
+          [](const SiUnits& u) {
+            return py::make_tuple(u.si.omega_v_rad_per_s, u.si.omega_h_rad_per_s, u.si.tip_mass_kg,
+                                  u.si.lattice_spacing_m, u.si.surface_amplitude_m, u.si.rest_height_m,
+                                  u.si.restitution_gamma, u.si.cutoff_speed);
+          },
+          [](const py::tuple& t) { return unpickled(&to_units, t); }))
       .def("bath", &bath_of, "temperature_k"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
            "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "The bath in natural units; temperature in K.")
       .def_property_readonly("length", unit(&Units::length), "[m], of a")
@@ -126,17 +154,24 @@ frequency_ratio: omega_h / omega_v; kind: 'oscillator', or 'hammer' without the 
 An object cannot be changed. Throws ParameterError.)")
       .def(py::init(&to_model), "gamma"_a = mica.gamma, "cutoff"_a = mica.v_c, "rest_height"_a = mica.y0,
            "amplitude"_a = mica.H, "frequency_ratio"_a = mica.frequency_ratio, "kind"_a = "oscillator")
-      .def_readonly("gamma", &Model::gamma)
-      .def_readonly("cutoff", &Model::v_c)
-      .def_readonly("rest_height", &Model::y0)
-      .def_readonly("amplitude", &Model::H)
-      .def_readonly("frequency_ratio", &Model::frequency_ratio)
-      .def_property_readonly("kind", [](const Model& model) { return name(model.kind); })
+      .def_readonly("gamma", &Model::gamma, "restitution at and above the cutoff")
+      .def_readonly("cutoff", &Model::v_c, "speed of the restitution law [a/tau]")
+      .def_readonly("rest_height", &Model::y0, "of the holder above mid-surface [a]")
+      .def_readonly("amplitude", &Model::H, "of the surface [a]")
+      .def_readonly("frequency_ratio", &Model::frequency_ratio, "omega_h / omega_v")
+      .def_property_readonly(
+          "kind", [](const Model& model) { return name(model.kind); }, "'oscillator' or 'hammer'")
       .def("__eq__",
            [](const Model& a, const Model& b) {
              return a.gamma == b.gamma && a.v_c == b.v_c && a.y0 == b.y0 && a.H == b.H &&
                     a.frequency_ratio == b.frequency_ratio && a.kind == b.kind;
            })
+      .def(py::pickle(
+          [](const Model& model) {
+            return py::make_tuple(model.gamma, model.v_c, model.y0, model.H, model.frequency_ratio,
+                                  std::string(name(model.kind)));
+          },
+          [](const py::tuple& t) { return unpickled(&to_model, t); }))
       .def("__repr__", &describe_model);
   add_bath(m);
   add_units(m);

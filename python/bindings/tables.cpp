@@ -105,11 +105,34 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   return rows.result(curve_columns());
 }
 
-// At every point (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio).
+// Of each start at each point the point, its attractor (a row of the table), and the start.
+py::array labels(const std::vector<SweepPoint>& grid, const std::vector<std::vector<Basin>>& basins,
+                 const BasinSettings& settings) {
+  constexpr std::size_t kColumns = 7;
+  const auto starts = static_cast<std::size_t>(settings.starts);
+  py::array_t<double> table(std::vector<std::size_t>{grid.size() * starts, kColumns});
+  double attractor = 0.0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    for (const Basin& basin : basins[i]) {
+      for (const int start : basin.starts) {
+        const auto n = static_cast<std::size_t>(start);
+        const FreeState s = to_free_state(grid[i].H, start_of(grid[i], n, settings));
+        const double row[] = {static_cast<double>(i), attractor, s.phase, s.X, s.y, s.u, s.w};
+        std::copy(std::begin(row), std::end(row), table.mutable_data() + (i * starts + n) * kColumns);
+      }
+      ++attractor;
+    }
+  }
+  return std::move(table);
+}
+
+// At every point (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio). Given starts are rows of (phase,
+// extension, y, u, w).
 py::tuple attractors(const std::vector<std::vector<double>>& points, const std::string& kind, int starts,
+                     const std::vector<std::vector<double>>& given,
                      std::uint64_t seed, double transient, double duration, double friction_duration, int threads) {
   BasinSettings settings;
-  settings.starts = starts;
+  settings.starts = given.empty() ? starts : static_cast<int>(given.size());
   settings.seed = seed;
   settings.friction_duration = friction_duration;
   settings.attractor.transient = transient;
@@ -124,6 +147,17 @@ py::tuple attractors(const std::vector<std::vector<double>>& points, const std::
     grid.push_back({p.at(0), p.at(1), p.at(2), kind_of(kind), p.at(3), p.at(4), p.at(5)});
     refuse(find_faults(grid.back()));
   }
+  for (const std::vector<double>& g : given) {
+    const FreeState start{g.at(0), g.at(1), g.at(2), g.at(3), g.at(4)};
+    for (const SweepPoint& point : grid) {
+      EmulatorSettings run;
+      run.model = model_of(point);
+      run.eta = point.eta;
+      run.initial = start;
+      refuse(find_faults(run));
+    }
+    settings.given.push_back(start);
+  }
   std::vector<std::vector<Basin>> basins(grid.size());
   std::atomic<std::size_t> next{0};
   run_on_threads(threads, [&] {
@@ -133,7 +167,7 @@ py::tuple attractors(const std::vector<std::vector<double>>& points, const std::
   for (std::size_t i = 0; i < grid.size(); ++i) {
     for (const Basin& basin : basins[i]) write_row(grid[i], basin, rows);
   }
-  return rows.result(basin_columns());
+  return rows.result(basin_columns()) + py::make_tuple(labels(grid, basins, settings));
 }
 
 void check_eta(double eta, bool may_be_zero) {

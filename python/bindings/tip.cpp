@@ -7,19 +7,16 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "convert.h"
+#include "py_tip.h"
 
 namespace afm::python {
 namespace {
 
 using namespace py::literals;
-
-struct PyTip {
-  Tip tip;
-  std::uint64_t search_failures = 0;
-};
 
 PyTip to_tip(const Model& model, double eta, double phase, double extension, double y, const py::object& u, double w,
              double contact_tolerance, const Bath& bath) {
@@ -67,7 +64,7 @@ ModelTime next_stop(const Tip& tip, const ModelTime& end) {
 py::array advance(PyTip& self, const py::object& time, const py::object& most_events) {
   const ModelTime end = later(self, time);
   const std::uint64_t most =
-      most_events.is_none() ? std::numeric_limits<std::uint64_t>::max() : most_events.cast<std::uint64_t>();
+      most_events.is_none() ? std::numeric_limits<std::uint64_t>::max() : whole("most_events", most_events);
   std::vector<Impact> events;
   if (most > 0) {
     repeat([&] {
@@ -135,11 +132,23 @@ py::object samples(PyTip& self, double period, std::size_t count) {
 
 void change(PyTip& self, const py::object& gamma, const py::object& cutoff, const py::object& rest_height) {
   Model model = self.tip.model();
-  if (!gamma.is_none()) model.gamma = gamma.cast<double>();
-  if (!cutoff.is_none()) model.v_c = cutoff.cast<double>();
-  if (!rest_height.is_none()) model.y0 = rest_height.cast<double>();
+  if (!gamma.is_none()) model.gamma = real("gamma", gamma);
+  if (!cutoff.is_none()) model.v_c = real("cutoff", cutoff);
+  if (!rest_height.is_none()) model.y0 = real("rest_height", rest_height);
   refuse(find_faults(model));
   self.tip.set_parameters(model);
+}
+
+py::tuple pickled(const PyTip& self) {
+  SavedState state;
+  self.tip.save(state);
+  return to_pickle(state) + py::make_tuple(self.search_failures);
+}
+
+PyTip unpickled(const py::tuple& t) {
+  const std::optional<Tip> tip = Tip::restored(from_pickle(t));
+  if (!tip) throw py::value_error("no tip can be in this state");
+  return {*tip, t[2].cast<std::uint64_t>()};
 }
 
 }  // namespace
@@ -175,7 +184,8 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
           "set_bath", [](PyTip& self, const Bath& bath) { self.tip.set_bath(bath); }, "bath"_a,
           "Another heat bath from now on.")
       .def(
-          "copy", [](const PyTip& self) { return self; }, "Another tip in the same state.")
+          "copy", [](const PyTip& self) { return self; }, "Another tip in the same state; copy.copy() does the same.")
+      .def(py::pickle(&pickled, &unpickled))
       .def_property_readonly(
           "now", [](const PyTip& self) { return to_python(self.tip.now()); }, "ModelTime")
       .def_property_readonly(
@@ -183,8 +193,11 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
           "State(phase, extension, y, u, w) at now, in the lab [a, a/tau]")
       .def_property_readonly(
           "eta", [](const PyTip& self) { return self.tip.eta(); }, "drag velocity [a/tau]")
-      .def_property_readonly("model", [](const PyTip& self) { return self.tip.model(); })
-      .def_property_readonly("in_contact", [](const PyTip& self) { return self.tip.in_contact(); })
+      .def_property_readonly(
+          "model", [](const PyTip& self) { return self.tip.model(); }, "Model")
+      .def_property_readonly(
+          "in_contact", [](const PyTip& self) { return self.tip.in_contact(); },
+          "true while the surface presses on the tip: it slides without bouncing, after CONTACT_BEGUN")
       .def_property_readonly(
           "stored_energy", [](const PyTip& self) { return self.tip.stored_energy(); },
           "in springs and motion, in the lab [m a^2/tau^2]")

@@ -33,7 +33,8 @@ TEST(NumberText, GivesTheSameNumberBack) {
     const std::uint64_t bits = random();
     double value;
     std::memcpy(&value, &bits, sizeof value);
-    if (std::isfinite(value)) ASSERT_EQ(std::strtod(number_text(value).c_str(), nullptr), value);
+    if (!std::isfinite(value)) continue;
+    ASSERT_EQ(std::strtod(number_text(value).c_str(), nullptr), value);
   }
 }
 

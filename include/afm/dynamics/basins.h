@@ -13,6 +13,7 @@ namespace afm {
 struct BasinSettings {
   int starts = 200;  // random_start() of sweep.h: above the surface, velocities of the order of the drag's
   std::uint64_t seed = 1;
+  std::vector<FreeState> given;        // starts in place of the random ones, if there are any
   double friction_duration = 1000.0;  // of the measurement of K_f at each start [tau]
   AttractorSettings attractor;
 };
@@ -27,10 +28,12 @@ struct Visit {
 
 struct Basin {
   Visit first;                                // the first start that led here
-  int starts = 0;                             // number of starts that led here
+  std::vector<int> starts;                    // numbers of the starts that led here
   double share = 0.0, share_std_error = 0.0;  // of all starts; binomial
 };
 
+// The index-th start at this point: given, or random.
+TipState start_of(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings);
 Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings);
 
 // Two visits belong to one attractor if kind, impacts and cells agree, and K_f within five standard errors or 1e-6.

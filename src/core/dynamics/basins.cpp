@@ -7,9 +7,14 @@
 
 namespace afm {
 
+TipState start_of(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings) {
+  return settings.given.empty() ? random_start(point, settings.seed, index)
+                                : to_tip_state(point.H, settings.given[index]);
+}
+
 Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings) {
   Visit v;
-  v.start = random_start(point, settings.seed, index);
+  v.start = start_of(point, index, settings);
   const Model model = model_of(point);
   Tip tip(model, point.eta, v.start);
   v.attractor = find_attractor(model, tip, settings.attractor);
@@ -32,21 +37,22 @@ bool same_attractor(const Visit& a, const Visit& b) {
 
 std::vector<Basin> find_basins(const SweepPoint& point, const BasinSettings& settings) {
   std::vector<Basin> basins;
-  for (int i = 0; i < settings.starts; ++i) {
+  const int starts = settings.given.empty() ? settings.starts : static_cast<int>(settings.given.size());
+  for (int i = 0; i < starts; ++i) {
     const Visit v = visit(point, static_cast<std::uint64_t>(i), settings);
     const auto known =
         std::find_if(basins.begin(), basins.end(), [&](const Basin& basin) { return same_attractor(basin.first, v); });
     if (known == basins.end()) {
-      basins.push_back({v, 1, 0.0, 0.0});
+      basins.push_back({v, {i}, 0.0, 0.0});
     } else {
-      ++known->starts;
+      known->starts.push_back(i);
     }
   }
   for (Basin& basin : basins) {
-    basin.share = static_cast<double>(basin.starts) / settings.starts;
-    basin.share_std_error = std::sqrt(basin.share * (1.0 - basin.share) / settings.starts);
+    basin.share = static_cast<double>(basin.starts.size()) / starts;
+    basin.share_std_error = std::sqrt(basin.share * (1.0 - basin.share) / starts);
   }
-  std::stable_sort(basins.begin(), basins.end(), [](const Basin& a, const Basin& b) { return a.starts > b.starts; });
+  std::stable_sort(basins.begin(), basins.end(), [](const Basin& a, const Basin& b) { return a.share > b.share; });
   return basins;
 }
 

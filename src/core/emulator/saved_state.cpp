@@ -24,7 +24,10 @@ class StateFields {
   static void of_run(Archive& archive, Self& emulator);
   template <class Archive, class Settings>
   static void of_settings(Archive& archive, Settings& settings);
+  template <class Archive, class Self>
+  static void of_single_tip(Archive& archive, Self& tip);
   static bool is_possible(const Emulator& emulator);
+  static bool is_possible(const Tip& tip);
 
  private:
   template <class Archive, class T>
@@ -148,6 +151,22 @@ void StateFields::of_run(Archive& archive, Self& e) {
   archive.number(e.impact_index_);
 }
 
+// Of a tip by itself, the tolerance and the bath too.
+template <class Archive, class Self>
+void StateFields::of_single_tip(Archive& archive, Self& t) {
+  Bath bath = t.thermostat_.bath_;
+  double slowest_chatter = t.slowest_chatter_, entry_speed = t.entry_speed_;
+  whole(archive, bath);
+  whole(archive, slowest_chatter);
+  whole(archive, entry_speed);
+  of_tip(archive, t, 0.0, bath);
+  if constexpr (!std::is_const_v<Self>) {
+    t.slowest_chatter_ = slowest_chatter;
+    t.entry_speed_ = entry_speed;
+    t.set_laws(Model(t.model_));
+  }
+}
+
 std::uint32_t state_layout() {
   constexpr std::uint32_t kLayoutVersion = 6;  // to be raised if the words get another meaning
   static const std::uint32_t layout = [] {
@@ -167,23 +186,40 @@ bool is_time(const ModelTime& time) {
 }  // namespace
 
 // True: a run from this state ends and stays within its memory. Other faults show in the run.
+bool StateFields::is_possible(const Tip& tip) {
+  const bool in_time = is_time(tip.now_) && is_time(tip.start_) && tip.start_ <= tip.now_;
+  const bool ends = std::isfinite(tip.slide_end_) && std::isfinite(tip.chatter_run_.s);
+  const Thermostat& kicks = tip.thermostat_;
+  const bool on_time = !kicks.bath_.is_on() ||
+                       (kicks.grid_.period == 1.0 / kicks.bath_.kicks_per_tau && is_time(kicks.grid_.origin) &&
+                        kicks.grid_.first <= kicks.kicks_ && kicks.grid_.time_or_end(kicks.kicks_) <= tip.now_ &&
+                        tip.now_ <= kicks.next());
+  return in_time && ends && on_time && find_faults(tip.model_).empty() && find_faults(kicks.bath_).empty() &&
+         std::abs(tip.eta_) <= kMaxEta;
+}
+
 bool StateFields::is_possible(const Emulator& e) {
   const Tip& tip = e.tip_;
-  const bool in_time = is_time(e.now_) && is_time(e.grid_.origin) && is_time(tip.start_) && tip.now_ == e.now_ &&
-                       tip.start_ <= e.now_ && e.grid_.origin <= e.now_;
+  const bool in_time = tip.now_ == e.now_ && is_time(e.grid_.origin) && e.grid_.origin <= e.now_;
   const std::uint64_t next = e.next_sample_;
   const bool on_grid = e.grid_.period == e.settings_.sample_period && e.grid_.first <= next &&
                        e.now_ <= e.grid_.time_or_end(next) && e.grid_.time_or_end(next) < kEndOfTime &&
                        (next == e.grid_.first || e.grid_.time(next - 1) < e.now_);
-  const bool ends = std::isfinite(tip.slide_end_) && std::isfinite(tip.chatter_run_.s);
-  const Thermostat& kicks = tip.thermostat_;
-  const bool on_time =
-      !kicks.bath_.is_on() ||
-      (kicks.grid_.period == 1.0 / kicks.bath_.kicks_per_tau && is_time(kicks.grid_.origin) &&
-       kicks.grid_.first <= kicks.kicks_ && kicks.grid_.time_or_end(kicks.kicks_) <= e.now_ && e.now_ <= kicks.next());
-  const bool one_model = tip.model_.kind == e.settings_.model.kind && find_faults(tip.model_).empty();
-  return in_time && on_grid && on_time && ends && one_model && tip.eta_ == e.eta_ && std::abs(e.eta_) <= kMaxEta &&
+  return is_possible(tip) && in_time && on_grid && tip.model_.kind == e.settings_.model.kind && tip.eta_ == e.eta_ &&
          e.friction_.is_possible(e.now_, e.settings_.friction_window);
+}
+
+void Tip::save(SavedState& out) const {
+  Writer writer(out);
+  StateFields::of_single_tip(writer, *this);
+}
+
+std::optional<Tip> Tip::restored(const SavedState& state) {
+  Tip tip(Model{}, 0.0, EmulatorSettings{}.initial);
+  Reader reader(state);
+  StateFields::of_single_tip(reader, tip);
+  if (!reader.valid() || !StateFields::is_possible(tip)) return {};
+  return tip;
 }
 
 void Emulator::save(SavedState& out) const {

@@ -100,6 +100,24 @@ TEST(Attractor, SlowlyAttractingOrbitsAreFound) {
   EXPECT_GT(a.lyapunov.exponents[0], -0.05);
 }
 
+// A map of the basins: each start is in one basin, and leads there by itself too.
+TEST(Basins, HoldEachStartOnce) {
+  const SweepPoint point{3.75, 0.7, 0.375};
+  BasinSettings settings;
+  settings.friction_duration = 100.0;
+  for (std::uint64_t i = 0; i < 20; ++i) settings.given.push_back(to_free_state(point.H, random_start(point, 1, i)));
+  std::vector<int> seen(settings.given.size(), 0);
+  const std::vector<Basin> basins = find_basins(point, settings);
+  for (const Basin& basin : basins) {
+    for (const int start : basin.starts) {
+      ++seen[static_cast<std::size_t>(start)];
+      EXPECT_TRUE(same_attractor(basin.first, visit(point, static_cast<std::uint64_t>(start), settings)));
+    }
+  }
+  EXPECT_EQ(seen, std::vector<int>(settings.given.size(), 1));
+  EXPECT_GE(basins.size(), 2u);
+}
+
 TEST(Basins, AreTheSameWhenLookedForAgain) {
   BasinSettings settings;
   settings.starts = 20;

@@ -257,6 +257,39 @@ TEST(SavedState, AlteredEndsAllTheSame) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(SavedState, ATipByItselfGoesOnWithTheSameBits) {
+  for (const double eta : {0.5, 3.4}) {  // contact and chatter; chaos
+    Tip tip(Model{}, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, 1e-4);
+    Bath warm;
+    warm.temperature = 0.9;
+    warm.quality_factor = 50.0;
+    SavedState state, again;
+    tip.save(state);
+    for (int i = 0; i < 200; ++i) {
+      auto restored = Tip::restored(state);
+      ASSERT_TRUE(restored);
+      if (i == 100) {
+        tip.set_bath(warm);
+        restored->set_bath(warm);
+      }
+      const ModelTime later = tip.now() + 3.7;
+      while (tip.advance(later) != Outcome::time_limit) {
+      }
+      while (restored->advance(later) != Outcome::time_limit) {
+      }
+      tip.save(state);
+      restored->save(again);
+      ASSERT_EQ(std::vector<std::uint64_t>(state.begin(), state.end()),
+                std::vector<std::uint64_t>(again.begin(), again.end()))
+          << "eta " << eta << ", step " << i;
+    }
+    state.words[0] = 0x7ff8000000000000;  // its temperature is not a number
+    EXPECT_FALSE(Tip::restored(state));
+    state.size -= 1;
+    EXPECT_FALSE(Tip::restored(state));
+  }
+}
+
 // What the compiler knows of memory before an object is in it, it may leave out: so we make it forget.
 void* forget(void* memory) {
   asm volatile("" : "+r"(memory) : : "memory");

@@ -1,0 +1,81 @@
+"""Arguments of a wrong type: an error that names the argument, in place of pybind11's list of C++ signatures."""
+import functools
+import operator
+import re
+from typing import Any, Callable
+
+import numpy as np
+
+from .errors import ArgumentTypeError
+
+
+def number(name: str, value: Any) -> float:
+    """The value as a float."""
+    try:
+        return float(value) if not isinstance(value, (str, bytes)) else value + 0.0
+    except (TypeError, ValueError):
+        raise ArgumentTypeError(name, value, 'must be a number') from None
+
+
+def numbers(name: str, values: Any) -> np.ndarray:
+    """The values as a one-dimensional array; a number is an array of one."""
+    try:
+        array = np.atleast_1d(np.asarray(values, float))
+    except (TypeError, ValueError):
+        array = np.empty((0, 0))
+    if array.ndim != 1 or isinstance(values, (str, bytes)):
+        raise ArgumentTypeError(name, values, 'must be a number or a one-dimensional array of numbers')
+    return array
+
+
+def count(name: str, value: Any, least: int = 0) -> int:
+    """The value as a whole number, not below `least`."""
+    try:
+        whole = operator.index(value) if not isinstance(value, float) or not value.is_integer() else int(value)
+    except TypeError:
+        raise ArgumentTypeError(name, value, 'must be a whole number, at least %d' % least) from None
+    if whole < least:
+        raise ArgumentTypeError(name, value, 'must be a whole number, at least %d' % least)
+    return whole
+
+
+def _check(name, kind, value):
+    """kind: as pybind11 writes it."""
+    if kind == 'float':
+        number(name, value)
+    elif kind == 'int':
+        count(name, value)
+    elif kind == 'str' and not isinstance(value, str):
+        raise ArgumentTypeError(name, value, 'must be a text')
+    elif kind.startswith('afm.') and type(value).__name__ != kind.rsplit('.', 1)[1]:
+        raise ArgumentTypeError(name, value, 'must be a %s' % kind.rsplit('.', 1)[1])
+    elif kind == 'List' and not (isinstance(value, (list, tuple)) and {type(item).__name__ for item in value} <= {'Tip'}):
+        raise ArgumentTypeError(name, value, 'must be a list of tips')
+
+
+def _explained(call: Callable) -> Callable:
+    kinds = re.findall(r'[,(] ?(\w+): ([\w.]+)', (call.__doc__ or '').split('->')[0])[1:]  # behind self
+
+    @functools.wraps(call)
+    def explained(self, *arguments, **options):
+        try:
+            return call(self, *arguments, **options)
+        except TypeError as fault:
+            if 'incompatible' not in str(fault):
+                raise
+            for (name, kind), value in zip(kinds, arguments):
+                _check(name, kind, value)
+            for name, value in options.items():
+                if name not in dict(kinds):
+                    raise TypeError('%s has no argument %s' % (type(self).__name__, name)) from None
+                _check(name, dict(kinds)[name], value)
+            raise
+    return explained
+
+
+def explain(*classes: type) -> None:
+    """Lets the constructors and methods of these classes say which argument is wrong."""
+    for class_ in classes:
+        for name, call in list(vars(class_).items()):
+            if type(call).__name__ == 'instancemethod' and (name == '__init__' or not name.startswith('_')):
+                setattr(class_, name, _explained(call))

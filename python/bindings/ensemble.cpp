@@ -1,0 +1,96 @@
+// Ensemble: many tips on threads.
+#include "afm/ensemble.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "convert.h"
+#include "py_tip.h"
+
+namespace afm::python {
+namespace {
+
+using namespace py::literals;
+
+class PyEnsemble {
+ public:
+  PyEnsemble(const std::vector<PyTip>& tips, int threads)
+      : ensemble_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
+    require(threads >= 0 && threads <= 1024, "threads", threads, "must be within 0 and 1024");
+    ensemble_.reserve(tips.size());
+    for (const PyTip& tip : tips) {
+      ensemble_.add(tip.tip);
+      search_failures_.push_back(tip.search_failures);
+    }
+  }
+
+  std::size_t size() const { return ensemble_.size(); }
+
+  // In pieces, so that signals are seen. No bit depends on them.
+  py::array advance(const py::object& time) {
+    constexpr double kAtATime = 1e5;  // tau of all tips together: about a second
+    const ModelTime end = to_time(time);
+    ModelTime now = end;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const ModelTime own = ensemble_.tip(i).now();
+      require(own <= end, "time", end - ModelTime{}, "lies before the present of a tip");
+      now = std::min(now, own);
+    }
+    std::vector<double> events(size(), 0.0);
+    const double piece = kAtATime / static_cast<double>(std::max<std::size_t>(1, size()));
+    while (now < end) {
+      now = end - now > piece ? now + piece : end;
+      advance_to(now, events);
+    }
+    return to_array(std::move(events));
+  }
+
+  void drag(double eta) {
+    require(std::abs(eta) <= kMaxEta, "eta", eta, "must be finite and at most 1000 lattice spacings per tau");
+    for (std::size_t i = 0; i < size(); ++i) ensemble_.drag(i, eta);
+  }
+
+  PyTip tip(std::size_t i) const {
+    if (i >= size()) throw py::index_error("an ensemble of " + std::to_string(size()) + " tips");
+    return {ensemble_.tip(i), search_failures_[i]};
+  }
+
+ private:
+  void advance_to(const ModelTime& stop, std::vector<double>& events) {
+    {
+      const py::gil_scoped_release released;
+      ensemble_.advance(stop);
+    }
+    for (std::size_t i = 0; i < size(); ++i) {
+      events[i] += ensemble_.events(i) - ensemble_.search_failures(i);
+      search_failures_[i] += ensemble_.search_failures(i);
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+
+  Ensemble ensemble_;
+  std::vector<std::uint64_t> search_failures_;
+};
+
+}  // namespace
+
+void add_ensemble(py::module& m) {
+  py::class_<PyEnsemble>(m, "Ensemble",
+                         R"(Many tips, each with its own model, drag velocity and start, advanced on threads.
+
+tips: copies of these; threads: 0 is one for each processor. Each tip gives the same bits as alone. len() is their
+number, ensemble[i] a copy of the i-th Tip as it is now.)")
+      .def(py::init<const std::vector<PyTip>&, int>(), "tips"_a, "threads"_a = 0)
+      .def("advance", &PyEnsemble::advance, "time"_a,
+           "All tips to a model time [tau] (a number, or a ModelTime). Returns the number of events of each, shape (n,).")
+      .def("drag", &PyEnsemble::drag, "eta"_a, "A new drag velocity of all tips [a/tau] from now on.")
+      .def("__len__", &PyEnsemble::size)
+      .def("__getitem__", &PyEnsemble::tip);
+}
+
+}  // namespace afm::python
