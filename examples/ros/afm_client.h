@@ -9,11 +9,13 @@
 #include <ros/ros.h>
 #include <std_msgs/Float64.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 inline std_msgs::Float64 to_message(double value) {
@@ -88,8 +90,18 @@ class Client {
     return ros::ok() && is_true();
   }
 
+  static bool is_earlier(const Applied& a, const Applied& b) {
+    return std::make_tuple(a.epoch, a.time.tau, a.time.phase) < std::make_tuple(b.epoch, b.time.tau, b.time.phase);
+  }
+
+  // The emulator reports changes alone. If the value holds already, it is the time of the newest report or batch.
   Applied command(const ros::Publisher& publisher, const Applied& applied, double value) {
     const auto holds = [&] { return applied.epoch == configuration_->epoch && applied.value == value; };
+    if (holds()) {
+      batch_.reset();
+      if (!wait_for([this] { return batch_ != nullptr; })) return applied;
+      return std::max({drag_, height_, Applied{value, batch_->epoch, batch_->time}}, is_earlier);
+    }
     const double end = ros::WallTime::now().toSec() + kPatience;
     while (ros::ok() && !holds()) {
       if (ros::WallTime::now().toSec() > end)

@@ -12,6 +12,9 @@ AGAIN_S = 1.0     # of wall time: a command without effect is published again, a
 PATIENCE_S = 10.0  # then it counts as refused
 
 
+Applied = collections.namedtuple('Applied', 'epoch time')  # since when a command holds
+
+
 class Client:
     def __init__(self, name):
         self.news = threading.Condition()
@@ -54,17 +57,26 @@ class Client:
         return True
 
     def command(self, topic, value, applied_topic, field):
-        """Publishes the value and waits. Returns the message that says from which model time on it holds."""
+        """Publishes the value and waits until it holds. Returns an Applied: from which model time on.
+
+        The emulator reports changes alone. If the value holds already, it is the time of the newest report or batch.
+        """
         def holds():
             applied = self.latest.get(applied_topic)
             return applied and applied.epoch == self.latest['configuration'].epoch and getattr(applied, field) == value
+        if holds():
+            self.batches.clear()
+            self.wait_for(lambda: len(self.batches) > 0)
+            reports = [self.latest[name] for name in ('applied_drag', 'applied_parameters')] + [self.batches[-1]]
+            newest = max(reports, key=lambda m: (m.epoch, m.time.tau, m.time.phase))
+            return Applied(newest.epoch, newest.time)
         end = time.monotonic() + PATIENCE_S
         while not holds():
             if time.monotonic() > end:
                 raise RuntimeError('%s = %g had no effect within %g s: refused?' % (topic, value, PATIENCE_S))
             self.publishers[topic].publish(value)
             self.wait_for(holds, AGAIN_S)
-        return self.latest[applied_topic]
+        return Applied(self.latest[applied_topic].epoch, self.latest[applied_topic].time)
 
     def set_drag_velocity(self, metres_per_second):
         return self.command('drag_velocity', metres_per_second, 'applied_drag', 'drag_velocity')

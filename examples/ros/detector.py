@@ -3,6 +3,7 @@
 a converter has bits. Publishes volts on ~volts (std_msgs/Float64MultiArray, the two channels vertical and lateral one after the
 other, a message for each batch).
 Parameters: emulator, vertical_v_per_nm, lateral_v_per_nm, noise_v_per_sqrt_hz, range_v, bits, seed."""
+import ending  # before rospy
 import numpy
 import rospy
 from afm_emulator.msg import Deflection
@@ -34,6 +35,6 @@ class Detector:
 
 
 if __name__ == '__main__':
-    rospy.init_node('detector')
+    ending.init_node('detector')
     detector = Detector()
     rospy.spin()

@@ -4,13 +4,14 @@
 Friction is not monotonic in the load, so the height stays within limits between which force rises as the tip is lowered
 (docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on ~commanded_height.
 Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time."""
+import ending  # before rospy
 import rospy
 from afm_client import Client
 from std_msgs.msg import Float64
 
 
 def main():
-    rospy.init_node('hold_force')
+    ending.init_node('hold_force')
     setpoint = rospy.get_param('~force', 60e-12)
     gain = rospy.get_param('~gain', 1.0)  # half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
     lowest, highest = rospy.get_param('~lowest', -0.33e-9), rospy.get_param('~highest', -0.03e-9)

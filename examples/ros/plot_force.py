@@ -4,7 +4,9 @@ the parameter output in a file.
 Parameters: emulator, duration [s of wall time], output. Exit code 1 if samples were lost or none came."""
 import math
 import sys
+import time
 
+import ending  # before rospy
 import matplotlib
 import numpy
 import rospy
@@ -33,13 +35,16 @@ class Recorder:
 
 
 def main():
-    rospy.init_node('plot_force')
+    ending.init_node('plot_force')
     output = rospy.get_param('~output', '')
     if output:
         matplotlib.use('Agg')
     import matplotlib.pyplot as plt  # after the choice of how to draw
     recorder = Recorder(rospy.get_param('~emulator', '/afm'))
-    rospy.sleep(rospy.Duration(rospy.get_param('~duration', 5.0)))
+    # wall time: with use_sim_time and without a clock rospy.sleep() would last for ever
+    end = time.monotonic() + rospy.get_param('~duration', 5.0)
+    while time.monotonic() < end and not rospy.is_shutdown():
+        time.sleep(0.05)
     count = min(len(recorder.times), len(recorder.forces))
     print('%d batches, %d samples lost' % (count, recorder.lost))
     plt.plot(recorder.times[:count], 1e12 * numpy.array(recorder.forces[:count]), linewidth=0.8)

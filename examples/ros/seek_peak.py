@@ -4,6 +4,7 @@
 Measures the mean lateral force a little below and a little above the present speed, and goes to where it is greater. The step is
 proportional to the relative difference, so it vanishes at the peak. Publishes the speed [m/s] on ~speed.
 Parameters: emulator, start, dither, gain, lowest and highest speed [m/s], settle_s and window_s of model time."""
+import ending  # before rospy
 import rospy
 from afm_client import Client
 from std_msgs.msg import Float64
@@ -12,7 +13,7 @@ ETA = 3.3104228e-6  # m/s of eta = 1 (mica), for the defaults
 
 
 def main():
-    rospy.init_node('seek_peak')
+    ending.init_node('seek_peak')
     speed = rospy.get_param('~start', 1.75 * ETA)
     dither, gain = rospy.get_param('~dither', 0.05 * ETA), rospy.get_param('~gain', 0.2 * ETA)
     lowest, highest = rospy.get_param('~lowest', 1.2 * ETA), rospy.get_param('~highest', 3.0 * ETA)

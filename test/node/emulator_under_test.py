@@ -1,6 +1,7 @@
 """Shared by the tests of the node: the emulator as a process of its own, which is cleaned up after every test."""
 import contextlib
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -47,10 +48,28 @@ class Process:
         try:
             if self.child.poll() is None:
                 self.stop()
-        except subprocess.TimeoutExpired:
+        except (subprocess.TimeoutExpired, AssertionError):
             self.child.kill()
             self.child.wait()
         print(self.output())
+
+
+class Launch(Process):
+    """roslaunch of a file of the package. Interrupted while it still starts a node it takes 10 to 20 s to end, so stop() waits
+    until all have started."""
+
+    def __init__(self, file, arguments, env=None):
+        super().__init__(['roslaunch', PACKAGE, file] + ['%s:=%s' % item for item in arguments.items()], env)
+
+    def has_started(self):
+        text = self.output()
+        names = re.findall(r'^ {4}(\S+) \(', text.partition('\nNODES\n')[2], re.M)
+        started = re.findall(r'^process\[(?:\S*/)?(\S+)-\d+\]: started', text, re.M)
+        return bool(names) and set(names) <= set(started)
+
+    def stop(self, with_signal=signal.SIGINT):
+        wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes', deadline_s=60.0)
+        return super().stop(with_signal)
 
 
 class Emulator(Process):
@@ -109,7 +128,7 @@ class NodeTest(unittest.TestCase):
         return process
 
     def launch(self, file, **arguments):
-        return self.start(Process(['roslaunch', PACKAGE, file] + ['%s:=%s' % item for item in arguments.items()]))
+        return self.start(Launch(file, arguments))
 
     def temporary_directory(self):
         directory = tempfile.TemporaryDirectory()

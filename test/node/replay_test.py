@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """replay.launch plays a recorded run to the same topics, message for message, to a subscriber that comes late."""
+import os
 import time
 from pathlib import Path
 
@@ -12,7 +13,8 @@ from topics import NAMESPACE, TOPICS, Topic, wait_until
 
 class Replay(NodeTest):
     def record(self):
-        directory = self.temporary_directory()
+        directory = self.temporary_directory() + "/one's own"
+        os.mkdir(directory)
         emulator = self.start(Emulator({'record': True, 'bag_directory': directory}))
         deflection = Topic('deflection')
         deflection.wait_for(lambda m: m.first_sample >= 200000, 'a second of the run')

@@ -10,6 +10,7 @@ set(node_tests
   bad_parameters
   diagnostics
   drag_speeds
+  ending
   full_disk
   loopback
   obeys_commands

@@ -232,7 +232,7 @@ class ViewTest(NodeTest):
         self.assertEqual(nowhere.returncode, 0)
         self.assertIn('install', nowhere.stdout)
         environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
-        play = self.start(Process(['roslaunch', 'afm_emulator', 'emulator.launch', 'view:=true'], env=environment))
+        play = self.start(Launch('emulator.launch', {'view': 'true'}, environment))
         markers, deflection = Topic('/afm_view/markers', MarkerArray), Topic('deflection')
         markers.wait_for(lambda m: Picture(m).has('tip'), 'the tip')
         wait_until(lambda: 'so there is no window' in play.output(), 'why there is no window')
@@ -246,8 +246,7 @@ class ViewTest(NodeTest):
         self.assertEqual(emulator.stop(), 0)
         environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
         bag = next(Path(directory).glob('*.bag'))
-        replay = self.start(Process(['roslaunch', 'afm_emulator', 'replay.launch', 'view:=true', 'bag:=%s' % bag],
-                                    env=environment))
+        replay = self.start(Launch('replay.launch', {'view': 'true', 'bag': bag}, environment))
         markers = Topic('/afm_view/markers', MarkerArray)
         drawn = markers.wait_for(lambda m: Picture(m).has('tip') and Picture(m).has('positions'), 'the tip')
         self.assert_surface(Picture(drawn), 0.0)

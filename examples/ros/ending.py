@@ -1,0 +1,32 @@
+"""Import this before rospy: the node then ends at SIGINT and SIGTERM, whenever they come.
+
+rospy's own handler runs in the middle of what the main thread does, an import or a lock that it waits for, and the node may
+hang. Here a thread of its own waits for the signal. It asks rospy to shut down, and a second later the kernel ends the process.
+"""
+import os
+import signal
+import sys
+import threading
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+LEAVE_S = 1  # to take leave of the master
+
+
+def _wait():
+    signal.sigwait(SIGNALS)
+    signal.alarm(LEAVE_S)  # no lock holds it up
+    rospy = sys.modules.get('rospy')
+    if rospy is None or not hasattr(rospy, 'core') or not rospy.core.is_initialized():
+        os._exit(0)  # nobody knows this node yet
+    rospy.signal_shutdown('signal')
+
+
+def init_node(name, **options):
+    """rospy.init_node() without rospy's handlers."""
+    import rospy
+    rospy.init_node(name, disable_signals=True, **options)
+
+
+signal.signal(signal.SIGALRM, signal.SIG_DFL)
+signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)  # for every thread that is started from here on
+threading.Thread(target=_wait, daemon=True).start()

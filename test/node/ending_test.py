@@ -1,0 +1,49 @@
+#!/usr/bin/python3
+"""Every Python node that we ship ends within 5 s of SIGINT, whenever that comes.
+
+usage: ending_test.py [ROUNDS]     in each round all nodes start at once, and each is stopped at a random moment
+"""
+import random
+import signal
+import sys
+import time
+
+import roslib.packages
+
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
+
+NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status')
+ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 6
+LATEST_S = 4.0  # after the start: by then all nodes run, on a slow machine too
+LIMIT_S = 5.0
+
+
+class Ending(NodeTest):
+    def stop_all(self, moments):
+        """Nodes with the moment of each. Returns how long each took to end, and its exit code."""
+        begin = time.monotonic()
+        running = {name: self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]]))
+                   for name in moments}
+        ends = {}
+        for name, moment in sorted(moments.items(), key=lambda item: item[1]):
+            time.sleep(max(0.0, begin + moment - time.monotonic()))
+            asked = time.monotonic()
+            running[name].child.send_signal(signal.SIGINT)
+            code = running[name].wait(LIMIT_S)
+            ends[name] = (time.monotonic() - asked, code)
+        return ends
+
+    def test_at_any_moment(self):
+        self.start(Emulator())
+        chance = random.Random(43)
+        worst, by_alarm = 0.0, 0
+        for _ in range(ROUNDS):
+            moments = {name: chance.uniform(0.0, LATEST_S) for name in NODES}
+            for name, (seconds, code) in self.stop_all(moments).items():
+                self.assertNotEqual(code, -signal.SIGKILL)
+                worst, by_alarm = max(worst, seconds), by_alarm + (code == -signal.SIGALRM)
+        print('%d stops: the slowest took %.1f s; the kernel ended %d' % (ROUNDS * len(NODES), worst, by_alarm))
+
+
+if __name__ == '__main__':
+    run(Ending)
