@@ -36,11 +36,27 @@ def tag():
     return '%s-%s-%s' % (python, abi, re.sub(r'[-.]', '_', sysconfig.get_platform()))
 
 
+NEEDED = 'afm_emulator: %s. The module needs a compiler, CMake, Boost, Eigen, pybind11 and the headers of Python. On Debian and ' \
+    'Ubuntu scripts/install_dependencies --without-ros installs them all.'
+
+
+def configure(build, *options):
+    """Ends with a sentence where something is missing."""
+    try:
+        subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DBUILD_TESTING=OFF',
+                               '-DCMAKE_BUILD_TYPE=Release', '-DAFM_PYTHON_DESTINATION=.',
+                               '-DPYTHON_EXECUTABLE=' + sys.executable, '-DPython3_EXECUTABLE=' + sys.executable, *options])
+    except FileNotFoundError:
+        sys.exit(NEEDED % 'cmake was not found')
+    except subprocess.CalledProcessError:
+        sys.exit(NEEDED % 'cmake could not configure the build; its reason is above')
+    if '_afm' not in (Path(build) / 'python' / 'cmake_install.cmake').read_text():
+        sys.exit(NEEDED % 'pybind11 or the headers of Python were not found')
+
+
 def install(build, prefix):
     """The package `afm`, below the prefix."""
-    subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DBUILD_TESTING=OFF',
-                           '-DCMAKE_BUILD_TYPE=Release', '-DAFM_PYTHON_DESTINATION=.', '-DPYTHON_EXECUTABLE=' + sys.executable,
-                           '-DPython3_EXECUTABLE=' + sys.executable])
+    configure(build)
     subprocess.check_call(['cmake', '--build', str(build), '--target', 'afm_python', '--parallel', str(os.cpu_count() or 1)])
     subprocess.check_call(['cmake', '-DCMAKE_INSTALL_COMPONENT=python', '-DCMAKE_INSTALL_PREFIX=' + str(prefix), '-P',
                            str(Path(build) / 'python' / 'cmake_install.cmake')])

@@ -60,8 +60,9 @@ enum class ImpactKind : std::uint8_t { impact = 0, burst = 1, contact_begun = 2,
 TipState to_tip_state(double H, const FreeState& state);
 FreeState to_free_state(double H, const TipState& state);
 
-// One entry of the impact log. Velocities are those before the impact. A burst is the event of a whole chatter
-// sequence; its velocities are those before its first bounce.
+// One entry of the impact log. Velocities are those before the impact. A burst is the event of a whole chatter sequence
+// and happens at its end: time, place and tangential velocity are those there. Its normal speed is the one with which
+// the sequence begins, after the impact that was reported before. Loss and count are those of all its bounces.
 struct Impact {
   ModelTime time;
   double surface_phase = 0.0;        // [a] in [0, 1)

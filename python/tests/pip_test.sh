@@ -15,6 +15,15 @@ if ! AFM_WHEEL_BUILD=$build "$python" -m pip install --no-index --no-deps --targ
   tail -n 40 "$work/log"
   exit 1
 fi
+# what is missing is said in a sentence
+if PYTHONPATH=$root/python "$python" -c "
+import build_wheel
+build_wheel.configure('$work/without', '-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON')" >"$work/log" 2>&1; then
+  echo "without pybind11 nothing is said"
+  exit 1
+fi
+grep -q '^afm_emulator: pybind11 .* were not found' "$work/log" || { cat "$work/log"; exit 1; }
+if grep -q Traceback "$work/log"; then cat "$work/log"; exit 1; fi
 cd "$work"
 PYTHONPATH=$work/site "$python" -c "
 import afm

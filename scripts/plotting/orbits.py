@@ -32,8 +32,9 @@ def publish(tables):
                   for row in orbits if row["length"] <= 6])
     at = {(row["method"], int(row["order"])): row for row in averages}
     tables.write("friction_averages", ["impacts in the longest orbit", "K_f, zeta function", "K_f, determinant",
-                                       "1/zeta(1), should be 0"],
-                 [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"])
+                                       "1/zeta(1), should be 0", "determinant at 1, should be 0"],
+                 [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"],
+                   at["determinant", n]["conservation"])
                   for n in sorted(order for method, order in at if method == "zeta")])
 
 

@@ -1,4 +1,6 @@
 """docs/temperature.md: friction with a heat bath, and what its kicks cost."""
+import math
+
 import numpy as np
 
 from . import style
@@ -74,8 +76,9 @@ def publish_peaks(tables, curves):
         at_even = [at(curve_rows, eta) for eta in (2, 4, 6)]
         troughs = [at(curve_rows, eta) for eta in (3, 5, 7)]
         needed = max(averaging_time(at_even[2], trough, duration) for trough in troughs[1:])
+        memory = quality / (2.0 * math.pi)  # in which a free spring forgets its energy [tau]: no mean is shorter
         rows.append([kelvin, quality or "no bath"] + ["%.3f" % row["k_f_work"] for row in at_even + troughs]
-                    + [("below 1" if needed < 1.0 else "%.2g" % needed) if kelvin else ""])
+                    + [("%.2g" % needed if needed > memory else "below %.2g" % memory) if kelvin else ""])
     tables.write("thermal_even_odd", ("T / K", "Q", "eta = 2", "eta = 4", "eta = 6", "eta = 3", "eta = 5", "eta = 7",
                                       "averaging time / tau"), rows)
 
@@ -130,8 +133,9 @@ def publish_maxima(tables):
                                "%g:%g:%g" % (eta - 0.5, eta + 0.5, step), "--duration", duration, *bath)
             place, place_error, height, height_error = maximum(fine)
             half, half_error = width(fine, height)
-            rows.append([kelvin, quality or "no bath", "%d" % (eta / 2)] + ["%.3f ± %.3f" % (value, 1.96 * error)
-                        for value, error in ((place, place_error), (height, height_error), (half, half_error))])
+            three = ((place, place_error), (height, height_error), (half, half_error))
+            rows.append([kelvin, quality or "no bath", "%d" % (eta / 2)] + [
+                "%.3f ± %.3f" % (value, math.ceil(1960 * error) / 1000) for value, error in three])
     tables.write("thermal_peaks", ("T / K", "Q", "peak", "at eta", "K_f / (m_tip/tau)", "width"), rows)
 
 

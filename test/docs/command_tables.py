@@ -5,8 +5,8 @@ SUBSTITUTIONS = [
     # the build directory belongs to the tree itself, not to the copy in which commands run
     (r'^scripts/(run|build)\b', r'"$AFM_ROOT/scripts/\1"'),
     (r'(scripts/run")(?: --duration \S+)?', r'\1 --duration 3'),
-    (r'^cmake -S \.(.* --parallel)', r'cmake -S "$AFM_ROOT"\1 --target afm_emulator_core'),
-    (r'^cmake --install build', r'cmake --install "${AFM_BUILD_DIR:-$AFM_ROOT/build}"'),
+    (r'^cmake -S \.(.* --parallel 2)', r'cmake -S "$AFM_ROOT"\1 --target afm_emulator_core'),
+    (r'^cmake --install build/without_ros', r'cmake --install "${AFM_BUILD_DIR:-$AFM_ROOT/build}"'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
     (r'^(roslaunch afm_emulator (?:emulator|pair|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),

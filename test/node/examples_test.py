@@ -3,9 +3,11 @@
 import csv
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import roslib.packages
+import rospy
 from std_msgs.msg import Float64MultiArray
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
@@ -52,6 +54,28 @@ class Examples(NodeTest):
         self.assertGreater(output.stat().st_size, 10000)
         self.assertRegex(text, r'\b\d\d+ batches, 0 samples lost')
         self.assertRegex(text, r'\d{4,} samples and \d+ impacts; lost: 0 and 0')
+
+    def test_a_plot_ends_without_a_clock(self):
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        output = Path(self.temporary_directory()) / 'force.png'
+        self.launch('plot_force.launch', duration=1.0, output=output, time_scale=SLOW_MOTION).wait(deadline_s=60.0)
+        self.assertGreater(output.stat().st_size, 10000)
+
+    def test_a_command_that_holds_already_is_given_the_present_time(self):
+        sys.path.insert(0, str(Path(roslib.packages.find_node(PACKAGE, 'hold_force.py')[0]).parent))
+        from afm_client import Client
+
+        def key(applied):
+            return (applied.epoch, applied.time.tau, applied.time.phase)
+        self.start(Emulator({'time_scale': SLOW_MOTION}))
+        tip = Client('/afm')
+        first = tip.set_drag_velocity(2 * SPEED_UNIT)
+        lowered = tip.set_rest_height(-0.1e-9)
+        again = tip.set_drag_velocity(2 * SPEED_UNIT)
+        self.assertLess(key(first), key(lowered))
+        self.assertLess(key(lowered), key(again))
+        self.assertLess(tip.mean_force(again, 0.0, 0.05), 1.0)  # of newer batches: it ends
 
     def test_a_commander_in_cpp(self):
         self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0, 'time_scale': SLOW_MOTION}))

@@ -13,7 +13,7 @@ from dynamic_reconfigure.srv import Reconfigure
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, NodeTest, Process, run
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, Launch, NodeTest, run
 from pictures import CELLS, CONTACT_RED, Picture, Told, View, luminance, open_rviz, surface
 from topics import TOPICS, Topic, tau_between, wait_until
 
