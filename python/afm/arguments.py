@@ -40,16 +40,18 @@ def count(name: str, value: Any, least: int = 0) -> int:
 
 
 def _check(name, kind, value):
-    """kind: as pybind11 writes it."""
-    if kind == 'float':
+    """kind: as pybind11 writes it, such as float, typing.SupportsFloat or afm._afm.Bath."""
+    last = kind.rsplit('.', 1)[-1]
+    if last in ('float', 'SupportsFloat'):
         number(name, value)
-    elif kind == 'int':
+    elif last in ('int', 'SupportsInt', 'SupportsIndex'):
         count(name, value)
-    elif kind == 'str' and not isinstance(value, str):
+    elif last == 'str' and not isinstance(value, str):
         raise ArgumentTypeError(name, value, 'must be a text')
-    elif kind.startswith('afm.') and type(value).__name__ != kind.rsplit('.', 1)[1]:
-        raise ArgumentTypeError(name, value, 'must be a %s' % kind.rsplit('.', 1)[1])
-    elif kind == 'List' and not (isinstance(value, (list, tuple)) and {type(item).__name__ for item in value} <= {'Tip'}):
+    elif kind.startswith('afm.') and type(value).__name__ != last:
+        raise ArgumentTypeError(name, value, 'must be a %s' % last)
+    elif last in ('List', 'list', 'Sequence') and not (isinstance(value, (list, tuple)) and
+                                                       {type(item).__name__ for item in value} <= {'Tip'}):
         raise ArgumentTypeError(name, value, 'must be a list of tips')
 
 
