@@ -87,7 +87,8 @@ tips: copies of these; threads: 0 is one for each processor. Each tip gives the 
 number, ensemble[i] a copy of the i-th Tip as it is now.)")
       .def(py::init<const std::vector<PyTip>&, int>(), "tips"_a, "threads"_a = 0)
       .def("advance", &PyEnsemble::advance, "time"_a,
-           "All tips to a model time [tau] (a number, or a ModelTime). Returns the number of events of each, shape (n,).")
+           "All tips to a model time [tau] (a number, or a ModelTime). Returns the number of events of each, shape "
+           "(n,).")
       .def("drag", &PyEnsemble::drag, "eta"_a, "A new drag velocity of all tips [a/tau] from now on.")
       .def("__len__", &PyEnsemble::size)
       .def("__getitem__", &PyEnsemble::tip);

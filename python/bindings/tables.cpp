@@ -129,8 +129,8 @@ py::array labels(const std::vector<SweepPoint>& grid, const std::vector<std::vec
 // At every point (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio). Given starts are rows of (phase,
 // extension, y, u, w).
 py::tuple attractors(const std::vector<std::vector<double>>& points, const std::string& kind, int starts,
-                     const std::vector<std::vector<double>>& given,
-                     std::uint64_t seed, double transient, double duration, double friction_duration, int threads) {
+                     const std::vector<std::vector<double>>& given, std::uint64_t seed, double transient,
+                     double duration, double friction_duration, int threads) {
   BasinSettings settings;
   settings.starts = given.empty() ? starts : static_cast<int>(given.size());
   settings.seed = seed;

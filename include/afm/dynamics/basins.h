@@ -13,7 +13,7 @@ namespace afm {
 struct BasinSettings {
   int starts = 200;  // random_start() of sweep.h: above the surface, velocities of the order of the drag's
   std::uint64_t seed = 1;
-  std::vector<FreeState> given;        // starts in place of the random ones, if there are any
+  std::vector<FreeState> given;       // starts in place of the random ones, if there are any
   double friction_duration = 1000.0;  // of the measurement of K_f at each start [tau]
   AttractorSettings attractor;
 };

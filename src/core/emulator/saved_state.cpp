@@ -190,10 +190,10 @@ bool StateFields::is_possible(const Tip& tip) {
   const bool in_time = is_time(tip.now_) && is_time(tip.start_) && tip.start_ <= tip.now_;
   const bool ends = std::isfinite(tip.slide_end_) && std::isfinite(tip.chatter_run_.s);
   const Thermostat& kicks = tip.thermostat_;
-  const bool on_time = !kicks.bath_.is_on() ||
-                       (kicks.grid_.period == 1.0 / kicks.bath_.kicks_per_tau && is_time(kicks.grid_.origin) &&
-                        kicks.grid_.first <= kicks.kicks_ && kicks.grid_.time_or_end(kicks.kicks_) <= tip.now_ &&
-                        tip.now_ <= kicks.next());
+  const bool on_time =
+      !kicks.bath_.is_on() || (kicks.grid_.period == 1.0 / kicks.bath_.kicks_per_tau && is_time(kicks.grid_.origin) &&
+                               kicks.grid_.first <= kicks.kicks_ && kicks.grid_.time_or_end(kicks.kicks_) <= tip.now_ &&
+                               tip.now_ <= kicks.next());
   return in_time && ends && on_time && find_faults(tip.model_).empty() && find_faults(kicks.bath_).empty() &&
          std::abs(tip.eta_) <= kMaxEta;
 }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/csv.h"
+#include "common/progress_bar.h"
 #include "dynamics_options.h"
 #include "level_errors.h"
-#include "common/progress_bar.h"
 
 namespace {
 
