@@ -64,7 +64,7 @@ class Launch(Process):
     def has_started(self):
         text = self.output()
         names = re.findall(r'^ {4}(\S+) \(', text.partition('\nNODES\n')[2], re.M)
-        started = re.findall(r'^process\[(?:\S*/)?(\S+)-\d+\]: started', text, re.M)
+        started = re.findall(r'process\[(?:\S*/)?(\S+)-\d+\]: started', text)
         return bool(names) and set(names) <= set(started)
 
     def stop(self, with_signal=signal.SIGINT):
