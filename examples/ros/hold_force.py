@@ -4,7 +4,7 @@
 Friction is not monotonic in the load, so the height stays within limits between which force rises as the tip is lowered
 (docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on ~commanded_height.
 Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time."""
-import ending  # before rospy
+import ending  # before all else
 import rospy
 from afm_client import Client
 from std_msgs.msg import Float64

@@ -4,7 +4,7 @@
 Measures the mean lateral force a little below and a little above the present speed, and goes to where it is greater. The step is
 proportional to the relative difference, so it vanishes at the peak. Publishes the speed [m/s] on ~speed.
 Parameters: emulator, start, dither, gain, lowest and highest speed [m/s], settle_s and window_s of model time."""
-import ending  # before rospy
+import ending  # before all else
 import rospy
 from afm_client import Client
 from std_msgs.msg import Float64

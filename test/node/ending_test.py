@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Every Python node that we ship ends within 5 s of SIGINT, whenever that comes.
+"""Every Python node that we ship ends within 5 s of SIGINT, whenever that comes after the node's first lines. Before
+them Python itself starts, and may swallow a SIGINT: it prints a KeyboardInterrupt and goes on.
 
 usage: ending_test.py [ROUNDS]     in each round all nodes start at once, and each is stopped at a random moment
 """
@@ -11,19 +12,28 @@ import time
 import roslib.packages
 
 from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
+from topics import wait_until
 
 NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status')
 ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 6
-LATEST_S = 4.0  # after the start: by then all nodes run, on a slow machine too
+LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0
+
+
+def blocks_sigint(process):
+    """As its first lines do: a thread of its own waits for the signal."""
+    with open('/proc/%d/status' % process.child.pid) as status:
+        blocked = next(line for line in status if line.startswith('SigBlk:')).split()[1]
+    return int(blocked, 16) & 1 << (signal.SIGINT - 1) != 0
 
 
 class Ending(NodeTest):
     def stop_all(self, moments):
         """Nodes with the moment of each. Returns how long each took to end, and its exit code."""
-        begin = time.monotonic()
         running = {name: self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]]))
                    for name in moments}
+        wait_until(lambda: all(blocks_sigint(process) for process in running.values()), 'the first lines of all nodes have run')
+        begin = time.monotonic()
         ends = {}
         for name, moment in sorted(moments.items(), key=lambda item: item[1]):
             time.sleep(max(0.0, begin + moment - time.monotonic()))
