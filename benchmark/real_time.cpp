@@ -1,16 +1,15 @@
-// How much faster than real time one tip is, over drag speeds and cutoffs, and what K_f comes out: CSV on stdout, a
-// summary on stderr. A tau is 157 us with the paper's springs. In processor time; a tau that seems the slowest is made
-// again, as it may have been interrupted.
+// How much faster than real time one tip is, over drag speeds, cutoffs, levers, loads and baths, and what K_f comes out:
+// CSV on stdout, a summary on stderr. In processor time. A tau is 157 us with the paper's springs, and counts as that
+// for every lever. A tau that seems the slowest is made again, as it may have been interrupted.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "afm/tip.h"
 #include "afm/units.h"
 #include "common/command_line.h"
-#include "common/cpu_clock.h"
+#include "timed_tip.h"
 
 namespace {
 
@@ -18,9 +17,16 @@ using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::vector<double> eta, cutoff{0.1, 0.05, 0.01, 0.001};
+  std::vector<double> frequency_ratio{afm::Model{}.frequency_ratio}, amplitude{afm::Model{}.H}, rest_height{0.0};
+  std::vector<double> temperature{0.0}, quality_factor{0.0};
   double step = 0.05, highest = 9.0, tolerance = afm::kDefaultContactTolerance;
   std::int64_t tau = 1000, transient = 200;
+};
+
+struct Point {
+  afm::Model model;
   afm::Bath bath;
+  double eta;
 };
 
 struct Figures {
@@ -30,23 +36,6 @@ struct Figures {
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-struct Tau {
-  double energy = 0.0, events = 0.0;
-  long search_failures = 0;
-};
-
-Tau run_tau(afm::Tip& tip, std::int64_t end) {
-  Tau tau;
-  for (;;) {
-    const afm::Outcome outcome = tip.advance({end, 0.0});
-    if (outcome == afm::Outcome::time_limit) return tau;
-    if (outcome == afm::Outcome::search_failed) ++tau.search_failures;
-    if (outcome != afm::Outcome::impact) continue;
-    tau.energy += tip.last_impact().energy_loss;
-    tau.events += tip.last_impact().count;
-  }
-}
-
 // The time of the same tau again, the least of some: what is left when the machine does nothing else in between.
 double least_seconds(const afm::Tip& before, std::int64_t end) {
   constexpr int kAgain = 5;
@@ -54,7 +43,7 @@ double least_seconds(const afm::Tip& before, std::int64_t end) {
   for (int i = 0; i < kAgain; ++i) {
     afm::Tip tip = before;
     const auto start = Clock::now();
-    run_tau(tip, end);
+    afm::run_tip(tip, end);
     least = std::min(least, seconds_since(start));
   }
   return least;
@@ -65,34 +54,48 @@ double slowest_tau(afm::Tip tip, const Options& o) {
   for (std::int64_t t = 1; t <= o.transient + o.tau; ++t) {
     const afm::Tip before = tip;
     const auto start = Clock::now();
-    run_tau(tip, t);
+    afm::run_tip(tip, t);
     if (seconds_since(start) > slowest) slowest = std::max(slowest, least_seconds(before, t));
   }
   return slowest;
 }
 
 // Twice the same run: as a whole, and tau by tau, for which the clock is read and the tip copied in between.
-Figures measure(double eta, double cutoff, const Options& o) {
-  afm::Model model;
-  model.v_c = cutoff;
-  afm::Tip start(model, eta, afm::FreeState{0.25, 0.0, 0.2, eta, 0.0}, o.tolerance);
-  start.set_bath(o.bath);
-  afm::Tip tip = start;
-  Figures f{0.0, 0.0, 0.0, 0.0, 0};
-  Tau sum;
-  const double begin = afm::thread_seconds();
-  for (std::int64_t t = 1; t <= o.transient + o.tau; ++t) {
-    const Tau tau = run_tau(tip, t);
-    f.search_failures += tau.search_failures;
-    if (t > o.transient) sum.energy += tau.energy, sum.events += tau.events;
-  }
-  const double total = afm::thread_seconds() - begin;
+Figures measure(const Point& point, const Options& o) {
+  const afm::Tip start = afm::falling_tip(point.model, point.eta, point.bath, o.tolerance);
+  const afm::TimedRun timed = afm::time_tip(start, o.transient, o.tau);
   const double tau_s = afm::Units(afm::SiModel{}).time(), taus = static_cast<double>(o.tau);
-  f.times_real_time = static_cast<double>(o.transient + o.tau) * tau_s / total;
-  f.slowest_tau_us = 1e6 * slowest_tau(start, o);
-  f.K_f = sum.energy / (eta * eta * taus);
-  f.impacts_per_tau = sum.events / taus;
-  return f;
+  return {tau_s / timed.seconds, 1e6 * slowest_tau(start, o), timed.run.energy / (point.eta * point.eta * taus),
+          timed.run.events / taus, timed.run.search_failures};
+}
+
+// Every combination of the options; drag speeds vary fastest.
+std::vector<Point> points_of(const Options& o) {
+  std::vector<Point> points{{}};
+  const auto cross = [&](const std::vector<double>& values, const auto& set) {
+    std::vector<Point> all;
+    for (const Point& point : points) {
+      for (const double value : values) {
+        all.push_back(point);
+        set(all.back(), value);
+      }
+    }
+    points = all;
+  };
+  cross(o.frequency_ratio, [](Point& p, double value) { p.model.frequency_ratio = value; });
+  cross(o.amplitude, [](Point& p, double value) { p.model.H = value; });
+  cross(o.rest_height, [](Point& p, double value) { p.model.y0 = value; });
+  cross(o.temperature, [](Point& p, double value) { p.bath.temperature = value; });
+  cross(o.quality_factor, [](Point& p, double value) { p.bath.quality_factor = value; });
+  cross(o.cutoff, [](Point& p, double value) { p.model.v_c = value; });
+  cross(o.eta, [](Point& p, double value) { p.eta = value; });
+  for (const Point& point : points) {
+    const auto faults = afm::find_faults(point.model);
+    const auto bath_faults = afm::find_faults(point.bath);
+    if (!faults.empty()) throw faults.front();
+    if (!bath_faults.empty()) throw bath_faults.front();
+  }
+  return points;
 }
 
 }  // namespace
@@ -106,31 +109,35 @@ int main(int argc, char** argv) {
   app.option("highest", o.highest, "");
   app.option("cutoff", o.cutoff, "v_c [a/tau]");
   app.option("tolerance", o.tolerance, "contact tolerance");
-  app.option("temperature", o.bath.temperature, "kT of the heat bath [m a^2/tau^2]", {0.0, afm::kMaxTemperature});
-  app.option("quality-factor", o.bath.quality_factor, "of the cantilever; 0: no bath", {0.0, 1e12});
+  app.option("frequency-ratio", o.frequency_ratio, "omega_h/omega_v");
+  app.option("amplitude", o.amplitude, "of the surface [a]");
+  app.option("rest-height", o.rest_height, "of the holder above mid-surface [a]");
+  app.option("temperature", o.temperature, "kT of the heat bath [m a^2/tau^2]");
+  app.option("quality-factor", o.quality_factor, "of the cantilever; 0: no bath");
   app.option("tau", o.tau, "measured time each");
   app.option("transient", o.transient, "time before that");
   return app.run(argc, argv, [&] {
     if (o.eta.empty()) {
       for (int i = 0; i * o.step <= o.highest + 1e-9; ++i) o.eta.push_back(i * o.step);
     }
-    std::printf("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures\n");
+    std::printf(
+        "eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures,frequency_ratio,amplitude,"
+        "rest_height,temperature,quality_factor\n");
     double worst = INFINITY, slowest = 0.0;
-    std::size_t below = 0, all = 0;
-    for (const double cutoff : o.cutoff) {
-      for (const double eta : o.eta) {
-        const Figures f = measure(eta, cutoff, o);
-        std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld\n", eta, cutoff, f.times_real_time, f.slowest_tau_us, f.K_f,
-                    f.impacts_per_tau, f.search_failures);
-        std::fflush(stdout);
-        worst = std::min(worst, f.times_real_time);
-        slowest = std::max(slowest, f.slowest_tau_us);
-        below += f.times_real_time < 20.0 ? 1 : 0;
-        ++all;
-      }
+    std::size_t below = 0;
+    const std::vector<Point> points = points_of(o);
+    for (const Point& p : points) {
+      const Figures f = measure(p, o);
+      std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld,%.17g,%.17g,%.17g,%.17g,%.17g\n", p.eta, p.model.v_c,
+                  f.times_real_time, f.slowest_tau_us, f.K_f, f.impacts_per_tau, f.search_failures,
+                  p.model.frequency_ratio, p.model.H, p.model.y0, p.bath.temperature, p.bath.quality_factor);
+      std::fflush(stdout);
+      worst = std::min(worst, f.times_real_time);
+      slowest = std::max(slowest, f.slowest_tau_us);
+      below += f.times_real_time < 20.0 ? 1 : 0;
     }
     std::fprintf(stderr, "%zu points, %zu below 20 times real time; slowest point %.3g times, slowest tau %.3g us\n",
-                 all, below, worst, slowest);
+                 points.size(), below, worst, slowest);
     return 0;
   });
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/emulator.h"
+#include "afm/run.h"
 
 namespace afm {
 namespace {
@@ -80,7 +80,7 @@ bool StressScene::keeps_budget() {
   batch_begin_ = batch_begin_ + kBatch;
   events_before_ = tip_.count().events;
   most_events_ = std::max(most_events_, events);
-  spent_ = kind_ == Kind::shipped && events >= EmulatorSettings{}.impact_budget;
+  spent_ = kind_ == Kind::shipped && events >= RunSettings{}.impact_budget;
   return !spent_;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "afm/emulator.h"
+#include "afm/run.h"
 #include "afm/ensemble.h"
 #include "afm/impact_search.h"
 #include "afm/detail/multiversion.h"
@@ -126,7 +126,7 @@ void Slide(benchmark::State& state) {
 }
 BENCHMARK(Slide);
 
-// A tau of the emulator's tip at its default tolerance, bursts and contact with it.
+// A tau of a tip at its default tolerance, bursts and contact with it.
 void OneTau(benchmark::State& state) {
   const double eta = eta_of(state);
   Tip saved(Model{}, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
@@ -168,20 +168,29 @@ void SampleRow(benchmark::State& state) {
 }
 BENCHMARK(SampleRow)->Arg(1)->Arg(4)->Arg(8)->Arg(20)->Arg(46)->Arg(92);
 
-// The emulator's batch of 2000 samples at 500 kHz, a sample of it: eta, and whether they are taken or only counted.
+// A batch of 2000 samples at 500 kHz, by eta.
 void SampledBatch(benchmark::State& state) {
-  EmulatorSettings settings;
+  RunSettings settings;
   settings.eta = settings.initial.u = eta_of(state);
   settings.sample_period = 0.2 / 5.0 / kTwoPi / 2.5;
-  Emulator emulator(settings);
-  emulator.take_samples(state.range(1) == 1);
+  Run run(settings);
   Batch batch;
-  emulator.reserve(batch);
-  for (auto _ : state) benchmark::DoNotOptimize(emulator.run_batch(batch));
+  for (auto _ : state) benchmark::DoNotOptimize(run.advance(batch));
   state.counters["per_sample"] = benchmark::Counter(
       2000.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(SampledBatch)->ArgsProduct({{100, 340, 450}, {0, 1}});
+BENCHMARK(SampledBatch)->Arg(100)->Arg(340)->Arg(450);
+
+// A snapshot between two batches.
+void Split(benchmark::State& state) {
+  RunSettings settings;
+  settings.eta = settings.initial.u = eta_of(state);
+  Run run(settings);
+  Batch batch;
+  for (int i = 0; i < 10; ++i) run.advance(batch);
+  for (auto _ : state) benchmark::DoNotOptimize(run.split());
+}
+BENCHMARK(Split)->Arg(340);
 
 }  // namespace
 

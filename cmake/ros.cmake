@@ -1,28 +1,29 @@
 # What catkin adds: messages, and the package's own CMake files.
 find_package(catkin REQUIRED COMPONENTS
-  diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation rosbag roscpp std_msgs std_srvs
+  diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation rosbag roscpp rosgraph_msgs
+  std_msgs std_srvs
   visualization_msgs)
 
+catkin_python_setup()  # python/client: the client library
+
 add_message_files(FILES
-  AppliedDrag.msg
-  AppliedParameters.msg
-  Checkpoint.msg
+  Applied.msg
   Configuration.msg
   Deflection.msg
-  Digest.msg
   EmulatorStatus.msg
   Friction.msg
   Impact.msg
   ImpactArray.msg
   ModelTime.msg
-  Recording.msg)
-add_service_files(FILES StartRecording.srv Step.srv)
+  Snapshot.msg)
+add_service_files(FILES Control.srv StartRecording.srv Step.srv)
 generate_messages(DEPENDENCIES std_msgs)
+generate_dynamic_reconfigure_options(config/Emulator.cfg)
 
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES afm_emulator_core afm_emulator_dynamics
   CFG_EXTRAS afm_targets_here.cmake
   DEPENDS EIGEN3
-  CATKIN_DEPENDS diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_runtime rosbag roscpp std_msgs
-  std_srvs visualization_msgs)
+  CATKIN_DEPENDS diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_runtime rosbag roscpp
+  rosgraph_msgs std_msgs std_srvs visualization_msgs)

@@ -62,9 +62,9 @@ class Run:
             self.impacts.append((self.seconds(i.time), i.normal_speed * 1e6, i.kind))
 
     def add_friction(self, message):
-        per_unit = message.k_f_natural / message.k_f if message.k_f else NAN
-        self.friction.append((self.seconds(message.time), message.k_f_natural, message.k_f_std_error * per_unit,
-                              message.window_k_f * per_unit))
+        per_unit = message.k_f_work_natural / message.k_f_work if message.k_f_work else NAN
+        self.friction.append((self.seconds(message.time), message.k_f_work_natural, message.k_f_work_std_error * per_unit,
+                              message.window_k_f_natural))
 
     def add_drag(self, message):
         moment = self.offset + (message.time.tau + message.time.phase) * self.unit
@@ -92,12 +92,12 @@ def read(paths, end):
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
     known = set()
     add = {'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
-           'Friction': run.add_friction, 'AppliedDrag': run.add_drag}
+           'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
         with rosbag.Bag(path) as bag:
             for topic, message, _ in bag.read_messages():
                 kind = message._type.split('/')[1]
-                if kind in ('Configuration', 'AppliedDrag'):  # the bags of a split recording repeat what was before
+                if kind in ('Configuration', 'Applied'):  # the bags of a split recording repeat what was before
                     if (kind, message.header.seq) in known:
                         continue
                     known.add((kind, message.header.seq))
@@ -157,8 +157,8 @@ def draw_impacts(axes, run):
 def draw_friction(axes, run):
     friction = np.array(run.friction).reshape(-1, 4)
     times, mean, error, window = friction.T
-    axes.plot(times, window, lw=0.7, c='0.6', label='sliding window')
-    axes.plot(times, mean, lw=1.2, c='C0', label='since the last command')
+    axes.plot(times, window, lw=0.7, c='0.6', label='of impacts, sliding window')
+    axes.plot(times, mean, lw=1.2, c='C0', label='of the work of the drag, since the last command')
     axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color='C0')
     positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
     if len(positive) and positive.max() > 10 * positive.min():

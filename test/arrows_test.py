@@ -12,12 +12,17 @@ from pathlib import Path
 ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'include/afm/dynamics': 'dynamics',
          'src/core': 'core', 'src/core/dynamics': 'dynamics', 'src/core/lanes': 'lanes',
          'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
+         'src/node/params': 'params', 'src/node/runner': 'runner', 'src/node/publisher': 'publisher', 'src/node/recorder': 'recorder',
          'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
 ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'}, 'sweep': {'common', 'core', 'dynamics'},
-           'node': {'core'}, 'view': {'core', 'node'}, 'tools': {'common', 'core', 'dynamics', 'sweep', 'node'},
+           'params': {'core'}, 'runner': {'core', 'params'}, 'recorder': set(),
+           'publisher': {'core', 'params', 'runner', 'recorder'},
+           'node': {'core', 'params', 'runner', 'publisher', 'recorder'}, 'view': {'core', 'publisher'},
+           'tools': {'common', 'core', 'dynamics', 'sweep', 'params', 'publisher', 'recorder'},
            'python': {'core', 'dynamics', 'sweep'}, 'trials': {'core', 'dynamics'},
            'benchmark': {'common', 'core', 'dynamics', 'trials'},
-           'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'view', 'trials'}}
+           'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher', 'recorder',
+                    'view', 'trials'}}
 # where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
 DOORS = {('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h')}
 SEARCHED = ('include', 'src', 'test', 'benchmark')  # after the folder of the file itself

@@ -12,17 +12,17 @@ int main() {
   bath.quality_factor = 100.0;
 
   const afm::Units units(tip);
-  afm::EmulatorSettings scene;
+  afm::RunSettings scene;
   scene.model = units.to_natural(tip);
   scene.bath = units.to_natural(bath);
   scene.eta = scene.initial.u = 6.6e-6 / units.velocity();  // 6.6 um/s
-  afm::Emulator emulator(scene);                            // throws a ParameterError that names what it cannot run
+  afm::Run run(scene);                                      // throws a ParameterError that names what it cannot run
 
   afm::Batch batch;  // samples of the deflection, impacts, friction: of 60 tau each
   for (int i = 0; i < 100; ++i) {
-    emulator.run_batch(batch);
+    run.advance(batch);
     if (i % 10 == 9) {
-      std::printf("%6.0f tau: force %.6g N, K_f %.6g +- %.6g kg/s\n", emulator.now() - afm::ModelTime{},
+      std::printf("%6.0f tau: force %.6g N, K_f %.6g +- %.6g kg/s\n", run.now() - afm::ModelTime{},
                   batch.friction.mean_lateral_force * units.force(), batch.friction.K_f_work * units.friction(),
                   batch.friction.K_f_work_std_error * units.friction());
     }

@@ -3,7 +3,7 @@
 a converter has bits. Publishes volts on ~volts (std_msgs/Float64MultiArray, the two channels vertical and lateral one after the
 other, a message for each batch).
 Parameters: emulator, vertical_v_per_nm, lateral_v_per_nm, noise_v_per_sqrt_hz, range_v, bits, seed."""
-import ending  # before all else
+from afm_emulator import ending  # before all else
 import numpy
 import rospy
 from afm_emulator.msg import Deflection

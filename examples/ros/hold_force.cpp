@@ -4,9 +4,11 @@
 // lowered (docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on
 // ~commanded_height.
 // Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time.
+#include <afm_emulator/client.h>
+
 #include <algorithm>
 
-#include "afm_client.h"
+using afm_emulator::to_message;
 
 int main(int argc, char** argv) try {
   ros::init(argc, argv, "hold_force");
@@ -17,16 +19,17 @@ int main(int argc, char** argv) try {
   const double settle = own.param("settle_s", 0.02), window = own.param("window_s", 0.1);
   const ros::Publisher measured = own.advertise<std_msgs::Float64>("measured_force", 10);
   const ros::Publisher commanded = own.advertise<std_msgs::Float64>("commanded_height", 10);
-  Client tip(own.param<std::string>("emulator", "/afm"));
-  double height = std::clamp(tip.rest_height(), lowest, highest);
+  afm_emulator::Client tip(own.param<std::string>("emulator", "/afm"));
+  double height = std::clamp(tip.applied().rest_height_m, lowest, highest);
   while (ros::ok()) {
-    const auto force = tip.mean_force(tip.set_rest_height(height), settle, window);
-    if (!force) continue;
-    measured.publish(to_message(*force));
+    const double force = tip.mean_force(window, settle, tip.kAsItIs, height);
+    measured.publish(to_message(force));
     commanded.publish(to_message(height));
-    ROS_INFO("force %.1f pN, height %.1f pm", 1e12 * *force, 1e12 * height);
-    height = std::clamp(height - gain * (setpoint - *force), lowest, highest);  // a lower holder presses harder
+    ROS_INFO("force %.1f pN, height %.1f pm", 1e12 * force, 1e12 * height);
+    height = std::clamp(height - gain * (setpoint - force), lowest, highest);  // a lower holder presses harder
   }
+  return 0;
+} catch (const afm_emulator::Shutdown&) {
   return 0;
 } catch (const std::exception& error) {
   ROS_FATAL("%s", error.what());

@@ -4,9 +4,9 @@
 Friction is not monotonic in the load, so the height stays within limits between which force rises as the tip is lowered
 (docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on ~commanded_height.
 Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time."""
-import ending  # before all else
+from afm_emulator import ending  # before all else
 import rospy
-from afm_client import Client
+from afm_emulator import Client
 from std_msgs.msg import Float64
 
 
@@ -19,11 +19,9 @@ def main():
     measured = rospy.Publisher('~measured_force', Float64, queue_size=10)
     commanded = rospy.Publisher('~commanded_height', Float64, queue_size=10)
     tip = Client(rospy.get_param('~emulator', '/afm'))
-    height = min(max(tip.latest['applied_parameters'].rest_height_m, lowest), highest)
+    height = min(max(tip.applied.rest_height_m, lowest), highest)
     while not rospy.is_shutdown():
-        force = tip.mean_force(tip.set_rest_height(height), settle, window)
-        if force is None:
-            continue
+        force = tip.mean_force(window, settle, rest_height=height)
         measured.publish(force)
         commanded.publish(height)
         rospy.loginfo('force %.1f pN, height %.1f pm', 1e12 * force, 1e12 * height)

@@ -1,7 +1,7 @@
-// Measures how long a controller waits: from publishing a drag velocity until ~applied_drag says that it holds, and until the
+// Measures how long a controller waits: from publishing a drag velocity until ~applied says that it holds, and until the
 // first batch that was moved by it arrives. Prints one row of CSV.
 // Parameters: emulator; commands, how many; batch_rate_hz is asked of the emulator's configuration.
-#include <afm_emulator/AppliedDrag.h>
+#include <afm_emulator/Applied.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
 #include <ros/callback_queue.h>
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     now.seen = true;
     now.seen_s = elapsed();
   };
-  const auto on_applied = [&](const afm_emulator::AppliedDrag::ConstPtr& m) {
+  const auto on_applied = [&](const afm_emulator::Applied::ConstPtr& m) {
     if (now.applied || m->drag_velocity != now.velocity) return;
     now.applied = true;
     now.applied_s = elapsed();
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   const auto fast = ros::TransportHints().tcpNoDelay();
   const ros::Subscriber subscribers[] = {
       node.subscribe<afm_emulator::Configuration>(emulator + "/configuration", 10, on_configuration),
-      node.subscribe<afm_emulator::AppliedDrag>(emulator + "/applied_drag", 100, on_applied, {}, fast),
+      node.subscribe<afm_emulator::Applied>(emulator + "/applied", 100, on_applied, {}, fast),
       node.subscribe<afm_emulator::Deflection>(emulator + "/deflection", 100, on_batch, {}, fast)};
   const ros::Publisher drag = node.advertise<std_msgs::Float64>(emulator + "/drag_velocity", 10);
   const auto spin_until = [](double seconds, const auto& done) {

@@ -4,9 +4,9 @@
 Measures the mean lateral force a little below and a little above the present speed, and goes to where it is greater. The step is
 proportional to the relative difference, so it vanishes at the peak. Publishes the speed [m/s] on ~speed.
 Parameters: emulator, start, dither, gain, lowest and highest speed [m/s], settle_s and window_s of model time."""
-import ending  # before all else
+from afm_emulator import ending  # before all else
 import rospy
-from afm_client import Client
+from afm_emulator import Client
 from std_msgs.msg import Float64
 
 ETA = 3.3104228e-6  # m/s of eta = 1 (mica), for the defaults
@@ -21,9 +21,7 @@ def main():
     published = rospy.Publisher('~speed', Float64, queue_size=10)
     tip = Client(rospy.get_param('~emulator', '/afm'))
     while not rospy.is_shutdown():
-        below, above = (tip.mean_force(tip.set_drag_velocity(v), settle, window) for v in (speed - dither, speed + dither))
-        if below is None or above is None:
-            continue
+        below, above = (tip.mean_force(window, settle, drag_velocity=v) for v in (speed - dither, speed + dither))
         published.publish(speed)
         rospy.loginfo('speed %.3f um/s: force %.1f pN below it, %.1f pN above', 1e6 * speed, 1e12 * below, 1e12 * above)
         total = abs(below) + abs(above)

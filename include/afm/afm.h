@@ -20,6 +20,5 @@
 #include "afm/ensemble.h"
 #include "afm/level.h"
 #include "afm/level_table.h"
-#include "afm/saved_state.h"
-#include "afm/emulator.h"
+#include "afm/run.h"
 #include "afm/pacer.h"

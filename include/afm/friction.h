@@ -34,55 +34,62 @@ struct FrictionEstimate {
 
 // Energy or impulse in equal bins of time. Full bins merge in pairs, so a run of any length fits. The scatter of the
 // bins gives the standard error of the mean rate (batch means).
-class RateBins {
- public:
+struct RateBins {
   static constexpr std::size_t kBins = 64;  // a choice: at least 32 after a merge, the error's own error is 13 % then
 
-  explicit RateBins(double bin_width) : width_(bin_width) {}
-  void add(double age, double amount);  // age: time since the start [tau], never decreasing by more than a bin
-  void spread(double begin, double end, double amount);  // evenly over [begin, end]; the next call begins at `end`
+  void add(double age, double part);  // age: time since the start [tau], never decreasing by more than a bin
+  void spread(double begin, double end, double part);  // evenly over [begin, end]; the next call begins at `end`
   double std_error(double age) const;  // of the amount per tau, from the bins completed at `age`; NaN with fewer than 8
-  double width() const { return width_; }
+
+  double width = 1.0;  // [tau] a vertical period at first; it doubles at every merge
+  std::array<double, kBins> amount{};
 
  private:
   void merge();
-  std::array<double, kBins> amount_{};
-  double width_;
 };
 
 // The energy of the last `window` tau, in a ring of bins.
-class PowerWindow {
- public:
+struct PowerWindow {
   static constexpr std::size_t kWindowBins = 32;  // a choice: the window moves on in steps of 3 %
 
-  explicit PowerWindow(double window) : width_(window / static_cast<double>(kWindowBins)) {}
-  void add(double age, double energy);
+  explicit PowerWindow(double window) : width(window / static_cast<double>(kWindowBins)) {}
+  void add(double age, double part);
   double mean(double age);       // energy per tau over the completed bins of the window; NaN before the first
   double std_error(double age);  // NaN below 8 bins
-  double width() const { return width_; }
-  std::int64_t current() const { return current_; }
+
+  double width;  // [tau]
+  std::array<double, kWindowBins + 1> energy{};  // one more than the window: the bin being filled
+  std::int64_t current = 0;                      // number of that bin since the start
 
  private:
   void roll_to(double age);
   std::size_t completed() const;
-  std::array<double, kWindowBins + 1> energy_{};  // one more than the window: the bin being filled
-  double width_;
-  std::int64_t current_ = 0;
 };
 
 // A sum whose rounding is carried along (Kahan).
-class CompensatedSum {
- public:
+struct CompensatedSum {
   void add(double x);
-  double value() const { return sum_; }
 
- private:
-  double sum_ = 0.0, rest_ = 0.0;
+  double value = 0.0, rest = 0.0;
+};
+
+// What an estimate is computed from.
+struct FrictionSums {
+  explicit FrictionSums(double window_length) : window_tau(window_length), window(window_length) {}
+
+  double window_tau;
+  ModelTime start, window_start;
+  double eta = 0.0;
+  CompensatedSum energy, impulse, heat;
+  std::uint64_t impact_count = 0;
+  RateBins energy_bins, impulse_bins;
+  PowerWindow window;
 };
 
 class Friction {
  public:
-  explicit Friction(double window_tau);
+  explicit Friction(double window_tau) : sums_(window_tau) {}
+  explicit Friction(const FrictionSums& sums) : sums_(sums) {}
 
   // A new drag velocity: the whole estimate restarts at `now`.
   void restart(const ModelTime& now, double eta);
@@ -90,19 +97,14 @@ class Friction {
   void add(const Segment& segment);                          // segments since restart(), in order
   // `open`: the segment under way. It counts for the mean lateral force only.
   FrictionEstimate estimate(const ModelTime& now, const Segment& open);
-  ModelTime start() const { return start_; }
+  const FrictionSums& sums() const { return sums_; }
+  ModelTime start() const { return sums_.start; }
 
   // Whether an estimate that was read from elsewhere is possible at `now`.
-  bool is_possible(const ModelTime& now, double window_tau) const;
+  bool is_possible(const ModelTime& now, double eta, double window_tau) const;
 
  private:
-  double window_tau_;
-  ModelTime start_, window_start_;
-  double eta_ = 0.0;
-  CompensatedSum energy_, impulse_, heat_;
-  std::uint64_t impact_count_ = 0;
-  RateBins energy_bins_, impulse_bins_;
-  PowerWindow window_;
+  FrictionSums sums_;
 };
 
 }  // namespace afm

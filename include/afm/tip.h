@@ -3,8 +3,6 @@
 // rounding. Natural units.
 #pragma once
 
-#include <optional>
-
 #include "afm/detail/sample_grid.h"
 #include "afm/detail/thermostat.h"
 #include "bath.h"
@@ -13,7 +11,6 @@
 #include "flight.h"
 #include "impact_search.h"
 #include "model.h"
-#include "saved_state.h"
 #include "segment.h"
 #include "state.h"
 
@@ -36,12 +33,36 @@ constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence take
 // Slower bounces may begin a chatter sequence [a/tau]: 2 tolerance^(5/8), which is 0.027 at the default.
 double chatter_entry_speed(double contact_tolerance);
 
+// The tip at a time, in one of its phases: what another tip is made from that goes on with the same motion.
+struct TipSnapshot {
+  // touching: the tip is on the surface, and contact begins at `time`
+  enum class Phase : std::uint8_t { flight, contact, chatter, touching };
+
+  Phase phase = Phase::flight;
+  ModelTime time;
+  TipState state;  // gap and gap rate are 0 but in flight
+  // of a chatter sequence
+  double sequence_normal_speed = 0.0;  // after its first bounce [a/tau]
+  double sequence_gain = 0.0;          // energy lost beyond the fall of v^2/2 [m a^2/tau^2]
+  double chatter_speed = 0.0;          // normal speed after the last bounce [a/tau]
+  double chatter_count = 0.0;          // bounces so far
+};
+
+// Every fault; a tip without any ends its phase.
+std::vector<ParameterError> find_faults(const TipSnapshot& tip);
+
 class Tip {
  public:
   // contact_tolerance 0: every bounce by itself; contact begins with a gap rate below kMinGapRate. Throws the first
   // ParameterError of the model, or one about a start below the surface.
   Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
   Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
+
+  // Goes on from a snapshot. Preconditions: without faults, like the model and the bath of the thermostat.
+  Tip(const Model& model, double eta, const TipSnapshot& start, double contact_tolerance, const Thermostat& thermostat);
+  // The phase at now(). Precondition: is_settled().
+  TipSnapshot snapshot() const;
+  bool is_settled() const;  // false: an event at now() is still to be reported
 
   // To the next event or to `limit`, whichever is first. An event at the limit itself still happens. Guarantee: any
   // sequence of limits gives the same bits as one, because a limit splits no motion.
@@ -88,6 +109,7 @@ class Tip {
   const ChatterLaw& chatter_law() const { return law_; }
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
+  double contact_tolerance() const { return contact_tolerance_; }
   bool in_contact() const { return mode_ == Mode::sliding; }
   bool in_chatter() const { return mode_ == Mode::chattering; }
   const Impact& last_impact() const { return last_impact_; }
@@ -99,13 +121,7 @@ class Tip {
   double deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
                      double* lateral) const;
 
-  // Guarantee: a tip that is restored goes on with the same bits (saved_state.h).
-  void save(SavedState& out) const;
-  static std::optional<Tip> restored(const SavedState& state);  // empty: no tip can be in that state
-
  private:
-  friend class StateFields;  // saved_state.cpp
-
   // touching: the tip is on the surface, and contact begins at now().
   enum class Mode : std::uint8_t { flying, chattering, touching, sliding };
 
@@ -169,6 +185,7 @@ class Tip {
   Model model_;
   Mechanics<double> mechanics_;
   double eta_;
+  double contact_tolerance_;
   double slowest_chatter_;  // threshold of contact [a/tau]
   ChatterLaw law_;
   double entry_speed_;  // chatter_entry_speed()

@@ -7,7 +7,7 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
     >>> events = tip.advance(1000)                    # to 1000 tau: a structured array
     >>> curve = afm.friction_curve([1.8, 2.0, 2.2])   # columns as of the tool friction_curve
 
-Tip, Ensemble, Emulator   one tip; many on threads; a run in batches, as the node runs it
+Tip, Ensemble, Run      one tip; many on threads; a run in batches, as the node runs it
 Model, Bath, Units      what they are made of
 friction_curve, attractors, periodic_orbits, lyapunov, next_impact     what the tools of these names compute
 from_bag                a recording: its model, its commands, and its run simulated again
@@ -17,19 +17,20 @@ paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without 
 friction, as the bath feeds the impacts: at eta = 0.1 and 300 K k_f is 20 times as much.
 
 What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL and end
-at Ctrl-C. Models, baths, units, tips and emulators can be copied, pickled, and sent to the processes of a Pool.
+at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A copy has the bits
+of the original; pickling splits the motion under way in what is pickled, so that its last digits may differ.
 """
 from .errors import ArgumentTypeError, ParameterError
 from .values import Batch, Kind, Lyapunov, ModelTime, Samples, State
-from ._afm import Bath, Emulator, Ensemble, Model, Tip, Units
+from ._afm import Bath, Ensemble, Model, Run, Tip, Units
 from ._afm import VERSION as __version__
 from .arguments import explain
 from .tables import attractors, friction_curve, lyapunov, next_impact, periodic_orbits
 from .recordings import Recording, from_bag
 
-__all__ = ['ArgumentTypeError', 'Bath', 'Batch', 'Emulator', 'Ensemble', 'Kind', 'Lyapunov', 'Model', 'ModelTime',
-           'ParameterError', 'Recording', 'Samples', 'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag',
-           'lyapunov', 'next_impact', 'periodic_orbits', '__version__']
+__all__ = ['ArgumentTypeError', 'Bath', 'Batch', 'Ensemble', 'Kind', 'Lyapunov', 'Model', 'ModelTime', 'ParameterError',
+           'Recording', 'Run', 'Samples', 'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag', 'lyapunov',
+           'next_impact', 'periodic_orbits', '__version__']
 
-explain(Bath, Emulator, Ensemble, Model, Tip, Units)
+explain(Bath, Ensemble, Model, Run, Tip, Units)
 del explain

@@ -1,90 +1,145 @@
 """Recordings of the emulator: their model and commands, and the run simulated again to the same bits."""
 import os
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
+from collections import defaultdict
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._afm import Emulator, Units, state_layout
-from .run_log import ZERO, RunLog, time_of
-from .values import Batch
+from ._afm import Bath, Model, Run, Units
+from .values import Batch, ModelTime
 
 _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_spacing_m', 'surface_amplitude_m',
              'rest_height_m', 'restitution_gamma', 'cutoff_speed')
 _BATH = ('temperature_k', 'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
+_KINDS = ('Applied', 'Deflection', 'Friction', 'ImpactArray', 'Snapshot')
+_MOST_WAITING = 100  # batches in the queues of the topics when a recorder is stopped
 Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
+
+
+def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int, Any]]:
+    """Of one emulator, by type: the messages by their numbers in their topic. Of samples and impacts the numbers alone."""
+    try:
+        import rosbag
+    except ImportError as fault:
+        raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): %s' % fault)
+    kinds = {'afm_emulator/' + kind: kind for kind in _KINDS}
+    found: Any = defaultdict(lambda: defaultdict(dict))
+    stamps: Dict[Tuple[str, str, int], Tuple[str, bytes]] = {}
+    for path in paths:
+        with rosbag.Bag(str(path)) as bag:
+            for topic, raw, _, header in bag.read_messages(raw=True, return_connection_header=True,
+                                                           connection_filter=lambda _, datatype, *__: datatype in kinds):
+                node = header.get('callerid', b'')
+                node = node.decode() if isinstance(node, bytes) else node
+                kind, seq, stamp = kinds[raw[0]], int.from_bytes(raw[1][:4], 'little'), raw[1][4:12]
+                if stamps.setdefault((node, kind, seq), (topic, stamp)) != (topic, stamp):
+                    raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' % (path, node))
+                found[node][kind][seq] = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
+    if namespace is None and len(found) == 1:
+        namespace = next(iter(found))
+    if namespace not in found:
+        raise ValueError('namespace = %s: the bag holds recordings of %s' % (namespace, ', '.join(sorted(found)) or 'nothing'))
+    return {kind: dict(sorted(found[namespace][kind].items())) for kind in _KINDS}
+
+
+def _of_epoch(kind: str, messages: Dict[int, Any], epoch: int) -> List[Any]:
+    """Without a gap, up to the next epoch."""
+    numbers = [seq for seq, m in messages.items() if m.epoch == epoch]
+    after = [seq for seq in messages if numbers and seq > numbers[-1]][:1]
+    if numbers and (numbers + after)[-1] - numbers[0] >= len(numbers + after):
+        raise ValueError('messages of %s are missing in epoch %d' % (kind, epoch))
+    return [messages[seq] for seq in numbers]
 
 
 class Recording:
     """One epoch of a recording.
 
     units, model: of its configuration; eta: drag velocity at its beginning [a/tau]; configuration: the message;
-    commands: structured array (n,) of the drag velocities that took effect: tau, phase, eta [a/tau], drag_velocity [m/s];
-    begin, end: model times between which the run is simulated; epochs: all that the bag holds.
+    commands: structured array (n,) of the drag velocity at the beginning and after each command: tau, phase, eta [a/tau],
+    drag_velocity [m/s]; begin, end: model times between which the run is simulated; epochs: all that the bag holds.
+    Where something is missing without which the run is not known, it is a ValueError that names it.
     """
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
-        log = RunLog([path] if isinstance(path, (str, os.PathLike)) else path, epoch, namespace)
-        self.epoch: int = log.epoch
-        self.epochs: List[int] = log.epochs
-        self.configuration: Any = log.configuration
-        self._live: Dict[str, Any] = {name: getattr(log.configuration, name) for name in _SI_MODEL + _BATH}
-        self.units = self._units(self._live)
-        self.model = self.units.model
-        self.eta: float = log.configuration.drag_velocity / self.units.velocity
-        self._start = log.start
-        self._applied = log.commands()
-        self.begin = ZERO if log.start is None else time_of(log.start)
-        self.end = max([self.begin] + [time_of(m) for m in log.frictions] + [time_of(m) for m in self._applied])
-        self._impacts = log.impacts
+        read = _read([path] if isinstance(path, (str, os.PathLike)) else path, namespace)
+        for kind, why in (('Snapshot', 'the state at its beginning'), ('Applied', 'what took effect'),
+                          ('Friction', 'the end of the run')):
+            if not read[kind]:
+                raise ValueError('the bag holds no message of %s: %s is not known' % (kind, why))
+        last = max(read['Friction'])
+        for kind in ('Deflection', 'ImpactArray'):
+            if max(read[kind], default=0) > last + _MOST_WAITING:
+                raise ValueError('messages of Friction are missing at the end')
+        self.epochs: List[int] = sorted({m.epoch for m in read['Snapshot'].values()})
+        self.epoch: int = self.epochs[0] if epoch is None else epoch
+        if self.epoch not in self.epochs:
+            raise ValueError('epoch = %s: the bag holds %s' % (epoch, self.epochs))
+        self._snapshots, frictions = (_of_epoch(kind, read[kind], self.epoch) for kind in ('Snapshot', 'Friction'))
+        start = self._snapshots[0]
+        self.configuration: Any = start.configuration
+        self.units = self._units(start.configuration)
+        self.model: Model = self.units.model
+        self.eta: float = start.applied.drag_velocity / self.units.velocity
+        self.begin = ModelTime(start.time.tau, start.time.phase)
+        if not frictions:
+            raise ValueError('the bag holds no message of Friction in epoch %d: the end of the run is not known' % self.epoch)
+        self._last = frictions[-1]
+        self.end = ModelTime(self._last.time.tau, self._last.time.phase)
+        if (frictions[0].begin.tau, frictions[0].begin.phase) < self.begin and self.begin > (0, 0.0):
+            raise ValueError('the bag begins before its first snapshot: the state there is not known')
+        self._applied = [m for m in read['Applied'].values() if m.epoch == self.epoch and m.number > start.applied.number]
+        numbers = [start.applied.number] + [m.number for m in self._applied]
+        if numbers != list(range(numbers[0], max(numbers[-1], self._snapshots[-1].applied.number) + 1)):
+            raise ValueError('messages of Applied are missing: a command is not known')
         self.commands = np.array([(m.time.tau, m.time.phase, m.drag_velocity / self.units.velocity, m.drag_velocity)
-                                  for m in self._applied if hasattr(m, 'drag_velocity')],
+                                  for m in [start.applied] + self._applied],
                                  [('tau', 'i8'), ('phase', 'f8'), ('eta', 'f8'), ('drag_velocity', 'f8')])
 
-    @staticmethod
-    def _units(live):
-        return Units(**{name: live[name] for name in _SI_MODEL})
+    def _units(self, live: Any) -> Units:
+        return Units(**{name: getattr(live if hasattr(live, name) else self.configuration, name) for name in _SI_MODEL})
 
-    def _bath(self, live):
-        return self.units.bath(seed=self.configuration.seed, **{name: live[name] for name in _BATH})
+    def _settings(self, applied: Any) -> Dict[str, Any]:
+        """What is in force, as Run.apply() takes it."""
+        model = self._units(applied).model
+        bath: Bath = self.units.bath(seed=self.configuration.seed, **{name: getattr(applied, name) for name in _BATH})
+        return dict(eta=applied.drag_velocity / self.units.velocity, gamma=model.gamma, cutoff=model.cutoff,
+                    rest_height=model.rest_height, kind=applied.model, contact_tolerance=applied.contact_tolerance, bath=bath,
+                    friction_window=applied.friction_window_tau, sample_period=applied.sample_period_tau,
+                    samples_per_batch=applied.samples_per_batch)
 
-    def _emulator(self, live):
-        if self._start is not None:
-            if self._start.layout != state_layout():
-                raise ValueError('its checkpoint is of layout %d; this version reads %d' % (self._start.layout, state_layout()))
-            live.update({name: getattr(self._start, name) for name in live if hasattr(self._start, name)})
-            return Emulator.restored(np.array(self._start.state, np.uint64))
-        c = self.configuration
-        emulator = Emulator(self.model, self.eta, c.initial_phase, c.initial_extension, c.initial_height, c.initial_u,
-                            c.initial_w, c.sample_period_tau, c.samples_per_batch, c.friction_window_tau, c.impact_budget,
-                            c.contact_tolerance, self._bath(live))
-        if c.model != 'auto':  # auto begins as the full model; the first drag velocity brings its level
-            emulator.set_level(c.model, c.contact_tolerance)
-        return emulator
+    def _run_from(self, snapshot: Any) -> Run:
+        c, live, m = self.configuration, self._settings(snapshot.applied), self.model
+        model = Model(*(live.pop(name) for name in ('gamma', 'cutoff', 'rest_height')), m.amplitude, m.frequency_ratio, live.pop('kind'))
+        state = {name: getattr(snapshot, name) for name in snapshot.__slots__
+                 if name not in ('header', 'epoch', 'configuration', 'applied')}
+        state = {name: ModelTime(v.tau, v.phase) if hasattr(v, 'tau') else v for name, v in state.items()}
+        return Run.from_snapshot(dict(
+            state, model=model, initial_phase=c.initial_phase, initial_extension=c.initial_extension, initial_y=c.initial_height,
+            initial_u=c.initial_u, initial_w=c.initial_w, impact_budget=c.impact_budget, **live))
 
-    def _apply(self, emulator, command, live):
-        if hasattr(command, 'drag_velocity'):
-            emulator.set_level(command.model, command.contact_tolerance)
-            emulator.drag(command.drag_velocity / self.units.velocity)
-            return
-        live.update({name: getattr(command, name) for name in live if hasattr(command, name)})
-        model = self._units(live).model
-        emulator.change(gamma=model.gamma, cutoff=model.cutoff, rest_height=model.rest_height, bath=self._bath(live),
-                        sample_period=command.sample_period_tau, samples_per_batch=command.samples_per_batch,
-                        friction_window=command.friction_window_tau)
-        emulator.set_level(command.model, command.contact_tolerance)
+    def _parts(self) -> Iterator[Batch]:
+        """The run from one command or snapshot to the next."""
+        def run_to(time: Any, impacts: int) -> Iterator[Batch]:
+            end = ModelTime(time.tau, time.phase)
+            yield run.advance(end)
+            while run.now == end and run.impacts < impacts:  # of those at this very time
+                yield run.advance(impacts=impacts - run.impacts)
 
-    def stretches(self) -> Iterator[Batch]:
-        """The run simulated again, a Batch from each command to the next, in natural units."""
-        live = dict(self._live)
-        emulator = self._emulator(live)
-        for command in self._applied:
-            yield emulator.run(time_of(command), command.first_impact)
-            self._apply(emulator, command, live)
-        yield emulator.run(self.end, self._impacts)
+        run = self._run_from(self._snapshots[0])
+        marks = [(m.number, 0, m) for m in self._applied]
+        marks += [(m.applied.number, 1 + i, m) for i, m in enumerate(self._snapshots[1:])]
+        for _, is_snapshot, m in sorted(marks, key=lambda mark: mark[:2]):
+            yield from run_to(m.time, m.next_impact if is_snapshot else m.first_impact)
+            if is_snapshot:
+                yield run.advance(run.now)  # an event that is due comes first
+                run.snapshot()
+            else:
+                run.apply(**self._settings(m))
+        yield from run_to(self._last.time, self._last.first_impact + self._last.impact_limit)
 
     def simulate(self) -> Batch:
         """The whole run simulated again, in natural units: times a factor of `units`, the bits of the recording."""
-        parts = list(self.stretches())
+        parts = list(self._parts())
         joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in ('vertical', 'lateral', 'impacts')}
         return parts[-1]._replace(begin=parts[0].begin, first_sample=parts[0].first_sample,
                                   first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact, **joined)
@@ -93,6 +148,6 @@ class Recording:
 def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:
     """A recording of the emulator. path: of its bag, or a list of the bags that it was split into, in order.
 
-    epoch: None is the first in the bag; namespace: of the node, where a bag holds several.
+    epoch: None is the first in the bag; namespace: the name of the node, where a bag holds several.
     """
     return Recording(path, epoch, namespace)

@@ -76,7 +76,7 @@ _document(Samples, time='of the first sample', period='from sample to sample [ta
 
 
 class Batch(NamedTuple):
-    """What a stretch of an Emulator's run has produced."""
+    """What Run.advance() has produced."""
 
     begin: ModelTime
     end: ModelTime
@@ -88,13 +88,14 @@ class Batch(NamedTuple):
     first_impact: int
     impacts: np.ndarray
     eta: float
+    holder: float
     friction: Dict[str, Any]
 
 
-_document(Batch, begin='of the stretch', end='of the stretch', first_sample='running index of the first sample',
+_document(Batch, begin='of the advance', end='of the advance', first_sample='running index of the first sample',
           first_sample_time='of the first sample', sample_period='at the end [tau]', vertical='(n,): y - y0 [a]',
           lateral='(n,): x - xc [a]', first_impact='running index of the first event', impacts='(m,): as of Tip.advance',
-          eta='drag velocity at the end [a/tau]',
+          eta='drag velocity [a/tau]', holder='position of the holder at first_sample_time [a]',
           friction='the estimate at the end: a dict with the fields of the topic ~friction, in natural units. Friction is '
                    'k_f_work [m_tip/tau], by the work of the drag; k_f counts the losses in impacts, and agrees without a '
                    'bath alone')

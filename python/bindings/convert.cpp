@@ -70,24 +70,6 @@ std::uint64_t whole(const char* name, const py::handle& value) {
   refuse_type(name, value, "must be a whole number, not below 0");
 }
 
-py::tuple to_pickle(const SavedState& state) {
-  const auto* bytes = reinterpret_cast<const char*>(state.words.data());
-  return py::make_tuple(state_layout(), py::bytes(bytes, state.size * sizeof(std::uint64_t)));
-}
-
-SavedState from_pickle(const py::tuple& pickled) {
-  const auto layout = pickled[0].cast<std::uint32_t>();
-  const auto bytes = pickled[1].cast<std::string>();
-  SavedState state;
-  state.size = bytes.size() / sizeof(std::uint64_t);
-  if (layout != state_layout() || state.size > SavedState::kMaxWords) {
-    throw py::value_error("pickled by another version: layout " + std::to_string(layout) + ", here " +
-                          std::to_string(state_layout()));
-  }
-  std::memcpy(state.words.data(), bytes.data(), state.size * sizeof(std::uint64_t));
-  return state;
-}
-
 ModelKind kind_of(const std::string& name) {
   ModelKind kind = ModelKind::oscillator;
   if (!parse(name, kind)) throw py::value_error("kind = " + name + ": must be oscillator or hammer");
@@ -128,9 +110,9 @@ py::dict to_python(const FrictionEstimate& f) {
                   "k_f_work_std_error"_a = f.K_f_work_std_error, "heat_to_bath"_a = f.heat_to_bath);
 }
 
-EmulatorSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
+RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
                              const py::object& u, double w, double contact_tolerance) {
-  EmulatorSettings settings;
+  RunSettings settings;
   settings.model = model;
   settings.eta = eta;
   settings.initial = {phase, extension, y, u.is_none() ? eta : real("u", u), w};

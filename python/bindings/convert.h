@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "afm/emulator.h"
+#include "afm/run.h"
 #include "afm/model.h"
 #include "afm/state.h"
 
@@ -41,12 +41,8 @@ py::object to_python(const FreeState& state);  // afm.State
 py::dict to_python(const FrictionEstimate& friction);
 
 // What every run begins with, unchecked; u None: the drag velocity.
-EmulatorSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
+RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
                              const py::object& u, double w, double contact_tolerance);
-
-// What pickle keeps of a run. Throws ValueError if it is of another version.
-py::tuple to_pickle(const SavedState& state);
-SavedState from_pickle(const py::tuple& pickled);
 
 py::dtype impact_dtype();  // of the library's own records
 
@@ -65,7 +61,7 @@ void add_errors();
 void add_model(py::module& m);
 void add_tip(py::module& m);
 void add_ensemble(py::module& m);
-void add_emulator(py::module& m);
+void add_run(py::module& m);
 void add_tables(py::module& m);
 
 }  // namespace afm::python

@@ -7,6 +7,6 @@ PYBIND11_MODULE(_afm, m) {
   afm::python::add_model(m);
   afm::python::add_tip(m);
   afm::python::add_ensemble(m);
-  afm::python::add_emulator(m);
+  afm::python::add_run(m);
   afm::python::add_tables(m);
 }

@@ -150,7 +150,7 @@ py::tuple attractors(const std::vector<std::vector<double>>& points, const std::
   for (const std::vector<double>& g : given) {
     const FreeState start{g.at(0), g.at(1), g.at(2), g.at(3), g.at(4)};
     for (const SweepPoint& point : grid) {
-      EmulatorSettings run;
+      RunSettings run;
       run.model = model_of(point);
       run.eta = point.eta;
       run.initial = start;
@@ -210,7 +210,7 @@ const char* name_of(LyapunovOutcome outcome) {
 
 py::object exponents(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
                      double w, double transient, double duration, std::uint64_t most_events, double contact_tolerance) {
-  const EmulatorSettings start = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
+  const RunSettings start = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(start));
   require(transient >= 0.0 && transient <= 1e12, "transient", transient, "must be within 0 and 1e12 tau");
   require(duration > 0.0 && duration <= 1e12, "duration", duration, "must be above 0 and at most 1e12 tau");

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "convert.h"
 #include "py_tip.h"
+#include "snapshot.h"
 
 namespace afm::python {
 namespace {
@@ -20,7 +20,7 @@ using namespace py::literals;
 
 PyTip to_tip(const Model& model, double eta, double phase, double extension, double y, const py::object& u, double w,
              double contact_tolerance, const Bath& bath) {
-  const EmulatorSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
+  const RunSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(settings));
   PyTip made{Tip(model, eta, settings.initial, contact_tolerance)};
   made.tip.set_bath(bath);
@@ -139,22 +139,33 @@ void change(PyTip& self, const py::object& gamma, const py::object& cutoff, cons
   self.tip.set_parameters(model);
 }
 
+// As a snapshot of a run that begins here.
 py::tuple pickled(const PyTip& self) {
-  SavedState state;
-  self.tip.save(state);
-  return to_pickle(state) + py::make_tuple(self.search_failures);
+  const Tip& tip = self.tip;
+  require_settled(tip.is_settled());
+  Snapshot s;
+  s.settings.model = tip.model();
+  s.settings.eta = tip.eta();
+  s.settings.contact_tolerance = tip.contact_tolerance();
+  s.settings.bath = tip.thermostat().bath();
+  s.tip = tip.snapshot();
+  s.samples.origin = s.tip.time;
+  s.kicks = tip.thermostat().grid();
+  s.kick_count = tip.thermostat().count();
+  return py::make_tuple(to_dict(s), self.search_failures);
 }
 
 PyTip unpickled(const py::tuple& t) {
-  const std::optional<Tip> tip = Tip::restored(from_pickle(t));
-  if (!tip) throw py::value_error("no tip can be in this state");
-  return {*tip, t[2].cast<std::uint64_t>()};
+  const Snapshot s = to_snapshot(t[0].cast<py::dict>());
+  const RunSettings& settings = s.settings;
+  const Thermostat kicks(settings.bath, settings.model.frequency_ratio, s.kicks, s.kick_count);
+  return {Tip(settings.model, settings.eta, s.tip, settings.contact_tolerance, kicks), t[1].cast<std::uint64_t>()};
 }
 
 }  // namespace
 
 void add_tip(py::module& m) {
-  const FreeState start = EmulatorSettings{}.initial;
+  const FreeState start = RunSettings{}.initial;
   py::class_<PyTip>(m, "Tip",
                     R"(One tip: where it is, what has happened to it, what happens next. Exact, impact by impact.
 
@@ -185,6 +196,8 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
           "Another heat bath from now on.")
       .def(
           "copy", [](const PyTip& self) { return self; }, "Another tip in the same state; copy.copy() does the same.")
+      .def("__copy__", [](const PyTip& self) { return self; })
+      .def("__deepcopy__", [](const PyTip& self, const py::object&) { return self; })
       .def(py::pickle(&pickled, &unpickled))
       .def_property_readonly(
           "now", [](const PyTip& self) { return to_python(self.tip.now()); }, "ModelTime")

@@ -3,7 +3,9 @@
 
 Usage: bits_test.py DATA PROGRAM...     (DATA: test/data; PROGRAM: the tools and examples that it is compared with)
 """
+import copy
 import csv
+import pickle
 import subprocess
 import sys
 import unittest
@@ -90,27 +92,27 @@ class Examples(Bits):
                    'normal_speed_m_per_s': impacts['normal_speed'] * units.velocity,
                    'tangential_velocity_m_per_s': impacts['tangential_velocity'] * units.velocity,
                    'energy_loss_j': impacts['energy_loss'] * units.energy}
-        self.assert_same(impacts, rows_of(output('example_impacts_to_csv')), **columns)
+        self.assert_same(impacts, rows_of(output('afm_example_impacts_to_csv')), **columns)
 
     def test_friction_of_a_warm_scene(self):
         units = afm.Units(rest_height_m=-0.02e-9, restitution_gamma=0.8)
-        emulator = afm.Emulator(units.model, 6.6e-6 / units.velocity, bath=units.bath(temperature_k=300, quality_factor=100))
+        run = afm.Run(units.model, 6.6e-6 / units.velocity, bath=units.bath(temperature_k=300, quality_factor=100))
         lines = []
         for i in range(100):
-            f = emulator.run().friction
+            f = run.advance().friction
             if i % 10 == 9:
                 lines.append('%6.0f tau: force %.6g N, K_f %.6g +- %.6g kg/s' % (
-                    emulator.now, f['mean_lateral_force'] * units.force, f['k_f_work'] * units.friction,
+                    run.now, f['mean_lateral_force'] * units.force, f['k_f_work'] * units.friction,
                     f['k_f_work_std_error'] * units.friction))
-        self.assertEqual(lines, output('example_warm_scene').splitlines())
+        self.assertEqual(lines, output('afm_example_warm_scene').splitlines())
 
 
 class Within(Bits):
     """The same motion by other calls."""
 
-    def test_samples_and_events_of_tip_and_emulator(self):
-        tip, emulator = afm.Tip(eta=3.1), afm.Emulator(eta=3.1, sample_period=0.07)
-        mine, run = tip.samples(0.07, 10000), emulator.run(700.0)
+    def test_samples_and_events_of_tip_and_run(self):
+        tip, batched = afm.Tip(eta=3.1), afm.Run(eta=3.1, sample_period=0.07)
+        mine, run = tip.samples(0.07, 10000), batched.advance(700.0)
         count = len(run.vertical)
         self.assertGreaterEqual(count, 9999)
         np.testing.assert_array_equal(mine.vertical[:count], run.vertical[:10000])
@@ -124,6 +126,35 @@ class Within(Bits):
         events = [parts.advance(0.37 * i) for i in range(1, 101)] + [parts.advance(afm.ModelTime(50, 0.25))]
         np.testing.assert_array_equal(whole.advance((50, 0.25)), np.concatenate(events))
         self.assertEqual(whole.state, parts.state)
+
+    def test_a_run_goes_on_as_one_made_from_its_snapshot(self):
+        run = afm.Run(afm.Model(cutoff=0.005), eta=0.05, bath=afm.Bath(0, 1e6), samples_per_batch=100)
+        phases = set()
+        for i in range(300):
+            run.apply(eta=0.05 + 0.001 * (i % 20), friction_window=100.0 + i)
+            run.advance(run.now.after(0.123))
+            snapshot = run.snapshot()
+            phases.add(snapshot['phase'])
+            for other in (afm.Run.from_snapshot(snapshot), pickle.loads(pickle.dumps(afm.Run.from_snapshot(snapshot))),
+                          copy.copy(run), run.copy()):
+                again, mine = other.advance(), run.copy().advance()
+                self.assertEqual((again.begin, again.end, again.holder), (mine.begin, mine.end, mine.holder))
+                for name in ('vertical', 'lateral', 'impacts'):
+                    np.testing.assert_array_equal(getattr(again, name), getattr(mine, name))
+                for name, figure in mine.friction.items():
+                    np.testing.assert_array_equal(again.friction[name], figure, name)
+        self.assertTrue(phases >= {0, 1, 2}, phases)
+
+    def test_to_a_time_and_by_batches_is_one_run(self):
+        whole, parts = afm.Run(), afm.Run()
+        long = whole.advance(100.0)
+        batches = []
+        while parts.now < (100, 0.0):
+            batches.append(parts.advance(100.0, impacts=7))
+            self.assertLessEqual(len(batches[-1].impacts), 7)
+        for name in ('vertical', 'lateral', 'impacts'):
+            np.testing.assert_array_equal(getattr(long, name), np.concatenate([getattr(b, name) for b in batches]))
+        self.assertEqual(long.friction['energy_loss'], batches[-1].friction['energy_loss'])
 
     def test_a_flight_of_a_tip_is_that_of_next_impact(self):
         tip = afm.Tip(contact_tolerance=0)

@@ -19,7 +19,7 @@ CALLS = {
     'lyapunov': 'afm.lyapunov(3.4, duration=1e10, most_events=10**12)',
     'advance': 'afm.Tip().advance(1e10, most_events=10**12)',
     'samples': 'afm.Tip(afm.Model(gamma=0.0), eta=1.0).samples(1e5, 10**7)',
-    'Emulator.run': 'afm.Emulator(sample_period=1000.0, samples_per_batch=1).run(1e10)',
+    'Run.advance': 'afm.Run(sample_period=1000.0, samples_per_batch=1).advance(1e10)',
 }
 PROGRAM = '''
 import threading, signal, afm

@@ -63,17 +63,6 @@ def levels(publisher, outputs):
     print("    %d of %d levels have the error of config/levels.csv; the new table is %s" % (same, len(new), path))
 
 
-def listener(publisher, outputs):
-    rows, rates = [], ""
-    for line in outputs[0][1].splitlines():
-        if "per cent of a core" not in line:
-            rates = line.strip() if re.match(r"\d+ [kM]Hz", line) else rates  # the emulator reports in between
-            continue
-        who, shares = line.split("per cent of a core:")
-        rows.append(dict([("rates", rates), ("listener", who.strip())] + [part.rsplit(" ", 1) for part in shares.strip().split(", ")]))
-    publisher.table("listener_cost.csv", rows)
-
-
 def recording(publisher, outputs):
     lines = [line for line in outputs[0][1].splitlines() if "MB resident" in line]
     found = re.search(r"([\d.]+) s, +(\d+) MB resident, per cent of a core: (.*)", lines[-1])

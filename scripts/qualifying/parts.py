@@ -71,8 +71,6 @@ PARTS = [
     part("scenes", "what each scene's level gives, and the pictures of the scenes",
          ["scripts/scene_levels --duration 500 --output SCRATCH/scene_levels.csv"],
          ["scripts/scene_levels --output SCRATCH/scene_levels.csv", "scripts/plot_scenes"], (1, 3), keep.files("scene_levels.csv")),
-    part("listener", "what samples cost that somebody wants", ["benchmark/listener_cost.py 1"], ["benchmark/listener_cost.py 5"],
-         (0.5, 2), keep.listener, optional=("benchmark/listener_cost.py",)),
     part("recording", "what a long recording costs", ["benchmark/record_throughput.py SCRATCH/bags 20"],
          ["benchmark/record_throughput.py SCRATCH/bags 600"], (0.5, 12), keep.recording, optional=("benchmark/record_throughput.py",)),
     part("loop_delay", "how long a controller waits for its command",

@@ -33,7 +33,7 @@ std::vector<ParameterError> find_faults(const Model& m) {
           "the surface amplitude must be between 1e-6 and 1 lattice spacings");
   require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
           "the holder must be at a finite height below the crest, or the tip hovers and never touches");
-  require(m.y0 >= kMinRestHeight, "y0", m.y0, "the holder must be at most 10 lattice spacings down");
+  require(m.y0 >= kMinRestHeight, "y0", m.y0, "the holder must be at most 100000 lattice spacings down");
   require(m.gamma >= 0.0 && m.gamma <= 1.0, "gamma", m.gamma, "the restitution must be between 0 and 1");
   require(m.v_c >= 0.0 && std::isfinite(m.v_c), "v_c", m.v_c, "the cutoff speed must be finite and not negative");
   require(!(m.v_c > 0.0) || m.v_c >= kMinCutoff, "v_c", m.v_c, "the cutoff speed must be 0 or at least 1e-9 a/tau");

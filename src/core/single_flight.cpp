@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "afm/detail/double_double.h"
-#include "afm/emulator.h"
+#include "afm/run.h"
 #include "afm/flight.h"
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
@@ -80,7 +80,7 @@ Landing<double> land(const Model& model, double eta, TipState start) {
 }  // namespace
 
 std::vector<ParameterError> find_faults(const FlightInput& input) {
-  EmulatorSettings settings;
+  RunSettings settings;
   settings.model = model_of(input);
   settings.eta = input.eta;
   // a phase that is no phase is reported, not used

@@ -1,192 +1,275 @@
 #include "emulator_node.h"
 
 #include <ros/console.h>
+#include <ros/master.h>
 #include <ros/this_node.h>
 #include <ros/transport_hints.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 
-#include "node/wire/topics.h"
+#include "afm/number_text.h"
+#include "node/publisher/topics.h"
+#include "node/recorder/paths.h"
 
 namespace afm::node {
 namespace {
 
-constexpr double kHandOverSeconds = 2.0;              // how far publishing may fall behind before stepping waits for it
-constexpr double kHandOverSecondsAtMost = 0.5;        // and at the highest sample rate, if it was raised to that
-constexpr std::size_t kMaxHandOverSamples = 2000000;  // 32 MB, if the batches themselves are not larger
-constexpr std::size_t kMinBatches = 4;
-constexpr std::size_t kMinHandOverImpacts = 200000;  // 11 MB: hundreds of batches of an ordinary run
-constexpr double kDiskLookSeconds = 1.0;
+constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
+constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
+constexpr double kMinBatches = 4.0;
+constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
+// A batch takes at most 1.5 s, and a step fails after 8 s.
+constexpr std::chrono::seconds kAnswerDeadline{12};
+constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
 
-std::size_t batches_in(double seconds, const Parameters& p) {
-  const double seconds_per_batch = std::chrono::duration<double>(batch_period(p)).count();
-  const auto wanted = static_cast<std::size_t>(seconds / seconds_per_batch);
-  return std::max(kMinBatches, std::min(wanted, kMaxHandOverSamples / samples_per_batch(p)));
+std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
+  const double bytes = static_cast<double>(largest.vertical.capacity() + largest.lateral.capacity()) * sizeof(double) +
+                       static_cast<double>(largest.impacts.capacity()) * sizeof(Impact);
+  const double wanted = kQueueSeconds / std::chrono::duration<double>(batch_period(p)).count();
+  return static_cast<std::size_t>(std::max(kMinBatches, std::min(wanted, kMaxQueueBytes / bytes)));
 }
 
-HandOver::Capacity hand_over_capacity(const Parameters& p) {
-  Parameters fastest = p;  // the sample rate may rise while running
-  fastest.sample_rate_hz = most_sample_rate(p);
-  const std::size_t samples = std::max(batches_in(kHandOverSeconds, p) * samples_per_batch(p),
-                                       batches_in(kHandOverSecondsAtMost, fastest) * samples_per_batch(fastest));
-  // batches that spend their budget come in rows
-  const std::size_t impacts = std::max<std::size_t>(kMinHandOverImpacts, 2 * p.impact_budget);
-  return {std::max(batches_in(kHandOverSeconds, p), batches_in(kHandOverSeconds, fastest)), samples, impacts};
-}
-
-Recorder::Settings recorder_settings(const ros::NodeHandle& node, const Parameters& p) {
-  const BagSeries::Topics topics{
-      make_bag_topic<afm_emulator::Configuration>(node.resolveName(kConfigurationTopic), true),
-      make_bag_topic<afm_emulator::Checkpoint>(node.resolveName(kCheckpointTopic), true),
-      make_bag_topic<afm_emulator::AppliedDrag>(node.resolveName(kAppliedDragTopic), true),
-      make_bag_topic<afm_emulator::AppliedParameters>(node.resolveName(kAppliedParametersTopic), true),
-      make_bag_topic<afm_emulator::Recording>(node.resolveName(kRecordingTopic), false)};
+Recorder::Settings recorder_settings(const Parameters& p) {
   const auto bytes = [](double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); };
-  BagSeries::Settings settings{topics, bytes(p.disk_reserve_mb), bytes(p.split_size_mb), p.split_duration_s,
-                               p.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed};
-  return {p.bag_directory, settings};
+  return {p.bag_directory, bytes(p.disk_reserve_mb), bytes(p.split_size_mb), p.split_duration_s,
+          p.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed};
+}
+
+std::string fault_of(const Answer& answer) {
+  switch (answer.result) {
+    case Answer::Result::done:
+      return {};
+    case Answer::Result::not_paused:
+      return "the emulator is running: pause it first";
+    case Answer::Result::not_lockstep:
+      return "the emulator keeps time by itself: start it with pace = lockstep";
+    case Answer::Result::shutting_down:
+      return "the emulator is shutting down";
+    case Answer::Result::time_ran_out:
+      break;
+  }
+  return "time ran out after " + std::to_string(answer.impacts) + " impacts, at the time given";
+}
+
+std::string find_step_fault(double tau, std::uint32_t impacts) {
+  std::ostringstream text;
+  if (!std::isfinite(tau) || tau < 0.0 || tau > kMaxStepTau) {
+    text << "tau = " << tau << ": must be between 0 and " << kMaxStepTau;
+  } else if (impacts > kMaxStepImpacts) {
+    text << "impacts = " << impacts << ": must be at most " << kMaxStepImpacts;
+  } else if ((tau > 0.0) == (impacts > 0)) {
+    text << "tau = " << tau << ", impacts = " << impacts << ": exactly one of them must be given, the other 0";
+  }
+  return text.str();
+}
+
+// The name of the node that publishes /clock already, or nothing.
+std::string find_clock_publisher() {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return {};
+  XmlRpc::XmlRpcValue& publishers = state[0];
+  for (int i = 0; i < publishers.size(); ++i) {
+    const std::string topic = publishers[i][0];
+    if (topic == kClockTopic && publishers[i][1].size() > 0) return publishers[i][1][0];
+  }
+  return {};
 }
 
 }  // namespace
 
 EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     : parameters_(parameters),
-      disk_(parameters.bag_directory),
-      recorder_(recorder_settings(node, parameters)),
-      hand_over_(hand_over_capacity(parameters)),
-      stepper_(parameters, hand_over_, demand_),
-      control_(stepper_) {
+      queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
+      runner_(parameters, queue_),
+      recorder_(recorder_settings(parameters), [this] { runner_.submit({Request::Kind::snapshot, 0.0, 0, {}, {}}); }) {
+  if (parameters.publish_clock) {
+    const std::string other = find_clock_publisher();
+    if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
+  }
   if (parameters.record) {
     const Recorder::Reply reply = recorder_.start("");
     if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
   }
-  disk_.measure();
-  reconfigure_.emplace(node, parameters, refusals_,
-                       [this](const LiveParameters& live) { return control_.change(live); });
-  broadcaster_.emplace(node, parameters,
-                       Broadcaster::Sources{hand_over_, recorder_, refusals_, disk_, demand_,
-                                            [this](const Answer& answer) { control_.deliver(answer); },
-                                            [this](const LiveParameters& live) { reconfigure_->applied(live); }});
-  stepper_.start();
-  broadcaster_->start(stepper_.scheduler());
+  free_bytes_ = free_bytes(parameters.bag_directory);
+  live_server_.emplace(node, parameters, refusals_, [this](const Live& live) {
+    return ask({Request::Kind::change, 0.0, 0, live, {}}).fault;
+  });
+  publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, free_bytes_, [this](const Live& live) {
+                                                            live_server_->applied(live);
+                                                          }});
+  runner_.start();
+  publisher_->start(runner_.scheduler());
   accept_commands(node);
-  watch_master();
-  if (parameters.bath.temperature_k > 0.0 && !emulator_settings(parameters).bath.is_on()) {
+  if (parameters.bath.temperature_k > 0.0 && !run_settings(parameters).bath.is_on()) {
     ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip",
              parameters.bath.temperature_k);
   }
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
            to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
-           static_cast<unsigned long>(samples_per_batch(parameters)), stepper_.scheduler().c_str());
+           static_cast<unsigned long>(samples_per_batch(parameters)), runner_.scheduler().c_str());
 }
 
 EmulatorNode::~EmulatorNode() {
-  master_watch_.reset();
-  control_.close();  // services that wait for an answer return, and can then be shut down
-  drag_velocity_.shutdown();
-  rest_height_.shutdown();
-  disk_look_.stop();
-  reconfigure_->shutdown();
+  closing_ = true;  // services that wait for an answer return, and can then be shut down
+  for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
+  disk_timer_.stop();
+  clients_timer_.stop();
   for (ros::ServiceServer& service : services_) service.shutdown();
-  stepper_.stop();
-  if (broadcaster_) broadcaster_->stop();
+  runner_.stop();
+  publisher_->stop();
 }
 
 void EmulatorNode::accept_commands(ros::NodeHandle& node) {
-  drag_velocity_ = node.subscribe(kDragVelocityTopic, kCommandQueueSize, &EmulatorNode::on_drag_velocity, this,
-                                  ros::TransportHints().tcpNoDelay());
-  rest_height_ = node.subscribe(kRestHeightTopic, kCommandQueueSize, &EmulatorNode::on_rest_height, this,
-                                ros::TransportHints().tcpNoDelay());
-  disk_look_ = node.createWallTimer(ros::WallDuration(kDiskLookSeconds), [this](const auto&) { disk_.measure(); });
-  services_.push_back(node.advertiseService(kPauseService, &EmulatorNode::on_pause, this));
-  services_.push_back(node.advertiseService(kResetService, &EmulatorNode::on_reset, this));
-  services_.push_back(node.advertiseService(kStepService, &EmulatorNode::on_step, this));
-  services_.push_back(node.advertiseService(kStartRecordingService, &EmulatorNode::on_start_recording, this));
-  services_.push_back(node.advertiseService(kStopRecordingService, &EmulatorNode::on_stop_recording, this));
-}
-
-void EmulatorNode::watch_master() {
-  const std::string name = ros::this_node::getName();
-  std::vector<std::string> names{name + "/get_loggers", name + "/set_logger_level"};  // roscpp's own
-  names.push_back(name + "/" + kSetParametersService);
-  for (const ros::ServiceServer& service : services_) names.push_back(service.getService());
-  master_watch_.emplace(std::move(names));
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  commands_ = {
+      node.subscribe(kDragVelocityTopic, kCommandQueueSize, &EmulatorNode::on_drag_velocity, this, hints),
+      node.subscribe(kRestHeightTopic, kCommandQueueSize, &EmulatorNode::on_rest_height, this, hints),
+      node.subscribe(kLoadTopic, kCommandQueueSize, &EmulatorNode::on_load, this, hints)};
+  services_ = {node.advertiseService(kPauseService, &EmulatorNode::on_pause, this),
+               node.advertiseService(kResetService, &EmulatorNode::on_reset, this),
+               node.advertiseService(kControlService, &EmulatorNode::on_control, this),
+               node.advertiseService(kStepService, &EmulatorNode::on_step, this),
+               node.advertiseService(kStartRecordingService, &EmulatorNode::on_start_recording, this),
+               node.advertiseService(kStopRecordingService, &EmulatorNode::on_stop_recording, this)};
+  disk_timer_ = node.createWallTimer(ros::WallDuration(kDiskPeriod), [this](const auto&) {
+    free_bytes_ = free_bytes(parameters_.bag_directory);  // may wait for the disk
+  });
+  clients_timer_ = node.createWallTimer(ros::WallDuration(kClientsPeriod),
+                                        [this](const auto&) { live_server_->update_clients(); });
 }
 
 void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
   const bool possible = std::abs(command.data) <= parameters_.max_drag_velocity;  // false for NaN
-  obey(Request::Kind::drag, "drag_velocity", "m/s", command.data,
-       possible ? "" : "must be finite and within max_drag_velocity");
+  submit_or_refuse({Request::Kind::drag, command.data, 0, {}, {}}, "drag_velocity", "m/s", command.data,
+                   possible ? "" : "must be finite and within max_drag_velocity");
 }
 
 void EmulatorNode::on_rest_height(const std_msgs::Float64& command) {
-  SiModel lifted = parameters_.si;
-  lifted.rest_height_m = command.data;
-  const auto faults = find_faults(lifted);
-  obey(Request::Kind::rest_height, "rest_height", "m", command.data, faults.empty() ? "" : faults.front().reason);
+  set_rest_height(Request::Kind::rest_height, "rest_height", "m", command.data, command.data);
+}
+
+void EmulatorNode::on_load(const std_msgs::Float64& command) {
+  const double stiffness = parameters_.si.tip_mass_kg * std::pow(parameters_.si.omega_v_rad_per_s, 2);
+  set_rest_height(Request::Kind::load, "load", "N", command.data, -command.data / stiffness);
+}
+
+void EmulatorNode::set_rest_height(Request::Kind kind, const char* name, const char* unit, double given,
+                                   double rest_height) {
+  SiModel si = parameters_.si;
+  si.rest_height_m = rest_height;
+  const auto faults = find_faults(si);
+  submit_or_refuse({kind, rest_height, 0, {}, {}}, name, unit, given, faults.empty() ? "" : faults.front().reason);
 }
 
 // `fault`: why not, or empty.
-void EmulatorNode::obey(Request::Kind kind, const char* name, const char* unit, double value,
-                        const std::string& fault) {
-  Request request;
-  request.kind = kind;
-  request.value = value;
-  if (fault.empty() && stepper_.submit(request)) return;
+void EmulatorNode::submit_or_refuse(const Request& request, const char* name, const char* unit, double given,
+                                    const std::string& fault) {
+  if (fault.empty() && runner_.submit(request)) return;
   std::ostringstream text;
-  text << name << " = " << value << ' ' << unit << ": " << (fault.empty() ? "too many commands are waiting" : fault);
+  text << name << " = " << given << ' ' << unit << ": " << (fault.empty() ? "too many commands are waiting" : fault);
   refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
   ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
 }
 
+EmulatorNode::Outcome EmulatorNode::ask(Request request) {
+  request.reply = std::make_shared<std::promise<Answer>>();
+  std::future<Answer> answer = request.reply->get_future();
+  if (!runner_.submit(request)) return {"too many requests are waiting", {}};
+  const auto give_up = std::chrono::steady_clock::now() + kAnswerDeadline;
+  while (answer.wait_for(kClosingPoll) != std::future_status::ready) {
+    if (closing_) return {"the emulator is shutting down", {}};
+    if (std::chrono::steady_clock::now() > give_up) {
+      return {"no answer from the running thread in time; it may still come to it", {}};
+    }
+  }
+  const Answer given = answer.get();
+  return {fault_of(given), given};
+}
+
 bool EmulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  const ControlReply reply = control_.pause(request.data != 0);
-  response.success = reply.success;
-  response.message = reply.message;
+  const bool paused = request.data != 0;
+  const Outcome outcome = ask({paused ? Request::Kind::pause : Request::Kind::resume, 0.0, 0, {}, {}});
+  response.success = outcome.fault.empty();
+  response.message = response.success ? (paused ? "paused" : "running") : outcome.fault;
   return true;
 }
 
 bool EmulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  const ControlReply reply = control_.reset();
-  response.success = reply.success;
-  response.message = reply.message;
+  const Outcome outcome = ask({Request::Kind::reset, 0.0, 0, {}, {}});
+  response.success = outcome.fault.empty();
+  response.message = response.success ? "model time 0, initial state, start parameters, new epoch" : outcome.fault;
   return true;
 }
 
 bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response) {
-  broadcaster_->look_for_listeners();  // one who has just come waits for this step
-  const ControlReply reply = control_.step(request.tau, request.impacts);
-  response.success = reply.success;
-  response.message = reply.message;
-  response.time = to_message(reply.time);
+  Outcome outcome{find_step_fault(request.tau, request.impacts), {}};
+  if (outcome.fault.empty()) {
+    const auto kind = request.impacts > 0 ? Request::Kind::step_impacts : Request::Kind::step_time;
+    outcome = ask({kind, request.tau, request.impacts, {}, {}});
+  }
+  response.success = outcome.fault.empty();
+  response.message = response.success ? (request.impacts > 0 ? "impact reached" : "time reached") : outcome.fault;
+  response.time = to_message(outcome.answer.time);
   return true;
 }
 
-// If nobody listened so far, no samples were taken: the recording begins behind the last batch that has none.
-Recorder::Reply EmulatorNode::start_recording(const std::string& name) {
-  broadcaster_->expect_recording(true);
-  const ControlReply ready = control_.catch_up();
-  Recorder::Reply reply{false, ready.message, ""};
-  if (ready.success) reply = recorder_.start(name);
-  broadcaster_->expect_recording(false);
-  if (reply.success) broadcaster_->request_digest();  // from which the first stretch can be checked
-  return reply;
+// Why a control period cannot be, or nothing.
+std::string EmulatorNode::find_fault(const afm_emulator::Control::Request& request) const {
+  const double most = kMaxStepTau * Units(parameters_.si).time();
+  SiModel si = parameters_.si;
+  if (!std::isnan(request.rest_height)) si.rest_height_m = request.rest_height;
+  if (!std::isnan(request.drag_velocity) && !(std::abs(request.drag_velocity) <= parameters_.max_drag_velocity)) {
+    return "drag_velocity = " + number_text(request.drag_velocity) + " m/s: must be within max_drag_velocity";
+  }
+  if (const auto faults = find_faults(si); !faults.empty()) {
+    return "rest_height = " + number_text(request.rest_height) + " m: " + faults.front().reason;
+  }
+  if (request.duration >= 0.0 && request.duration <= most) return {};
+  return "duration = " + number_text(request.duration) + " s: must be between 0 and " + number_text(most);
 }
 
+bool EmulatorNode::on_control(afm_emulator::Control::Request& request, afm_emulator::Control::Response& response) {
+  const Units units(parameters_.si);
+  Outcome outcome{find_fault(request), {}};
+  if (outcome.fault.empty()) {
+    Request period{Request::Kind::control, request.duration / units.time(), 0, {}, {}};
+    period.live.drag_velocity = request.drag_velocity;
+    period.live.rest_height_m = request.rest_height;
+    outcome = ask(period);
+  } else {
+    refusals_.add(Refusal::faulty_command, outcome.fault);
+  }
+  response = to_control(outcome.answer, parameters_.si);
+  response.success = outcome.fault.empty();
+  response.message = response.success ? "time reached" : outcome.fault;
+  return true;
+}
+
+// The recording begins with a snapshot that is taken for it.
 bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& request,
                                       afm_emulator::StartRecording::Response& response) {
-  const Recorder::Reply reply = start_recording(request.name);
+  const Recorder::Reply reply = recorder_.start(request.name);
   response.success = reply.success;
   response.message = reply.message;
   response.path = reply.path;
+  if (!reply.success) return true;
+  const Outcome begun = ask({Request::Kind::snapshot, 0.0, 0, {}, {}});
+  if (begun.fault.empty()) return true;
+  recorder_.stop();
+  response.success = false;
+  response.message = begun.fault;
   return true;
 }
 
+// All that was emulated until now belongs to it.
 bool EmulatorNode::on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  if (!recorder_.status().recording.empty()) broadcaster_->request_digest();  // the last stretch can be checked too
+  ask({Request::Kind::flush, 0.0, 0, {}, {}});
   const Recorder::Reply reply = recorder_.stop();
   response.success = reply.success;
   response.message = reply.message;

@@ -1,6 +1,7 @@
-// The node: wires between ROS and the threads that step, publish and record.
+// The node: wires between ROS and the threads that run, publish and record.
 #pragma once
 
+#include <afm_emulator/Control.h>
 #include <afm_emulator/StartRecording.h>
 #include <afm_emulator/Step.h>
 #include <ros/node_handle.h>
@@ -9,21 +10,18 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "node/wire/broadcaster.h"
-#include "control.h"
-#include "node/recording/disk_space.h"
-#include "node/stepping/hand_over.h"
-#include "node/wire/master_watch.h"
-#include "node/parameters/parameters.h"
-#include "node/parameters/reconfigure_server.h"
-#include "node/recording/recorder.h"
-#include "refusals.h"
-#include "node/stepping/sample_demand.h"
-#include "node/stepping/stepper.h"
+#include "live_server.h"
+#include "node/params/parameters.h"
+#include "node/publisher/publisher.h"
+#include "node/publisher/refusals.h"
+#include "node/recorder/recorder.h"
+#include "node/runner/batch_queue.h"
+#include "node/runner/runner.h"
 
 namespace afm::node {
 
@@ -34,33 +32,40 @@ class EmulatorNode {
   ~EmulatorNode();  // in order: no more commands, the last batch, all published, the bag closed
 
  private:
+  struct Outcome {
+    std::string fault;  // why not, or empty
+    Answer answer;
+  };
+
   void accept_commands(ros::NodeHandle& node);
-  void watch_master();
   void on_drag_velocity(const std_msgs::Float64& command);
   void on_rest_height(const std_msgs::Float64& command);
-  void obey(Request::Kind kind, const char* name, const char* unit, double value, const std::string& fault);
+  void on_load(const std_msgs::Float64& command);
+  void set_rest_height(Request::Kind kind, const char* name, const char* unit, double given, double rest_height);
+  void submit_or_refuse(const Request& request, const char* name, const char* unit, double given,
+                        const std::string& fault);
+  std::string find_fault(const afm_emulator::Control::Request& request) const;
+  Outcome ask(Request request);  // waits until it was done and published
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response);
-  Recorder::Reply start_recording(const std::string& name);
+  bool on_control(afm_emulator::Control::Request& request, afm_emulator::Control::Response& response);
   bool on_start_recording(afm_emulator::StartRecording::Request& request,
                           afm_emulator::StartRecording::Response& response);
   bool on_stop_recording(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   const Parameters parameters_;
   Refusals refusals_;
-  DiskSpace disk_;
+  std::atomic<std::int64_t> free_bytes_{-1};  // on the disk that is recorded to; negative: unknown
+  BatchQueue queue_;
+  Runner runner_;
   Recorder recorder_;
-  HandOver hand_over_;
-  SampleDemand demand_;
-  Stepper stepper_;
-  Control control_;
-  std::optional<ReconfigureServer> reconfigure_;  // these advertise, so they are made after all that can fail
-  std::optional<Broadcaster> broadcaster_;
-  ros::Subscriber drag_velocity_, rest_height_;
+  std::atomic<bool> closing_{false};
+  std::optional<LiveServer> live_server_;  // these advertise, so they are made after all that can fail
+  std::optional<Publisher> publisher_;
+  std::vector<ros::Subscriber> commands_;
   std::vector<ros::ServiceServer> services_;
-  ros::WallTimer disk_look_;
-  std::optional<MasterWatch> master_watch_;
+  ros::WallTimer disk_timer_, clients_timer_;
 };
 
 }  // namespace afm::node

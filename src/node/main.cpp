@@ -9,14 +9,14 @@
 #include <exception>
 
 #include "emulator_node.h"
-#include "node/stepping/semaphore.h"
+#include "node/runner/semaphore.h"
 
 namespace {
 
 // A step may hold one service for seconds: others, and commands, must come through meanwhile.
 constexpr unsigned kSpinnerThreads = 3;
 // How soon a shutdown by ROS (rosnode kill) is noticed.
-constexpr std::chrono::milliseconds kShutdownLook{100};
+constexpr std::chrono::milliseconds kShutdownPoll{100};
 constexpr int kLargeBuffer = 256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 
 std::atomic<bool> g_running{false}, g_stop{false};
@@ -38,7 +38,7 @@ void handle_signals() {
 }
 
 // One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
-// stepping thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts,
+// running thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts,
 // never come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
 void keep_memory_flat() {
   mallopt(M_ARENA_MAX, 1);
@@ -50,7 +50,7 @@ void run(const ros::NodeHandle& handle, const afm::node::Parameters& parameters)
   afm::node::EmulatorNode node(handle, parameters);
   spinner.start();
   g_running = true;
-  while (ros::ok() && !g_stop) g_signalled.wait_for(kShutdownLook);
+  while (ros::ok() && !g_stop) g_signalled.wait_for(kShutdownPoll);
 }
 
 }  // namespace

@@ -1,18 +1,31 @@
 // A topic of a recording as CSV, for any other program.
+#include <afm_emulator/Applied.h>
+#include <afm_emulator/Configuration.h>
+#include <afm_emulator/Deflection.h>
+#include <afm_emulator/Friction.h>
+#include <afm_emulator/ImpactArray.h>
+#include <afm_emulator/Snapshot.h>
+
+#include <functional>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "common/command_line.h"
-#include "tools/export/bag_table.h"
-#include "tools/replay/damage_guard.h"
+#include "common/table_writer.h"
+#include "node/publisher/messages.h"
+#include "tools/bags/recording.h"
 
 namespace {
 
-using afm::replay::Problem;
-using afm::replay::Recording;
-using afm::replay::Verdict;
+using afm::Column;
+using afm::TableWriter;
+using afm::bags::Problem;
+using afm::bags::Recording;
+using Q = afm::Quantity;
 
 const char kDescription[] =
     "Writes one topic of a recording as CSV to the standard output, in SI, 17 digits. The names of the columns tell\n"
@@ -22,22 +35,173 @@ const char kDescription[] =
     "              begun, 3 contact ended) and the count of bounces that it stands for\n"
     "  deflection  epoch, running index, time, vertical, lateral: a row for each sample\n"
     "  friction    the fields of afm_emulator/Friction, a row for each batch\n"
-    "  commands    a row for every moment at which commands took effect, and for the beginning of every epoch: all "
-    "that\n"
-    "              is in force from there on (nan: the recording does not tell)\n"
-    "A missing message shows as a gap in the running index; bag_check counts them.";
+    "  commands    a row for everything that took effect: all that is in force from there on\n"
+    "Lost messages show as gaps in the running index.";
 const char kExitCodes[] =
-    "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 foreign, 4 truncated, 5 missing,\n"
-    "6 reordered, 7 altered (as replay_check).";
+    "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag cannot\n"
+    "be read: stderr says what, and what there is is written.";
+
+constexpr int kIncomplete = 3;
+
+struct Target {
+  afm::TableUnits units;
+  double tau_s;
+
+  // The epoch and the time, and behind them what else the table holds.
+  TableWriter begin(const std::vector<Column>& rest, bool exact_time = true) const {
+    std::vector<Column> columns{{"epoch"}};
+    if (exact_time) columns.insert(columns.end(), {{"tau"}, {"phase"}, {"time", Q::time}});
+    columns.insert(columns.end(), rest.begin(), rest.end());
+    TableWriter table(std::cout, columns, units);
+    table.write_header();
+    return table;
+  }
+  double seconds(const afm_emulator::ModelTime& time) const {
+    return (static_cast<double>(time.tau) + time.phase) * tau_s;
+  }
+  void begin_row(TableWriter& table, std::uint32_t epoch, const afm_emulator::ModelTime& time) const {
+    table << epoch << time.tau << time.phase << seconds(time);
+  }
+};
+
+// take(message) for each that is held. Returns how many are lost between them.
+template <class Message, class Take>
+std::uint64_t for_each_message(const Recording& recording, const Take& take) {
+  std::uint64_t lost = 0;
+  if (!recording.holds<Message>()) throw Problem(recording.name() + ": holds no messages of this topic");
+  for (const auto messages = recording.read<Message>(); messages->get(); messages->next()) {
+    lost += messages->lost();
+    take(*messages->get());
+  }
+  return lost;
+}
+
+std::uint64_t write_impacts(const Recording& recording, const Target& to) {
+  TableWriter table = to.begin({{"index"},
+                                {"surface_phase"},
+                                {"normal_speed", Q::velocity},
+                                {"tangential_velocity", Q::velocity},
+                                {"energy_loss", Q::energy},
+                                {"kind"},
+                                {"count"}});
+  return for_each_message<afm_emulator::ImpactArray>(recording, [&](const auto& batch) {
+    std::uint64_t index = batch.first_index;
+    for (const afm_emulator::Impact& i : batch.impacts) {
+      to.begin_row(table, batch.epoch, i.time);
+      table << index++ << i.surface_phase << i.normal_speed << i.tangential_velocity << i.energy_loss
+            << unsigned{i.kind} << i.count;
+      table.end_row();
+    }
+  });
+}
+
+std::uint64_t write_deflection(const Recording& recording, const Target& to) {
+  TableWriter table = to.begin({{"index"}, {"time", Q::time}, {"vertical", Q::length}, {"lateral", Q::length}}, false);
+  return for_each_message<afm_emulator::Deflection>(recording, [&](const auto& batch) {
+    const double begin = to.seconds(batch.time);
+    for (std::size_t i = 0; i < batch.vertical.size() && i < batch.lateral.size(); ++i) {
+      table << batch.epoch << batch.first_sample + i << begin + static_cast<double>(i) * batch.sample_period
+            << batch.vertical[i] << batch.lateral[i];
+      table.end_row();
+    }
+  });
+}
+
+struct FrictionField {
+  Column column;
+  double afm_emulator::Friction::*value;
+};
+
+// Not those that are others in natural units.
+#define AFM_FIELD(name, quantity) {{#name, quantity}, &afm_emulator::Friction::name}
+const std::vector<FrictionField> kFrictionFields{
+    AFM_FIELD(drag_velocity, Q::velocity), AFM_FIELD(eta, Q::number), AFM_FIELD(force, Q::force),
+    AFM_FIELD(force_std_error, Q::force), AFM_FIELD(k_f, Q::friction), AFM_FIELD(k_f_std_error, Q::friction),
+    AFM_FIELD(energy_loss, Q::energy), AFM_FIELD(window_force, Q::force), AFM_FIELD(window_k_f, Q::friction),
+    AFM_FIELD(window_k_f_std_error, Q::friction), AFM_FIELD(mean_lateral_force, Q::force),
+    AFM_FIELD(mean_lateral_force_std_error, Q::force), AFM_FIELD(k_f_work, Q::friction),
+    AFM_FIELD(k_f_work_std_error, Q::friction), AFM_FIELD(heat_to_bath, Q::energy)};
+#undef AFM_FIELD
+
+std::uint64_t write_friction(const Recording& recording, const Target& to) {
+  std::vector<Column> columns{{"impact_count"}};
+  for (const FrictionField& field : kFrictionFields) columns.push_back(field.column);
+  TableWriter table = to.begin(columns);
+  return for_each_message<afm_emulator::Friction>(recording, [&](const auto& friction) {
+    to.begin_row(table, friction.epoch, friction.time);
+    table << friction.impact_count;
+    for (const FrictionField& field : kFrictionFields) table << friction.*field.value;
+    table.end_row();
+  });
+}
+
+std::uint64_t write_commands(const Recording& recording, const Target& to) {
+  TableWriter table = to.begin({{"drag_velocity", Q::velocity},
+                                {"restitution_gamma"},
+                                {"cutoff_speed", Q::velocity},
+                                {"rest_height", Q::length},
+                                {"sample_rate", Q::rate},
+                                {"friction_window_tau"},
+                                {"temperature", Q::temperature},
+                                {"quality_factor"},
+                                {"lateral_quality_factor"},
+                                {"kicks_per_tau"},
+                                {"model"},
+                                {"contact_tolerance"},
+                                {"first_impact"},
+                                {"number"},
+                                {"cause"}});
+  return for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
+    to.begin_row(table, applied.epoch, applied.time);
+    table << applied.drag_velocity;
+    for (const afm::node::LiveField& field : afm::node::kLiveFields) table << applied.*field.applied;
+    table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
+    table.end_row();
+  });
+}
+
+const std::map<std::string, std::function<std::uint64_t(const Recording&, const Target&)>> kTables{
+    {"impacts", write_impacts},
+    {"deflection", write_deflection},
+    {"friction", write_friction},
+    {"commands", write_commands}};
+
+// What its configurations and snapshots say; tables of runs in different units would mix.
+afm::Units units_of(const Recording& recording) {
+  std::optional<afm::Units> units;
+  const auto add = [&](const afm_emulator::Configuration& configuration) {
+    const afm::Units found(afm::node::to_parameters(configuration).si);
+    if (units && (units->length() != found.length() || units->time() != found.time() ||
+                  units->friction() != found.friction())) {
+      throw Problem(recording.name() + ": holds runs with different lattice spacings, frequencies or tip masses");
+    }
+    units = found;
+  };
+  if (recording.holds<afm_emulator::Configuration>()) {
+    for_each_message<afm_emulator::Configuration>(recording, add);
+  }
+  if (recording.holds<afm_emulator::Snapshot>()) {
+    for_each_message<afm_emulator::Snapshot>(recording, [&](const auto& s) { add(s.configuration); });
+  }
+  if (!units) throw Problem(recording.name() + ": holds neither a configuration nor a snapshot, which tell the units");
+  return *units;
+}
 
 // The bags must be the parts of one recording, as rows of two would mix.
-void write(const std::vector<std::string>& paths, const std::string& node, const std::string& topic, bool natural) {
-  const auto recordings = afm::replay::open_recordings(paths, node);
+int write(const std::vector<std::string>& paths, const std::string& node, const std::string& topic, bool natural) {
+  const auto recordings = afm::bags::open_recordings(paths, node);
   if (recordings.size() > 1) {
-    throw Problem(Verdict::usage, recordings.back().name() + ": does not go on where " + recordings.front().name() +
-                                      " ends: give the bags of one recording, in order");
+    throw std::invalid_argument(recordings[1].name() + " does not go on where " + recordings[0].name() +
+                                " ends: give the bags of one recording, in order, and --node where there are several");
   }
-  afm::write_bag_table(recordings.front(), topic, natural, std::cout);
+  const Recording& recording = recordings.front();
+  const afm::Units units = units_of(recording);
+  const Target to{natural ? afm::TableUnits::into_natural(units) : afm::TableUnits::si(), units.time()};
+  const std::uint64_t lost = kTables.at(topic)(recording, to);
+  if (lost == 0) return 0;
+  std::cout.flush();
+  std::cerr << "bag_to_csv: warning: " << lost << " messages of " << topic << " are missing\n";
+  return kIncomplete;
 }
 
 }  // namespace
@@ -55,22 +219,18 @@ int main(int argc, char** argv) {
   app.require("topic");
   app.flag("natural", natural, "in lattice spacings a, periods tau and tip masses m_tip instead of SI");
   app.option("node", node, "the emulator's name such as /afm, where a bag holds several");
-  afm::replay::guard_against_damage();
   return app.run(argc, argv, [&] {
-    if (!afm::is_bag_table(topic)) {
+    if (kTables.count(topic) == 0) {
       throw std::invalid_argument("topic = " + topic + ": must be impacts, deflection, friction or commands");
     }
     try {
-      write(paths, node, topic, natural);
-      return 0;
-    } catch (const Problem& problem) {
-      std::cout.flush();
-      std::cerr << "bag_to_csv: " << problem.what() << "\n";
-      return static_cast<int>(problem.verdict);
+      return write(paths, node, topic, natural);
+    } catch (const std::invalid_argument&) {
+      throw;
     } catch (const std::exception& error) {
       std::cout.flush();
-      std::cerr << "bag_to_csv: damaged or cut off: " << error.what() << "\n";
-      return static_cast<int>(Verdict::truncated);
+      std::cerr << "bag_to_csv: " << error.what() << "\n";
+      return kIncomplete;
     }
   });
 }

@@ -21,18 +21,18 @@ auto first_from(const std::deque<Item>& items, std::uint64_t index) {
 
 }  // namespace
 
-void Afterglow::look(const Heard& heard, const Strobe& strobe) {
-  if (heard.configuration().epoch != epoch_ || heard.now() < now_) clear();
-  epoch_ = heard.configuration().epoch;
-  now_ = heard.now();
+void Afterglow::look(const RunView& run, const Strobe& strobe) {
+  if (run.configuration().epoch != epoch_ || run.now() < now_) clear();
+  epoch_ = run.configuration().epoch;
+  now_ = run.now();
   ++picture_;
-  take_impacts(heard, strobe.too_fast());
-  take_positions(heard, strobe.too_fast());
+  take_impacts(run, strobe.too_fast());
+  take_positions(run, strobe.too_fast());
   forget();
 }
 
-void Afterglow::take_impacts(const Heard& heard, bool too_fast) {
-  const auto& events = heard.trace().events();
+void Afterglow::take_impacts(const RunView& run, bool too_fast) {
+  const auto& events = run.trace().events();
   const auto end = std::upper_bound(events.begin(), events.end(), now_,
                                     [](const ModelTime& t, const Event& e) { return t < e.impact.time; });
   auto begin = first_from(events, next_event_);
@@ -44,20 +44,20 @@ void Afterglow::take_impacts(const Heard& heard, bool too_fast) {
   if (begin >= end) return;
   next_event_ = std::prev(end)->index + 1;
   take_evenly(begin, end, too_fast ? kNewImpacts : kMostImpacts, [&](const Event& event) {
-    const Corner corner = heard.trace().place(event, heard.model(), heard.holder());
+    const Corner corner = run.trace().place(event, run.model(), run.holder());
     impacts_.push_back({corner, event.impact.energy_loss, event.impact.kind, picture_});
   });
 }
 
-void Afterglow::take_positions(const Heard& heard, bool wanted) {
-  const auto& samples = heard.trace().samples();
+void Afterglow::take_positions(const RunView& run, bool wanted) {
+  const auto& samples = run.trace().samples();
   const auto begin = first_from(samples, next_sample_);
   next_sample_ = samples.back().index + 1;
   if (!wanted) return positions_.clear();
   take_evenly(begin, samples.end(), kNewPositions, [&](const Sample& sample) {
-    const double x = heard.holder().position(sample.time).value_or(0.0) + sample.X;
-    const Corner corner{sample.time, x, heard.holder().height(sample.time) + sample.Y,
-                        heard.trace().in_contact(sample.time)};
+    const double x = run.holder().position(sample.time) + sample.X;
+    const Corner corner{sample.time, x, run.holder().height(sample.time) + sample.Y,
+                        run.trace().in_contact(sample.time)};
     positions_.push_back({corner, 0.0, ImpactKind::impact, picture_});
   });
 }

@@ -25,15 +25,15 @@ constexpr std::uint64_t kGlow = 30;                          // pictures: a seco
 class Afterglow {
  public:
   // Takes what is new and forgets what is old. Precondition: the holder knows its place.
-  void look(const Heard& heard, const Strobe& strobe);
+  void look(const RunView& run, const Strobe& strobe);
   void clear() { *this = Afterglow(); }
 
   const std::deque<Spot>& impacts() const { return impacts_; }
   const std::deque<Spot>& positions() const { return positions_; }  // none where the eye can follow
 
  private:
-  void take_impacts(const Heard& heard, bool too_fast);
-  void take_positions(const Heard& heard, bool wanted);
+  void take_impacts(const RunView& run, bool too_fast);
+  void take_positions(const RunView& run, bool wanted);
   void forget();
 
   std::uint64_t picture_ = 0, next_event_ = 0, next_sample_ = 0;

@@ -44,38 +44,34 @@ void clip(const Canvas& canvas, std::vector<Corner>& path) {
 
 }  // namespace
 
-visualization_msgs::MarkerArray Picture::draw(Heard& heard, ros::Time stamp) {
+visualization_msgs::MarkerArray Picture::draw(RunView& run, ros::Time stamp) {
   Canvas canvas(look_, stamp);
-  if (!heard.complete()) {
+  if (!run.complete()) {
     canvas.wipe();
-    canvas.add_text("time", "nothing heard of an emulator yet", point(0.0, 0.0, 0.5), 0.16);
+    canvas.add_text("time", "no messages from an emulator yet", point(0.0, 0.0, 0.5), 0.16);
     return canvas.finish();
   }
-  strobe_.look(heard);
-  canvas.set_origin(strobe_.origin() - cells_ahead(look_, heard.holder().eta(heard.now())));
-  if (heard.knows_place()) {
-    afterglow_.look(heard, strobe_);
-    draw_surface(canvas, heard.model());
-    draw_motion(canvas, heard);
-    draw_positions(canvas);
-    draw_impacts(canvas, heard.units());
-  } else {
-    canvas.wipe();
-  }
-  draw_length_scale(canvas, heard.units());
-  draw_key(canvas, heard.units());
-  draw_figures(canvas, heard, strobe_);
+  strobe_.look(run);
+  canvas.set_origin(strobe_.origin() - cells_ahead(look_, run.holder().eta(run.now())));
+  afterglow_.look(run, strobe_);
+  draw_surface(canvas, run.model());
+  draw_motion(canvas, run);
+  draw_positions(canvas);
+  draw_impacts(canvas, run.units());
+  draw_length_scale(canvas, run.units());
+  draw_key(canvas, run.units());
+  draw_figures(canvas, run, strobe_);
   return canvas.finish();
 }
 
-void Picture::draw_motion(Canvas& canvas, const Heard& heard) const {
+void Picture::draw_motion(Canvas& canvas, const RunView& run) const {
   const ModelTime& moment = strobe_.moment();
-  auto path = until(moment, heard.trace().path(moment + -kPathTau, heard.model(), heard.holder()));
+  auto path = until(moment, run.trace().path(moment + -kPathTau, run.model(), run.holder()));
   if (path.empty()) return;
   const Corner tip = path.back();
   clip(canvas, path);
   draw_path(canvas, path);
-  draw_spring(canvas, tip, heard.holder().position(moment).value_or(0.0), heard.holder().height(moment));
+  draw_spring(canvas, tip, run.holder().position(moment), run.holder().height(moment));
   draw_tip(canvas, tip);
 }
 

@@ -1,4 +1,4 @@
-// One picture after another, as markers, of what was heard of a run.
+// One picture after another, as markers, of a run.
 #pragma once
 
 #include "afterglow.h"
@@ -10,10 +10,10 @@ class Picture {
  public:
   explicit Picture(const Look& look) : look_(look) {}
 
-  visualization_msgs::MarkerArray draw(Heard& heard, ros::Time stamp);
+  visualization_msgs::MarkerArray draw(RunView& run, ros::Time stamp);
 
  private:
-  void draw_motion(Canvas& canvas, const Heard& heard) const;
+  void draw_motion(Canvas& canvas, const RunView& run) const;
   double drawn_x(const Canvas& canvas, const Spot& spot, std::size_t nth) const;
   void draw_positions(Canvas& canvas) const;
   void draw_impacts(Canvas& canvas, const Units& units) const;

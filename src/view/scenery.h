@@ -2,7 +2,7 @@
 #pragma once
 
 #include "canvas.h"
-#include "heard.h"
+#include "run_view.h"
 #include "strobe.h"
 
 namespace afm::view {
@@ -10,6 +10,6 @@ namespace afm::view {
 void draw_surface(Canvas& canvas, const Model& model);
 void draw_length_scale(Canvas& canvas, const Units& units);
 void draw_key(Canvas& canvas, const Units& units);
-void draw_figures(Canvas& canvas, const Heard& heard, const Strobe& strobe);
+void draw_figures(Canvas& canvas, const RunView& run, const Strobe& strobe);
 
 }  // namespace afm::view

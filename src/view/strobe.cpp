@@ -13,34 +13,34 @@ bool above(double value, bool was_above) { return value > (was_above ? kHysteres
 
 }  // namespace
 
-void Strobe::look(const Heard& heard) {
-  measure_pace(heard);
-  const double cells = pace_ * std::abs(heard.holder().eta(heard.now()));
+void Strobe::look(const RunView& run) {
+  measure_pace(run);
+  const double cells = pace_ * std::abs(run.holder().eta(run.now()));
   frozen_ = above(cells, frozen_);
   too_fast_ = above(pace_, too_fast_) || frozen_;
-  choose_moment(heard);
+  choose_moment(run);
 }
 
-void Strobe::measure_pace(const Heard& heard) {
-  const double advance = heard.now() - last_;
+void Strobe::measure_pace(const RunView& run) {
+  const double advance = run.now() - last_;
   if (!begun_ || advance < 0.0) {
-    const auto& configuration = heard.configuration();
-    pace_ = configuration.time_scale / (kPictureRate * heard.units().time());
+    const auto& configuration = run.configuration();
+    pace_ = configuration.time_scale / (kPictureRate * run.units().time());
   } else {
     pace_ += kSmoothing * (advance - pace_);
   }
   begun_ = true;
-  last_ = heard.now();
+  last_ = run.now();
 }
 
-void Strobe::choose_moment(const Heard& heard) {
-  moment_ = heard.now();
-  origin_ = heard.holder().position(moment_).value_or(0.0);
+void Strobe::choose_moment(const RunView& run) {
+  moment_ = run.now();
+  origin_ = run.holder().position(moment_);
   if (!frozen_) return;
-  const double eta = heard.holder().eta(moment_);
+  const double eta = run.holder().eta(moment_);
   const double crest = eta > 0.0 ? std::floor(origin_) : std::ceil(origin_);
   const ModelTime passed = moment_ + (crest - origin_) / eta;
-  const bool known = heard.trace().samples().front().time < passed && heard.holder().last_change(moment_) <= passed;
+  const bool known = run.trace().samples().front().time < passed && run.holder().last_change(moment_) <= passed;
   if (known) moment_ = passed;
   origin_ = known ? crest : std::round(origin_);
 }

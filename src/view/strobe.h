@@ -4,14 +4,14 @@
 // last over a crest: the surface stands still, a periodic orbit does too, and a chaotic one is a cloud.
 #pragma once
 
-#include "heard.h"
+#include "run_view.h"
 
 namespace afm::view {
 
 class Strobe {
  public:
-  // Of every picture once, before the questions below. Precondition: heard is complete.
-  void look(const Heard& heard);
+  // Of every picture once, before the questions below. Precondition: the run is complete.
+  void look(const RunView& run);
 
   bool frozen() const { return frozen_; }       // the surface stands still
   bool too_fast() const { return too_fast_; }   // a picture shows a part of the motion only
@@ -20,8 +20,8 @@ class Strobe {
   double origin() const { return origin_; }
 
  private:
-  void measure_pace(const Heard& heard);
-  void choose_moment(const Heard& heard);
+  void measure_pace(const RunView& run);
+  void choose_moment(const RunView& run);
 
   ModelTime last_, moment_;
   double pace_ = 0.0;  // tau a picture

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "afm/surface.h"
-#include "node/wire/message_conversion.h"
+#include "node/publisher/messages.h"
 
 namespace afm::view {
 namespace {
@@ -71,7 +71,7 @@ Corner Trace::place(const Event& event, const Model& model, const Holder& holder
   const Impact& impact = event.impact;
   const auto after = std::upper_bound(samples_.begin(), samples_.end(), impact.time, before_sample);
   const double X = after == samples_.begin() ? 0.0 : std::prev(after)->X;
-  const double cells = std::round(holder.position(impact.time).value_or(0.0) + X - impact.surface_phase);
+  const double cells = std::round(holder.position(impact.time) + X - impact.surface_phase);
   return {impact.time, cells + impact.surface_phase, surface_jet(model.H, impact.surface_phase).h, event.contact};
 }
 
@@ -85,7 +85,7 @@ std::vector<Corner> Trace::path(const ModelTime& from, const Model& model, const
       corners.push_back(place(*event, model, holder));
     }
     const bool contact = event == events_.begin() ? contact_before_ : std::prev(event)->contact;
-    const double centre = holder.position(sample->time).value_or(0.0);
+    const double centre = holder.position(sample->time);
     corners.push_back({sample->time, centre + sample->X, holder.height(sample->time) + sample->Y, contact});
   }
   return corners;

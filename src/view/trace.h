@@ -1,4 +1,4 @@
-// What was heard of the tip's way: its latest samples and what happened between them, in natural units.
+// The tip's way: its latest samples and what happened between them, in natural units.
 #pragma once
 
 #include <afm_emulator/Deflection.h>
@@ -44,7 +44,7 @@ class Trace {
   void add(const afm_emulator::ImpactArray& message, const Units& units);
 
   // Samples and events belong to one epoch, which is the one given.
-  bool tells_of(std::uint32_t epoch) const {
+  bool has_epoch(std::uint32_t epoch) const {
     return !samples_.empty() && samples_epoch_ == epoch && events_epoch_ == epoch;
   }
   const std::deque<Sample>& samples() const { return samples_; }
@@ -66,9 +66,5 @@ class Trace {
   std::deque<Sample> samples_;
   std::deque<Event> events_;
 };
-
-// Tells the holder where it is, from the latest impact before which the tip flew freely over two samples: the springs
-// carry those two to the impact, whose surface phase is known.
-void locate(const Trace& trace, const Model& model, Holder& holder);
 
 }  // namespace afm::view

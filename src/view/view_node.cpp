@@ -6,17 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "node/wire/topics.h"
+#include "node/publisher/topics.h"
 #include "picture.h"
 
 namespace {
 
 using namespace afm;
-using afm::view::Heard;
+using afm::view::RunView;
+
+constexpr unsigned kBatchesKept = 1000;  // a step in slow motion makes hundreds at once, and a gap would cut the path off
 
 template <class Message>
-ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned queue_size, Heard& heard) {
-  const boost::function<void(const Message&)> take = [&heard](const Message& message) { heard.take(message); };
+ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned queue_size, RunView& run) {
+  const boost::function<void(const Message&)> take = [&run](const Message& message) { run.take(message); };
   return emulator.subscribe<Message>(topic, queue_size, take, {}, ros::TransportHints().tcpNoDelay());
 }
 
@@ -26,19 +28,16 @@ class Looking {
   Looking(ros::NodeHandle& emulator, const view::Look& look)
       : picture_(look),
         subscribers_{
-            subscribe<afm_emulator::Configuration>(emulator, node::kConfigurationTopic, node::kConfigurationQueueSize,
-                                                   heard_),
-            subscribe<afm_emulator::AppliedDrag>(emulator, node::kAppliedDragTopic, node::kCommandQueueSize, heard_),
-            subscribe<afm_emulator::AppliedParameters>(emulator, node::kAppliedParametersTopic,
-                                                       node::kCommandQueueSize, heard_),
-            subscribe<afm_emulator::Deflection>(emulator, node::kDeflectionTopic, node::kBatchQueueSize, heard_),
-            subscribe<afm_emulator::ImpactArray>(emulator, node::kImpactsTopic, node::kBatchQueueSize, heard_),
-            subscribe<afm_emulator::Friction>(emulator, node::kFrictionTopic, node::kBatchQueueSize, heard_)} {}
+            subscribe<afm_emulator::Configuration>(emulator, node::kConfigurationTopic, node::kLatchedQueueSize, run_),
+            subscribe<afm_emulator::Applied>(emulator, node::kAppliedTopic, node::kCommandQueueSize, run_),
+            subscribe<afm_emulator::Deflection>(emulator, node::kDeflectionTopic, kBatchesKept, run_),
+            subscribe<afm_emulator::ImpactArray>(emulator, node::kImpactsTopic, kBatchesKept, run_),
+            subscribe<afm_emulator::Friction>(emulator, node::kFrictionTopic, kBatchesKept, run_)} {}
 
-  visualization_msgs::MarkerArray draw() { return picture_.draw(heard_, ros::Time(ros::WallTime::now().toSec())); }
+  visualization_msgs::MarkerArray draw() { return picture_.draw(run_, ros::Time(ros::WallTime::now().toSec())); }
 
  private:
-  Heard heard_;
+  RunView run_;
   view::Picture picture_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -13,9 +13,9 @@ fi
 
 # grep: 0 found, 1 not found, 2 could not look
 found=0
-grep -rnE "$ros_include" include src/core test/core test/support --include='*.h' --include='*.cpp' || found=$?
+grep -rnE "$ros_include" include/afm src/core test/core test/support --include='*.h' --include='*.cpp' || found=$?
 case $found in
   0) echo "ROS includes in the core (listed above)"; exit 1 ;;
-  1) echo "no ROS include in include/, src/core, test/core" ;;
+  1) echo "no ROS include in include/afm, src/core, test/core" ;;
   *) exit "$found" ;;
 esac

@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "afm/emulator.h"
+#include "afm/run.h"
 #include "afm/ensemble.h"
-#include "node/wire/digest.h"
+#include "core/run/digest.h"
+#include "support/commands.h"
 
 namespace {
 
 using afm::Batch;
-using afm::Emulator;
-using afm::EmulatorSettings;
+using afm::Digest;
 using afm::ModelKind;
-using afm::node::Digest;
+using afm::Run;
+using afm::RunSettings;
 
 void add(const afm::Impact& impact, Digest& digest) {
   digest.add(static_cast<std::uint64_t>(impact.time.tau));
@@ -42,20 +43,20 @@ void add(const Batch& batch, Digest& digest) {
 }
 
 // Commands and steps on and off the batch boundaries.
-void run(Emulator& emulator, double eta, Digest& digest) {
+void follow(Run& run, double eta, Digest& digest) {
   Batch batch;
   const auto taken = [&] { add(batch, digest); };
-  for (int i = 0; i < 40; ++i, taken()) emulator.run_batch(batch);
-  emulator.drag(-0.7 * eta);
-  for (int i = 0; i < 10; ++i, taken()) emulator.run_batch(batch);
-  emulator.run_until(emulator.now() + 1.3, batch);
+  for (int i = 0; i < 40; ++i, taken()) run.advance(batch);
+  drag(run, -0.7 * eta);
+  for (int i = 0; i < 10; ++i, taken()) run.advance(batch);
+  advance_to(run.now() + 1.3, run, batch);
   taken();
-  emulator.drag(eta + 0.1);
-  emulator.run_impacts(5, batch);
+  drag(run, eta + 0.1);
+  advance_impacts(5, run, batch);
   taken();
-  for (int i = 0; i < 10; ++i, taken()) emulator.run_batch(batch);
-  emulator.drag(0.0);
-  for (int i = 0; i < 5; ++i, taken()) emulator.run_batch(batch);
+  for (int i = 0; i < 10; ++i, taken()) run.advance(batch);
+  drag(run, 0.0);
+  for (int i = 0; i < 5; ++i, taken()) run.advance(batch);
 }
 
 std::vector<std::string> parts;
@@ -70,16 +71,16 @@ void print_run(double eta, double cutoff, double contact_tolerance, ModelKind ki
   std::snprintf(name, sizeof name, "%seta %g cutoff %g contact_tolerance %g",
                 kind == ModelKind::hammer ? "hammer, " : "", eta, cutoff, contact_tolerance);
   if (!wanted(name)) return;
-  EmulatorSettings settings;
+  RunSettings settings;
   settings.model.kind = kind;
   settings.eta = eta;
   settings.model.v_c = cutoff;
   settings.initial.u = eta;
   settings.samples_per_batch = 1000;
   settings.contact_tolerance = contact_tolerance;
-  Emulator emulator(settings);
+  Run run(settings);
   Digest digest;
-  run(emulator, eta, digest);
+  follow(run, eta, digest);
   std::printf("%s: %s\n", name, to_text(digest).c_str());
 }
 
@@ -88,15 +89,15 @@ void print_bath(double eta, double temperature, double quality_factor, ModelKind
   std::snprintf(name, sizeof name, "bath: %s, eta %g temperature %g quality_factor %g", afm::name(kind), eta,
                 temperature, quality_factor);
   if (!wanted(name)) return;
-  EmulatorSettings settings;
+  RunSettings settings;
   settings.model.kind = kind;
   settings.eta = settings.initial.u = eta;
   settings.samples_per_batch = 1000;
   settings.bath.temperature = temperature;
   settings.bath.quality_factor = quality_factor;
-  Emulator emulator(settings);
+  Run run(settings);
   Digest digest;
-  run(emulator, eta, digest);
+  follow(run, eta, digest);
   std::printf("%s: %s\n", name, to_text(digest).c_str());
 }
 
@@ -104,11 +105,11 @@ void print_bath(double eta, double temperature, double quality_factor, ModelKind
 void print_segments(double eta, double cutoff, ModelKind kind) {
   const std::string name = "segments of the " + std::string(afm::name(kind));
   if (!wanted(name)) return;
-  EmulatorSettings settings;
+  RunSettings settings;
   settings.model.kind = kind;
   settings.model.v_c = cutoff;
   settings.eta = settings.initial.u = eta;
-  Emulator emulator(settings);
+  Run run(settings);
   afm::Tip tip(settings.model, eta, settings.initial);
   afm::Segments ended;
   Batch batch;
@@ -120,7 +121,7 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
     }
   }
   for (int i = 0; i < 20; ++i) {
-    emulator.run_batch(batch);
+    run.advance(batch);
     digest.add(batch.friction.mean_lateral_force);
     digest.add(batch.friction.mean_lateral_force_std_error);
   }

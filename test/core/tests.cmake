@@ -18,14 +18,14 @@ set(core_tests
   contact/contact_energy
   contact/slide
   contact/slide_release
-  emulator/batch_means
-  emulator/emulator
-  emulator/emulator_limits
-  emulator/ensemble
-  emulator/friction
-  emulator/live_changes
-  emulator/pacer
-  emulator/saved_state
+  run/batch_means
+  run/run
+  run/run_limits
+  run/snapshot
+  run/ensemble
+  run/friction
+  run/live_changes
+  run/pacer
   levels/level_table
   model
   number_text

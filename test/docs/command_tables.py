@@ -37,7 +37,6 @@ SUBSTITUTIONS = [
     (r'(scripts/plot_scenes)', r'\1 glide'),
     (r'(scripts/scene_levels)', r'\1 --duration 500'),
     (r'(record_throughput\.py \S+) 600', r'\1 3'),
-    (r'(listener_cost\.py)', r'\1 1'),
     (r'(loop_delay\.py)', r'\1 --commands 30 --output loop_delay.csv'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
@@ -59,9 +58,7 @@ NOT_RUN = [
     (r'^podman', 'needs a container engine'),
     (r'right_address:=', 'needs a second machine'),
     (r'^(rqt_plot|rosrun rqt_\w+) ', 'opens a window'),
-    (r'^npm install', 'fetches a package'),
     (r'^python3 -m venv', 'builds for minutes; the test python_pip does it in short'),
-    (r'running_digests\.js', 'needs a package that no test fetches; the test javascript_reader runs it where it is installed'),
 ]
 
 # programs that are built only where the machine has what they need

@@ -1,7 +1,7 @@
 // Any tree of values on the parameter server: every fault is reported, and what has none can be run.
-#include "afm/emulator.h"
+#include "afm/run.h"
 #include "bytes.h"
-#include "node/parameters/parameters.h"
+#include "node/params/parameters.h"
 #include "target.h"
 
 namespace {
@@ -45,12 +45,20 @@ const char* const kNames[] = {"omega_v_rad_per_s",
                               "kicks_per_tau",
                               "seed",
                               "tolerance",
-                              "command_timeout_s",
-                              "checkpoint_interval_s"};
+                              "tolerance_of",
+                              "level_table",
+                              "pace",
+                              "wait_for",
+                              "command_wait_s",
+                              "publish_clock",
+                              "commands_eta",
+                              "commands_hold_s",
+                              "paused",
+                              "command_timeout_s"};
 
 std::string text_of(Bytes& bytes) {
-  const char* const known[] = {"oscillator", "hammer", "none", "lz4", "", "1e-4"};
-  return bytes.below(2) == 0 ? known[bytes.below(6)] : bytes.text(40);
+  const char* const known[] = {"oscillator", "hammer", "none", "lz4", "lockstep", "command", "deflection", "", "1e-4"};
+  return bytes.below(2) == 0 ? known[bytes.below(9)] : bytes.text(40);
 }
 
 Value value_of(Bytes& bytes, int depth) {
@@ -95,14 +103,14 @@ void check_runs(const afm::node::Parameters& parameters) {
   require(samples >= 1 && samples <= 1000000, "a batch of " + std::to_string(samples) + " samples");
   const double period = std::chrono::duration<double>(afm::node::batch_period(parameters)).count();
   require(period > 0.0 && period <= 1.001, "a batch every " + std::to_string(period) + " s");
-  afm::EmulatorSettings settings = afm::node::emulator_settings(parameters);
+  afm::RunSettings settings = afm::node::run_settings(parameters);
   require(afm::find_faults(settings).empty(), "the core refuses what the node took");
   settings.impact_budget = 20;
   settings.samples_per_batch = std::min<std::uint64_t>(settings.samples_per_batch, 100);
   settings.sample_period = std::min(settings.sample_period, 0.1);
-  afm::Emulator emulator(settings);
+  afm::Run run(settings);
   afm::Batch batch;
-  emulator.run_batch(batch);
+  run.advance(batch);
   require(afm::ModelTime{} <= batch.end && std::isfinite(batch.end.phase), "model time does not move on");
 }
 

@@ -6,18 +6,11 @@ import rosbag
 from topics import NAMESPACE, TOPICS, Topic
 
 
+BEGINNING = ('configuration', 'applied', 'snapshot')  # of every bag
+
+
 def info_exit_code(path):
     return subprocess.run(['rosbag', 'info', path], stdout=subprocess.DEVNULL).returncode
-
-
-def is_mark(topic):
-    """Of the recorder, which stands in bags alone."""
-    return topic == NAMESPACE + '/recording'
-
-
-def marks(path):
-    with rosbag.Bag(path) as bag:
-        return [message for _, message, _ in bag.read_messages(topics=[NAMESPACE + '/recording'])]
 
 
 def short(topic):
@@ -29,8 +22,7 @@ def read(path):
     messages = {name: [] for name in TOPICS}
     with rosbag.Bag(path) as bag:
         for topic, message, _ in bag.read_messages():
-            if not is_mark(topic):
-                messages[short(topic)].append(message)
+            messages[short(topic)].append(message)
     return messages
 
 
@@ -39,8 +31,7 @@ def read_raw(path):
     messages = {name: [] for name in TOPICS}
     with rosbag.Bag(path) as bag:
         for topic, (_, data, _, _, _), _ in bag.read_messages(raw=True):
-            if not is_mark(topic):
-                messages[short(topic)].append(data)
+            messages[short(topic)].append(data)
     return messages
 
 
@@ -65,5 +56,5 @@ def assert_sound(test, path):
     test.assertEqual(info_exit_code(path), 0)
     messages = read(path)
     assert_no_gaps(test, messages)
-    test.assertTrue(messages['configuration'] and messages['applied_drag'])
+    test.assertTrue(messages['configuration'] and messages['applied'])
     return messages

@@ -1,5 +1,5 @@
 // Every level of every diagnosis, with its reason, from the state that leads to it.
-#include "node/wire/diagnosis.h"
+#include "node/publisher/diagnosis.h"
 
 #include <gtest/gtest.h>
 
@@ -85,48 +85,48 @@ TEST(DiagnoseRecording, TellsOfTheDisk) {
 
 class HealthTracking : public testing::Test {
  protected:
-  Health look(std::chrono::seconds at) {
-    return tracker_.look({status_, stepper_, recorder_, refusals_, 5000000}, start_ + at);
+  Health update(std::chrono::seconds at) {
+    return tracker_.update({status_, runner_, recorder_, refusals_, 5000000}, start_ + at);
   }
 
   HealthTracker tracker_{1.0, 0.0, 16.0};
   afm_emulator::EmulatorStatus status_;
-  StepperState stepper_;
+  RunnerState runner_;
   Recorder::Status recorder_;
   Refusals refusals_;
   const RecentRise::Time start_ = std::chrono::steady_clock::now();
 };
 
-TEST_F(HealthTracking, CountsLateBatchesFromLookToLook) {
-  stepper_.batches = 100;
-  stepper_.late_batches = 50;
-  EXPECT_EQ(look(std::chrono::seconds(1)).late_share, 0.5);
-  stepper_.batches = 200;
-  EXPECT_EQ(look(std::chrono::seconds(2)).late_share, 0.0);
-  EXPECT_EQ(look(std::chrono::seconds(3)).late_share, 0.0);  // paused
+TEST_F(HealthTracking, CountsLateBatchesFromCheckToCheck) {
+  runner_.batches = 100;
+  runner_.late_batches = 50;
+  EXPECT_EQ(update(std::chrono::seconds(1)).late_share, 0.5);
+  runner_.batches = 200;
+  EXPECT_EQ(update(std::chrono::seconds(2)).late_share, 0.0);
+  EXPECT_EQ(update(std::chrono::seconds(3)).late_share, 0.0);  // paused
 }
 
 TEST_F(HealthTracking, ForgetsWhatIsLongPast) {
-  stepper_.counters.budget_exhausted = 3;
-  stepper_.dropped_batches = 1;
-  EXPECT_TRUE(look(std::chrono::seconds(1)).budget_spent);
-  EXPECT_TRUE(look(std::chrono::seconds(10)).lost_batch);
-  EXPECT_FALSE(look(std::chrono::seconds(12)).budget_spent);
-  EXPECT_FALSE(look(std::chrono::seconds(12)).lost_batch);
-  stepper_.counters.budget_exhausted = 0;  // after a reset
-  EXPECT_FALSE(look(std::chrono::seconds(13)).budget_spent);
-  stepper_.counters.budget_exhausted = 1;
-  EXPECT_TRUE(look(std::chrono::seconds(14)).budget_spent);
+  runner_.counters.budget_exhausted = 3;
+  runner_.dropped_batches = 1;
+  EXPECT_TRUE(update(std::chrono::seconds(1)).budget_spent);
+  EXPECT_TRUE(update(std::chrono::seconds(10)).lost_batch);
+  EXPECT_FALSE(update(std::chrono::seconds(12)).budget_spent);
+  EXPECT_FALSE(update(std::chrono::seconds(12)).lost_batch);
+  runner_.counters.budget_exhausted = 0;  // after a reset
+  EXPECT_FALSE(update(std::chrono::seconds(13)).budget_spent);
+  runner_.counters.budget_exhausted = 1;
+  EXPECT_TRUE(update(std::chrono::seconds(14)).budget_spent);
 }
 
 TEST_F(HealthTracking, KeepsTheLatestRefusal) {
   refusals_.add(Refusal::faulty_command, "a");
   refusals_.add(Refusal::overload, "b");
-  Health health = look(std::chrono::seconds(1));
+  Health health = update(std::chrono::seconds(1));
   EXPECT_EQ(health.refusal, "b");
   EXPECT_TRUE(health.overload);
   EXPECT_EQ(refusals_.commands(), 2u);
-  health = look(std::chrono::seconds(60));
+  health = update(std::chrono::seconds(60));
   EXPECT_EQ(health.refusal, "");
   EXPECT_FALSE(health.overload);
   EXPECT_EQ(health.free_mb, 5.0);

@@ -9,8 +9,6 @@ import time
 import rospy
 from afm_emulator.srv import StartRecording
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from dynamic_reconfigure.msg import Config, DoubleParameter
-from dynamic_reconfigure.srv import Reconfigure
 from std_msgs.msg import Float64
 
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
@@ -58,9 +56,8 @@ class Diagnostics(NodeTest):
         self.expect('commands', WARN, 'no command for 2 s')
         self.emulator.drag(math.nan)
         self.assertEqual(self.expect('commands', WARN, 'drag_velocity = nan m/s: must be finite')['refused drag commands'], '1')
-        self.emulator.call('set_parameters', Reconfigure,
-                           config=Config(doubles=[DoubleParameter('restitution_gamma', 2.0)]))
-        reported = self.expect('commands', WARN, 'restitution_gamma = 2: ')
+        self.emulator.set(rest_height_m=6e-11)
+        reported = self.expect('commands', WARN, 'rest_height_m = 6e-11: ')
         self.assertEqual(reported['refused changes of parameters'], '1')
         self.end()
 

@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import unittest
 import xmlrpc.client
@@ -11,9 +12,13 @@ import xmlrpc.client
 import roslib.packages
 import rospy
 import rostest
+from afm_emulator.srv import Step
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
 
-from topics import NAMESPACE, PATIENCE, Topic, wait_until
+from topics import NAMESPACE, PATIENCE, TOPICS, Topic, key, wait_until
 
 PACKAGE = 'afm_emulator'
 
@@ -77,16 +82,27 @@ class Emulator(Process):
         set_parameters(parameters or {})
         binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
         super().__init__([binary, '__name:=' + NAMESPACE[1:]], env=dict(os.environ, **environment))
-        self.drag_publisher = rospy.Publisher(NAMESPACE + '/drag_velocity', Float64, queue_size=1000, tcp_nodelay=True)
+        self.publishers = {}
 
     def call(self, service, kind, **request):
         name = NAMESPACE + '/' + service
         rospy.wait_for_service(name, timeout=10.0)
         return rospy.ServiceProxy(name, kind)(**request)
 
+    def publisher(self, name):
+        if name not in self.publishers:
+            self.publishers[name] = rospy.Publisher(NAMESPACE + '/' + name, Float64, queue_size=1000, tcp_nodelay=True)
+        wait_until(lambda: self.publishers[name].get_num_connections() > 0, 'the emulator listens to ' + name)
+        return self.publishers[name]
+
     def drag(self, velocity):
-        wait_until(lambda: self.drag_publisher.get_num_connections() > 0, 'the emulator listens to drag_velocity')
-        self.drag_publisher.publish(velocity)
+        self.publisher('drag_velocity').publish(velocity)
+
+    def set(self, **wanted):
+        """Live parameters, as a client of dynamic_reconfigure does; returns those in force after that."""
+        config = Config(doubles=[DoubleParameter(name, value) for name, value in wanted.items()])
+        answer = self.call('set_parameters', Reconfigure, config=config)
+        return {value.name: value.value for value in answer.config.doubles}
 
     def assert_alive(self):
         status = Topic('status')
@@ -103,17 +119,20 @@ def set_parameters(parameters):
         rospy.set_param(NAMESPACE, parameters)
 
 
-def pid_of_node():
-    """Of the node of that name that the master knows."""
-    _, _, uri = rospy.get_master().lookupNode(NAMESPACE)
-    return xmlrpc.client.ServerProxy(uri).getPid('test')[2]
+def pid_of_node(name=NAMESPACE):
+    """Of the node of that name that the master knows; None if it does not answer."""
+    _, _, uri = rospy.get_master().lookupNode(name)
+    try:
+        return xmlrpc.client.ServerProxy(uri).getPid('test')[2]
+    except (OSError, xmlrpc.client.Error):
+        return None
 
 
 class NodeTest(unittest.TestCase):
     """Leaves nothing behind."""
 
     def setUp(self):
-        self.addCleanup(Topic.close_all)
+        self.addCleanup(Topic.close_all, but=Topic.all_open())
 
     @contextlib.contextmanager
     def subTest(self, **of):
@@ -137,18 +156,72 @@ class NodeTest(unittest.TestCase):
 
 
 class EmulatorTest(NodeTest):
-    """Every test has an emulator of its own, which must be alive at the end and then end well."""
+    """One emulator for all tests of the class, alive after each, which ends well. Each test begins in an epoch of its own."""
     parameters = {}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.emulator, cls.epoch = Emulator(cls.parameters), 0
+        cls.topics = {name: Topic(name) for name in TOPICS}
+        for topic in cls.topics.values():
+            topic.wait_for_connection()
+
+    @classmethod
+    def tearDownClass(cls):
+        Topic.close_all()
+        code = cls.emulator.stop() if cls.emulator.child.poll() is None else cls.emulator.child.returncode
+        cls.emulator.clean_up()
+        assert code == 0, 'the emulator ended with code %s' % code
 
     def setUp(self):
         super().setUp()
-        self.emulator = self.start(Emulator(self.parameters))
+        self.begin()
 
     def tearDown(self):
         self.emulator.assert_alive()
-        self.assertEqual(self.emulator.stop(), 0)
+
+    def begin(self, paused=False):
+        """A new epoch, of which the topics hold the messages."""
+        self.pause(paused)
+        self.assertTrue(self.emulator.call('reset', Trigger).success)
+        type(self).epoch += 1
+        for topic in self.topics.values():
+            topic.forget_before(self.epoch)
+        self.topics['status'].wait_for(lambda m: m.epoch == self.epoch, 'a new epoch')
+        for topic in self.topics.values():
+            topic.forget_before(self.epoch)
+
+    def pause(self, paused):
+        self.assertTrue(self.emulator.call('pause', SetBool, data=paused).success)
+
+    def step(self, **how_far):
+        """Returns the time reached."""
+        answer = self.emulator.call('step', Step, **how_far)
+        self.assertTrue(answer.success, answer.message)
+        return answer.time
+
+    def stepped(self, tau):
+        """Steps, and waits until that has come."""
+        end = self.step(tau=tau)
+        friction = self.topics['friction'].wait_for(lambda m: key(m.time) == key(end), 'what was stepped', deadline_s=60.0)
+        for name in ('deflection', 'impacts'):
+            self.topics[name].wait_for(lambda m: m.header.seq == friction.header.seq, 'of the same batch', deadline_s=60.0)
+        return friction
+
+    def drag(self, eta):
+        """Returns the message that says when it took effect."""
+        count = len(self.topics['applied'].messages)
+        self.emulator.drag(eta * SPEED_UNIT)
+        return self.topics['applied'].wait_for(
+            lambda m: m.cause == 'drag_velocity' and m.drag_velocity == eta * SPEED_UNIT, 'eta = %g' % eta, count)
+
+    def status_now(self):
+        return self.topics['status'].wait_for_next()
 
 
-def run(case):
+def run(*cases):
+    """rostest takes one class, or the name of what makes a suite."""
     rospy.init_node('test', anonymous=True)
-    rostest.rosrun(PACKAGE, case.__name__, case)
+    load = unittest.defaultTestLoader.loadTestsFromTestCase
+    sys.modules['__main__'].all_cases = lambda: unittest.TestSuite(load(case) for case in cases)
+    rostest.rosrun(PACKAGE, cases[0].__name__, '__main__.all_cases')

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """The example nodes do what they are for, started by their launch files as a user starts them."""
 import csv
-import os
 import re
 import subprocess
 import sys
@@ -19,13 +18,13 @@ SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose noth
 
 REPEATED_COMMAND = '''
 import rospy
-from afm_client import Client
+from afm_emulator import Client
 rospy.init_node('repeats', disable_signals=True)
 key = lambda applied: (applied.epoch, applied.time.tau, applied.time.phase)
 tip, velocity = Client('/afm'), %r
-first, lowered, again = tip.set_drag_velocity(velocity), tip.set_rest_height(-0.1e-9), tip.set_drag_velocity(velocity)
+first, lowered, again = tip.command_and_wait(velocity), tip.command_and_wait(rest_height=-0.1e-9), tip.command_and_wait(velocity)
 assert key(first) < key(lowered) <= key(again), (first, lowered, again)
-assert abs(tip.mean_force(again, 0.0, 0.05)) < 1e-9  # it ends
+assert abs(tip.mean_force(0.05)) < 1e-9  # it ends
 rospy.signal_shutdown('done')
 ''' % (2 * SPEED_UNIT)
 
@@ -78,10 +77,8 @@ class Examples(NodeTest):
 
     def test_a_command_that_holds_already_is_given_the_present_time(self):
         self.start(Emulator({'time_scale': SLOW_MOTION}))
-        examples = str(Path(roslib.packages.find_node(PACKAGE, 'hold_force.py')[0]).parent)
-        path = os.pathsep.join([examples, os.environ['PYTHONPATH']])
         # a process of its own, as rospy gives all subscribers of a process one type for each topic
-        program = self.start(Process([sys.executable, '-c', REPEATED_COMMAND], env=dict(os.environ, PYTHONPATH=path)))
+        program = self.start(Process([sys.executable, '-c', REPEATED_COMMAND]))
         self.assertEqual(program.wait(60.0), 0)
 
     def test_a_commander_in_cpp(self):

@@ -10,14 +10,15 @@ from afm_emulator.srv import StartRecording
 
 import bags
 import checks
-from emulator_under_test import EmulatorTest, run
+from emulator_under_test import Emulator, NodeTest, run
 from topics import Topic
 
 DISK_MB, RESERVE_MB = 24, 16  # a second of the run takes 3 MB
 
 
-class FullDisk(EmulatorTest):
+class FullDisk(NodeTest):
     def setUp(self):
+        super().setUp()
         self.disk = tempfile.mkdtemp()
         self.addCleanup(os.rmdir, self.disk)
         mount = ['mount', '-t', 'tmpfs', '-o', 'size=%dm' % DISK_MB, 'tmpfs', self.disk]
@@ -26,9 +27,12 @@ class FullDisk(EmulatorTest):
             rospy.logwarn(untested)  # rosunit counts a skipped test as passed and does not tell why
             self.skipTest(untested)
         self.addCleanup(subprocess.run, ['umount', '--lazy', self.disk], check=True)
-        self.parameters = {'bag_directory': self.disk, 'disk_reserve_mb': float(RESERVE_MB)}
-        super().setUp()
+        self.emulator = self.start(Emulator({'bag_directory': self.disk, 'disk_reserve_mb': float(RESERVE_MB)}))
         self.status, self.deflection = Topic('status'), Topic('deflection')
+
+    def tearDown(self):
+        self.emulator.assert_alive()
+        self.assertEqual(self.emulator.stop(), 0)
 
     def free_bytes(self):
         disk = os.statvfs(self.disk)

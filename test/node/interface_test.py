@@ -8,7 +8,7 @@ import rospy
 import rosservice
 from pathlib import Path
 
-from emulator_under_test import PACKAGE, Emulator, NodeTest, run
+from emulator_under_test import PACKAGE, EmulatorTest, Process, run
 from topics import NAMESPACE, wait_until
 
 ROW = re.compile(r'^\| (in|out) \| `(\S+)` \| (\w+/\w+) \| ?(yes|no|) ?\|', re.M)
@@ -29,13 +29,20 @@ def listed(direction):
     return {resolved(name): (kind, latched) for way, name, kind, latched in ROW.findall(document()) if way == direction}
 
 
-class Interface(NodeTest):
+class Interface(EmulatorTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.view = Process(['roslaunch', PACKAGE, 'view.launch', 'rviz:=false'])
+        cls.master = rosgraph.Master('/interface_test')
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.view.clean_up()
+        super().tearDownClass()
+
     def setUp(self):
         super().setUp()
-        self.start(Emulator({})).assert_alive()
-        view = self.launch('view.launch', rviz='false')
-        self.addCleanup(view.stop)  # before it is killed, or its node would live on
-        self.master = rosgraph.Master('/interface_test')
         wait_until(lambda: VIEW + '/markers' in self.names(0, VIEW), 'the view advertises its markers')
 
     def names(self, part, *nodes):

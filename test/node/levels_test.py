@@ -4,8 +4,6 @@ repeated bit for bit."""
 import math
 from pathlib import Path
 
-from dynamic_reconfigure.msg import Config, DoubleParameter
-from dynamic_reconfigure.srv import Reconfigure
 from std_srvs.srv import SetBool, Trigger
 
 import bags
@@ -48,18 +46,18 @@ class Levels(NodeTest):
         self.assertEqual(repr(got), repr(expected))  # nan is nan
 
     def play(self):
-        self.drags, self.changes, self.status = Topic('applied_drag'), Topic('applied_parameters'), Topic('status')
+        self.applied, self.status = Topic('applied'), Topic('status')
         self.emulator = self.start(Emulator(self.parameters))
 
     def drag(self, eta):
-        count = len(self.drags.messages)
+        count = len(self.applied.messages)
         self.emulator.drag(eta * SPEED_UNIT)
-        return self.drags.wait_for(lambda m: abs(m.drag_velocity - eta * SPEED_UNIT) < 1e-15, begin=count)
+        return self.applied.wait_for(lambda m: abs(m.drag_velocity - eta * SPEED_UNIT) < 1e-15, begin=count)
 
     def set_parameter(self, name, value):
-        count = len(self.changes.messages)
-        self.emulator.call('set_parameters', Reconfigure, config=Config(doubles=[DoubleParameter(name, value)]))
-        return self.changes.wait_for(lambda m: getattr(m, name) == value, begin=count)
+        count = len(self.applied.messages)
+        self.emulator.set(**{name: value})
+        return self.applied.wait_for(lambda m: getattr(m, name) == value, begin=count)
 
     def set_gamma(self, gamma):
         return self.set_parameter('restitution_gamma', gamma)
@@ -73,44 +71,40 @@ class Levels(NodeTest):
         assert_identical(self, str(bag))
         return bags.read(str(bag))
 
-    def test_takes_a_level_for_every_drag_velocity(self):
+    def test_takes_a_level_for_whatever_is_in_force(self):
         self.play()
-        first = self.drags.wait_for()
+        self.for_every_drag_velocity()
+        self.for_live_parameters_and_after_a_reset()
+        self.many_changes_in_a_pause()
+        configuration = self.finish()['configuration'][0]
+        self.assertEqual((configuration.model, configuration.tolerance, configuration.tolerance_of), ('auto', 0.02, 'friction'))
+
+    def for_every_drag_velocity(self):
+        first = self.applied.wait_for()
         self.assert_same(reported(first), HAMMER)
         self.assert_same(reported(self.status.wait_for_next(lambda m: m.time.tau > 0)), HAMMER)
         # it begins with the speed for eta = 3.4, and gets its holder's
         self.assertAlmostEqual(first.energy_dropped / ENERGY_UNIT, 0.5 * (3.4 ** 2 - 2 ** 2), places=9)
         for eta, level in ((3, BURSTS), (4, EVERY), (2, HAMMER), (-2, HAMMER), (2.5, BURSTS), (3.5, EVERY), (1.5, UNKNOWN),
                            (0, UNKNOWN), (2, HAMMER)):
-            before = self.drags.messages[-1]
+            before = self.applied.messages[-1]
             message = self.drag(eta)
             self.assert_same(reported(message), level)
             self.assertEqual(message.energy_dropped != 0.0, level == HAMMER and before.model != 'hammer')
             self.assert_same(reported(self.status.wait_for_next(lambda m: key(m.time) > key(message.time))), level)
-        recorded = self.finish()
-        self.assertEqual(len(recorded['applied_drag']), 10)
-        configuration = recorded['configuration'][0]
-        self.assertEqual((configuration.model, configuration.tolerance, configuration.tolerance_of), ('auto', 0.02, 'friction'))
-        self.assertEqual(len(configuration.level_table), 16)
 
-    def test_live_parameters_and_resets_bring_levels_too(self):
-        self.play()
-        self.assert_same(reported(self.changes.wait_for()), HAMMER)
+    def for_live_parameters_and_after_a_reset(self):
         self.assert_same(reported(self.set_gamma(0.8)), ('oscillator', 0.0, 0.005))
         self.assert_same(reported(self.set_gamma(0.75)), ('oscillator', 0.0, 0.005))  # between the two
         self.assert_same(reported(self.set_gamma(0.9)), UNKNOWN)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
-        self.assert_same(reported(self.drags.wait_for(lambda m: m.epoch == 1)), UNKNOWN)
-        self.assert_same(reported(self.set_gamma(0.7)), HAMMER)
+        self.assert_same(reported(self.applied.wait_for(lambda m: m.epoch == 1)), HAMMER)  # of the start
         self.assert_same(reported(self.set_parameter('quality_factor', 100.0)), UNKNOWN)  # the table was measured without a bath
         self.assert_same(reported(self.set_parameter('quality_factor', 0.0)), HAMMER)
-        self.assertTrue(self.emulator.call('reset', Trigger).success)
-        self.assert_same(reported(self.drags.wait_for(lambda m: m.epoch == 2)), HAMMER)
-        self.finish()
 
-    def test_many_changes_in_a_pause_happen_at_one_time(self):
-        self.play()
-        self.status.wait_for(lambda m: m.time.tau > 1000)
+    def many_changes_in_a_pause(self):
+        """They happen at one model time."""
+        self.status.wait_for_next(lambda m: m.time.tau > 1000)
         for eta in (3, 2, 4, 2, 3):
             self.drag(eta)
             self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
@@ -119,12 +113,11 @@ class Levels(NodeTest):
             self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
         begin = self.status.messages[-1].time.tau
         self.status.wait_for(lambda m: m.time.tau > begin + 1000)
-        self.finish()
 
     def test_other_models_tell_their_level(self):
         self.parameters.update(model='hammer', tolerance=0.0, level_table='')
         self.play()
-        self.assert_same(reported(self.drags.wait_for()), ('hammer', 0.002, math.nan))
+        self.assert_same(reported(self.applied.wait_for()), ('hammer', 0.002, math.nan))
         self.assert_same(reported(self.drag(4)), ('hammer', 0.002, math.nan))
         self.assert_same(reported(self.status.wait_for_next()), ('hammer', 0.002, math.nan))
         self.finish()

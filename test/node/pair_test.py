@@ -6,15 +6,15 @@ import rospy
 from std_msgs.msg import Float64
 
 from emulator_under_test import SPEED_UNIT, run
-from topics import TOPICS, Topic, wait_until
+from topics import Topic, wait_until
 
 START = {'left': 3.4, 'right': 2.0}  # eta of their scenes
 
 
 class Tip:
     def __init__(self, side):
-        self.side, name, topics = side, '/%s/afm/' % side, ('applied_drag', 'deflection', 'friction')
-        self.topics = {topic: Topic(name + topic, TOPICS[topic]) for topic in topics}
+        self.side, name, topics = side, '/%s/afm/' % side, ('applied', 'deflection', 'friction')
+        self.topics = {topic: Topic(name + topic) for topic in topics}
         self.drag_publisher = rospy.Publisher(name + 'drag_velocity', Float64, queue_size=10)
         for topic in self.topics.values():
             topic.wait_for_connection()
@@ -25,10 +25,10 @@ class Tip:
         self.topics['friction'].wait_for(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'eta = %g' % eta)
 
     def velocities(self):
-        return [m.drag_velocity / SPEED_UNIT for m in self.topics['applied_drag'].messages]
+        return [m.drag_velocity / SPEED_UNIT for m in self.topics['applied'].messages]
 
     def wait_for_samples(self, count):
-        self.topics['applied_drag'].wait_for()
+        self.topics['applied'].wait_for()
         last = self.topics['deflection'].wait_for_next().first_sample
         self.topics['deflection'].wait_for(lambda m: m.first_sample > last + count, '%d more samples' % count)
 
@@ -43,10 +43,10 @@ class Pair(unittest.TestCase):
             tip.wait_for_samples(20000)
             self.assertEqual([round(v, 9) for v in tip.velocities()], [START[tip.side]])
         self.left.drag(1.5)
-        self.right.wait_for_samples(100000)  # half a second in which a command gone astray would show
+        self.right.wait_for_samples(40000)  # a fifth of a second in which a command gone astray would show
         self.assertEqual([round(v, 9) for v in self.right.velocities()], [2.0])
         self.right.drag(-2.5)
-        self.left.wait_for_samples(100000)
+        self.left.wait_for_samples(40000)
         self.assertEqual([round(v, 9) for v in self.left.velocities()], [3.4, 1.5])
         self.assertEqual([round(v, 9) for v in self.right.velocities()], [2.0, -2.5])
 

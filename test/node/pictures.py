@@ -74,8 +74,7 @@ class Told:
     def __init__(self, topics):
         self.epoch = topics['configuration'].messages[-1].epoch
         self.configuration = topics['configuration'].messages[-1]
-        self.commands = self.of_epoch(topics['applied_drag'])
-        self.changes = self.of_epoch(topics['applied_parameters'])
+        self.commands = self.of_epoch(topics['applied'])
         self.batches = [m for m in self.of_epoch(topics['deflection']) if m.vertical]
         self.events = [i for m in self.of_epoch(topics['impacts']) for i in m.impacts]
 
@@ -91,7 +90,7 @@ class Told:
 
     def height(self, time):
         """Of the holder [a]."""
-        return [m.rest_height_m for m in self.changes if key(m.time) <= key(time)][-1] / LATTICE
+        return [m.rest_height_m for m in self.commands if key(m.time) <= key(time)][-1] / LATTICE
 
     def centre(self, time):
         """Where it is over the surface [a], from the beginning and all commands."""

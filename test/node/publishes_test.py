@@ -4,12 +4,10 @@ import time
 import unittest
 from fractions import Fraction
 
-import rospy
-
 from emulator_under_test import SPEED_UNIT, TAU_S, pid_of_node, run
-from topics import NAMESPACE, TOPICS, Topic, tau_between, wait_until
+from topics import TOPICS, Topic, tau_between, wait_until
 
-WATCHED_S = 5.0
+WATCHED_S = 3.0
 
 
 def batch_indices(messages, first, content):
@@ -45,13 +43,6 @@ class Publishes(unittest.TestCase):
         self.assertGreater(len(messages), 10)
         for (index, length), (following, _) in zip(messages, messages[1:]):
             self.assertEqual(index + length, following)
-
-    def test_topics_have_their_types(self):
-        published = dict(rospy.get_published_topics(NAMESPACE))
-        expected = {name: kind._type for name, kind in TOPICS.items()}
-        expected.update(parameter_descriptions='dynamic_reconfigure/ConfigDescription',
-                        parameter_updates='dynamic_reconfigure/Config')
-        self.assertEqual(published, {NAMESPACE + '/' + name: kind for name, kind in expected.items()})
 
     def test_every_topic_speaks(self):
         for name, messages in self.topics.items():
@@ -107,7 +98,7 @@ class Publishes(unittest.TestCase):
     def test_latched_topics_reach_late_subscribers(self):
         configuration = Topic('configuration').wait_for()
         self.assertEqual(configuration.tip_mass_kg, 408e-12)
-        self.assertAlmostEqual(Topic('applied_drag').wait_for().drag_velocity, 3.4 * SPEED_UNIT, delta=1e-15)
+        self.assertAlmostEqual(Topic('applied').wait_for().drag_velocity, 3.4 * SPEED_UNIT, delta=1e-15)
 
 
 if __name__ == '__main__':

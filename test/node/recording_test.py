@@ -1,16 +1,18 @@
 #!/usr/bin/python3
 """What is recorded is what was published, message for message; names that lead elsewhere are refused."""
+import itertools
 import os
 
+import roslib.packages
+import rosbag
+from afm_emulator.msg import Friction
 from afm_emulator.srv import StartRecording
 from std_srvs.srv import Trigger
 
 import bags
-from emulator_under_test import EmulatorTest, run
-from topics import wait_until
-
-# of these a bag holds all since the last checkpoint, whenever it was begun: here since the epoch began
-SINCE_THE_EPOCH_BEGAN = ('configuration', 'checkpoint', 'applied_drag', 'applied_parameters')
+import checks
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run, set_parameters
+from topics import Topic, wait_until
 
 
 def position(sequence, part):
@@ -19,11 +21,15 @@ def position(sequence, part):
     return next((i for i in starts if sequence[i:i + len(part)] == part), None)
 
 
-class Recording(EmulatorTest):
+class Recording(NodeTest):
     def setUp(self):
-        self.directory = self.temporary_directory()
-        self.parameters = {'bag_directory': self.directory}
         super().setUp()
+        self.directory = self.temporary_directory()
+        self.emulator = self.start(Emulator({'bag_directory': self.directory}))
+
+    def tearDown(self):
+        self.emulator.assert_alive()
+        self.assertEqual(self.emulator.stop(), 0)
 
     def begin(self, name=''):
         return self.emulator.call('start_recording', StartRecording, name=name)
@@ -47,9 +53,9 @@ class Recording(EmulatorTest):
         published['status'].wait_for_next(lambda m: m.recording == answer.path, 'recording')
         # all that is published from now on must be in the bag, but what comes in first may be older
         published['deflection'].wait_for_more(50)
-        begin = dict(bags.count(published), **dict.fromkeys(SINCE_THE_EPOCH_BEGAN, 0))
+        begin = bags.count(published)
         self.emulator.drag(6.6e-6)
-        published['applied_drag'].wait_for(lambda m: m.drag_velocity == 6.6e-6, 'the command')
+        published['applied'].wait_for(lambda m: m.drag_velocity == 6.6e-6, 'the command')
         published['deflection'].wait_for_more(150)
         end = bags.count(published)
         self.assertTrue(self.end().success)
@@ -57,8 +63,11 @@ class Recording(EmulatorTest):
         bags.assert_sound(self, answer.path)
         for name, recorded in bags.read_raw(answer.path).items():
             self.assert_holds(recorded, published[name], begin[name], end[name])
+        with rosbag.Bag(answer.path) as bag:
+            first = [topic for topic, _, _ in itertools.islice(bag.read_messages(), 3)]
+        self.assertEqual([bags.short(topic) for topic in first], list(bags.BEGINNING))
         status = published['status'].wait_for_next(lambda m: not m.recording, 'no longer recording')
-        self.assertEqual((status.recorder_error, status.dropped_messages), ('', 0))
+        self.assertEqual(status.recorder_error, '')
 
     def test_paths_are_refused(self):
         for name in ('/tmp/away.bag', '../away.bag', 'sub/away.bag', '..', '.', 'sub/'):
@@ -87,5 +96,20 @@ class Recording(EmulatorTest):
             self.assertEqual(kept.read(), 'mine')
 
 
+class OtherNames(NodeTest):
+    def test_topics_may_be_remapped(self):
+        directory = self.temporary_directory()
+        set_parameters({'record': True, 'bag_directory': directory})
+        node = self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=afm', '~friction:=/force',
+                                   '~snapshot:=/start']))
+        Topic('/force', Friction).wait_for_more(100)
+        self.assertEqual(node.stop(), 0)
+        path, = (os.path.join(directory, name) for name in os.listdir(directory))
+        checks.assert_identical(self, path)
+        answer = checks.Answer('bag_to_csv', path, '--topic', 'friction')
+        self.assertEqual(answer.code, 0, answer.text)
+        self.assertGreater(len(answer.text.splitlines()), 100)
+
+
 if __name__ == '__main__':
-    run(Recording)
+    run(Recording, OtherNames)

@@ -1,19 +1,24 @@
 #!/usr/bin/python3
-"""A recorded run is simulated again to the last bit, whatever happened in it."""
+"""A recorded run is simulated again to the last bit, whatever happened in it and wherever the recording begins."""
 import multiprocessing
+import os
 import random
+import signal
 import time
 from pathlib import Path
 
+import dynamic_reconfigure.client
+import roslib.packages
+import rospy
 from afm_emulator.srv import StartRecording, Step
 from std_srvs.srv import SetBool, Trigger
 
-import bags
 import checks
-from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
-from topics import Topic, wait_until
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
+from topics import NAMESPACE, Topic, wait_until
 
 ETAS = [0.0, 1.0, 1.0, 2.0, -3.0, 3.4, 5.0, 5.0, 7.5, -1.0]  # contact, chatter, chaos, both directions
+LEVELS = os.path.join(roslib.packages.get_pkg_dir(PACKAGE), 'config', 'levels.csv')
 
 
 def burn():
@@ -26,7 +31,7 @@ class Repeats(NodeTest):
         self.directory = Path(self.temporary_directory())
         self.random = random.Random(5)
         self.emulator = self.start(Emulator(dict(parameters, bag_directory=str(self.directory))))
-        self.deflection, self.applied = Topic('deflection'), Topic('applied_drag')
+        self.deflection, self.applied = Topic('deflection'), Topic('applied')
         self.deflection.wait_for()
 
     def end(self):
@@ -42,88 +47,120 @@ class Repeats(NodeTest):
             time.sleep(pause_s)  # spreads the commands over batches; nothing is waited for
         wait_until(lambda: len(self.applied.messages) >= before + count, 'commands are applied')
 
+    def change(self, **values):
+        dynamic_reconfigure.client.Client(NAMESPACE, timeout=10).update_configuration(values)
+
+    def call(self, service, kind=Trigger, **request):
+        answer = self.emulator.call(service, kind, **request)
+        self.assertTrue(answer.success, answer.message)
+        return answer
+
     def step_through(self):
-        self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
+        self.call('pause', SetBool, data=True)
         for how_far in ({'tau': 10.25}, {'impacts': 7}, {'impacts': 1}, {'impacts': 1}, {'tau': 1e-3},
                         {'impacts': 2000}, {'tau': 700.0}):
-            self.assertTrue(self.emulator.call('step', Step, **how_far).success)
+            self.emulator.call('step', Step, **how_far)  # it ends early where the tip rests
             self.command(2)
-        self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
+        self.call('pause', SetBool, data=False)
 
-    def reset(self):
-        self.assertTrue(self.emulator.call('reset', Trigger).success)
+    def assert_each_is_identical(self, *paths):
+        """Together, and each without the others."""
+        for part in (paths,) + tuple((path,) for path in paths):
+            checks.assert_identical(self, *part)
 
     def test_all_that_can_happen_at_1_khz(self):
         self.run_emulator(record=True, batch_rate_hz=1000.0)
         self.command(300)
         self.command(40, 0.003)
         self.step_through()
-        self.reset()
+        self.call('reset')
         self.command(30, 0.004)
-        self.reset()
-        self.reset()
+        self.call('reset')
+        self.call('reset')
         self.step_through()
         self.deflection.wait_for_more(300)
         checks.assert_identical(self, *self.end())
 
-    def test_begun_in_mid_run_and_split(self):
-        self.run_emulator(time_scale=0.37, batch_rate_hz=250.0, split_duration_s=0.4, compression='lz4')
+    def test_begun_in_mid_run_split_and_changed_while_it_runs(self):
+        self.run_emulator(time_scale=0.37, batch_rate_hz=250.0, split_duration_s=0.4, compression='lz4', model='auto',
+                          tolerance=0.5, level_table=LEVELS)
         self.command(60, 0.005)
-        self.reset()
+        self.call('reset')
         self.command(60, 0.005)
-        answer = self.emulator.call('start_recording', StartRecording, name='part')
-        self.assertTrue(answer.success, answer.message)
+        self.call('start_recording', StartRecording, name='part')
         self.command(100, 0.01)
-        self.reset()
+        self.change(restitution_gamma=0.65, sample_rate_hz=150000.0)
+        self.step_through()
+        self.change(temperature_k=300.0, quality_factor=100.0, rest_height_m=-2.0e-12, friction_window_tau=300.0)
         self.command(20)
+        self.call('reset')
+        self.command(20, 0.01)
         self.deflection.wait_for_more(100)
-        self.assertTrue(self.emulator.call('stop_recording', Trigger).success)
+        self.call('stop_recording')
         paths = self.end()
         self.assertGreaterEqual(len(paths), 3)
-        parts = ['part_%03d.bag' % i for i in range(1, len(paths))]
-        self.assertEqual([Path(path).name for path in paths], ['part.bag'] + parts)
-        checks.assert_identical(self, *paths)
-        for path in paths:  # each can be read without the others
-            self.assertEqual(bags.info_exit_code(path), 0)
-            answer = checks.replay_check(path)
-            self.assertEqual(answer.code, checks.SOUND, answer.text)
-        self.assertIn('goes on in another bag', checks.replay_check(paths[0]).text)
-        lost = checks.replay_check(paths[0], *paths[2:])
-        self.assertEqual(lost.code, checks.MISSING, lost.text)
-        self.assertIn('part 1 is missing', lost.text)
-        self.assertEqual(checks.bag_check(paths[1], paths[1]).code, checks.REORDERED)
-
-    def test_faster_than_real_time_and_split_by_size(self):
-        self.run_emulator(record=True, time_scale=4.0, split_size_mb=2.0)
-        self.command(50, 0.01)
-        self.deflection.wait_for(lambda m: m.first_sample > 600000, 'three seconds of model time')
-        paths = self.end()
-        self.assertGreater(len(paths), 3)
-        checks.assert_identical(self, *paths)
+        self.assertEqual([Path(path).name for path in paths], ['part.bag'] + ['part_%03d.bag' % i for i in range(1, len(paths))])
+        self.assertEqual({m.model for m in self.applied.messages}, {'oscillator', 'hammer'})
+        self.assert_each_is_identical(*paths)
+        lost = checks.replay_check(paths[0], *paths[2:])  # two recordings, then
+        self.assertEqual(lost.code, checks.SOUND, lost.text)
+        self.assertEqual(lost.text.count('IDENTICAL'), 2)
 
     def test_the_hammer_too(self):
-        self.run_emulator(record=True, model='hammer')
-        self.command(100, 0.005)
-        self.step_through()
-        self.deflection.wait_for_more(100)
-        checks.assert_identical(self, *self.end())
-
-    def test_the_hammer_brought_to_rest_again_and_again(self):
         self.run_emulator(record=True, model='hammer')
         for eta in 80 * (5.0, 0.0):
             self.emulator.drag(eta * SPEED_UNIT)
             time.sleep(0.02)  # on its way to rest; nothing is waited for
+        self.step_through()
+        self.deflection.wait_for_more(100)
         checks.assert_identical(self, *self.end())
 
-    def test_under_load(self):
+    def test_under_load_and_split_by_size(self):
         load = [multiprocessing.Process(target=burn, daemon=True) for _ in range(4)]
         for process in load:
             process.start()
             self.addCleanup(process.kill)
-        self.run_emulator(record=True, batch_rate_hz=1000.0)
+        self.run_emulator(record=True, batch_rate_hz=1000.0, time_scale=2.0, split_size_mb=2.0)
         self.command(50, 0.005)
-        self.deflection.wait_for(lambda m: m.first_sample > 100000, 'half a second')
-        checks.assert_identical(self, *self.end())
+        self.deflection.wait_for(lambda m: m.first_sample > 400000, 'two seconds of model time')
+        paths = self.end()
+        self.assertGreater(len(paths), 2)
+        checks.assert_identical(self, *paths)
+
+    def record_with_rosbag(self, path):
+        recorder = self.start(Process(['rosbag', 'record', '-a', '-O', path]))
+        wait_until(lambda: os.path.exists(path + '.active'), 'rosbag records')
+        return recorder
+
+    def wait_for_subscribers(self, count):
+        """Beside this test: rosbag looks for topics once a second, and subscribes to each by itself."""
+        def number(topic):
+            subscribers = rospy.get_master().getSystemState()[2][1]
+            return sum(len(names) for name, names in subscribers if name == NAMESPACE + '/' + topic)
+        wait_until(lambda: all(number(topic) >= count for topic in ('snapshot', 'applied', 'impacts')), 'rosbag has found the topics')
+        self.deflection.wait_for_more(20)
+
+    def test_recorded_by_rosbag(self):
+        """From before the node starts, and begun in its midst: the latched topics tell how each epoch began."""
+        first, late = (os.path.join(self.temporary_directory(), name) for name in ('first.bag', 'late.bag'))
+        recorders = [self.record_with_rosbag(first)]
+        self.run_emulator()
+        self.wait_for_subscribers(1)
+        self.command(20, 0.01)
+        recorders.append(self.record_with_rosbag(late))
+        self.wait_for_subscribers(2)
+        self.call('reset')
+        self.command(20, 0.01)
+        self.deflection.wait_for_more(100)
+        for recorder in recorders:
+            recorder.stop(signal.SIGINT)
+        self.end()
+        answer = checks.replay_check(first)
+        self.assertEqual(answer.code, checks.SOUND, answer.text)
+        answer = checks.replay_check(late)  # of the first epoch it holds the last command alone
+        self.assertEqual(answer.code, checks.UNCHECKED, answer.text)
+        self.assertIn('commands, the first after model time 0 + 0 tau of epoch 0', answer.text)
+        self.assertIn('what was compared is identical', answer.text)
 
 
 if __name__ == '__main__':

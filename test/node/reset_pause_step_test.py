@@ -1,120 +1,157 @@
 #!/usr/bin/python3
-"""Reset starts the same run again, pause holds model time, and a step goes exactly as far as it is asked to."""
+"""Reset starts the same run again, with the parameters of the start. Pause holds model time. A step goes exactly as far as it is
+asked to, and a slow subscriber loses nothing in it, or what it loses is counted."""
 import math
 
 from afm_emulator.srv import Step
-from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import SPEED_UNIT, EmulatorTest, run
-from topics import TOPICS, Topic, key, tau_between, wait_until
+from tcpros import BareSubscriber
+from topics import key, tau_between, wait_until
+
+LONG_TAU = 10000  # the longest step there is
 
 
 class ResetPauseStep(EmulatorTest):
-    def setUp(self):
-        super().setUp()
-        self.topics = {name: Topic(name) for name in TOPICS}
-        for topic in self.topics.values():
-            topic.wait_for_connection()
-        self.status, self.deflection = self.topics['status'], self.topics['deflection']
-        self.deflection.wait_for()
+    # a paused start; a scene's commands
+    parameters = {'paused': True, 'sample_rate_hz': 100000.0, 'commands_eta': [3.4, 2.0, 0.0, -1.0], 'commands_hold_s': 0.02}
 
-    def reset(self):
-        self.assertTrue(self.emulator.call('reset', Trigger).success)
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.start = cls.topics['status'].wait_for_next()
 
-    def pause(self):
-        self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
-        return self.status.wait_for_next(lambda m: m.paused, 'paused').time
+    def samples(self):
+        return [m.vertical + m.lateral for m in self.topics['deflection'].messages]
 
-    def step(self, **how_far):
-        return self.emulator.call('step', Step, **how_far)
-
-    def impacts_after(self, time):
-        impacts = [i for message in self.topics['impacts'].messages for i in message.impacts]
-        return [i for i in impacts if key(i.time) > key(time)]
-
-    def first_of_epoch(self, name, epoch):
-        return self.topics[name].wait_for(lambda m: m.epoch == epoch, 'epoch %d' % epoch)
-
-    def samples_of_epoch(self, epoch, batches=10):
-        def collected():
-            messages = [m for m in self.deflection.messages if m.epoch == epoch]
-            return [m.vertical + m.lateral for m in messages[:batches]] if len(messages) >= batches else None
-        return wait_until(collected, 'batches of epoch %d' % epoch)
+    def test_a_paused_start(self):
+        self.assertEqual((key(self.start.time), self.start.paused), ((0, 0.0), True))
 
     def test_reset_raises_the_epoch_everywhere(self):
-        epoch = self.deflection.messages[-1].epoch
-        self.reset()
-        first = {name: self.first_of_epoch(name, epoch + 1) for name in TOPICS}
-        self.assertEqual((first['deflection'].first_sample, key(first['deflection'].time)), (0, (0, 0.0)))
-        self.assertEqual(first['impacts'].first_index, 0)
-        self.assertEqual(key(first['applied_drag'].time), (0, 0.0))
         for name, topic in self.topics.items():
-            epochs = [m.epoch for m in topic.messages]
-            self.assertEqual(epochs, sorted(epochs), name)
+            first = topic.wait_for(what='of the new epoch')
+            self.assertEqual({m.epoch for m in topic.messages}, {self.epoch}, name)
+            if name in ('deflection', 'applied', 'snapshot'):
+                self.assertEqual(key(first.time), (0, 0.0), name)
+        first = {name: topic.messages[0] for name, topic in self.topics.items()}
+        self.assertEqual((first['deflection'].first_sample, first['impacts'].first_index, first['applied'].number), (0, 0, 0))
+        self.assertEqual((first['applied'].cause, first['snapshot'].next_sample), ('epoch', 0))
 
-    def test_reset_starts_the_same_run_again(self):
-        epoch = self.deflection.messages[-1].epoch
-        self.emulator.drag(2.0 * SPEED_UNIT)
-        self.topics['friction'].wait_for(lambda m: m.drag_velocity == 2.0 * SPEED_UNIT, 'another speed')
+    def test_a_scene_with_commands_repeats_to_the_bit(self):
+        runs = []
         for _ in range(2):
-            self.reset()
-            epoch += 1
-            self.samples_of_epoch(epoch)
-        self.assertEqual(self.samples_of_epoch(epoch - 1), self.samples_of_epoch(epoch))
+            self.begin(paused=True)
+            self.stepped(1000.0)
+            commands = [(key(m.time), m.cause, m.drag_velocity) for m in self.topics['applied'].messages]
+            runs.append((self.samples(), commands))
+        self.assertEqual(runs[0], runs[1])
+        # at the first batch boundary after each time; they begin with the run
+        self.assertEqual([round(v / SPEED_UNIT, 9) for _, cause, v in runs[0][1] if cause == 'scene'][:5], [3.4, 2.0, 0.0, -1.0, 3.4])
+        self.assertEqual([time for time, cause, _ in runs[0][1]][:2], [(0, 0.0), (0, 0.0)])
+
+    def test_reset_goes_back_to_the_parameters_of_the_start(self):
+        names = ('restitution_gamma', 'rest_height_m', 'sample_rate_hz', 'drag_velocity', 'temperature_k')
+        start = self.topics['applied'].messages[0]
+        self.begin(paused=True)
+        self.emulator.set(restitution_gamma=0.4, sample_rate_hz=50000.0, temperature_k=100.0)
+        self.emulator.publisher('rest_height').publish(-1e-11)
+        changed = self.topics['applied'].wait_for(lambda m: m.cause == 'rest_height', 'changed')
+        self.assertEqual([getattr(changed, name) for name in names[:3]], [0.4, -1e-11, 50000.0])
+        self.begin(paused=True)
+        again = self.topics['applied'].messages[0]
+        self.assertEqual([getattr(again, name) for name in names], [getattr(start, name) for name in names])
+        self.assertEqual(self.emulator.set()['restitution_gamma'], 0.7)  # clients see it too
 
     def test_pause_holds_model_time(self):
-        time = self.pause()
-        begin = len(self.status.messages)
-        self.status.wait_for_more(3)
-        self.assertEqual({key(m.time) for m in self.status.messages[begin:]}, {key(time)})
-        self.assertLessEqual(max(key(m.time) for m in self.deflection.messages), key(time))
-        self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
-        self.status.wait_for_next(lambda m: not m.paused and tau_between(time, m.time) > 1000, 'time passes again')
+        self.topics['deflection'].wait_for()
+        self.pause(True)
+        time = self.topics['status'].wait_for_next(lambda m: m.paused, 'paused').time
+        begin = len(self.topics['status'].messages)
+        self.topics['status'].wait_for_more(3)
+        self.assertEqual({key(m.time) for m in self.topics['status'].messages[begin:]}, {key(time)})
+        self.assertLessEqual(max(key(m.time) for m in self.topics['deflection'].messages), key(time))
+        self.pause(False)
+        self.topics['status'].wait_for_next(lambda m: not m.paused and tau_between(time, m.time) > 500, 'time passes again')
 
     def test_step_by_time(self):
-        begin = self.pause()
+        self.begin(paused=True)
+        begin = self.topics['snapshot'].messages[0].time
         for tau in (0.25, 1e-6, 1.0, 33.3):
-            answer = self.step(tau=tau)
-            self.assertTrue(answer.success, answer.message)
-            self.assertAlmostEqual(tau_between(begin, answer.time), tau, delta=1e-13)
-            begin = answer.time
-            self.status.wait_for_next(lambda m: key(m.time) == key(begin) and m.paused, 'the time reached')
+            end = self.step(tau=tau)
+            self.assertAlmostEqual(tau_between(begin, end), tau, delta=1e-13)
+            self.topics['status'].wait_for_next(lambda m, end=end: key(m.time) == key(end) and m.paused, 'the time reached')
+            begin = end
 
     def test_step_to_the_next_impacts(self):
-        begin = self.pause()
-        reached = []
-        for count in (1, 7, 200):
-            answer = self.step(impacts=count)
-            self.assertTrue(answer.success, answer.message)
-            reached.append(answer.time)
-        wait_until(lambda: len(self.impacts_after(begin)) >= 208, 'the impacts are published')
-        times = [key(i.time) for i in self.impacts_after(begin)]
-        self.assertEqual(len(times), 208)
-        self.assertEqual([times[0], times[7], times[207]], [key(time) for time in reached])
+        self.begin(paused=True)
+        reached = [self.step(impacts=count) for count in (1, 7, 200)]
 
-    def test_samples_go_on_without_gap_through_steps(self):
-        self.pause()
-        for how_far in ({'tau': 100.5}, {'impacts': 300}, {'tau': 0.01}):
-            self.assertTrue(self.step(**how_far).success)
-        self.emulator.call('pause', SetBool, data=False)
-        now = self.deflection.wait_for_next()
-        self.deflection.wait_for(lambda m: m.first_sample > now.first_sample + 10 * len(now.vertical), 'running')
-        messages = list(self.deflection.messages)
+        def times():
+            return [key(i.time) for m in self.topics['impacts'].messages for i in m.impacts]
+        wait_until(lambda: len(times()) >= 208, 'the impacts are published')
+        self.assertEqual(len(times()), 208)
+        self.assertEqual([times()[0], times()[7], times()[207]], [key(time) for time in reached])
+
+    def assert_no_gap(self):
+        messages = self.topics['deflection'].messages
         for message, following in zip(messages, messages[1:]):
             self.assertEqual(message.first_sample + len(message.vertical), following.first_sample)
 
+    def test_samples_go_on_without_gap_through_steps(self):
+        self.topics['deflection'].wait_for()
+        self.pause(True)
+        for how_far in ({'tau': 100.5}, {'impacts': 300}, {'tau': 0.01}):
+            self.step(**how_far)
+        self.pause(False)
+        self.topics['deflection'].wait_for_next()
+        self.topics['deflection'].wait_for_more(10)
+        self.assert_no_gap()
+
+    def test_three_long_steps_lose_nothing(self):
+        dropped = self.status_now().dropped_messages
+        self.begin(paused=True)
+        for _ in range(3):
+            self.step(tau=LONG_TAU)
+        period = self.topics['applied'].messages[-1].sample_period_tau
+        due = int(3 * LONG_TAU / period)
+        deflection = self.topics['deflection']
+
+        def last():
+            return deflection.messages[-1].first_sample + len(deflection.messages[-1].vertical)
+        wait_until(lambda: deflection.messages and last() >= due, 'every sample', deadline_s=60.0)
+        self.assertEqual(deflection.messages[0].first_sample, 0)
+        self.assert_no_gap()
+        self.assertEqual(self.status_now().dropped_messages, dropped)
+
+    def test_what_a_stopped_subscriber_loses_is_counted(self):
+        dropped = self.status_now().dropped_messages
+        deaf = BareSubscriber('deflection', '/deaf')
+        self.addCleanup(deaf.socket.close)
+        self.begin(paused=True)
+        for _ in range(4):  # 10 MB, more than the kernel keeps for it
+            self.stepped(LONG_TAU)
+        self.status_now()
+        lost = self.status_now().dropped_messages - dropped
+        self.assert_no_gap()  # who listens has all
+        last, got = self.topics['deflection'].messages[-1].header.seq, [deaf.read_message().header.seq]
+        while got[-1] < last:
+            got.append(deaf.read_message().header.seq)
+        self.assertGreater(lost, 10)
+        self.assertEqual(last - got[0] + 1 - len(got), lost)
+
     def test_step_while_running_is_refused(self):
-        answer = self.step(tau=1.0)
+        answer = self.emulator.call('step', Step, tau=1.0)
         self.assertFalse(answer.success)
         self.assertIn('pause', answer.message)
 
     def test_bad_steps_are_refused(self):
-        time = self.pause()
-        for how_far in ({}, {'tau': 1.0, 'impacts': 1}, {'tau': -1.0}, {'tau': math.nan}, {'tau': math.inf}):
-            answer = self.step(**how_far)
+        self.begin(paused=True)
+        for how_far in ({}, {'tau': 1.0, 'impacts': 1}, {'tau': -1.0}, {'tau': math.nan}, {'tau': math.inf}, {'tau': 10001.0},
+                        {'impacts': 100001}):
+            answer = self.emulator.call('step', Step, **how_far)
             self.assertFalse(answer.success, how_far)
             self.assertTrue(answer.message, how_far)
-        self.assertEqual(key(self.status.wait_for_next().time), key(time))
+        self.assertEqual(key(self.status_now().time), (0, 0.0))
 
 
 if __name__ == '__main__':

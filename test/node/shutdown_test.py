@@ -1,12 +1,25 @@
 #!/usr/bin/python3
-"""However the node is asked to end while recording, the bag is closed and holds all that was published."""
+"""However and whenever the node is asked to end, it does so soon, and a recording is closed and holds all that was published.
+usage: shutdown_test.py [STOPS]      so many stops of shipped scenes at random moments, beside a master; default: each scene once"""
+import random
 import signal
+import sys
+import time
 from pathlib import Path
+
+import roslib.packages
+import rospy
+import yaml
 
 import bags
 import checks
-from emulator_under_test import Emulator, NodeTest, run
-from topics import Topic
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
+from topics import PATIENCE, Topic
+
+SCENES = sorted((Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes').glob('*.yaml'))
+STOPS = int(sys.argv[1]) if sys.argv[1:] and sys.argv[1].isdigit() else len(SCENES)
+SOON_S = 5.0
+WITHIN_S = 1.5  # of its start a node is stopped
 
 
 class Shutdown(NodeTest):
@@ -15,7 +28,7 @@ class Shutdown(NodeTest):
         emulator = self.start(Emulator({'record': True, 'bag_directory': str(directory)}))
         deflection, status = Topic('deflection'), Topic('status')
         status.wait_for(lambda m: m.recording, 'recording')
-        deflection.wait_for(lambda m: m.first_sample >= 100000, 'half a second of the run')
+        deflection.wait_for(lambda m: m.first_sample >= 40000, 'a fifth of a second')
         emulator.assert_alive()
         seen = deflection.messages[-1].first_sample
         self.assertEqual(emulator.stop(with_signal), 0)
@@ -31,6 +44,33 @@ class Shutdown(NodeTest):
 
     def test_sigterm(self):
         self.assert_leaves_a_good_bag(signal.SIGTERM)
+
+    def start_scene(self, scene, name):
+        parameters = yaml.safe_load(scene.read_text())
+        parameters.update(record=True, bag_directory=str(self.directory / name),
+                          level_table=str(scene.parents[1] / 'levels.csv'))
+        rospy.set_param('/' + name, parameters)
+        return self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=' + name]))
+
+    def test_every_scene_ends_soon_at_any_moment(self):
+        """Many at once; some are stopped before they have begun."""
+        chance, ended = random.Random(11), 0
+        self.directory = Path(self.temporary_directory())
+        while ended < STOPS:
+            wave = min(STOPS - ended, len(SCENES))
+            nodes = [(self.start_scene(SCENES[i], 'stop_%d' % (ended + i)), SCENES[i].stem) for i in range(wave)]
+            begin, moments = time.monotonic(), sorted((chance.uniform(0.0, WITHIN_S * PATIENCE), i) for i in range(wave))
+            for moment, i in moments:
+                time.sleep(max(0.0, begin + moment - time.monotonic()))
+                node, scene = nodes[i]
+                begun = 'scheduler:' in node.output()
+                node.child.send_signal(signal.SIGINT)
+                asked = time.monotonic()
+                code = node.wait(SOON_S)
+                print('%-12s %.2f s after its start: ended with %d after %.2f s' % (scene, moment, code, time.monotonic() - asked))
+                self.assertIn(code, (0,) if begun else (0, -signal.SIGINT), scene)
+            ended += wave
+        self.assertEqual([str(path) for path in self.directory.rglob('*.active')], [])
 
 
 if __name__ == '__main__':

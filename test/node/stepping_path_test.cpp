@@ -1,28 +1,57 @@
-// What steps a tip in real time neither allocates, nor locks, nor calls the system: every allocation and every lock of
-// the thread is counted, and where nothing may be called the kernel has orders to kill whoever calls it.
+// The running thread neither allocates nor locks, and calls the system only to sleep and to wake the publisher. A real
+// one runs here under every kind of request: its allocations and locks are counted, and in a child the kernel has orders
+// to kill for any other call.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <pthread.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <linux/seccomp.h>
-
+#include <atomic>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <string>
 #include <vector>
 
-#include "afm/emulator.h"
-#include "node/stepping/hand_over.h"
+#include "node/runner/runner.h"
 
 namespace {
-thread_local long t_allocations = 0, t_locks = 0;
+
+thread_local bool t_watched = false, t_restricted = false;  // the running thread; under the kernel's orders
+std::atomic<bool> g_counting{false}, g_restrict{false};
+std::atomic<long> g_allocations{0}, g_locks{0};
+
+void count(std::atomic<long>& number) {
+  if (t_watched && g_counting) ++number;
+}
 
 template <class Function>
 Function real(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
+
+// From here on the calling thread may sleep, wake another, and read the clock, where that takes a call.
+void restrict_system_calls() {
+  sock_filter code[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_clock_nanosleep, 3, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_futex, 2, 0),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_clock_gettime, 1, 0),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog program{sizeof code / sizeof code[0], code};
+  prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) _exit(77);
+}
+
 }  // namespace
 
 // These stand before the C library's for the whole program, and for its libraries: operator new comes through here too.
@@ -31,147 +60,169 @@ void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
 void* __libc_realloc(void*, std::size_t);
 void __libc_free(void*);
-void* malloc(std::size_t size) { return ++t_allocations, __libc_malloc(size); }
-void* calloc(std::size_t count, std::size_t size) { return ++t_allocations, __libc_calloc(count, size); }
-void* realloc(void* old, std::size_t size) { return ++t_allocations, __libc_realloc(old, size); }
-void free(void* memory) { ++t_allocations, __libc_free(memory); }
+void* malloc(std::size_t size) { return count(g_allocations), __libc_malloc(size); }
+void* calloc(std::size_t number, std::size_t size) { return count(g_allocations), __libc_calloc(number, size); }
+void* realloc(void* old, std::size_t size) { return count(g_allocations), __libc_realloc(old, size); }
+void free(void* memory) { count(g_allocations), __libc_free(memory); }
 int pthread_mutex_lock(pthread_mutex_t* mutex) {
   static const auto lock = real<int (*)(pthread_mutex_t*)>("pthread_mutex_lock");
-  return ++t_locks, lock(mutex);
+  return count(g_locks), lock(mutex);
 }
 int pthread_mutex_trylock(pthread_mutex_t* mutex) {
   static const auto lock = real<int (*)(pthread_mutex_t*)>("pthread_mutex_trylock");
-  return ++t_locks, lock(mutex);
+  return count(g_locks), lock(mutex);
 }
 int pthread_rwlock_rdlock(pthread_rwlock_t* rwlock) {
   static const auto lock = real<int (*)(pthread_rwlock_t*)>("pthread_rwlock_rdlock");
-  return ++t_locks, lock(rwlock);
+  return count(g_locks), lock(rwlock);
 }
 int pthread_rwlock_wrlock(pthread_rwlock_t* rwlock) {
   static const auto lock = real<int (*)(pthread_rwlock_t*)>("pthread_rwlock_wrlock");
-  return ++t_locks, lock(rwlock);
+  return count(g_locks), lock(rwlock);
+}
+int pthread_setname_np(pthread_t thread, const char* name) {
+  static const auto set = real<int (*)(pthread_t, const char*)>("pthread_setname_np");
+  t_watched = std::strcmp(name, "afm_run") == 0;
+  return set(thread, name);
+}
+int clock_nanosleep(clockid_t clock, int flags, const timespec* until, timespec* rest) {
+  static const auto sleep = real<int (*)(clockid_t, int, const timespec*, timespec*)>("clock_nanosleep");
+  if (t_watched && g_restrict && !t_restricted) {
+    t_restricted = true;
+    restrict_system_calls();
+  }
+  return sleep(clock, flags, until, rest);
 }
 }
 
 namespace afm::node {
 namespace {
 
-constexpr int kBatches = 400;
-const double kCommands[] = {3.4, 0.0, 1.0, -3.4, 2.0, 3.0, 1e-4, 0.34, -30.0, 5.0};
+using Kind = Request::Kind;
 
-// What the stepping thread does between two deadlines: obey, step, hand over, now and then its whole state. A reader on
-// its own side takes all away.
-class SteppingPath {
+std::vector<Parameters> runs() {
+  Parameters cold, every_bounce, hammer, warm;
+  cold.commands_eta = {3.4, 0.0, 1.0, -3.4, 2.0, 3.0, 1e-4, 0.34, -30.0, 5.0};  // a scene's
+  cold.commands_hold_s = 0.01;
+  every_bounce.si.cutoff_speed = 0.0;
+  hammer.model = "hammer";
+  warm.bath.temperature_k = 300.0;
+  warm.bath.quality_factor = 100.0;
+  std::vector<Parameters> all{cold, every_bounce, hammer, warm};
+  for (Parameters& p : all) p.batch_rate_hz = 1000.0;
+  return all;
+}
+
+// A running thread and a reader on its own side, which takes all away.
+class Reader {
  public:
-  explicit SteppingPath(ModelKind kind, double cutoff)
-      : emulator_(settings(kind, cutoff)), hand_over_({64, 64 * 400, 400000}) {
-    emulator_.reserve(batch_);
-    emulator_.reserve(taken_);
+  explicit Reader(const Parameters& p) : p_(p), queue_(64, preallocated_batch(p)), runner_(p, queue_) {
+    runner_.start();
+    read_for(50);  // pages are touched for the first time before they count
   }
 
-  void step(int n) {
-    if (n % 10 == 0) emulator_.drag(kCommands[(n / 10) % 10]);
-    if (n % 97 == 0) emulator_.reset();
-    emulator_.run_batch(batch_);
-    impacts_ += batch_.impacts.size();
-    Event event;
-    event.state.time = emulator_.now();
-    dropped_ += hand_over_.offer(event, batch_) ? 0 : 1;
-    if (n % 5 != 0) return;
-    emulator_.save(state_);
-    dropped_ += hand_over_.offer(event, state_) ? 0 : 1;
-  }
-  void take_away() {
-    Event event;
-    while (hand_over_.take(event, taken_, taken_state_)) {
+  // Requests of every kind, some milliseconds apart.
+  void steer() {
+    Live live = live_of(p_);
+    live.restitution_gamma = 0.5;
+    live.sample_rate_hz = 1e5;
+    live.temperature_k = 77.0;
+    const Request requests[] = {
+        {Kind::drag, -2.0 * Units(p_.si).velocity(), 0, {}, {}}, {Kind::rest_height, -1e-11, 0, {}, {}},
+        {Kind::load, 0.0, 0, {}, {}}, {Kind::change, 0.0, 0, live, {}}, {Kind::snapshot, 0.0, 0, {}, {}},
+        {Kind::pause, 0.0, 0, {}, {}}, {Kind::step_time, 20.0, 0, {}, {}}, {Kind::step_impacts, 0.0, 10, {}, {}},
+        {Kind::resume, 0.0, 0, {}, {}}, {Kind::reset, 0.0, 0, {}, {}}, {Kind::flush, 0.0, 0, {}, {}}};
+    for (int round = 0; round < 3; ++round) {
+      for (const Request& request : requests) {
+        runner_.submit(request);
+        read_for(10);
+      }
     }
   }
-  std::size_t impacts() const { return impacts_; }
-  int dropped() const { return dropped_; }
+  void read_for(int milliseconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
+    Report report;
+    while (std::chrono::steady_clock::now() < end) {
+      queue_.wait_for(std::chrono::milliseconds(1));
+      while (queue_.take(report)) {
+        impacts_ = std::max(impacts_, report.state.impacts);
+        snapshots_ += report.kind == Report::Kind::snapshot ? 1 : 0;
+        dropped_ = report.state.dropped_batches;
+        if (report.batch != nullptr) queue_.release(report.batch);
+      }
+    }
+  }
+  std::uint64_t impacts() const { return impacts_; }
+  int snapshots() const { return snapshots_; }
+  std::uint64_t dropped() const { return dropped_; }
 
  private:
-  static EmulatorSettings settings(ModelKind kind, double cutoff) {
-    EmulatorSettings s;
-    s.model.kind = kind;
-    s.model.v_c = cutoff;
-    s.samples_per_batch = 400;
-    return s;
-  }
-
-  Emulator emulator_;
-  HandOver hand_over_;
-  Batch batch_, taken_;
-  SavedState state_, taken_state_;
-  std::size_t impacts_ = 0;
-  int dropped_ = 0;
+  const Parameters p_;
+  BatchQueue queue_;
+  Runner runner_;
+  std::uint64_t impacts_ = 0, dropped_ = 0;
+  int snapshots_ = 0;
 };
-
-std::vector<SteppingPath*> all_paths() {
-  return {new SteppingPath(ModelKind::oscillator, 0.05), new SteppingPath(ModelKind::oscillator, 0.0),
-          new SteppingPath(ModelKind::hammer, 0.05)};
-}
 
 TEST(SteppingPath, TheHooksCount) {
   pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+  t_watched = true;
   pthread_mutex_lock(&mutex);  // once before counting: the first call looks up the C library's, and dlsym may allocate
   pthread_mutex_unlock(&mutex);
-  const long allocations = t_allocations, locks = t_locks;
+  g_counting = true;
   std::vector<int>* volatile something = new std::vector<int>(10);
   delete something;
   pthread_mutex_lock(&mutex);
   pthread_mutex_unlock(&mutex);
-  EXPECT_EQ(t_allocations - allocations, 4);
-  EXPECT_EQ(t_locks - locks, 1);
+  g_counting = t_watched = false;
+  EXPECT_EQ(g_allocations, 4);
+  EXPECT_EQ(g_locks, 1);
 }
 
 TEST(SteppingPath, NeitherAllocatesNorLocks) {
-  for (SteppingPath* path : all_paths()) {
-    long allocations = 0, locks = 0;
-    for (int n = 0; n < kBatches; ++n) {
-      const long allocations_before = t_allocations, locks_before = t_locks;
-      path->step(n);
-      allocations += t_allocations - allocations_before;
-      locks += t_locks - locks_before;
-      path->take_away();
-    }
-    EXPECT_EQ(allocations, 0);
-    EXPECT_EQ(locks, 0);
-    EXPECT_GT(path->impacts(), 1000u);
-    EXPECT_EQ(path->dropped(), 0);
+  for (const Parameters& p : runs()) {
+    Reader reader(p);
+    g_allocations = g_locks = 0;
+    g_counting = true;
+    reader.steer();
+    g_counting = false;
+    EXPECT_EQ(g_allocations, 0);
+    EXPECT_EQ(g_locks, 0);
+    EXPECT_GT(reader.impacts(), 500u);
+    EXPECT_GE(reader.snapshots(), 6);  // asked for, and of every reset
+    EXPECT_EQ(reader.dropped(), 0u);
   }
 }
 
-// In a child of ours that the kernel kills at any call but the one that ends it.
+// In a child of ours.
 template <class Function>
-int run_without_system_calls(const Function& function) {
+int status_of(const Function& function) {
   const pid_t child = fork();
   if (child == 0) {
-    if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_STRICT) != 0) syscall(SYS_exit, 77);
     function();
-    syscall(SYS_exit, 0);
+    _exit(0);
   }
   int status = 0;
   waitpid(child, &status, 0);
   return status;
 }
 
-TEST(SteppingPath, CallsNoSystem) {
-  const int allowed = run_without_system_calls([] {});
-  if (WIFEXITED(allowed) && WEXITSTATUS(allowed) == 77) GTEST_SKIP() << "no seccomp here";
-  const int forbidden = run_without_system_calls([] { syscall(SYS_getpid); });
-  ASSERT_TRUE(WIFSIGNALED(forbidden) && WTERMSIG(forbidden) == SIGKILL) << "seccomp does not kill";
-  for (SteppingPath* path : all_paths()) {
-    for (int n = 0; n < 20; ++n) {  // pages are touched for the first time before they count
-      path->step(n);
-      path->take_away();
-    }
-    const int status = run_without_system_calls([path] {
-      for (int n = 0; n < kBatches; ++n) {
-        path->step(n);
-        path->take_away();
-      }
+TEST(SteppingPath, CallsTheSystemOnlyToSleepAndToWake) {
+  const int forbidden = status_of([] {
+    restrict_system_calls();
+    syscall(SYS_getpid);
+  });
+  if (WIFEXITED(forbidden) && WEXITSTATUS(forbidden) == 77) GTEST_SKIP() << "no seccomp here";
+  ASSERT_TRUE(WIFSIGNALED(forbidden) && WTERMSIG(forbidden) == SIGSYS) << "the kernel does not kill";
+  for (const Parameters& p : runs()) {
+    const int status = status_of([&p] {
+      Reader reader(p);
+      g_restrict = true;
+      reader.steer();
+      _exit(reader.impacts() < 500 ? 1 : 0);  // the running thread may not even end
     });
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "killed by signal " << WTERMSIG(status);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        << (WIFSIGNALED(status) ? "killed by signal " + std::to_string(WTERMSIG(status)) : "too few impacts");
   }
 }
 

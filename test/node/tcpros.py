@@ -15,8 +15,8 @@ def _field(text):
 
 
 class BareSubscriber:
-    def __init__(self, name, caller='/bare'):
-        _, _, node = rospy.get_master().lookupNode(NAMESPACE)
+    def __init__(self, name, caller='/bare', master=None):
+        _, _, node = master.lookupNode(caller, NAMESPACE) if master else rospy.get_master().lookupNode(NAMESPACE)
         topic = NAMESPACE + '/' + name
         code, text, (_, host, port) = xmlrpc.client.ServerProxy(node).requestTopic(caller, topic, [['TCPROS']])
         assert code == 1, text
@@ -25,8 +25,8 @@ class BareSubscriber:
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
         self.socket.settimeout(15.0)
         self.socket.connect((host, port))
-        kind = TOPICS[name]
-        fields = {'callerid': caller, 'topic': topic, 'type': kind._type, 'md5sum': kind._md5sum, 'tcp_nodelay': '1'}
+        self.kind = TOPICS[name]
+        fields = {'callerid': caller, 'topic': topic, 'type': self.kind._type, 'md5sum': self.kind._md5sum, 'tcp_nodelay': '1'}
         header = b''.join(_field('%s=%s' % item) for item in fields.items())
         self.socket.sendall(struct.pack('<I', len(header)) + header)
         self.read(struct.unpack('<I', self.read(4))[0])
@@ -38,6 +38,11 @@ class BareSubscriber:
             assert part, 'the emulator has closed the connection'
             data += part
         return data
+
+    def read_message(self):
+        """A message of the topic, decoded."""
+        size, = struct.unpack('<I', self.read(4))
+        return self.kind().deserialize(self.read(size))
 
     def read_half_a_message(self):
         size, = struct.unpack('<I', self.read(4))

@@ -8,21 +8,18 @@ endfunction()
 
 set(node_tests
   bad_parameters
+  commands
   diagnostics
-  drag_speeds
   ending
   full_disk
+  lockstep
   loopback
-  obeys_commands
   publishes
-  recording
-  refuses_junk
   replay
   reset_pause_step
   scenes
   shipped_files
-  shutdown
-  standstill)
+  shutdown)
 foreach(name IN LISTS node_tests)
   afm_add_rostest(${name} afm_emulator_node)
 endforeach()
@@ -34,27 +31,29 @@ foreach(name IN LISTS view_tests)
 endforeach()
 
 # nodes to copy
-set(example_tests controllers examples)
-foreach(name IN LISTS example_tests)
-  afm_add_rostest(${name} afm_emulator_node afm_view_node afm_examples_ros)
+set(example_tests examples)
+afm_add_rostest(examples afm_emulator_node afm_view_node afm_examples_ros)
+# their own tests, as a user writes them
+foreach(arguments "hold_force.test language:=python" "hold_force.test language:=cpp" "hold_force.test pace:=real_time"
+        "seek_peak.test language:=python" "seek_peak.test language:=cpp start:=7.3e-6")
+  separate_arguments(arguments)
+  list(POP_FRONT arguments file)
+  add_rostest(${PROJECT_SOURCE_DIR}/examples/ros/test/${file} ARGS ${arguments} DEPENDENCIES afm_emulator_node afm_examples_ros)
 endforeach()
-set_tests_properties(${rostest_prefix}controllers.test PROPERTIES TIMEOUT 330)  # one after the other in two languages
 
 # of the tools that read recordings
 set(recording_tests
   bag_to_csv
-  broken_bags
-  checkpoints
   faults
   levels
-  listening
   load
+  recording
   recording_faults
   repeats
   spoiled_bags
   steering)
 foreach(name IN LISTS recording_tests)
-  afm_add_rostest(${name} afm_emulator_node afm_replay_check afm_bag_check afm_bag_to_csv)
+  afm_add_rostest(${name} afm_emulator_node afm_replay_check afm_bag_to_csv)
 endforeach()
 # keeps every core busy: what ran beside it would starve
 set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
@@ -64,19 +63,8 @@ if(TARGET afm_python_module)
   afm_add_rostest(python_module afm_emulator_node afm_replay_check afm_python)
 endif()
 
-# an independent reader, only where someone has installed it: no test fetches anything
-find_program(NODE_PROGRAM NAMES node nodejs)
-set(node_modules ${CMAKE_BINARY_DIR}/node_modules)
-if(NODE_PROGRAM AND EXISTS ${node_modules}/@foxglove/rosbag)
-  afm_add_rostest(javascript_reader afm_emulator_node)
-  set_property(TEST ${rostest_prefix}javascript_reader.test APPEND PROPERTY ENVIRONMENT NODE_PATH=${node_modules})
-else()
-  message(STATUS "The test by a reader in JavaScript is left out; for it you need Node.js 16, and: "
-    "npm install --prefix ${CMAKE_BINARY_DIR} @foxglove/rosbag@0.4.1 tslib@2")
-endif()
-
 # node/NAME_test.cpp: parts of the node that need no master
-foreach(name diagnosis run_history)
+foreach(name diagnosis)
   afm_add_gtest(${name}_test node/${name}_test.cpp)
   target_include_directories(afm_${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
   target_link_libraries(afm_${name}_test afm_emulator_ros)

@@ -4,13 +4,11 @@ import threading
 import time
 
 import rospy
-from afm_emulator.msg import (AppliedDrag, AppliedParameters, Checkpoint, Configuration, Deflection, Digest, EmulatorStatus, Friction,
-                              ImpactArray)
+from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray, Snapshot
 
 NAMESPACE = '/afm'
-TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied_drag': AppliedDrag,
-          'applied_parameters': AppliedParameters, 'status': EmulatorStatus, 'configuration': Configuration, 'digest': Digest,
-          'checkpoint': Checkpoint}
+TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied': Applied, 'status': EmulatorStatus,
+          'configuration': Configuration, 'snapshot': Snapshot}
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))  # under a sanitizer all takes longer
 
@@ -44,7 +42,7 @@ class Topic:
     _open = []
 
     def __init__(self, name, kind=None):
-        self.name, self.kind = name, kind or TOPICS[name]
+        self.name, self.kind = name, kind or TOPICS[name.rsplit('/', 1)[-1]]
         self.raw, self.messages = [], []
         self._subscribe()
         Topic._open.append(self)
@@ -60,11 +58,11 @@ class Topic:
             self._subscriber.unregister()
             self._subscribe()
 
-    def _wait_until(self, condition, what):
+    def _wait_until(self, condition, what, deadline_s=15.0):
         def looked_after():
             self._ask_again()
             return condition()
-        return wait_until(looked_after, self.name + ': ' + what)
+        return wait_until(looked_after, self.name + ': ' + what, deadline_s)
 
     def wait_for_connection(self):
         self._wait_until(lambda: self._subscriber.get_num_connections() > 0, 'connected')
@@ -74,13 +72,25 @@ class Topic:
         Topic._open.remove(self)
 
     @staticmethod
-    def close_all():
+    def close_all(but=()):
         for topic in list(Topic._open):
-            topic.close()
+            if topic not in but:
+                topic.close()
+
+    @staticmethod
+    def all_open():
+        return list(Topic._open)
+
+    def forget_before(self, epoch):
+        """Messages of earlier epochs."""
+        with _news:
+            kept = [i for i, m in enumerate(self.messages) if m.epoch >= epoch]
+            self.messages[:], self.raw[:] = [self.messages[i] for i in kept], [self.raw[i] for i in kept]
 
     def _take(self, message):
-        # who subscribes while a latched message is being published gets it twice from roscpp
-        if message._connection_header['latching'] == '1' and self.raw and self.raw[-1] == message._buff:
+        # who subscribes while a latched message is being published gets it twice from roscpp; ours are numbered
+        twice = message._connection_header['latching'] == '1' and self.raw and self.raw[-1] == message._buff
+        if twice and 'header' in self.kind.__slots__:
             return
         decoded = self.kind().deserialize(message._buff)
         with _news:
@@ -88,9 +98,9 @@ class Topic:
             self.messages.append(decoded)
             _news.notify_all()
 
-    def wait_for(self, wanted=lambda message: True, what='a message', begin=0):
+    def wait_for(self, wanted=lambda message: True, what='a message', begin=0, deadline_s=15.0):
         """The first message from the `begin`-th on that is wanted."""
-        return self._wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), what)
+        return self._wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), what, deadline_s)
 
     def wait_for_next(self, wanted=lambda message: True, what='a message'):
         return self.wait_for(wanted, what, begin=len(self.messages))

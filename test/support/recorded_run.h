@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "afm/emulator.h"
+#include "afm/run.h"
 
 namespace afm {
 

@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import rosbag
-from afm_emulator.msg import AppliedDrag, Configuration, Deflection, Friction, Impact, ImpactArray
+from afm_emulator.msg import Applied, Configuration, Deflection, Friction, Impact, ImpactArray
 
 SCRIPT = sys.argv.pop()
 
@@ -31,9 +31,9 @@ class PlotRun(unittest.TestCase):
                                               restitution_gamma=0.7, cutoff_speed=1.66e-7, sample_rate_hz=1e5)
                 configuration.header.seq = epoch
                 bag.write('/tip/configuration', configuration)
-                drag = AppliedDrag(epoch=epoch, drag_velocity=6.6e-6)
+                drag = Applied(epoch=epoch, drag_velocity=6.6e-6)
                 drag.header.seq = epoch
-                bag.write('/tip/applied_drag', drag)
+                bag.write('/tip/applied', drag)
                 for i in range(batches):
                     deflection = Deflection(epoch=epoch, first_sample=100 * i, sample_period=1e-5,
                                             vertical=[1e-10] * 100, lateral=[-1e-11] * 100)
@@ -41,7 +41,7 @@ class PlotRun(unittest.TestCase):
                     bag.write('/tip/deflection', deflection)
                     bag.write('/tip/impacts', ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k)
                                                                               for k in range(4)]))
-                    bag.write('/tip/friction', Friction(epoch=epoch, k_f=1e-6, k_f_natural=0.4))
+                    bag.write('/tip/friction', Friction(epoch=epoch, k_f_work=1e-6, k_f_work_natural=0.4))
         return path
 
     def test_draws_beside_the_bag_or_where_asked(self):

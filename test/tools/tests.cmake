@@ -1,11 +1,8 @@
 # Tools on the command line, and programs that measure.
 
 if(catkin_FOUND)
-  foreach(name friction_audit message_difference)
-    afm_add_gtest(${name}_test tools/${name}_test.cpp)
-    target_include_directories(afm_${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/benchmark)
-    target_link_libraries(afm_${name}_test afm_replay)
-  endforeach()
+  afm_add_gtest(message_difference_test tools/message_difference_test.cpp)
+  target_link_libraries(afm_message_difference_test afm_bags)
 
   add_test(NAME plot_run
     COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py

@@ -10,6 +10,11 @@ namespace afm {
 // Later than the end of every run. A difference of two such times still fits in 64 bits.
 constexpr ModelTime kEndOfTime{std::int64_t{1} << 60, 0.0};
 
+// A time that a run can reach; for times that were read from elsewhere. Half of the end leaves room to go on.
+inline bool is_possible(const ModelTime& time) {
+  return time.tau >= 0 && time.tau < kEndOfTime.tau / 2 && time.phase >= 0.0 && time.phase < 1.0;
+}
+
 struct SampleGrid {
   double period = 0.03;     // [tau]
   std::uint64_t first = 0;  // running index of the sample at the origin

@@ -30,6 +30,10 @@ NormalPair normal_pair(std::uint64_t seed, std::uint64_t stream, std::uint64_t i
 class Thermostat {
  public:
   Thermostat() = default;
+  Thermostat(const Bath& bath, double frequency_ratio, const SampleGrid& grid, std::uint64_t count)
+      : bath_(bath), grid_(grid), kicks_(count) {
+    prepare(frequency_ratio);
+  }
 
   // Another bath from `now` on. The times of kicks stay, unless their rate changes or the bath was off. Then the next
   // kick comes one period after `now`. The count of kicks goes on, so no random number is drawn twice.
@@ -37,17 +41,17 @@ class Thermostat {
 
   const ModelTime& next() const { return next_; }  // kEndOfTime without a bath
   const Bath& bath() const { return bath_; }
+  const SampleGrid& grid() const { return grid_; }  // kick n comes at its n-th time
+  std::uint64_t count() const { return kicks_; }    // so far
 
   Kick draw();  // takes the next kick
 
  private:
-  friend class StateFields;  // saved_state.cpp
-
   void prepare(double frequency_ratio);
 
   Bath bath_;
-  SampleGrid grid_{1.0, 0, {}};  // kick n at the time of its n-th sample
-  std::uint64_t kicks_ = 0;      // so far
+  SampleGrid grid_{1.0, 0, {}};
+  std::uint64_t kicks_ = 0;
   ModelTime next_ = kEndOfTime;
   Kick scale_;  // its noise holds the standard deviations
 };

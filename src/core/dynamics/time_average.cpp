@@ -69,10 +69,10 @@ void follow(Tip& tip, const ModelTime& end, Totals& totals) {
 
 FrictionAverage average_of(const Totals& totals, double eta, double time) {
   const double per_impact = totals.impacts > 0.0 ? 1.0 / totals.impacts : kNaN;
-  const double energy = totals.energy.value();
+  const double energy = totals.energy.value;
   FrictionAverage a;
   a.K_f = eta == 0.0 ? kNaN : energy / (eta * eta * time);
-  a.K_f_work = eta == 0.0 ? kNaN : totals.impulse.value() / (eta * time);
+  a.K_f_work = eta == 0.0 ? kNaN : totals.impulse.value / (eta * time);
   a.impacts_per_tau = totals.impacts / time;
   a.mean_energy_loss = energy * per_impact;
   a.mean_flight_time = (time - totals.contact_time) * per_impact;
@@ -88,10 +88,10 @@ FrictionAverage average_over_time(Tip& tip, double duration) {
   std::vector<double> energies(kTimeBatches), impulses(kTimeBatches);
   Totals totals;
   for (std::size_t i = 0; i < kTimeBatches; ++i) {
-    const double energy = totals.energy.value(), impulse = totals.impulse.value();
+    const double energy = totals.energy.value, impulse = totals.impulse.value;
     follow(tip, begin + length * static_cast<double>(i + 1), totals);
-    energies[i] = totals.energy.value() - energy;
-    impulses[i] = totals.impulse.value() - impulse;
+    energies[i] = totals.energy.value - energy;
+    impulses[i] = totals.impulse.value - impulse;
   }
   FrictionAverage a = average_of(totals, eta, tip.now() - begin);
   a.K_f_std_error = eta == 0.0 ? kNaN : mean_error(std::move(energies)).std_error / (length * eta * eta);

@@ -49,6 +49,7 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
     : model_(checked(model)),
       mechanics_(model),
       eta_(eta),
+      contact_tolerance_(contact_tolerance),
       slowest_chatter_(contact_tolerance / kErrorGrowth),
       law_(model, slowest_chatter_),
       entry_speed_(chatter_entry_speed(contact_tolerance)),
@@ -127,6 +128,7 @@ void Tip::leave_or_press() {
 }
 
 void Tip::set_tolerance(double contact_tolerance) {
+  contact_tolerance_ = contact_tolerance;
   slowest_chatter_ = contact_tolerance / kErrorGrowth;
   entry_speed_ = chatter_entry_speed(contact_tolerance);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "afm/number_text.h"
 #include "common/si_options.h"
 #include "dynamics_options.h"
 #include "sweep/curve_run.h"

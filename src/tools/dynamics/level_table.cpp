@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "afm/number_text.h"
 #include "common/csv.h"
 #include "common/progress_bar.h"
 #include "dynamics_options.h"

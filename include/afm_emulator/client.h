@@ -1,0 +1,214 @@
+// What a controller needs: commands that wait until they hold, and what is measured over a control period.
+//
+// In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same controller
+// gives the same bits each time. In real time the same calls measure while the clock goes on. The controller need not know
+// which it is. Header only; callbacks run inside its functions alone.
+#pragma once
+
+#include <afm_emulator/Applied.h>
+#include <afm_emulator/Configuration.h>
+#include <afm_emulator/Control.h>
+#include <afm_emulator/Deflection.h>
+#include <afm_emulator/ImpactArray.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_msgs/Float64.h>
+
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace afm_emulator {
+
+// What did not come in time, or why the emulator refused.
+class EmulatorError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// The node is shut down while it waits.
+class Shutdown : public std::exception {};
+
+inline std_msgs::Float64 to_message(double value) {
+  std_msgs::Float64 message;
+  message.data = value;
+  return message;
+}
+
+class Client {
+ public:
+  static constexpr double kAsItIs = std::numeric_limits<double>::quiet_NaN();
+
+  // name: of the node; timeout: of wall time that everything waits for an answer before it throws [s].
+  explicit Client(const std::string& name = "afm", double timeout = 10.0)
+      : name_(ros::names::resolve(name)),
+        timeout_(timeout),
+        drag_publisher_(node_.advertise<std_msgs::Float64>(name_ + "/drag_velocity", 10)),
+        height_publisher_(node_.advertise<std_msgs::Float64>(name_ + "/rest_height", 10)) {
+    node_.setCallbackQueue(&queue_);
+    subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
+    subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) { applied_ = m; });
+    wait_for([this] { return configuration_ != nullptr; }, name_ + "/configuration");
+    wait_for([this] { return applied_ != nullptr; }, name_ + "/applied");
+    if (is_lockstep()) {
+      control_ = node_.serviceClient<Control>(name_ + "/control", true);
+      if (!control_.waitForExistence(ros::Duration(timeout_))) throw EmulatorError(name_ + "/control: is not there");
+      return;
+    }
+    subscribe<Deflection>("deflection", [this](const Deflection::ConstPtr& m) { batches_.push_back(m); });
+    subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) { impacts_.push_back(m); });
+  }
+
+  const Configuration& configuration() const { return *configuration_; }
+  const Applied& applied() const { return *applied_; }  // what is in force
+  bool is_lockstep() const { return configuration_->pace == "lockstep"; }
+  double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }  // [s]
+  double lateral_stiffness() const { return stiffness(configuration_->omega_h_rad_per_s); }  // [N/m]
+  double vertical_stiffness() const { return stiffness(configuration_->omega_v_rad_per_s); }
+
+  // Commands what is given [m/s, m], advances by `duration` [s of model time], and returns what was measured over it
+  // (srv/Control.srv). Throws EmulatorError.
+  Control::Response control(double duration, double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
+    if (!is_lockstep()) return measure(command_and_wait(drag_velocity, rest_height), duration);
+    Control call;
+    call.request.drag_velocity = drag_velocity;
+    call.request.rest_height = rest_height;
+    call.request.duration = duration;
+    if (!control_.call(call)) {
+      end_with_the_launch();
+      throw EmulatorError(name_ + "/control: no answer");
+    }
+    if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
+    return call.response;
+  }
+
+  // Commands what is given and waits until it holds. Returns the message from which on it does.
+  Applied command_and_wait(double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
+    if (is_lockstep()) {
+      control(0.0, drag_velocity, rest_height);
+      wait_for([&] { return holds(drag_velocity, &Applied::drag_velocity) && holds(rest_height, &Applied::rest_height_m); },
+               name_ + "/applied");
+    } else {
+      command(drag_publisher_, drag_velocity, &Applied::drag_velocity);
+      command(height_publisher_, rest_height, &Applied::rest_height_m);
+    }
+    return *applied_;
+  }
+
+  // Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after
+  // what is commanded holds.
+  double mean_force(double duration, double settle = 0.0, double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
+    if (settle > 0.0) {
+      control(settle, drag_velocity, rest_height);
+      drag_velocity = rest_height = kAsItIs;
+    }
+    return control(duration, drag_velocity, rest_height).mean_lateral_force;
+  }
+
+ private:
+  static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted
+
+  double stiffness(double omega) const { return configuration_->tip_mass_kg * omega * omega; }
+  bool holds(double value, double Applied::*field) const { return std::isnan(value) || (*applied_).*field == value; }
+
+  template <class Message, class Take>
+  void subscribe(const std::string& topic, Take take) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback = take;
+    subscribers_.push_back(
+        node_.subscribe<Message>(name_ + "/" + topic, 1000, callback, {}, ros::TransportHints().tcpNoDelay()));
+  }
+
+  // roslaunch ends its nodes one after another: if the emulator has gone first, our turn comes soon.
+  static void end_with_the_launch() {
+    for (int i = 0; i < 50; ++i) {
+      if (!ros::ok()) throw Shutdown();
+      ros::WallDuration(0.02).sleep();
+    }
+  }
+
+  // Whether it came true in that time. Checks after every message.
+  template <class Condition>
+  bool comes_true(Condition is_true, double seconds) {
+    const double end = ros::WallTime::now().toSec() + seconds;
+    while (ros::ok() && !is_true() && ros::WallTime::now().toSec() < end) queue_.callOne(ros::WallDuration(0.05));
+    if (!ros::ok()) throw Shutdown();
+    return is_true();
+  }
+  template <class Condition>
+  void wait_for(Condition is_true, const std::string& what, double longer = 0.0) {
+    if (!comes_true(is_true, timeout_ + longer)) throw EmulatorError(what + ": nothing came in time");
+  }
+
+  // The emulator reports every command, also one of the value that holds already.
+  void command(const ros::Publisher& publisher, double value, double Applied::*field) {
+    if (std::isnan(value)) return;
+    const Applied::ConstPtr before = applied_;
+    const double end = ros::WallTime::now().toSec() + timeout_;
+    do {
+      if (ros::WallTime::now().toSec() > end) {
+        throw EmulatorError(publisher.getTopic() + ": " + std::to_string(value) + " had no effect: refused?");
+      }
+      publisher.publish(to_message(value));
+    } while (!comes_true([&] { return applied_ != before && holds(value, field); }, kAgain));
+  }
+
+  // As the emulator measures in lockstep, from the batches that it publishes.
+  Control::Response measure(const Applied& since, double duration) {
+    Control::Response r;
+    r.success = true;
+    r.epoch = since.epoch;
+    r.applied = since.number;
+    batches_.clear();
+    impacts_.clear();
+    double seconds = 0.0, vertical = 0.0, lateral = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
+    while (seconds < duration) {
+      wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
+      const Deflection& batch = *batches_.front();
+      if (batch.epoch != since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
+      const double age = static_cast<double>(batch.time.tau - since.time.tau) + (batch.time.phase - since.time.phase);
+      if (age >= 0.0) {
+        if (r.samples == 0) r.begin = batch.time;
+        r.samples += batch.vertical.size();
+        for (const double y : batch.vertical) vertical += y, vertical_squares += y * y;
+        for (const double x : batch.lateral) lateral += x, lateral_squares += x * x;
+        seconds += static_cast<double>(batch.vertical.size()) * batch.sample_period;
+      }
+      batches_.pop_front();
+    }
+    for (const ImpactArray::ConstPtr& batch : impacts_) {
+      for (const Impact& impact : batch->impacts) {
+        r.impact_count += impact.count;
+        r.energy_loss += impact.energy_loss;
+      }
+    }
+    const double n = static_cast<double>(r.samples), total = r.begin.phase + seconds / tau();
+    r.end.tau = r.begin.tau + static_cast<std::int64_t>(std::floor(total));
+    r.end.phase = total - std::floor(total);
+    r.mean_vertical = vertical / n;
+    r.rms_vertical = std::sqrt(vertical_squares / n);
+    r.mean_lateral_force = -lateral_stiffness() * lateral / n;
+    r.rms_lateral_force = lateral_stiffness() * std::sqrt(lateral_squares / n);
+    r.mean_normal_force = -vertical_stiffness() * r.mean_vertical;
+    const double v0 = since.drag_velocity != 0.0 ? since.drag_velocity : kAsItIs;
+    r.k_f = r.energy_loss / (v0 * v0 * seconds);
+    r.k_f_work = r.mean_lateral_force / v0;
+    return r;
+  }
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue queue_;
+  const std::string name_;
+  const double timeout_;
+  ros::Publisher drag_publisher_, height_publisher_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::ServiceClient control_;
+  Configuration::ConstPtr configuration_;
+  Applied::ConstPtr applied_;
+  std::deque<Deflection::ConstPtr> batches_;
+  std::deque<ImpactArray::ConstPtr> impacts_;
+};
+
+}  // namespace afm_emulator

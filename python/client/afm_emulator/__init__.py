@@ -1,0 +1,11 @@
+"""The client library of the emulator: from afm_emulator import Client.
+
+It is imported when it is first used, since the messages live in this package too and need no rospy.
+"""
+
+
+def __getattr__(name):
+    if name in ('Client', 'EmulatorError'):
+        from afm_emulator import client
+        return getattr(client, name)
+    raise AttributeError('afm_emulator has no %s' % name)

@@ -1,0 +1,193 @@
+"""What a controller needs: commands that wait until they hold, and what is measured over a control period.
+
+In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same controller gives the
+same bits each time. In real time the same calls measure while the clock goes on. The controller need not know which it is.
+"""
+import math
+import threading
+import time
+
+import rospy
+from afm_emulator.msg import Applied, Configuration, Deflection, ImpactArray
+from afm_emulator.srv import Control, ControlResponse
+from std_msgs.msg import Float64
+
+AGAIN_S = 1.0  # of wall time: a command without effect is published again, as the emulator may have been restarted
+QUEUE_BYTES = 1 << 22
+
+
+class EmulatorError(RuntimeError):
+    """What did not come in time, or why the emulator refused."""
+
+
+def tau_between(begin, end):
+    """Model time from one ModelTime message to another [tau]."""
+    return (end.tau - begin.tau) + (end.phase - begin.phase)
+
+
+class Client:
+    """An emulator, by the name of its node. timeout: of wall time that everything waits for an answer, before it raises."""
+
+    def __init__(self, name='afm', timeout=10.0):
+        self.name = rospy.resolve_name(name)
+        self.timeout = timeout
+        self.configuration = None  # the latest message
+        self.applied = None        # the latest message: what is in force
+        self._news = threading.Condition()
+        self._batches = None       # Deflection and ImpactArray messages, while something is measured
+        self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10, tcp_nodelay=True)
+                            for topic in ('drag_velocity', 'rest_height')}
+        for topic, kind in (('configuration', Configuration), ('applied', Applied)):
+            rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._keep, topic, tcp_nodelay=True)
+        for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray)):
+            rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
+        self._control = None
+        for topic in ('configuration', 'applied'):
+            self._wait_for(lambda: getattr(self, topic) is not None, '%s/%s' % (self.name, topic))
+        if self.is_lockstep:
+            self._control = rospy.ServiceProxy(self.name + '/control', Control, persistent=True)
+
+    @property
+    def is_lockstep(self):
+        return self.configuration.pace == 'lockstep'
+
+    @property
+    def tau_s(self):
+        """Seconds of model time in a tau."""
+        return 2.0 * math.pi / self.configuration.omega_v_rad_per_s
+
+    @property
+    def lateral_stiffness(self):
+        """[N/m] of the horizontal spring."""
+        return self.configuration.tip_mass_kg * self.configuration.omega_h_rad_per_s ** 2
+
+    @property
+    def stiffness(self):
+        """[N/m] of the vertical spring."""
+        return self.configuration.tip_mass_kg * self.configuration.omega_v_rad_per_s ** 2
+
+    def control(self, duration, drag_velocity=None, rest_height=None):
+        """Commands what is given, advances by `duration` [s of model time], and returns what was measured over it, as the answer of
+        the service ~control holds it (srv/Control.srv). drag_velocity [m/s], rest_height [m]; None: as it is."""
+        nan = float('nan')
+        if not self.is_lockstep:
+            return self._measure(self.command_and_wait(drag_velocity, rest_height), duration)
+        try:
+            answer = self._control(nan if drag_velocity is None else drag_velocity,
+                                   nan if rest_height is None else rest_height, duration)
+        except rospy.ServiceException as fault:
+            self._end_with_the_launch()
+            raise EmulatorError('%s/control: %s' % (self.name, fault)) from fault
+        if not answer.success:
+            raise EmulatorError('%s/control: %s' % (self.name, answer.message))
+        return answer
+
+    def command_and_wait(self, drag_velocity=None, rest_height=None):
+        """Commands what is given [m/s, m] and waits until it holds. Returns the Applied message from which on it does."""
+        if self.is_lockstep:
+            self.control(0.0, drag_velocity, rest_height)
+            wanted = {'drag_velocity': drag_velocity, 'rest_height_m': rest_height}
+            self._wait_for(lambda: all(v is None or getattr(self.applied, n) == v for n, v in wanted.items()),
+                           self.name + '/applied')
+            return self.applied
+        for topic, field, value in (('drag_velocity', 'drag_velocity', drag_velocity),
+                                    ('rest_height', 'rest_height_m', rest_height)):
+            if value is not None:
+                self._command(topic, field, float(value))
+        return self.applied
+
+    def mean_force(self, duration, settle=0.0, drag_velocity=None, rest_height=None):
+        """Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after what is
+        commanded holds."""
+        if settle > 0.0:
+            self.control(settle, drag_velocity, rest_height)
+            drag_velocity = rest_height = None
+        return self.control(duration, drag_velocity, rest_height).mean_lateral_force
+
+    @staticmethod
+    def _end_with_the_launch():
+        """roslaunch ends its nodes one after another: if the emulator has gone first, our turn comes soon."""
+        end = time.monotonic() + 1.0
+        while time.monotonic() < end:
+            if rospy.is_shutdown():
+                raise rospy.ROSInterruptException('shut down')
+            time.sleep(0.02)
+
+    def _keep(self, message, topic):
+        with self._news:
+            setattr(self, topic, message)
+            self._news.notify_all()
+
+    def _take(self, message):
+        with self._news:
+            if self._batches is not None:
+                self._batches.append(message)
+                self._news.notify_all()
+
+    def _wait_for(self, condition, what, seconds=None, may_fail=False):
+        """Whether it came true in that time."""
+        seconds = self.timeout if seconds is None else seconds
+        end = time.monotonic() + seconds
+        with self._news:
+            while not condition():
+                if rospy.is_shutdown():
+                    raise rospy.ROSInterruptException('shut down')
+                if time.monotonic() > end:
+                    if may_fail:
+                        return False
+                    raise EmulatorError('%s: nothing came within %g s' % (what, seconds))
+                self._news.wait(0.05)
+        return True
+
+    def _command(self, topic, field, value):
+        before, end = self.applied, time.monotonic() + self.timeout
+        while True:
+            self._publishers[topic].publish(value)
+            # the emulator reports every command, also one of the value that holds already
+            if self._wait_for(lambda: self.applied is not before and getattr(self.applied, field) == value, '', AGAIN_S, True):
+                return
+            if time.monotonic() > end:
+                raise EmulatorError('%s/%s: %g had no effect within %g s: refused, or no emulator there?'
+                                    % (self.name, topic, value, self.timeout))
+
+    def _measure(self, applied, duration):
+        """As the emulator measures in lockstep, from the batches that it publishes."""
+        with self._news:
+            self._batches = []
+        answer, squares = ControlResponse(success=True, epoch=applied.epoch, applied=applied.number), [0.0, 0.0]
+        seconds = 0.0
+        while seconds < duration:
+            self._wait_for(lambda: self._batches, self.name + '/deflection',
+                           self.timeout + duration / self.configuration.time_scale)
+            with self._news:
+                batch = self._batches.pop(0)
+            if batch.epoch != applied.epoch:
+                raise EmulatorError('%s: reset while it was measured' % self.name)
+            if isinstance(batch, ImpactArray):
+                answer.impact_count += sum(i.count for i in batch.impacts)
+                answer.energy_loss += sum(i.energy_loss for i in batch.impacts)
+                continue
+            if tau_between(applied.time, batch.time) < 0.0:
+                continue
+            if answer.samples == 0:
+                answer.begin = batch.time
+            answer.samples += len(batch.vertical)
+            answer.mean_vertical += sum(batch.vertical)
+            answer.mean_lateral_force -= sum(batch.lateral)
+            squares[0] += sum(y * y for y in batch.vertical)
+            squares[1] += sum(x * x for x in batch.lateral)
+            seconds += len(batch.vertical) * batch.sample_period
+        with self._news:
+            self._batches = None
+        n = answer.samples
+        answer.mean_vertical /= n
+        answer.rms_vertical = math.sqrt(squares[0] / n)
+        answer.mean_lateral_force *= self.lateral_stiffness / n
+        answer.rms_lateral_force = self.lateral_stiffness * math.sqrt(squares[1] / n)
+        answer.mean_normal_force = -self.stiffness * answer.mean_vertical
+        total = answer.begin.phase + seconds / self.tau_s
+        answer.end.tau, answer.end.phase = answer.begin.tau + math.floor(total), total - math.floor(total)
+        v0 = applied.drag_velocity or float('nan')
+        answer.k_f = answer.energy_loss / (v0 * v0 * seconds)
+        answer.k_f_work = answer.mean_lateral_force / v0
+        return answer

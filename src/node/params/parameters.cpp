@@ -1,0 +1,181 @@
+#include "parameters.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <utility>
+#include <variant>
+
+#include "afm/number_text.h"
+
+namespace afm::node {
+namespace {
+
+using Field = std::variant<double*, std::uint64_t*, bool*, std::string*, std::vector<double>*>;
+
+// diagnostic_updater reads these in our namespace
+constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn"};
+
+std::map<std::string, Field> fields_of(Parameters& p) {
+  return {{"omega_v_rad_per_s", &p.si.omega_v_rad_per_s},
+          {"omega_h_rad_per_s", &p.si.omega_h_rad_per_s},
+          {"tip_mass_kg", &p.si.tip_mass_kg},
+          {"lattice_spacing_m", &p.si.lattice_spacing_m},
+          {"surface_amplitude_m", &p.si.surface_amplitude_m},
+          {"rest_height_m", &p.si.rest_height_m},
+          {"restitution_gamma", &p.si.restitution_gamma},
+          {"cutoff_speed", &p.si.cutoff_speed},
+          {"temperature_k", &p.bath.temperature_k},
+          {"quality_factor", &p.bath.quality_factor},
+          {"lateral_quality_factor", &p.bath.lateral_quality_factor},
+          {"kicks_per_tau", &p.bath.kicks_per_tau},
+          {"seed", &p.bath.seed},
+          {"model", &p.model},
+          {"tolerance", &p.tolerance},
+          {"tolerance_of", &p.tolerance_of},
+          {"level_table", &p.level_table},
+          {"drag_velocity", &p.drag_velocity},
+          {"max_drag_velocity", &p.max_drag_velocity},
+          {"initial_phase", &p.initial.phase},
+          {"initial_extension", &p.initial.X},
+          {"initial_height", &p.initial.y},
+          {"initial_u", &p.initial.u},
+          {"initial_w", &p.initial.w},
+          {"time_scale", &p.time_scale},
+          {"pace", &p.pace},
+          {"wait_for", &p.wait_for},
+          {"command_wait_s", &p.command_wait_s},
+          {"publish_clock", &p.publish_clock},
+          {"batch_rate_hz", &p.batch_rate_hz},
+          {"sample_rate_hz", &p.sample_rate_hz},
+          {"friction_window_tau", &p.friction_window_tau},
+          {"commands_eta", &p.commands_eta},
+          {"commands_hold_s", &p.commands_hold_s},
+          {"command_timeout_s", &p.command_timeout_s},
+          {"impact_budget", &p.impact_budget},
+          {"contact_tolerance", &p.contact_tolerance},
+          {"paused", &p.paused},
+          {"record", &p.record},
+          {"bag_directory", &p.bag_directory},
+          {"disk_reserve_mb", &p.disk_reserve_mb},
+          {"compression", &p.compression},
+          {"split_size_mb", &p.split_size_mb},
+          {"split_duration_s", &p.split_duration_s}};
+}
+
+std::string known_names(const std::map<std::string, Field>& fields) {
+  std::string names;
+  for (const auto& [name, field] : fields) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+using Value = XmlRpc::XmlRpcValue;
+
+std::string text_of(Value& value) {
+  if (value.getType() == Value::TypeString) return '"' + static_cast<std::string&>(value) + '"';
+  if (value.getType() == Value::TypeDouble) return number_text(static_cast<double&>(value));
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Each returns what is wrong with the value, or nothing.
+
+std::string read(Value& value, double* out) {
+  if (value.getType() == Value::TypeInt) {
+    *out = static_cast<int&>(value);
+    return {};
+  }
+  if (value.getType() == Value::TypeString) {
+    return "must be a number, not text; YAML reads 1e-4 as text: write 1.0e-4";
+  }
+  if (value.getType() != Value::TypeDouble) return "must be a number";
+  *out = static_cast<double&>(value);
+  return {};
+}
+
+std::string read(Value& value, std::uint64_t* out) {
+  constexpr double kMost = 1e15;  // above it not every double is the whole number it was given as
+  double number = 0.0;
+  const std::string wrong = read(value, &number);
+  if (!wrong.empty()) return wrong;
+  if (!(number >= 0.0 && number <= kMost && number == std::floor(number)))
+    return "must be a whole number, not negative";
+  *out = static_cast<std::uint64_t>(number);
+  return {};
+}
+
+std::string read(Value& value, bool* out) {
+  if (value.getType() != Value::TypeBoolean) return "must be true or false";
+  *out = static_cast<bool&>(value);
+  return {};
+}
+
+std::string read(Value& value, std::string* out) {
+  if (value.getType() != Value::TypeString) return "must be text";
+  *out = static_cast<std::string&>(value);
+  return {};
+}
+
+std::string read(Value& value, std::vector<double>* out) {
+  if (value.getType() != Value::TypeArray) return "must be a list of numbers";
+  out->resize(static_cast<std::size_t>(value.size()));
+  for (int i = 0; i < value.size(); ++i) {
+    const std::string wrong = read(value[i], &(*out)[static_cast<std::size_t>(i)]);
+    if (!wrong.empty()) return "element " + std::to_string(i) + ": " + wrong;
+  }
+  return {};
+}
+
+bool is_foreign(const std::string& name) {
+  for (const char* foreign : kForeignNames) {
+    if (name == foreign) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string describe(const Faults& faults) {
+  std::string text;
+  for (const Fault& fault : faults) {
+    text += (text.empty() ? "" : "\n") + fault.name + " = " + fault.value + ": " + fault.reason;
+  }
+  return text;
+}
+
+std::string expand_home(const std::string& path) {
+  const char* home = std::getenv("HOME");
+  return home != nullptr && path.compare(0, 2, "~/") == 0 ? home + path.substr(1) : path;
+}
+
+Parameters read_parameters(Value tree, Faults& faults) {
+  Parameters parameters;
+  const auto fields = fields_of(parameters);
+  if (tree.getType() == Value::TypeStruct) {
+    for (auto& [name, value] : tree) {
+      const auto field = fields.find(name);
+      if (field != fields.end()) {
+        const std::string wrong = std::visit([&v = value](auto* out) { return read(v, out); }, field->second);
+        if (!wrong.empty()) faults.push_back({name, text_of(value), wrong});
+      } else if (!is_foreign(name)) {
+        faults.push_back({name, text_of(value), "there is no such parameter; there are " + known_names(fields)});
+      }
+    }
+  }
+  parameters.bag_directory = expand_home(parameters.bag_directory);
+  parameters.level_table = expand_home(parameters.level_table);
+  // what could not be read stands at its default here and adds no fault of its own
+  for (Fault& fault : find_faults(parameters)) faults.push_back(std::move(fault));
+  if (parameters.model == kAuto) load_levels(parameters, faults);
+  return parameters;
+}
+
+Parameters load_parameters(const ros::NodeHandle& node, Faults& faults) {
+  Value tree;
+  node.getParam(node.getNamespace(), tree);
+  return read_parameters(tree, faults);
+}
+
+}  // namespace afm::node

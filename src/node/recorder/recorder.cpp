@@ -1,0 +1,198 @@
+#include "recorder.h"
+
+#include <pthread.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include "paths.h"
+
+namespace afm::node {
+namespace {
+
+// Eight seconds at 1 MHz of samples: longer than a disk stalls to flush its caches.
+constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
+constexpr std::chrono::seconds kCloseDeadline{30};
+
+}  // namespace
+
+Recorder::Recorder(const Settings& settings, std::function<void()> ask_for_snapshot)
+    : settings_(settings), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
+
+Recorder::~Recorder() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = quitting_ = true;
+  }
+  work_.notify_all();
+  thread_.join();
+}
+
+// NAME, NAME_001, NAME_002: a shell lists NAME*.bag in this order.
+std::string Recorder::part_path(std::uint32_t part) const {
+  char number[16] = "";
+  if (part > 0) std::snprintf(number, sizeof number, "_%03u", part);
+  return base_ + number + ".bag";
+}
+
+Recorder::Reply Recorder::start(const std::string& name) {
+  const std::lock_guard<std::mutex> one_at_a_time(starting_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (bag_) return {false, "already recording " + path_, path_};
+  }
+  const std::string fault = name.empty() ? "" : find_name_fault(name);
+  if (!fault.empty()) return {false, "name = \"" + name + "\": " + fault, ""};
+  try {
+    std::filesystem::create_directories(std::filesystem::absolute(settings_.directory));
+    base_ = bag_base(settings_.directory, name);
+    auto bag = std::make_unique<BagFile>(part_path(0), settings_.reserve_bytes, settings_.compression);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    bag_ = std::move(bag);
+    path_ = bag_->path();
+    error_.clear();
+    messages_ = 0;
+    part_ = 0;
+    full_ = begun_ = false;
+    dropped_before_ = dropped_messages_;
+  } catch (const std::exception& error) {
+    return {false, error.what(), ""};
+  }
+  ROS_INFO_STREAM("recording " << path_);
+  return {true, "recording " + path_, path_};
+}
+
+Recorder::Reply Recorder::stop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!bag_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
+  stopping_ = true;
+  work_.notify_all();
+  if (!closed_.wait_for(lock, kCloseDeadline, [this] { return !bag_; })) {
+    return {false, path_ + " is still being written to a slow disk", path_};
+  }
+  if (!error_.empty()) return {false, error_, path_};
+  return {true, path_ + ": " + std::to_string(messages_) + " messages", path_};
+}
+
+Recorder::Status Recorder::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {bag_ ? path_ : "", error_, dropped_messages_, dropped_messages_ - dropped_before_};
+}
+
+void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Message message{topic, bytes};
+  if (role == Role::configuration) configuration_ = message;
+  if (role == Role::applied) applied_ = message;
+  if (!bag_ || stopping_) return;
+  if (role == Role::snapshot) {
+    begun_ = true;
+    push({message, {}, configuration_, applied_});
+  } else if (begun_) {
+    push({message, {}, {}, {}});
+  }
+}
+
+// Stamps in the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by them.
+void Recorder::push(Item item) {
+  const std::size_t bytes = item.message.bytes.size();
+  if (queue_bytes_ + bytes > kMaxQueueBytes) {
+    ++dropped_messages_;
+    return;
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  last_stamp_ = std::max(last_stamp_ + ros::Duration(0, item.is_snapshot() ? 3 : 1), ros::Time(now.sec, now.nsec));
+  item.stamp = last_stamp_;
+  queue_bytes_ += bytes;
+  queue_.push_back(std::move(item));
+  work_.notify_one();
+}
+
+void Recorder::write_loop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  pthread_setname_np(pthread_self(), "afm_record");
+  while (bag_ || !quitting_) {
+    work_.wait(lock, [this] { return !queue_.empty() || stopping_; });
+    if (queue_.empty()) {
+      finish(lock, {});
+      continue;
+    }
+    const Item item = std::move(queue_.front());
+    queue_.pop_front();
+    queue_bytes_ -= item.message.bytes.size();
+    lock.unlock();
+    std::string error = write(item);
+    lock.lock();
+    path_ = bag_->path();
+    if (!error.empty()) finish(lock, std::move(error));
+  }
+}
+
+void Recorder::write(const Message& message, const ros::Time& stamp) {
+  bag_->write(*message.topic, stamp, message.bytes);
+  ++messages_;
+}
+
+std::string Recorder::write(const Item& item) {
+  try {
+    const std::string trouble = bag_->check_space(item.message.bytes.size());
+    if (!trouble.empty()) return "stopped: " + trouble;
+    if (item.is_snapshot()) begin_bag(item);
+    write(item.message, item.stamp);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  if (!full_ && is_full(item.stamp)) {
+    full_ = true;
+    ask_for_snapshot_();
+  }
+  return {};
+}
+
+bool Recorder::is_full(const ros::Time& stamp) const {
+  const bool large = settings_.split_bytes > 0 && bag_->bytes() >= settings_.split_bytes;
+  return large || (settings_.split_seconds > 0.0 && (stamp - begin_stamp_).toSec() >= settings_.split_seconds);
+}
+
+// Where this snapshot begins one.
+void Recorder::begin_bag(const Item& snapshot) {
+  if (full_) {
+    auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
+    ++part_;  // only now, as that may fail: then this bag is the last
+    const std::string error = bag_->close();
+    bag_ = std::move(next);
+    full_ = false;
+    if (!error.empty()) throw std::runtime_error(error);
+  }
+  if (bag_->messages() > 0) return;
+  begin_stamp_ = snapshot.stamp;
+  write(snapshot.configuration, snapshot.stamp - ros::Duration(0, 2));
+  write(snapshot.applied, snapshot.stamp - ros::Duration(0, 1));
+}
+
+void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
+  stopping_ = true;  // nothing more is queued while we close
+  queue_.clear();
+  queue_bytes_ = 0;
+  if (bag_) {
+    lock.unlock();
+    const std::string close_error = bag_->close();
+    lock.lock();
+    if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;
+    if (!error.empty()) error = bag_->path() + ": " + error;
+    bag_.reset();
+    if (error.empty()) {
+      ROS_INFO_STREAM("recorded " << path_ << ": " << messages_ << " messages");
+    } else {
+      ROS_ERROR_STREAM("recording ended early: " << error);
+    }
+  }
+  error_ = std::move(error);
+  stopping_ = quitting_;
+  closed_.notify_all();
+}
+
+}  // namespace afm::node

@@ -1,0 +1,98 @@
+// Writes every message it is given to a bag, in a thread of its own. A recording begins with a snapshot, and so does
+// every bag of a split one. A disk that fills up or fails ends the recording, never the node.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "bag_file.h"
+
+namespace afm::node {
+
+// Of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
+enum class Role { ordinary, configuration, applied, snapshot };
+
+class Recorder {
+ public:
+  struct Settings {
+    std::string directory;
+    std::uint64_t reserve_bytes;
+    std::uint64_t split_bytes;  // a new bag after so much; 0: never
+    double split_seconds;       // of stamps; 0: never
+    rosbag::CompressionType compression;
+  };
+  struct Reply {
+    bool success = false;
+    std::string message, path;
+  };
+  struct Status {
+    std::string recording;  // path of the bag being written, or empty
+    std::string error;      // why the last recording ended early, or empty
+    std::uint64_t dropped_messages = 0;        // since the node began
+    std::uint64_t dropped_from_recording = 0;  // the present or last one
+  };
+
+  // ask_for_snapshot: called by the recorder's thread when the bag is full; the next one begins with that snapshot.
+  Recorder(const Settings& settings, std::function<void()> ask_for_snapshot);
+  ~Recorder();  // writes what waits and closes
+
+  Reply start(const std::string& name);  // empty: a name from the time. It begins with the next snapshot
+  Reply stop();
+  Status status() const;
+
+  // Never waits for the disk. What finds no room in the queue is counted.
+  void record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role);
+
+ private:
+  struct Message {
+    std::shared_ptr<const BagTopic> topic;  // what waits to be written outlives its publisher
+    MessageBytes bytes;
+  };
+  struct Item {
+    Message message;
+    ros::Time stamp;
+    Message configuration, applied;  // of a snapshot: what a bag that begins with it holds before it
+    bool is_snapshot() const { return configuration.topic != nullptr; }
+  };
+
+  void push(Item item);
+  void write_loop();
+  void write(const Message& message, const ros::Time& stamp);
+  std::string write(const Item& item);  // returns why the recording must end, or nothing
+  bool is_full(const ros::Time& stamp) const;
+  void begin_bag(const Item& snapshot);
+  void finish(std::unique_lock<std::mutex>& lock, std::string error);
+  std::string part_path(std::uint32_t part) const;
+
+  const Settings settings_;
+  const std::function<void()> ask_for_snapshot_;
+  mutable std::mutex mutex_;
+  std::mutex starting_;  // one start at a time, as opening a bag takes its time
+  std::condition_variable work_, closed_;
+  Message configuration_, applied_;  // the latest
+  std::deque<Item> queue_;
+  std::size_t queue_bytes_ = 0;
+  std::unique_ptr<BagFile> bag_;  // written and closed by the thread alone
+  std::string base_;              // of the recording: its directory and name, without an ending
+  std::string path_;              // of the bag being written, or of the last one
+  ros::Time last_stamp_;
+  std::string error_;
+  std::uint64_t messages_ = 0;  // of this recording or the last one
+  std::uint64_t dropped_messages_ = 0, dropped_before_ = 0;  // before this recording
+  bool begun_ = false;  // its first snapshot has come
+  bool stopping_ = false, quitting_ = false;
+  // of the thread alone
+  std::uint32_t part_ = 0;
+  ros::Time begin_stamp_;
+  bool full_ = false;  // a snapshot was asked for
+  std::thread thread_;
+};
+
+}  // namespace afm::node

@@ -1,0 +1,124 @@
+// The messages of one emulator in the bags of one recording, topic by topic: bags by `rosbag record` hold them in the
+// order of their arrival, which is that of publishing within a topic alone. Topics are found by type and by the node
+// that published them, so their names do not matter.
+#pragma once
+
+#include <ros/message_traits.h>
+#include <std_msgs/Header.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace afm::bags {
+
+// Why bags cannot be read or a run cannot be checked.
+struct Problem : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The number of a message in its topic. The numbers begin again when the node is started again.
+struct Number {
+  std::uint32_t start = 0;  // of the node, counted in the bags
+  std::uint32_t seq = 0;    // of the header
+};
+inline bool operator<(const Number& a, const Number& b) { return std::tie(a.start, a.seq) < std::tie(b.start, b.seq); }
+inline bool operator==(const Number& a, const Number& b) { return a.start == b.start && a.seq == b.seq; }
+
+// The messages of one topic, each once: latched ones stand in every bag of a split recording.
+template <class Message>
+class Cursor {
+ public:
+  explicit Cursor(std::unique_ptr<rosbag::View> view) 
+      : view_(std::move(view)), at_(view_->begin()), size_(view_->size()) {
+    read();
+  }
+
+  // The next message; null at the end.
+  const boost::shared_ptr<Message>& get() const { return message_; }
+  const Number& number() const { return number_; }
+  // Messages lost between the one before and this one.
+  std::uint32_t lost() const { return lost_; }
+  void next() {
+    ++at_;
+    read();
+  }
+
+  std::size_t read_so_far() const { return done_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  void read() {
+    for (message_.reset(); at_ != view_->end(); ++at_, ++done_) {
+      auto message = at_->template instantiate<Message>();
+      if (!message) throw Problem(at_->getTopic() + ": a message cannot be read");
+      const std_msgs::Header& header = message->header;
+      if (begun_ && header.seq == number_.seq && header.stamp == stamp_) continue;
+      const bool again = begun_ && header.seq <= number_.seq;
+      lost_ = begun_ && !again ? header.seq - number_.seq - 1 : 0;
+      number_ = {number_.start + (again ? 1 : 0), header.seq};
+      stamp_ = header.stamp;
+      begun_ = true;
+      message_ = message;
+      return;
+    }
+  }
+
+  std::unique_ptr<rosbag::View> view_;
+  rosbag::View::iterator at_;
+  const std::size_t size_;
+  boost::shared_ptr<Message> message_;
+  Number number_;
+  ros::Time stamp_;
+  std::uint32_t lost_ = 0;
+  std::size_t done_ = 0;
+  bool begun_ = false;
+};
+
+class Recording {
+ public:
+  struct File {
+    std::string path;
+    std::shared_ptr<rosbag::Bag> bag;
+  };
+  using Topics = std::map<std::string, std::string>;  // by type
+
+  Recording(std::string node, Topics topics, std::vector<File> files)
+      : node_(std::move(node)), topics_(std::move(topics)), files_(std::move(files)) {}
+
+  const std::string& node() const { return node_; }
+  std::string name() const;  // of the node and the bags
+  const std::vector<File>& files() const { return files_; }
+  void add(const Recording& next);  // which follows
+
+  template <class Message>
+  bool holds() const {
+    return topics_.count(ros::message_traits::datatype<Message>()) > 0;
+  }
+  template <class Message>
+  std::string topic() const {
+    return holds<Message>() ? topics_.at(ros::message_traits::datatype<Message>()) : "";
+  }
+  template <class Message>
+  std::unique_ptr<Cursor<Message>> read() const {
+    return std::make_unique<Cursor<Message>>(view(topic<Message>()));
+  }
+  std::unique_ptr<rosbag::View> view(const std::string& topic, const ros::Time& begin = ros::TIME_MIN) const;
+
+ private:
+  std::string node_;
+  Topics topics_;
+  std::vector<File> files_;
+};
+
+// Of the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each other
+// are one recording. Throws Problem with the reason if there is none.
+std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node);
+
+}  // namespace afm::bags

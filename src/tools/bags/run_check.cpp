@@ -1,0 +1,330 @@
+#include "run_check.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+
+#include "afm/units.h"
+#include "afm/fingerprint.h"
+#include "node/publisher/messages.h"
+#include "node/publisher/topics.h"
+#include "node/recorder/message_bytes.h"
+
+namespace afm::bags {
+namespace {
+
+using node::from_message;
+using node::to_message;
+
+constexpr std::uint64_t kAnyNumber = std::numeric_limits<std::uint64_t>::max();
+
+std::string to_text(const afm_emulator::ModelTime& time, std::uint32_t epoch) {
+  char text[96];
+  std::snprintf(text, sizeof text, "model time %" PRId64 " + %.17g tau of epoch %" PRIu32, time.tau, time.phase, epoch);
+  return text;
+}
+
+std::string to_text(const afm_emulator::Applied& applied) {
+  char text[96];
+  std::snprintf(text, sizeof text, "number %" PRIu64 ", %s, drag velocity %.17g m/s, at ", applied.number,
+                applied.cause.c_str(), applied.drag_velocity);
+  return text + to_text(applied.time, applied.epoch);
+}
+
+// Throws Problem if no run has these.
+void require_possible(const node::Parameters& parameters, const RunSettings& settings, const std::string& where) {
+  const node::Faults faults = node::find_faults(parameters);
+  if (!faults.empty()) throw Problem(where + ": " + node::describe(faults));
+  for (const ParameterError& fault : find_faults(settings)) throw Problem(where + ": " + fault.what());
+}
+
+void require_same_arithmetic(const afm_emulator::Configuration& recorded) {
+  static const std::string fingerprint = arithmetic_fingerprint();
+  if (recorded.version == AFM_EMULATOR_VERSION && recorded.arithmetic_digest == fingerprint) return;
+  throw Problem("it was made by version " + recorded.version + " with the arithmetic " + recorded.arithmetic_digest +
+                "; this is version " AFM_EMULATOR_VERSION " with " + fingerprint);
+}
+
+}  // namespace
+
+RunCheck::RunCheck(const Recording& recording, Progress progress, double most_gap)
+    : recording_(recording), progress_(std::move(progress)), most_gap_(most_gap) {
+  if (!recording.holds<afm_emulator::Snapshot>()) throw Problem("it holds no snapshot to begin at");
+  if (!recording.holds<afm_emulator::Applied>()) throw Problem("it holds no message of what was applied");
+  if (!recording.holds<afm_emulator::Friction>()) {
+    throw Problem("it holds no message of friction, which tells where each batch ends");
+  }
+  read_controls();
+  batches_ = recording.read<afm_emulator::Friction>();
+  if (recording.holds<afm_emulator::Deflection>()) deflections_ = recording.read<afm_emulator::Deflection>();
+  if (recording.holds<afm_emulator::ImpactArray>()) impacts_ = recording.read<afm_emulator::ImpactArray>();
+}
+
+// In the order of the run: a snapshot stands behind all that was applied before it.
+void RunCheck::read_controls() {
+  const auto snapshots = recording_.read<afm_emulator::Snapshot>();
+  for (; snapshots->get(); snapshots->next()) {
+    if (!controls_.empty()) controls_.back().lost_snapshots = snapshots->lost();
+    controls_.push_back({snapshots->number(), nullptr, snapshots->get()});
+  }
+  const auto applied = recording_.read<afm_emulator::Applied>();
+  for (; applied->get(); applied->next()) controls_.push_back({applied->number(), applied->get(), nullptr});
+  const auto key = [](const Control& c) {
+    return std::make_tuple(c.number.start, c.epoch(), c.in_force().number, c.snapshot != nullptr, c.number.seq);
+  };
+  std::sort(controls_.begin(), controls_.end(), [&](const Control& a, const Control& b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < controls_.size(); ++i) {
+    const Control& next = controls_[i];
+    Control& c = controls_[i - 1];
+    if (next.number.start != c.number.start || next.epoch() != c.epoch()) continue;
+    const std::uint64_t expected = c.in_force().number + (next.applied ? 1 : 0), number = next.in_force().number;
+    if (number > expected) c.lost_commands = number - expected;
+  }
+}
+
+// Each stands in the snapshots of its epoch too.
+void RunCheck::check_configurations() {
+  if (!recording_.holds<afm_emulator::Configuration>()) return;
+  const auto messages = recording_.read<afm_emulator::Configuration>();
+  for (; messages->get() && !difference_; messages->next()) {
+    const auto same = [&](const Control& c) {
+      return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->get()->epoch;
+    };
+    const auto found = std::find_if(controls_.begin(), controls_.end(), same);
+    if (found != controls_.end()) compare(*messages->get(), found->snapshot->configuration);
+  }
+}
+
+void RunCheck::run() {
+  check_configurations();
+  const auto total = static_cast<double>(batches_->size());
+  while ((batches_->get() || next_control_ < controls_.size()) && !difference_) {
+    if (!batches_->get() || (next_control_ < controls_.size() && is_due(controls_[next_control_]))) {
+      take(controls_[next_control_++]);
+    } else {
+      check_batch();
+      progress_(extent_.model_seconds, static_cast<double>(batches_->read_so_far()) / total);
+    }
+    if (!difference_ || !is_doubtful_) continue;
+    difference_.reset();  // it is what the lost command or snapshot did
+    run_.reset();
+  }
+  check_end(deflections_.get());
+  check_end(impacts_.get());
+}
+
+// Whether it comes before the next batch.
+bool RunCheck::is_due(const Control& c) const {
+  const afm_emulator::Friction& batch = *batches_->get();
+  const auto place = [](std::uint32_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {
+    return std::make_tuple(start, epoch, time.tau, time.phase, impacts);
+  };
+  const auto next = place(batches_->number().start, batch.epoch, batch.begin, batch.first_impact);
+  return (c.applied ? place(c.number.start, c.epoch(), c.applied->time, c.applied->first_impact)
+                    : place(c.number.start, c.epoch(), c.snapshot->time, c.snapshot->next_impact)) <= next;
+}
+
+void RunCheck::take(const Control& control) {
+  if (is_doubtful_ || control.number.start != start_ || control.epoch() != applied_.epoch) run_.reset();
+  if (control.snapshot) {
+    take_snapshot(control);
+  } else {
+    if (!run_ && begins_epoch(control)) begin_epoch(control);
+    if (run_) take_applied(*control.applied);
+  }
+  lose("commands", control.lost_commands);
+  lose("snapshots", control.lost_snapshots);
+  is_doubtful_ = control.lost_commands + control.lost_snapshots > 0;
+}
+
+// Its first snapshot follows: an epoch is simulated from its configuration, and this snapshot is compared too.
+bool RunCheck::begins_epoch(const Control& control) const {
+  if (control.applied->number > 0 || next_control_ == controls_.size()) return false;
+  const Control& next = controls_[next_control_];
+  return next.snapshot && next.number.start == control.number.start && next.epoch() == control.epoch() &&
+         from_message(next.snapshot->time) == ModelTime{};
+}
+
+void RunCheck::begin_epoch(const Control& control) {
+  configuration_ = controls_[next_control_].snapshot->configuration;
+  require_same_arithmetic(configuration_);
+  in_force_ = node::to_parameters(configuration_);
+  const RunSettings settings = node::run_settings(in_force_);
+  require_possible(in_force_, settings, "the configuration of epoch " + std::to_string(control.epoch()));
+  run_.emplace(settings);
+  note_beginning(control);
+  applied_ = *control.applied;
+}
+
+void RunCheck::begin_at(const Control& control) {
+  const afm_emulator::Snapshot& snapshot = *control.snapshot;
+  configuration_ = snapshot.configuration;
+  require_same_arithmetic(configuration_);
+  in_force_ = node::to_parameters(configuration_);
+  node::apply_to(in_force_, snapshot.applied);
+  const Snapshot state = from_message(snapshot);
+  require_possible(in_force_, state.settings, "the snapshot at " + to_text(snapshot.time, snapshot.epoch));
+  run_.emplace(state);
+  note_beginning(control);
+  applied_ = snapshot.applied;
+  const Control* before = next_control_ >= 2 ? &controls_[next_control_ - 2] : nullptr;
+  if (!before || !before->applied || before->number.start != start_ || before->epoch() != applied_.epoch) return;
+  if (before->applied->number == applied_.number) compare(*before->applied, applied_);
+}
+
+void RunCheck::note_beginning(const Control& control) {
+  if (extent_.epochs == 0 || control.number.start != start_ || control.epoch() != applied_.epoch) ++extent_.epochs;
+  start_ = control.number.start;
+  has_begun_ = true;
+}
+
+void RunCheck::take_applied(const afm_emulator::Applied& applied) {
+  run_to(applied.time, applied.first_impact);
+  const LiveSettings live = node::apply_to(in_force_, applied);
+  RunSettings settings = run_->settings();
+  set_live(live, settings);
+  require_possible(in_force_, settings, "what was applied at " + to_text(applied.time, applied.epoch));
+  afm_emulator::Applied simulated = applied;
+  simulated.time = to_message(run_->now());
+  simulated.first_impact = run_->impacts();
+  simulated.first_sample = run_->samples();
+  simulated.energy_dropped = run_->apply(live) * Units(in_force_.si).energy();
+  simulated.samples_per_batch = live.samples_per_batch;
+  simulated.sample_period_tau = live.sample_period;
+  compare(applied, simulated);
+  applied_ = applied;
+  ++extent_.commands;
+}
+
+void RunCheck::take_snapshot(const Control& control) {
+  if (!run_) return begin_at(control);
+  const afm_emulator::Snapshot& snapshot = *control.snapshot;
+  run_to(snapshot.time, snapshot.next_impact);
+  settle();
+  if (difference_) return;
+  compare(snapshot, node::to_snapshot(run_->split(), configuration_, applied_, {snapshot.header.stamp, applied_.epoch}));
+  ++extent_.snapshots;
+}
+
+// An event that is due now comes first, in a batch of no length.
+void RunCheck::settle() {
+  while (!run_->can_split() && !difference_) {
+    const auto batch = batches_->get();
+    if (batch && from_message(batch->begin) == run_->now() && batch->first_impact == run_->impacts()) {
+      check_batch();
+    } else {
+      run_->advance(run_->now(), kAnyNumber, batch_);
+    }
+  }
+}
+
+// The next one.
+void RunCheck::check_batch() {
+  const auto recorded = batches_->get();
+  const Number number = batches_->number();
+  const bool follows = batches_->lost() == 0 && !has_begun_;
+  lose("messages of " + recording_.topic<afm_emulator::Friction>(), batches_->lost());
+  const auto deflection = of_batch(deflections_.get());
+  const auto impacts = of_batch(impacts_.get());
+  batches_->next();
+  if (!run_ || number.start != start_ || recorded->epoch != applied_.epoch) {
+    ++extent_.batches_unknown;
+    return;
+  }
+  has_begun_ = false;
+  // the emulator does not number what it has no room to publish: then the samples tell
+  const bool unpublished = follows && run_->now() < from_message(recorded->begin) &&
+                           (!deflection || deflection->first_sample > run_->samples());
+  if (unpublished) lose("stretches that the emulator had no room to publish", 1);
+  if (!follows || unpublished) run_to(recorded->begin, recorded->first_impact);
+  advance(*recorded);
+  const Units units(in_force_.si);
+  const node::Live live = node::live_of(in_force_);
+  const node::Label label{{}, applied_.epoch};
+  if (deflection) compare(*deflection, node::to_deflection(batch_, live, units, label));
+  if (impacts) compare(*impacts, node::to_impacts(batch_, units, label));
+  compare(*recorded, node::to_friction(batch_, live, units, label));
+  if (difference_) {
+    ++extent_.batches_unknown;
+    return;
+  }
+  ++extent_.batches;
+  extent_.model_seconds += (batch_.end - batch_.begin) * units.time();
+  extent_.deflections += deflection ? 1 : 0;
+  extent_.samples += deflection ? batch_.vertical.size() : 0;
+  extent_.impact_arrays += impacts ? 1 : 0;
+  extent_.impacts += impacts ? batch_.impacts.size() : 0;
+}
+
+// As the emulator did.
+void RunCheck::advance(const afm_emulator::Friction& recorded) {
+  const ModelTime end = from_message(recorded.time);
+  if (recorded.impact_limit > 0) {
+    run_->advance(kEndOfTime, recorded.impact_limit, batch_);
+  } else {
+    run_->advance(is_possible(end) && run_->now() <= end ? end : run_->now(), kAnyNumber, batch_);
+  }
+}
+
+// To where something else begins: at one time there may be several impacts.
+void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) {
+  const ModelTime time = from_message(to);
+  if (!is_possible(time) || time - run_->now() > most_gap_) return;
+  while (run_->now() < time || (run_->now() == time && run_->impacts() < impacts)) {
+    const bool impacts_lack = run_->impacts() < impacts;
+    run_->advance(impacts_lack ? kEndOfTime : time, impacts_lack ? impacts - run_->impacts() : kAnyNumber, batch_);
+  }
+}
+
+// The message of the next batch, if it is held.
+template <class Message>
+boost::shared_ptr<Message> RunCheck::of_batch(Cursor<Message>* messages) {
+  if (messages == nullptr) return {};
+  while (messages->get() && messages->number() < batches_->number()) {
+    messages->next();
+    if (messages->get()) lose("messages of " + recording_.topic<Message>(), messages->lost());
+  }
+  return messages->get() && messages->number() == batches_->number() ? messages->get() : nullptr;
+}
+
+// A recorder that is stopped may miss what then waits in the queues of the topics.
+template <class Message>
+void RunCheck::check_end(Cursor<Message>* messages) {
+  if (messages == nullptr || messages->get() || messages->number().start != batches_->number().start) return;
+  const std::uint64_t lost = batches_->number().seq - messages->number().seq;
+  if (batches_->number().seq > messages->number().seq + node::kBatchQueueSize) {
+    lose("messages of " + recording_.topic<Message>(), lost);
+  }
+}
+
+template <class Message>
+void RunCheck::compare(const Message& recorded, Message simulated) {
+  simulated.header = recorded.header;
+  const node::MessageBytes a = node::to_bytes(recorded), b = node::to_bytes(simulated);
+  if (difference_ || (a.size() == b.size() && std::memcmp(a.begin(), b.begin(), a.size()) == 0)) return;
+  difference_ = Difference{recording_.topic<Message>(), recorded.header.seq, find_difference(recorded, simulated),
+                           run_ ? to_text(to_message(run_->now()), applied_.epoch) : "the beginning",
+                           run_ ? to_text(applied_) : "none"};
+}
+
+void RunCheck::lose(const std::string& what, std::uint64_t count) {
+  if (count == 0) return;
+  const auto known = std::find_if(missing_.begin(), missing_.end(), [&](const Missing& m) { return m.what == what; });
+  if (known != missing_.end()) {
+    known->count += count;
+  } else {
+    missing_.push_back({what, run_ ? to_text(to_message(run_->now()), applied_.epoch) : "the beginning", count});
+  }
+}
+
+std::vector<std::string> RunCheck::missing() const {
+  std::vector<std::string> lines;
+  for (const Missing& m : missing_) {
+    lines.push_back(std::to_string(m.count) + " " + m.what + ", the first after " + m.after);
+  }
+  return lines;
+}
+
+}  // namespace afm::bags

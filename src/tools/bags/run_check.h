@@ -1,0 +1,122 @@
+// A recorded run, simulated again and compared byte for byte. It begins at a snapshot, obeys what was applied, splits
+// the motion at every snapshot, and makes every message as the node does. A batch is advanced as the node advanced it;
+// where batches are missing, the run goes on to the next one, as its motion does not depend on how it is divided.
+#pragma once
+
+#include <afm_emulator/Applied.h>
+#include <afm_emulator/Configuration.h>
+#include <afm_emulator/Deflection.h>
+#include <afm_emulator/Friction.h>
+#include <afm_emulator/ImpactArray.h>
+#include <afm_emulator/Snapshot.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "afm/run.h"
+#include "message_difference.h"
+#include "node/params/parameters.h"
+#include "recording.h"
+
+namespace afm::bags {
+
+struct Difference {
+  std::string topic;
+  std::uint32_t seq = 0;  // of the message
+  FieldDifference field;
+  std::string time;          // to which the run has come
+  std::string last_command;  // before it
+};
+
+// What was compared.
+struct Extent {
+  std::uint64_t batches = 0, deflections = 0, samples = 0, impact_arrays = 0, impacts = 0;
+  std::uint64_t commands = 0, snapshots = 0, epochs = 0;
+  std::uint64_t batches_unknown = 0;  // not compared, as the state before them is not known
+  double model_seconds = 0.0;
+};
+
+class RunCheck {
+ public:
+  // The run has come to a model time [s], and the check to this part of the recording.
+  using Progress = std::function<void(double model_seconds, double part)>;
+
+  // Throws Problem where nothing can be compared. A time further away than most_gap [tau] is a fault of its message rather
+  // than a gap: by default 44 hours at the paper's frequency, a choice.
+  RunCheck(const Recording& recording, Progress progress, double most_gap = 1e9);
+
+  // Up to the first difference. Throws what rosbag does where the bag is damaged.
+  void run();
+
+  const std::optional<Difference>& difference() const { return difference_; }
+  const Extent& extent() const { return extent_; }
+  // What is lost, in words.
+  std::vector<std::string> missing() const;
+
+ private:
+  // Something that took effect, or a snapshot: one of the two.
+  struct Control {
+    Number number;
+    boost::shared_ptr<afm_emulator::Applied> applied;
+    boost::shared_ptr<afm_emulator::Snapshot> snapshot;
+    std::uint64_t lost_commands = 0, lost_snapshots = 0;  // between this one and the next
+
+    std::uint32_t epoch() const { return applied ? applied->epoch : snapshot->epoch; }
+    const afm_emulator::Applied& in_force() const { return applied ? *applied : snapshot->applied; }
+  };
+  struct Missing {
+    std::string what, after;
+    std::uint64_t count;
+  };
+
+  void read_controls();
+  void check_configurations();
+  bool is_due(const Control& control) const;
+  void take(const Control& control);
+  bool begins_epoch(const Control& control) const;
+  void begin_epoch(const Control& control);
+  void begin_at(const Control& control);
+  void note_beginning(const Control& control);
+  void take_applied(const afm_emulator::Applied& applied);
+  void take_snapshot(const Control& control);
+  void settle();
+  void check_batch();
+  void advance(const afm_emulator::Friction& recorded);
+  void run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts);
+  template <class Message>
+  boost::shared_ptr<Message> of_batch(Cursor<Message>* messages);
+  template <class Message>
+  void check_end(Cursor<Message>* messages);
+  template <class Message>
+  void compare(const Message& recorded, Message simulated);
+  void lose(const std::string& what, std::uint64_t count);
+
+  const Recording& recording_;
+  const Progress progress_;
+  const double most_gap_;
+  std::vector<Control> controls_;
+  std::size_t next_control_ = 0;
+  std::unique_ptr<Cursor<afm_emulator::Friction>> batches_;
+  std::unique_ptr<Cursor<afm_emulator::Deflection>> deflections_;  // null: not held
+  std::unique_ptr<Cursor<afm_emulator::ImpactArray>> impacts_;     // likewise
+
+  // the run; without one, nothing is compared up to the next snapshot
+  std::optional<Run> run_;
+  std::uint32_t start_ = 0;  // of the node that it is by
+  node::Parameters in_force_;
+  afm_emulator::Configuration configuration_;
+  afm_emulator::Applied applied_;
+  Batch batch_;
+  bool has_begun_ = false;     // and no batch was compared since
+  bool is_doubtful_ = false;   // a command or a snapshot is lost: a difference is what it did
+
+  std::optional<Difference> difference_;
+  Extent extent_;
+  std::vector<Missing> missing_;
+};
+
+}  // namespace afm::bags

@@ -1,0 +1,154 @@
+// Restitution, cutoff, rest height, sample rate and friction window changed in mid-run: what the run reports.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "support/commands.h"
+#include "support/recorded_run.h"
+
+namespace afm {
+namespace {
+
+RunSettings settings_at(double eta, double sample_period, std::uint64_t samples_per_batch) {
+  RunSettings settings;
+  settings.eta = eta;
+  settings.initial = {0.25, 0.0, 0.2, eta, 0.0};
+  settings.sample_period = sample_period;
+  settings.samples_per_batch = samples_per_batch;
+  return settings;
+}
+
+TEST(SampleGrid, CountsFromItsOrigin) {
+  const SampleGrid plain{0.03, 0, {}}, moved{0.03, 7, {5, 0.9999}};
+  for (const std::uint64_t n : {0u, 1u, 33u, 34u, 1000000u}) {
+    EXPECT_TRUE(plain.time(n) == multiply(n, 0.03));
+    const ModelTime time = moved.time(7 + n);
+    const ModelTime since = multiply(n, 0.03);
+    EXPECT_TRUE((time == ModelTime{5 + since.tau, 0.9999} + since.phase));
+    EXPECT_TRUE(time.phase >= 0.0 && time.phase < 1.0);
+  }
+}
+
+TEST(RunChange, ToTheSameIsNoChange) {
+  afm::Run plain(settings_at(3.4, 0.03, 500)), changed(settings_at(3.4, 0.03, 500));
+  RecordedRun truth, recorded;
+  Batch a, b;
+  for (int i = 0; i < 50; ++i) {
+    plain.advance(a);
+    changed.apply(live_settings(changed.settings()));
+    changed.advance(b);
+    truth.append(a);
+    recorded.append(b);
+    ASSERT_EQ(a.friction.K_f, b.friction.K_f);
+    ASSERT_TRUE(a.end == b.end);
+  }
+  expect_first_of(recorded, truth);
+}
+
+// The tip does not know when it is looked at: with periods that are powers of 2 a finer grid holds the coarser one.
+TEST(RunChange, OfTheSampleRateChangesTheSamplesAlone) {
+  afm::Run fine(settings_at(3.4, 1.0 / 64, 6400)), changed(settings_at(3.4, 1.0 / 16, 160));
+  Batch truth, batch;
+  fine.advance(truth);
+  std::uint64_t next = 0, stride = 4;
+  std::vector<Impact> impacts;
+  for (int i = 0; changed.now() < ModelTime{90, 0.0}; ++i) {
+    changed.advance(batch);
+    ASSERT_TRUE(batch.first_sample_time == batch.begin);
+    for (std::size_t k = 0; k < batch.vertical.size(); ++k, next += stride) {
+      ASSERT_EQ(batch.vertical[k], truth.vertical[next]);
+      ASSERT_EQ(batch.lateral[k], truth.lateral[next]);
+    }
+    impacts.insert(impacts.end(), batch.impacts.begin(), batch.impacts.end());
+    LiveSettings live = live_settings(changed.settings());
+    stride = std::uint64_t{1} << (i % 4);
+    live.sample_period = static_cast<double>(stride) / 64;
+    live.samples_per_batch = 100 + 10 * static_cast<std::uint64_t>(i % 3);
+    changed.apply(live);
+  }
+  ASSERT_GT(impacts.size(), 100u);
+  for (std::size_t i = 0; i < impacts.size(); ++i) ASSERT_TRUE(same_bits(impacts[i], truth.impacts[i])) << i;
+}
+
+TEST(RunChange, OfTheSampleRateWithinABatchSamplesAtOnce) {
+  afm::Run run(settings_at(3.4, 0.03, 500));
+  Batch batch;
+  advance_to({1, 0.123}, run, batch);
+  const std::uint64_t samples = run.samples();
+  LiveSettings live = live_settings(run.settings());
+  live.sample_period = 0.05;
+  live.samples_per_batch = 10;
+  run.apply(live);
+  run.advance(batch);
+  EXPECT_EQ(batch.first_sample, samples);
+  EXPECT_TRUE((batch.first_sample_time == ModelTime{1, 0.123}));
+  EXPECT_EQ(batch.vertical.size(), 10u);
+  EXPECT_NEAR(batch.end - batch.begin, 0.5, 1e-15);
+}
+
+TEST(RunChange, OfTheRestitutionHoldsFromTheNextImpactOn) {
+  afm::Run before(settings_at(3.4, 0.03, 500)), after = before;
+  Batch a, b;
+  for (afm::Run* e : {&before, &after}) e->advance(a);
+  LiveSettings live = live_settings(after.settings());
+  live.gamma = 0.2;
+  live.v_c = 0.01;
+  after.apply(live);
+  before.advance(a);
+  after.advance(b);
+  const Impact &kept = a.impacts.front(), &changed = b.impacts.front();
+  EXPECT_NEAR(kept.normal_speed, changed.normal_speed, 1e-12);  // the flight was split there
+  EXPECT_NEAR(changed.energy_loss, 0.5 * (1.0 - 0.04) * changed.normal_speed * changed.normal_speed, 1e-12);
+  EXPECT_NEAR(kept.energy_loss, 0.5 * (1.0 - 0.49) * kept.normal_speed * kept.normal_speed, 1e-12);
+}
+
+TEST(RunChange, BeginsTheFrictionThatItConcernsAnew) {
+  afm::Run run(settings_at(3.4, 0.03, 5000)), plain(settings_at(3.4, 0.03, 5000));
+  Batch a, b;
+  for (int i = 0; i < 3; ++i) plain.advance(a);
+  for (int i = 0; i < 2; ++i) run.advance(b);
+  LiveSettings live = live_settings(run.settings());
+  live.friction_window = 64.0;
+  run.apply(live);
+  run.advance(b);
+  EXPECT_EQ(a.friction.K_f, b.friction.K_f);
+  EXPECT_EQ(a.friction.K_f_std_error, b.friction.K_f_std_error);
+  EXPECT_EQ(a.friction.impact_count, b.friction.impact_count);
+  EXPECT_NE(a.friction.window_K_f, b.friction.window_K_f);
+  double energy = 0.0;  // of the last 32 whole bins of 2 tau since the change, 150 tau ago
+  for (const Impact& impact : b.impacts) {
+    const double age = impact.time - b.begin;
+    if (age >= 86.0 && age < 150.0) energy += impact.energy_loss;
+  }
+  EXPECT_NEAR(b.friction.window_K_f, energy / 64.0 / (3.4 * 3.4), 0.05 * b.friction.window_K_f);
+  live.y0 = 0.02;
+  run.apply(live);
+  run.advance(b);
+  energy = 0.0;
+  for (const Impact& impact : b.impacts) energy += impact.energy_loss;
+  EXPECT_NEAR(b.friction.energy_loss, energy, 1e-12 * energy);
+}
+
+// The holder is where its spring says, also after a change to the hammer, which moves it above the tip.
+TEST(RunChange, LeavesTheHolderWhereTheSpringOfTheTipEnds) {
+  for (const double eta : {0.5, 3.4, -5.0}) {
+    afm::Run run(settings_at(eta, 0.03, 100));
+    Batch batch;
+    for (int i = 0; i < 300; ++i) {
+      run.advance(batch);
+      LiveSettings live = live_settings(run.settings());
+      if (i % 3 == 0) live.eta = (i % 2 == 0 ? -1.01 : -0.99) * live.eta;
+      if (i % 5 == 0) live.level.kind = i % 2 == 0 ? ModelKind::hammer : ModelKind::oscillator;
+      if (i % 7 == 0) live.level.contact_tolerance = i % 2 == 0 ? 0.0 : 1e-3;
+      run.apply(live);
+      advance_to(run.now(), run, batch);
+      const double holder = batch.holder - run.eta() * (batch.first_sample_time - run.now());
+      const FreeState state = run.state();
+      ASSERT_NEAR(std::remainder(holder + state.X - state.phase, 1.0), 0.0, 1e-9) << eta << ", " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,180 @@
+// What a run does at its limits: a spent budget, a faulty parameter, memory.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <set>
+#include <string>
+
+#include "afm/run.h"
+#include "support/commands.h"
+#include "support/recorded_run.h"
+
+namespace {
+std::size_t allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new[](std::size_t size) { return operator new(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace afm {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Chatters: many impacts a tau.
+RunSettings chattering() {
+  RunSettings settings;
+  settings.eta = 3.0;
+  settings.initial = {0.25, 0.0, 0.2, 3.0, 0.0};
+  settings.model.v_c = 0.1;
+  return settings;
+}
+
+TEST(RunLimits, ASpentBudgetIsCountedAndTimeIsHonest) {
+  RunSettings settings = chattering();
+  settings.impact_budget = 10;
+  afm::Run run(settings);
+  Batch batch;
+  for (std::uint64_t spent = 1; spent <= 20; ++spent) {
+    ASSERT_EQ(run.advance(batch), Outcome::budget_spent);
+    ASSERT_EQ(run.counters().budget_exhausted, spent);
+    ASSERT_LE(batch.impacts.size(), 10u);
+    ASSERT_TRUE(batch.end == run.now());
+    ASSERT_TRUE(batch.impacts.back().time <= batch.end);
+    ASSERT_TRUE(batch.begin < batch.end);
+    // every sample before the end is there, and none after it
+    const std::uint64_t next = batch.first_sample + batch.vertical.size();
+    ASSERT_TRUE(batch.end <= multiply(next, settings.sample_period));
+    ASSERT_TRUE(next == 0 || multiply(next - 1, settings.sample_period) < batch.end);
+  }
+}
+
+TEST(RunLimits, ASpentBudgetChangesOnlyWhereBatchesEnd) {
+  RunSettings settings = chattering();
+  afm::Run whole(settings);
+  settings.impact_budget = 7;
+  afm::Run starved(settings);
+  RecordedRun truth, recorded;
+  Batch batch;
+  ASSERT_EQ(whole.advance(batch), Outcome::time_limit);
+  truth.append(batch);
+  const ModelTime end = batch.end;
+  while (starved.now() < end) {
+    starved.advance(batch);
+    recorded.append(batch);
+  }
+  EXPECT_TRUE(starved.now() == end);
+  EXPECT_GT(starved.counters().budget_exhausted, 10u);
+  EXPECT_EQ(recorded.vertical.size(), truth.vertical.size());
+  expect_first_of(recorded, truth);
+}
+
+TEST(RunLimits, ATinyCutoffCostsNoMoreThanItsBudget) {
+  RunSettings settings = chattering();
+  settings.model.v_c = 1e-4;
+  settings.impact_budget = 500;
+  afm::Run run(settings);
+  Batch batch;
+  for (int i = 0; i < 50; ++i) {
+    const Outcome outcome = run.advance(batch);
+    ASSERT_LE(batch.impacts.size(), 500u);
+    if (outcome == Outcome::budget_spent) continue;
+    ASSERT_EQ(outcome, Outcome::time_limit);
+    ASSERT_EQ(batch.vertical.size(), batch.first_sample % 2000 == 0 ? 2000u : 2000u - batch.first_sample % 2000);
+  }
+}
+
+// At 1 a/tau the crest just carries a tip: swung over it in its spring a little faster, it presses at both ends of the
+// swing and hardly between, and bounces thousands of times a tau for hundreds of tau.
+TEST(RunLimits, ATipThatRingsOverACrestStaysWithinTheDefaultBudget) {
+  for (const double u : {1.0, 1.02, 1.05, 1.1, 1.2}) {
+    RunSettings settings;
+    settings.eta = 0.0;
+    settings.initial = {0.0, 0.0, settings.model.H + 1e-5, u, 0.0};
+    afm::Run run(settings);
+    Batch batch;
+    for (int i = 0; i < 5; ++i) ASSERT_EQ(run.advance(batch), Outcome::time_limit) << u;
+  }
+}
+
+TEST(RunLimits, ABatchNeverAllocatesOnceItHasRoom) {
+  for (const double eta : {3.0, 3.4, 0.5}) {
+    RunSettings settings = chattering();
+    settings.eta = eta;
+    afm::Run run(settings);
+    Batch batch = preallocated_batch(settings);
+    const std::size_t before = allocations;
+    for (int i = 0; i < 50; ++i) run.advance(batch);
+    drag(run, -eta);
+    for (int i = 0; i < 50; ++i) run.advance(batch);
+    advance_impacts(5, run, batch);
+    advance_to(run.now() + 1e-3, run, batch);
+    for (int i = 0; i < 50; ++i) {
+      advance_impacts(1, run, batch);
+      if (run.can_split()) run.split();
+    }
+    EXPECT_EQ(allocations, before) << eta;
+  }
+  const std::size_t before = allocations;
+  const std::string text(1000, 'x');
+  EXPECT_EQ(allocations, before + 1) << "the counter does not count";
+}
+
+TEST(RunLimits, EveryFaultIsListedAtOnce) {
+  RunSettings settings;
+  settings.model.gamma = 2.0;
+  settings.eta = kNaN;
+  settings.sample_period = 0.0;
+  settings.samples_per_batch = 0;
+  settings.friction_window = -1.0;
+  settings.impact_budget = 0;
+  settings.initial = {kNaN, 11.0, kNaN, 1e4, -1e4};
+  std::set<std::string> names;
+  for (const ParameterError& fault : find_faults(settings)) names.insert(fault.name);
+  EXPECT_EQ(names, (std::set<std::string>{"gamma", "eta", "sample_period", "samples_per_batch", "friction_window",
+                                          "impact_budget", "initial_phase", "initial_extension", "initial_height",
+                                          "initial_u", "initial_w"}));
+  EXPECT_THROW(afm::Run{settings}, ParameterError);
+}
+
+TEST(RunLimits, ABatchThatNoMemoryHoldsIsAFault) {
+  RunSettings settings;
+  settings.samples_per_batch = settings.impact_budget = 10000001;
+  std::set<std::string> names;
+  for (const ParameterError& fault : find_faults(settings)) names.insert(fault.name);
+  EXPECT_EQ(names, (std::set<std::string>{"samples_per_batch", "impact_budget"}));
+}
+
+TEST(RunLimits, ATimeOrAnErrorOfNextToNothingIsAFault) {
+  RunSettings settings;
+  settings.contact_tolerance = kMinContactTolerance;
+  settings.sample_period = 1e-9;
+  EXPECT_TRUE(find_faults(settings).empty());
+  settings.contact_tolerance *= 0.999;
+  settings.sample_period *= 0.999;
+  std::set<std::string> names;
+  for (const ParameterError& fault : find_faults(settings)) names.insert(fault.name);
+  EXPECT_EQ(names, (std::set<std::string>{"contact_tolerance", "sample_period"}));
+}
+
+TEST(RunLimits, AStartBelowTheSurfaceIsAFault) {
+  RunSettings settings;
+  settings.initial = {0.0, 0.0, 0.0, 3.4, 0.0};  // under the crest
+  const std::vector<ParameterError> faults = find_faults(settings);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].name, "initial_height");
+  EXPECT_THROW(afm::Run{settings}, ParameterError);
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,106 @@
+#!/usr/bin/python3
+"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed. None stalls the
+node, not even rest and the speeds at which other methods stall; one that cannot be is counted and changes nothing."""
+import math
+
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, EmulatorTest, run
+from topics import key, tau_between
+
+SLOPE = 2 * math.pi * 0.05 / 0.52
+K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed form at even eta [m_tip/tau]
+K_F_AT_3_4 = 0.2533                                                  # of the chaotic attractor [m_tip/tau]
+SETTLED_TAU = 10000
+MOST = 1e-4  # max_drag_velocity [m/s]
+JUNK = [math.nan, math.inf, -math.inf, 1.0000001 * MOST, -1.0000001 * MOST, 1e300, -1e300]
+ETAS = (0.0, 0.2, 0.34, 1.0, 3.0, 5.0, -3.4, 1e-4)
+EACH_TAU = 1600  # about a quarter of a second
+LATTICE_M = 0.52e-9
+
+
+class Commands(EmulatorTest):
+    def setUp(self):
+        super().setUp()
+        self.applied, self.friction, self.deflection = (self.topics[n] for n in ('applied', 'friction', 'deflection'))
+
+    def friction_at(self, eta):
+        """After long, by stepping: what the emulator reports then."""
+        self.begin(paused=True)
+        self.drag(eta)
+        return self.stepped(SETTLED_TAU)
+
+    def assert_friction(self, eta, expected, tolerance):
+        friction = self.friction_at(eta)
+        for k_f in (friction.k_f_natural, friction.k_f_work_natural, friction.k_f / FRICTION_UNIT, friction.k_f_work / FRICTION_UNIT):
+            self.assertAlmostEqual(k_f / expected, 1.0, delta=tolerance)
+        self.assertAlmostEqual(friction.window_k_f_natural / expected, 1.0, delta=5 * tolerance)
+        self.assertAlmostEqual(friction.window_k_f / FRICTION_UNIT / friction.window_k_f_natural, 1.0, delta=1e-9)
+        self.assertAlmostEqual(friction.eta, eta, delta=1e-12)
+        self.assertAlmostEqual(friction.force / (friction.k_f * friction.drag_velocity), 1.0, delta=1e-9)
+        self.assertEqual(friction.force > 0.0, eta > 0.0)
+        self.assertGreater(friction.k_f_std_error, 0.0)
+
+    def test_friction_peaks_at_even_eta_in_both_directions(self):
+        for eta in (2.0, -2.0):
+            self.assert_friction(eta, K_F_AT_PEAK, 0.01)
+
+    def test_friction_of_the_chaotic_attractor(self):
+        self.assert_friction(3.4, K_F_AT_3_4, 0.05)
+
+    def test_takes_effect_at_a_batch_boundary(self):
+        applied = self.drag(2.0)
+        batch = self.deflection.wait_for(lambda m: key(m.time) == key(applied.time), 'a batch begins at the time reported')
+        self.assertEqual((batch.first_sample, batch.drag_velocity), (applied.first_sample, applied.drag_velocity))
+        self.friction.wait_for(lambda m: m.drag_velocity == applied.drag_velocity, 'the new speed')
+        for friction in list(self.friction.messages):
+            self.assertEqual(friction.drag_velocity == applied.drag_velocity, key(friction.begin) >= key(applied.time))
+
+    def test_the_holder_is_where_its_drag_has_brought_it(self):
+        applied = self.drag(-1.3)
+        self.deflection.wait_for(lambda m: tau_between(applied.time, m.time) > 200, 'goes on')
+        start = 0.25 * LATTICE_M
+        turned = start + self.applied.messages[0].drag_velocity * tau_between(self.applied.messages[0].time, applied.time) * TAU_S
+        for m in list(self.deflection.messages):
+            before = key(m.time) < key(applied.time)
+            expected = (start + 3.4 * SPEED_UNIT * (m.time.tau + m.time.phase) * TAU_S if before else
+                        turned - 1.3 * SPEED_UNIT * tau_between(applied.time, m.time) * TAU_S)
+            self.assertAlmostEqual(m.holder_position / LATTICE_M, expected / LATTICE_M, delta=1e-6)
+
+    def test_none_stalls(self):
+        status = self.topics['status']
+        for eta in ETAS:
+            begin = self.drag(eta).time
+            later = status.wait_for_next(lambda m: tau_between(begin, m.time) > EACH_TAU, 'time goes on at eta = %g' % eta)
+            for counter in ('budget_exhausted', 'search_failures'):
+                self.assertEqual(getattr(later, counter), 0, '%s at eta = %g' % (counter, eta))
+            self.assertLessEqual(later.worst_penetration, 1e-15 * LATTICE_M)
+            reported = self.friction.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'friction at eta = %g' % eta)
+            self.assertAlmostEqual(reported.eta, eta, delta=1e-12)
+        # a busy machine may hold it up for a while: it catches up
+        status.wait_for_next(lambda m: m.real_time_factor > 0.99, 'real time')
+
+    def test_stands_and_wakes_up(self):
+        self.drag(0.0)
+        standing = self.friction.wait_for_next(lambda m: m.drag_velocity == 0.0, 'standing')
+        self.assertEqual((standing.force, standing.eta), (0.0, 0.0))
+        for name in ('k_f', 'k_f_natural', 'k_f_work', 'k_f_work_natural', 'window_k_f', 'window_k_f_natural'):
+            self.assertTrue(math.isnan(getattr(standing, name)), name)
+        now = self.deflection.wait_for_next()
+        later = self.deflection.wait_for(lambda m: m.first_sample >= now.first_sample + 20 * len(now.vertical), 'batches go on')
+        self.assertTrue(all(map(math.isfinite, later.vertical + later.lateral)))
+        self.drag(2.0)
+        moving = self.friction.wait_for_next(lambda m: m.impact_count > 100 and m.drag_velocity > 0.0, 'moving')
+        self.assertGreater(moving.force, 0.0)
+
+    def test_junk_is_counted_and_changes_nothing(self):
+        before = self.status_now().refused_commands
+        for velocity in JUNK:
+            self.emulator.drag(velocity)
+        self.emulator.drag(-MOST)  # the fastest there is; all that came before it has been judged when it is applied
+        self.applied.wait_for(lambda m: m.drag_velocity == -MOST, 'the last command')
+        self.assertEqual([m.cause for m in self.applied.messages], ['epoch', 'drag_velocity'])
+        self.topics['status'].wait_for(lambda m: m.refused_commands >= before + len(JUNK), 'the refused are counted')
+        self.assertEqual(self.status_now().refused_commands, before + len(JUNK))
+
+
+if __name__ == '__main__':
+    run(Commands)

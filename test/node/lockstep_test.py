@@ -1,0 +1,159 @@
+#!/usr/bin/python3
+"""In lockstep the emulator advances when it is asked to, and a closed loop is a function of its controller. Model time on /clock rises
+strictly, whatever happens."""
+import math
+import sys
+
+import rospy
+from afm_emulator.msg import Configuration
+from afm_emulator.srv import Control
+from rosgraph_msgs.msg import Clock
+
+from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, run
+from topics import Topic, key, tau_between, wait_until
+
+NAN = float('nan')
+K_H = 408e-12 * 250e3 ** 2  # [N/m]
+
+# a node that knows nothing of the emulator but its clock
+RATE_NODE = '''
+import rospy, time
+rospy.init_node('rate_node')
+rate = rospy.Rate(50.0)
+rate.sleep()
+begin, count = time.monotonic(), 100
+for _ in range(count):
+    rate.sleep()
+print('wall rate', count / (time.monotonic() - begin))
+'''
+
+
+def values(answer):
+    """All of an answer, comparable even where it holds NaN."""
+    return [repr(getattr(answer, name)) for name in answer.__slots__ if name != 'epoch']
+
+
+class Lockstep(EmulatorTest):
+    parameters = {'pace': 'lockstep', 'publish_clock': True, 'temperature_k': 300.0, 'quality_factor': 100.0}
+
+    def control(self, duration, drag_velocity=NAN, rest_height=NAN):
+        return self.emulator.call('control', Control, drag_velocity=drag_velocity, rest_height=rest_height, duration=duration)
+
+    def advance(self, *arguments):
+        answer = self.control(*arguments)
+        self.assertTrue(answer.success, answer.message)
+        return answer
+
+    def test_a_period_is_as_long_as_it_is_asked_to_be(self):
+        for duration in (0.01, 0.0123, 1e-6, 0.0):
+            answer = self.advance(duration)
+            self.assertAlmostEqual(tau_between(answer.begin, answer.end) * TAU_S, duration, delta=1e-12)
+
+    def test_nothing_advances_by_itself(self):
+        answer = self.advance(0.01)
+        begin = len(self.topics['status'].messages)
+        self.topics['status'].wait_for_more(3)
+        self.assertEqual({key(m.time) for m in self.topics['status'].messages[begin:]}, {key(answer.end)})
+
+    def test_an_answer_holds_what_was_published(self):
+        self.advance(0.02)
+        answer = self.advance(0.03, 2.0 * SPEED_UNIT, -1e-11)
+        applied = self.topics['applied'].wait_for(lambda m: m.number == answer.applied, 'what is in force')
+        self.assertEqual((applied.drag_velocity, applied.rest_height_m, key(applied.time)),
+                         (2.0 * SPEED_UNIT, -1e-11, key(answer.begin)))
+        self.topics['friction'].wait_for(lambda m: key(m.time) == key(answer.end), 'the end of the period')
+        self.topics['impacts'].wait_for(lambda m: m.header.seq == self.topics['friction'].messages[-1].header.seq, 'the impacts')
+        batches = [m for m in self.topics['deflection'].messages if key(m.time) >= key(answer.begin)]
+        lateral = [x for m in batches for x in m.lateral]
+        self.assertEqual(answer.samples, len(lateral))
+        self.assertAlmostEqual(answer.mean_lateral_force / (-K_H * sum(lateral) / len(lateral)), 1.0, delta=1e-9)
+        self.assertAlmostEqual(answer.rms_lateral_force / (K_H * math.sqrt(sum(x * x for x in lateral) / len(lateral))), 1.0, delta=1e-9)
+        impacts = [i for m in self.topics['impacts'].messages for i in m.impacts if key(i.time) > key(answer.begin)]
+        self.assertEqual(answer.impact_count, sum(i.count for i in impacts))
+        self.assertAlmostEqual(answer.energy_loss, sum(i.energy_loss for i in impacts), delta=1e-9 * ENERGY_UNIT)
+        friction = self.topics['friction'].messages[-1]  # its estimate began with the command, and is exact; the other is of samples
+        self.assertAlmostEqual(answer.k_f_work / friction.k_f_work, 1.0, delta=0.02)
+        self.assertAlmostEqual(answer.k_f / friction.k_f, 1.0, delta=1e-9)
+
+    def closed_loop(self):
+        self.begin()
+        force, answers = 0.0, []
+        for _ in range(20):
+            answers.append(self.advance(0.01, NAN, -1e-10 - 0.3 * force))
+            force = answers[-1].mean_lateral_force
+        return [values(answer) for answer in answers]
+
+    def test_a_closed_loop_repeats_to_the_last_bit(self):
+        self.assertEqual(self.closed_loop(), self.closed_loop())
+
+    def test_what_cannot_be_is_refused_by_name_and_nothing_advances(self):
+        now = key(self.advance(0.01).end)
+        for name, request in (('drag_velocity', (0.01, 1.0)), ('rest_height', (0.01, NAN, 1e-9)), ('duration', (-0.01,)),
+                              ('duration', (NAN,)), ('duration', (math.inf,)), ('drag_velocity', (0.01, math.inf))):
+            answer = self.control(*request)
+            self.assertFalse(answer.success, request)
+            self.assertIn(name, answer.message)
+        self.assertEqual(key(self.advance(0.0).begin), now)
+
+    def test_the_clock_rises_over_periods_and_resets(self):
+        clock = Topic('/clock', Clock)
+        for _ in range(3):
+            begin = len(clock.messages)
+            answer = self.advance(0.05)
+            wait_until(lambda: len(clock.messages) >= begin + 5, 'the clock')  # once a batch
+            stamp = self.topics['friction'].wait_for(lambda m: key(m.time) == key(answer.end), 'the end').header.stamp
+            wait_until(lambda: stamp in [m.clock for m in clock.messages], 'the end of the period on the clock')
+            self.begin()
+        times = [m.clock.to_nsec() for m in clock.messages]
+        self.assertGreater(times[0], 0)
+        self.assertEqual(times, sorted(set(times)))
+
+    def test_a_second_clock_is_refused(self):
+        rospy.set_param('/second', {'publish_clock': True})
+        binary = self.emulator.child.args[0]
+        second = self.start(Process([binary, '__name:=second']))
+        self.assertEqual(second.wait(), 1)
+        self.assertIn('/afm publishes /clock already', second.output())
+
+
+class Waiting(NodeTest):
+    def test_a_controller_that_knows_no_service_is_waited_for(self):
+        emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0}))
+        friction = Topic('friction')
+        friction.wait_for_connection()
+        for i in range(1, 20):
+            emulator.drag((2.0 + 0.01 * i) * SPEED_UNIT)
+            friction.wait_for(lambda m: m.drag_velocity == (2.0 + 0.01 * i) * SPEED_UNIT, 'a batch for the command')
+        self.assertEqual([m.drag_velocity for m in friction.messages if m.drag_velocity > 0][-19:],
+                         [(2.0 + 0.01 * i) * SPEED_UNIT for i in range(1, 20)])
+        emulator.assert_alive()
+
+    def test_but_not_for_ever(self):
+        emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 0.05}))
+        Topic('friction').wait_for_more(5)
+        emulator.assert_alive()
+
+
+class RealTime(NodeTest):
+    def test_control_is_refused(self):
+        answer = self.start(Emulator()).call('control', Control, drag_velocity=NAN, rest_height=NAN, duration=0.01)
+        self.assertFalse(answer.success)
+        self.assertIn('lockstep', answer.message)
+
+    def test_a_node_by_the_clock_runs_at_the_rate_of_model_time(self):
+        self.start(Emulator({'publish_clock': True, 'time_scale': 4.0, 'sample_rate_hz': 50000.0}))
+        rospy.wait_for_message('/clock', Clock, 10.0)
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        configuration = rospy.wait_for_message('/afm/configuration', Configuration, 10.0)
+        node = self.start(Process([sys.executable, '-c', RATE_NODE]))
+        self.assertEqual(node.wait(60.0), 0)
+        rate = float(node.output().split('wall rate')[1])
+        # 50 Hz of model time; a busy machine may be late, never early
+        self.assertGreater(rate, 0.5 * 50.0 * configuration.time_scale)
+        self.assertLess(rate, 1.1 * 50.0 * configuration.time_scale)
+
+
+if __name__ == '__main__':
+    rospy.set_param('/use_sim_time', False)
+    run(Lockstep, Waiting, RealTime)

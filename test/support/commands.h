@@ -1,0 +1,37 @@
+// Short commands to a run, and room for its batches.
+#pragma once
+
+#include <cstdint>
+
+#include "afm/run.h"
+
+namespace afm {
+
+inline double drag(Run& run, double eta) {
+  LiveSettings live = live_settings(run.settings());
+  live.eta = eta;
+  return run.apply(live);
+}
+
+inline double set_level(Run& run, const Level& level) {
+  LiveSettings live = live_settings(run.settings());
+  live.level = level;
+  return run.apply(live);
+}
+
+inline Outcome advance_to(const ModelTime& time, Run& run, Batch& batch) {
+  return run.advance(time, run.settings().impact_budget, batch);
+}
+
+// To the n-th next impact, or to the next batch boundary.
+inline Outcome advance_impacts(std::uint64_t n, Run& run, Batch& batch) { return run.advance(kEndOfTime, n, batch); }
+
+inline Batch preallocated_batch(const RunSettings& settings) {
+  Batch batch;
+  batch.vertical.reserve(settings.samples_per_batch);
+  batch.lateral.reserve(settings.samples_per_batch);
+  batch.impacts.reserve(settings.impact_budget);
+  return batch;
+}
+
+}  // namespace afm
