@@ -137,7 +137,8 @@ class Repeats(NodeTest):
         def number(topic):
             subscribers = rospy.get_master().getSystemState()[2][1]
             return sum(len(names) for name, names in subscribers if name == NAMESPACE + '/' + topic)
-        wait_until(lambda: all(number(topic) >= count for topic in ('snapshot', 'applied', 'impacts')), 'rosbag has found the topics')
+        wait_until(lambda: all(number(topic) >= count for topic in ('snapshot', 'applied', 'deflection', 'impacts', 'friction')),
+                   'rosbag has found the topics')
         self.deflection.wait_for_more(20)
 
     def test_recorded_by_rosbag(self):
