@@ -53,7 +53,7 @@ class Faults(NodeTest):
         master = self.start(Master())
         master.proxy.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
         emulator = self.start(Emulator(ROS_MASTER_URI=master.uri))
-        wait_until(lambda: NAMESPACE + '/set_parameters' in str(master.proxy.getSystemState('test')[2]), 'the emulator is registered')
+        wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.proxy.getSystemState('test')[2]), 'the last of it is registered')
         listener = BareSubscriber('deflection', master=master.proxy)
         before = listener.read_message()
         master.stop(signal.SIGKILL)

@@ -40,7 +40,7 @@ Publisher::Publisher(ros::NodeHandle& node, const Parameters& parameters, Source
       snapshot_(node, sources_.recorder, kSnapshotTopic, kLatchedQueueSize, Role::snapshot),
       tracker_(units_),
       health_tracker_(parameters.si.lattice_spacing_m, parameters.command_timeout_s, parameters.disk_reserve_mb) {
-  if (parameters.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>(kClockTopic, kLatchedQueueSize, true);
+  if (parameters.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>(kClockTopic, kBatchQueueSize);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("emulation", [this](Diagnosis& out) { diagnose_pace(health_, out); });
   diagnostics_.add("commands", [this](Diagnosis& out) { diagnose_commands(health_, out); });
@@ -114,11 +114,22 @@ ros::Time Publisher::stamp_of(const Report& report) const {
 // After what belongs to this time: whoever wakes by the clock finds it there. Strictly rising, and never 0.
 void Publisher::publish_clock(const Report& report) {
   if (!clock_ || report.kind == Report::Kind::answer) return;
+  const ros::Time now = stamp_of(report);
+  if (now > latest_clock_) send_clock(now);
+}
+
+void Publisher::send_clock(const ros::Time& now) {
   rosgraph_msgs::Clock message;
-  message.clock = stamp_of(report);
-  if (!(message.clock > latest_clock_)) return;
-  latest_clock_ = message.clock;
+  message.clock = latest_clock_ = now;
   clock_.publish(message);
+}
+
+// While time stands still, whoever is new gets the time too. Not latched: roscpp sends what is latched at once, and then
+// what it published before, so that the clock of a new subscriber could go back.
+void Publisher::show_clock_to_new_subscribers() {
+  const std::uint32_t subscribers = clock_ ? clock_.getNumSubscribers() : 0;
+  if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) send_clock(latest_clock_ + ros::Duration(0, 1));
+  clock_subscribers_ = subscribers;
 }
 
 void Publisher::publish_batch(const Report& report, const Label& label) {
@@ -128,6 +139,7 @@ void Publisher::publish_batch(const Report& report, const Label& label) {
 }
 
 void Publisher::publish_status() {
+  show_clock_to_new_subscribers();
   if (is_due(status_due_, kStatusPeriod)) {
     latest_status_ = tracker_.make(sources_.recorder.status(), sources_.refusals.commands(),
                                    deflection_.lost() + impacts_.lost() + friction_.lost());

@@ -42,6 +42,8 @@ class Publisher {
   void publish(Report& report);
   void publish_batch(const Report& report, const Label& label);
   void publish_clock(const Report& report);
+  void send_clock(const ros::Time& now);
+  void show_clock_to_new_subscribers();
   ros::Time stamp_of(const Report& report) const;
   void publish_status();
   void update_diagnostics();
@@ -62,6 +64,7 @@ class Publisher {
   // model time, if it is to be published: it goes on where the epoch before ended
   ros::Publisher clock_;
   ros::Time epoch_begin_{1, 0}, latest_clock_;
+  std::uint32_t clock_subscribers_ = 0;
   diagnostic_updater::Updater diagnostics_;
   StatusTracker tracker_;
   afm_emulator::EmulatorStatus latest_status_;
