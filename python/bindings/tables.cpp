@@ -5,7 +5,6 @@
 #include <atomic>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -17,9 +16,9 @@
 #include "afm/single_flight.h"
 #include "convert.h"
 #include "long_call.h"
+#include "sweep/curve_points.h"
 #include "sweep/grid.h"
 #include "sweep/rows.h"
-#include "sweep/task_board.h"
 
 namespace afm::python {
 namespace {
@@ -92,16 +91,16 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   check_axes(s);
   refuse(find_faults(s));
   const SweepGrid grid(s);
-  TaskBoard board(tasks_left(grid, {}));
-  std::map<std::size_t, SweepResult> done;
+  CurvePoints points(grid, s.sweep);
+  std::size_t done = 0;
+  Rows rows;
   const auto watch = [&] {
-    for (const SweepDone& point : board.collect(std::chrono::milliseconds(0))) done[point.position] = point.result;
-    if (!progress.is_none()) progress(done.size(), grid.size());
+    for (const SweepResult& result : points.collect(std::chrono::milliseconds(0)))
+      write_row(grid.at(done++), result, rows);
+    if (!progress.is_none()) progress(done, grid.size());
   };
   run_on_threads(
-      threads, [&] { do_work(board, grid, s.sweep); }, watch);
-  Rows rows;
-  for (const auto& point : done) write_row(grid.at(point.first), point.second, rows);
+      threads, [&] { points.work(); }, watch);
   return rows.result(curve_columns());
 }
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 EXAMPLES = Path(sys.argv[1] if len(sys.argv) > 1 else '.').resolve()
 SMALL = {'friction_peaks': '20', 'bifurcations': '5', 'thermal_histogram': '100000'}
-BY_A_TEST_OF_ITS_OWN = {'read_bag'}  # it needs a recording
+BY_A_TEST_OF_ITS_OWN = {'read_bag', 'many_machines'}  # a recording; a cluster
 
 
 class Examples(unittest.TestCase):

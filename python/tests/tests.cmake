@@ -11,6 +11,7 @@ if(TARGET afm_python_module)
     $<TARGET_FILE:afm_periodic_orbits> $<TARGET_FILE:afm_next_impact> $<TARGET_FILE:afm_example_impacts_to_csv>
     $<TARGET_FILE:afm_example_warm_scene>)
   afm_add_python_test(examples ${PROJECT_SOURCE_DIR}/examples/python)
+  afm_add_python_test(many_machines ${PROJECT_SOURCE_DIR}/examples/python/many_machines.py)
   add_test(NAME python_pip COMMAND ${PROJECT_SOURCE_DIR}/python/tests/pip_test.sh ${PROJECT_SOURCE_DIR}
     ${PROJECT_BINARY_DIR}/without_ros ${PYTHON_EXECUTABLE})
   # it builds where the test without_ros builds

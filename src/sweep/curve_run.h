@@ -1,4 +1,4 @@
-// A whole curve or map, by all threads of all ranks, into a file that an interrupted run goes on with.
+// A whole curve or map by threads, into a file that an interrupted run goes on with.
 #pragma once
 
 #include <string>
@@ -9,8 +9,7 @@
 namespace afm {
 
 // Returns the exit code: 0, 1 where a file cannot be written, 2 where the output cannot be taken for this run, 130 when
-// interrupted. Rank 0 reports faults on stderr. `output` "-" is standard output, and then there is nothing to go on
-// with.
+// interrupted. Faults go to stderr. `output` "-" is standard output, and then there is nothing to go on with.
 int run_curve(const CurveSettings& settings, const std::string& output, int threads,
               const TableUnits& units = TableUnits::plain());
 

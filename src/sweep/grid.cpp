@@ -1,25 +1,15 @@
 #include "grid.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <sstream>
+
+#include "afm/number_text.h"
 
 namespace afm {
 namespace {
 
 const char* name_of(SweepDirection direction) {
   return direction == SweepDirection::fresh ? "fresh" : direction == SweepDirection::up ? "up" : "down";
-}
-
-// The fewest digits that give the same number back.
-std::string shortest(double x) {
-  char text[32];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, x);
-    if (std::strtod(text, nullptr) == x) break;
-  }
-  return text;
 }
 
 // Of the faults of a point with this axis's value and defaults otherwise.
@@ -53,7 +43,7 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
 std::string identity(const CurveSettings& s) {
   std::ostringstream text;
   const auto add = [&](const char* name, const std::vector<double>& axis) {
-    text << name << "=" << shortest(axis.front()) << ".." << shortest(axis.back()) << "(" << axis.size() << ") ";
+    text << name << "=" << number_text(axis.front()) << ".." << number_text(axis.back()) << "(" << axis.size() << ") ";
   };
   add("eta", s.eta);
   add("gamma", s.gamma);
@@ -61,11 +51,11 @@ std::string identity(const CurveSettings& s) {
   add("rest-height", s.rest_height);
   add("amplitude", s.amplitude);
   add("frequency-ratio", s.frequency_ratio);
-  text << "temperature=" << shortest(s.sweep.bath.temperature)
-       << " quality-factor=" << shortest(s.sweep.bath.quality_factor)
-       << " lateral-quality-factor=" << shortest(s.sweep.bath.lateral_quality_factor)
-       << " kicks-per-tau=" << shortest(s.sweep.bath.kicks_per_tau) << " ";
-  text << "duration=" << shortest(s.sweep.duration) << " transient=" << shortest(s.sweep.transient)
+  text << "temperature=" << number_text(s.sweep.bath.temperature)
+       << " quality-factor=" << number_text(s.sweep.bath.quality_factor)
+       << " lateral-quality-factor=" << number_text(s.sweep.bath.lateral_quality_factor)
+       << " kicks-per-tau=" << number_text(s.sweep.bath.kicks_per_tau) << " ";
+  text << "duration=" << number_text(s.sweep.duration) << " transient=" << number_text(s.sweep.transient)
        << " model=" << name(s.model) << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
   text << " version=" << AFM_EMULATOR_VERSION;
   return text.str();

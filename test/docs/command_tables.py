@@ -20,8 +20,6 @@ SUBSTITUTIONS = [
     (r'--eta 0\.1:9:0\.1 --frequency', '--eta 2:3:1 --starts 1 --duration 200 --frequency'),
     (r'--eta 0\.1:9:0\.1$', '--eta 2:2.5:0.5'),
     (r'--starts 100\b', '--starts 4'),
-    # a table of its own: that of the command before is done
-    (r'mpirun -n 8 (.*)map\.csv', r'mpirun -n 2 \1map_by_ranks.csv'),
     (r'--max-length (?:8|10)\b', '--max-length 3'),
     (r'(periodic_orbits --eta 3\.4 --gamma 0\.7)', r'\1 --max-length 2'),
     (r'(periodic_orbits .*)', r'\1 --trajectory 5000 --guesses 50'),
@@ -41,6 +39,7 @@ SUBSTITUTIONS = [
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
     (r'(friction_peaks|bifurcations)\.py', r'\1.py 5'),
+    (r'(many_machines\.py \S+)', r'\1 --points 3 --duration 100'),
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
     (r'--tau 400000', '--tau 200'),
     (r'--mutated 1000000', '--mutated 100'),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every command in README.md and docs/*.md runs as it stands there, but for what command_tables.py shortens or leaves out.
 
-Usage: commands_test.py ROOT BUILD PREFIX [MPIRUN]     (BUILD: of ROOT; PREFIX: its devel space; MPIRUN: if built with MPI)
+Usage: commands_test.py ROOT BUILD PREFIX     (BUILD: of ROOT; PREFIX: its devel space)
 """
 import re
 import sys
@@ -42,7 +42,7 @@ class Tables:
                 if pattern not in self.used]
 
 
-def main(root, build, prefix, mpirun=''):
+def main(root, build, prefix):
     root, build, prefix = (Path(path).resolve() for path in (root, build, prefix))
     if not (prefix / 'lib/afm_emulator/friction_curve').exists():
         print('nothing is built in %s: run scripts/build' % prefix)
@@ -50,7 +50,7 @@ def main(root, build, prefix, mpirun=''):
     if (build, prefix) != (root / 'build', root / 'devel') and prefix != build / 'devel':
         print('%s is not where scripts/build builds: its commands would build once more' % prefix)
         return SKIPPED
-    reader = Reader(root, build, prefix, mpirun, Tables())
+    reader = Reader(root, build, prefix, Tables())
     with ThreadPoolExecutor(DOCUMENTS_AT_A_TIME) as pool:
         list(pool.map(reader.read, [root / 'README.md'] + sorted((root / 'docs').glob('*.md'))))
     faults = reader.faults + reader.tables.unused()

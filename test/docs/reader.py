@@ -21,8 +21,8 @@ class Reader:
     """Pastes the commands of one document after another into a shell."""
     building = threading.Lock()  # two builds of one directory would disturb each other
 
-    def __init__(self, root, build, prefix, mpirun, tables):
-        self.root, self.build, self.prefix, self.mpirun, self.tables, self.faults = root, build, prefix, mpirun, tables, []
+    def __init__(self, root, build, prefix, tables):
+        self.root, self.build, self.prefix, self.tables, self.faults = root, build, prefix, tables, []
         programs = [p.name for p in (prefix / 'lib/afm_emulator').iterdir()]
         self.tools = sorted({name for name in programs if re.fullmatch(r'\w+', name)})
 
@@ -81,8 +81,6 @@ class Reader:
     def missing_here(self, text):
         """What the machine lacks that the command needs."""
         program = PROGRAM.search(text)
-        if text.startswith('mpirun') and not self.mpirun:
-            return 'MPI'
         if program and not (self.prefix / 'lib/afm_emulator' / program.group(2)).exists():
             return OPTIONAL.get(program.group(2))
         return None

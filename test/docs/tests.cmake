@@ -1,13 +1,9 @@
 # What the documents tell users to paste.
 
 if(NOT AFM_SANITIZE)  # what these run, other tests run under sanitizers
-  set(mpirun)
-  if(MPI_CXX_FOUND)
-    set(mpirun ${MPIEXEC_EXECUTABLE})
-  endif()
   add_test(NAME documented_commands
     COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/commands_test.py
-      ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX} ${mpirun})
+      ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
   # three documents at a time
   set_tests_properties(documented_commands PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77 RUN_SERIAL TRUE)
 

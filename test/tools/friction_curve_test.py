@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """The tool friction_curve: the same bytes however it is run, whatever stops it, and refusals of every bad input.
 
-Usage: friction_curve_test.py TOOL [MPIRUN]
+Usage: friction_curve_test.py TOOL
 """
 import csv
+import fcntl
 import os
 import pty
 import shutil
@@ -14,16 +15,13 @@ import tempfile
 import time
 import unittest
 
-TOOL, MPIRUN = None, None
+TOOL = None
 HEADER = ('eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,'
           'attractor,rest_height,amplitude,frequency_ratio,k_f_work,k_f_work_std_error')
 MAP = ['--eta', '1.5:5:0.5', '--gamma', '0.6:0.7:0.1', '--cutoff', '0.1:0.2:0.1', '--duration', '300',
        '--transient', '100']
 HYSTERESIS = '2.3:2.7:0.02'  # two attractors near 2.5
 DEADLINE = 60.0
-# more ranks than cores, by the names of Open MPI 4 and 5; and without TCP, which complains on machines with odd networks
-MPI = {'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1', 'OMPI_MCA_rmaps_base_oversubscribe': '1',
-       'PRTE_MCA_rmaps_default_mapping_policy': ':oversubscribe', 'OMPI_MCA_btl': '^tcp'}
 
 
 class Case(unittest.TestCase):
@@ -34,18 +32,17 @@ class Case(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.directory, name)
 
-    def run_tool(self, arguments, name=None, prefix=()):
+    def run_tool(self, arguments, name=None):
         output = ['--output', self.path(name)] if name else []
-        environment = dict(os.environ, **MPI)
-        return subprocess.run([*prefix, TOOL, *arguments, *output], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              timeout=DEADLINE, env=environment)
+        return subprocess.run([TOOL, *arguments, *output], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              timeout=DEADLINE)
 
     def bytes_of(self, name):
         with open(self.path(name), 'rb') as file:
             return file.read()
 
-    def table(self, arguments, name, prefix=()):
-        done = self.run_tool(arguments, name, prefix)
+    def table(self, arguments, name):
+        done = self.run_tool(arguments, name)
         self.assertEqual((done.returncode, done.stderr), (0, b''))
         return self.bytes_of(name)
 
@@ -61,20 +58,9 @@ class SameBytes(Case):
         self.assertEqual(self.table([*MAP, '--threads', '2'], 'two.csv'), one)
         self.assertEqual(self.run_tool(MAP).stdout, one)
 
-    def test_any_number_of_ranks(self):
-        if not MPIRUN:
-            self.skipTest('no mpirun here, or built without MPI')
-        for extra in ([], ['--sweep', 'down']):
-            one = self.table([*MAP, *extra], 'one.csv')
-            for ranks in ('1', '2', '3'):
-                name = ranks + '.csv'
-                self.assertEqual(self.table([*MAP, *extra], name, (MPIRUN, '-n', ranks)), one)
-                os.remove(self.path(name))
-            os.remove(self.path('one.csv'))
-
-    def interrupted(self, arguments, number, prefix=()):
+    def interrupted(self, arguments, number):
         """Stopped with some rows there and some not, then finished."""
-        command = [*prefix, TOOL, *arguments, '--output', self.path('stopped.csv')]
+        command = [TOOL, *arguments, '--output', self.path('stopped.csv')]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         deadline = time.monotonic() + DEADLINE
         while self.lines('stopped.csv') < 4 and process.poll() is None and time.monotonic() < deadline:
@@ -99,7 +85,7 @@ class SameBytes(Case):
             code, reported, finished = self.interrupted(long, signal.SIGINT)
             self.assertEqual(finished, whole)
             self.assertEqual(code, 130)
-            self.assertIn(b'the same command goes on from there', reported)
+            self.assertIn(b'the same command goes on from ' + (b'there' if sweep == 'fresh' else b'the last'), reported)
             os.remove(self.path('stopped.csv'))
             code, _, finished = self.interrupted([*long, '--threads', '1'], signal.SIGKILL)
             self.assertEqual((code, finished), (-signal.SIGKILL, whole))
@@ -107,11 +93,21 @@ class SameBytes(Case):
                 os.remove(self.path(name))
 
     def test_a_line_cut_short(self):
-        whole = self.table(MAP, 'cut.csv')
-        for size in (0, 30, 150, 400, 1000):
-            with open(self.path('cut.csv.journal'), 'r+b') as journal:
-                journal.truncate(size)
-            self.assertEqual(self.table(MAP, 'cut.csv'), whole)
+        for sweep in ('fresh', 'up'):
+            whole = self.table([*MAP, '--sweep', sweep], 'cut.csv')
+            for size in (0, 30, 150, 400, 1000, 2500):
+                with open(self.path('cut.csv'), 'r+b') as table:
+                    table.truncate(size)
+                self.assertEqual(self.table([*MAP, '--sweep', sweep], 'cut.csv'), whole)
+            os.remove(self.path('cut.csv'))
+
+    def test_one_run_at_a_time(self):
+        self.table(MAP, 'held.csv')
+        with open(self.path('held.csv.settings')) as settings:
+            fcntl.flock(settings, fcntl.LOCK_EX)
+            done = self.run_tool(MAP, 'held.csv')
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(b'used by another run', done.stderr)
 
 
 class Refusals(Case):
@@ -141,7 +137,7 @@ class Refusals(Case):
         self.assertEqual(self.run_tool(MAP, 'curve.csv').returncode, 0)
         self.assertEqual(self.bytes_of('curve.csv'), table)
         self.assertEqual(self.run_tool([*MAP[2:], '--eta', '1.5:5.5:0.5'], 'curve.csv').returncode, 2)
-        for extra in (['--seed', '2'], ['--sweep', 'up']):
+        for extra in (['--seed', '2'], ['--sweep', 'up'], ['--si']):
             done = self.run_tool([*MAP, *extra], 'curve.csv')
             self.assertEqual(done.returncode, 2)
             self.assertIn(b'other settings', done.stderr)
@@ -195,5 +191,4 @@ class Physics(Case):
 
 if __name__ == '__main__':
     TOOL = sys.argv[1]
-    MPIRUN = sys.argv[2] if len(sys.argv) > 2 else None
     unittest.main(argv=sys.argv[:1])

@@ -15,10 +15,9 @@ add_test(NAME next_impact
     $<TARGET_FILE:afm_next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
 set_tests_properties(next_impact PROPERTIES TIMEOUT 120)
 
-# with mpirun where the tool was built with MPI
 add_test(NAME friction_curve
   COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
-    $<TARGET_FILE:afm_friction_curve> ${MPIEXEC_EXECUTABLE})
+    $<TARGET_FILE:afm_friction_curve>)
 set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
 
 add_test(NAME orbit_tools COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/orbit_tools_test.py

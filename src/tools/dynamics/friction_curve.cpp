@@ -20,11 +20,11 @@ const char kDescription[] =
     "\n"
     "frequency_ratio,k_f_work,k_f_work_std_error. k_f comes from the energy lost in impacts (the paper's estimator),\n"
     "k_f_work from the work of the drag (the definition; with a heat bath only this is friction); the true means are\n"
-    "within 1.96 standard errors 95 times in 100. Beside the table lies OUTPUT.journal: interrupted and started again, "
-    "the\n"
-    "same command goes on where it was. Under mpirun all ranks work on one table. The numbers depend on nothing but "
-    "the\n"
-    "options that name them: not on threads, ranks or interruptions.";
+    "within 1.96 standard errors 95 times in 100. Beside the table lies OUTPUT.settings: interrupted and started "
+    "again,\n"
+    "the same command goes on where it was; with --sweep up or down it repeats the sweep of eta that was not "
+    "finished.\n"
+    "The numbers depend on nothing but the options that name them: not on threads or interruptions.";
 
 struct Options {
   std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", rest_height = "0", amplitude, frequency_ratio,
@@ -59,7 +59,7 @@ void parse(afm::CommandLine& app, Options& o) {
   afm::add_model_option(app, o.model);
   app.option("sweep", o.sweep,
              "fresh: each point from a random start; up, down: each from where the eta before it ended");
-  app.option("threads", o.threads, "0: one for each processor; under mpirun one for each rank");
+  app.option("threads", o.threads, "0: one for each processor");
   app.option("seed", o.seed, "of the random starts and of the heat bath");
   app.option("output", o.output, "the table; - is standard output");
   afm::add_drag_velocity_option(app, o.drag_velocity);

@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+"""A map of friction by many machines: a task for each point, done by the workers of a dask cluster.
+
+Usage: many_machines.py TABLE [--scheduler HOST:PORT] [--workers N] [--points N] [--duration TAU]
+
+Without a scheduler the workers run on this machine. Interrupted and started again, the same command goes on: the
+table holds a row for each point in order, so its length tells how many are done. A point depends on its arguments
+alone: the bytes of the table are the same for any number of workers.
+"""
+import argparse
+import itertools
+from pathlib import Path
+
+import numpy as np
+from distributed import Client, LocalCluster
+
+import afm
+
+
+def row(gamma, eta, duration):
+    point = afm.friction_curve(eta, gamma=gamma, duration=duration, transient=0.1 * duration, threads=1)[0]
+    return '%.17g,%.17g,%.17g,%.17g\n' % (gamma, eta, point['k_f_work'], point['k_f_work_std_error'])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('table', type=Path)
+    parser.add_argument('--scheduler', help='of a running cluster (dask-scheduler)')
+    parser.add_argument('--workers', type=int, help='on this machine; one for each processor')
+    parser.add_argument('--points', type=int, default=900, help='drag speeds, for each of ten restitutions')
+    parser.add_argument('--duration', type=float, default=1000.0, help='of each measurement [tau]')
+    options = parser.parse_args()
+    points = list(itertools.product(np.linspace(0.5, 0.95, 10), np.linspace(0.05, 9.0, options.points)))
+    whole = options.table.read_text().splitlines(True) if options.table.exists() else []
+    done = [line for line in whole if line.endswith('\n')]  # a kill may have cut the last one
+    options.table.write_text(''.join(done))
+    todo = points[len(done):]
+    cluster = options.scheduler or LocalCluster(options.workers, threads_per_worker=1, dashboard_address=None)
+    with Client(cluster) as client, options.table.open('a') as table:
+        for future in client.map(row, *zip(*todo), duration=options.duration, pure=False) if todo else []:
+            table.write(future.result())
+            table.flush()
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,107 @@
+#include "curve_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iostream>
+#include <stdexcept>
+
+#include "afm/number_text.h"
+#include "rows.h"
+
+namespace afm {
+namespace {
+
+std::runtime_error cannot(const std::string& verb, const std::string& path) {
+  return std::runtime_error("cannot " + verb + " " + path +
+                            (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+}
+
+bool is_stream(const std::string& path) {
+  struct stat status {};
+  return path == "-" || (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode));
+}
+
+bool has_content(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && status.st_size > 0;
+}
+
+// The same natural numbers are another table in other units.
+std::string with_units(const std::string& identity, const TableUnits& units) {
+  std::string text = identity + " units=";
+  for (const Quantity q : {Quantity::length, Quantity::time, Quantity::energy})
+    text += number_text(units.convert(q, 1.0)) + "/";
+  return text;
+}
+
+}  // namespace
+
+CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, const SweepGrid& grid,
+                     const TableUnits& units)
+    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, curve_columns(), units) {
+  errno = 0;
+  if (!is_stream(path)) {
+    claim(with_units(identity(settings), units));
+    keep_whole_chains(units.header(curve_columns()));
+  }
+  if (path != "-") file_.open(path, std::ios::binary | std::ios::app);
+  if (!has_content(path)) writer_.write_header();
+  flush();
+}
+
+CurveFile::~CurveFile() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+// The settings are written before the table: a table without them is none of ours.
+void CurveFile::claim(const std::string& identity) {
+  const std::string path = path_ + ".settings";
+  const bool begun = has_content(path_);
+  if (begun && !has_content(path)) {
+    throw std::runtime_error("it is there already, without " + path + ", which says what it was made with");
+  }
+  lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (lock_ < 0) throw cannot("open", path);
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) throw std::runtime_error(path + " is being used by another run");
+  if (!begun) {
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    if (!(file << identity << '\n' << std::flush)) throw cannot("write", path);
+    return;
+  }
+  std::string there;
+  std::ifstream file(path);
+  std::getline(file, there);
+  if (there != identity) {
+    throw std::runtime_error("it belongs to other settings.\n  there: " + there + "\n  asked: " + identity);
+  }
+}
+
+// Cuts off the line that a kill cut short, and the rows of a chain that was not finished: where the next point of it
+// would begin is not in the table.
+void CurveFile::keep_whole_chains(const std::string& header) {
+  std::ifstream file(path_, std::ios::binary);
+  std::string line;
+  std::size_t lines = 0;
+  off_t size = 0, kept = 0;
+  while (std::getline(file, line) && !file.eof()) {
+    if (lines == 0 && line != header) throw std::runtime_error("it has other columns");
+    size += static_cast<off_t>(line.size() + 1);
+    if (lines++ % grid_.chain_length() != 0) continue;
+    kept = size;
+    rows_ = lines - 1;
+  }
+  if (has_content(path_) && ::truncate(path_.c_str(), kept) != 0) throw cannot("write", path_);
+}
+
+void CurveFile::add(const SweepResult& result) { write_row(grid_.at(rows_++), result, writer_); }
+
+void CurveFile::flush() {
+  if (!out_.flush()) throw cannot("write", path_);
+}
+
+}  // namespace afm
