@@ -7,10 +7,10 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
     >>> events = tip.advance(1000)                    # to 1000 tau: a structured array
     >>> curve = afm.friction_curve([1.8, 2.0, 2.2])   # columns as of the tool friction_curve
 
-Tip, Ensemble, Run      one tip; many on threads; a run in batches, as the node runs it
-Model, Bath, Units      what they are made of
-friction_curve, attractors, periodic_orbits, lyapunov, next_impact     what the tools of these names compute
-from_bag                a recording: its model, its commands, and its run simulated again
+- Tip, Ensemble, Run: one tip; many on threads; a run in batches, as the node runs it
+- Model, Bath, Units: what they are made of
+- friction_curve, attractors, periodic_orbits, lyapunov, next_impact: what the tools of these names compute
+- from_bag: a recording: its model, its commands, and its run simulated again
 
 Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1 of the
 paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with one k_f is no

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Every link and picture of the documents leads to a file, every heading that is linked exists, every picture has a text, and every
-document and picture is reached from somewhere. usage: links_test.py ROOT"""
+document and picture is reached from somewhere, every page of the site from the lists of docs/index.md. usage: links_test.py ROOT"""
 import re
 import sys
 from pathlib import Path
@@ -59,6 +59,10 @@ def main(root):
     for path in documents + sorted((root / 'docs/images').glob('*.png')):
         if path not in reached and path != root / 'README.md':
             faults.append('no document leads to %s' % path.relative_to(root))
+    sidebar = set(re.findall(r'^- \[[^\]]+\]\(([\w/]+\.\w+)\)', (root / 'docs/index.md').read_text(), re.M))
+    for path in sorted((root / 'docs').glob('*.md')) + sorted((root / 'docs/api').glob('*.rst')):
+        if str(path.relative_to(root / 'docs')) not in sidebar | {'index.md', 'history.md'}:
+            faults.append('docs/index.md: no line of its lists leads to %s' % path.relative_to(root))
     assert len(documents) > 10 and len(reached) > 40, 'hardly any link was found in %s' % root
     for fault in faults:
         print('FAULT: ' + fault)

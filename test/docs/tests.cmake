@@ -23,11 +23,14 @@ add_test(NAME interface_tables
 add_test(NAME links COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/links_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(interface_tables links PROPERTIES TIMEOUT 30)
 
-# a warning of Doxygen about a public header is an error
+# the site, where its parts are installed (Debian 12 and later): a warning of Sphinx or Doxygen is an error
 find_program(DOXYGEN_PROGRAM doxygen)
-if(DOXYGEN_PROGRAM)
-  add_test(NAME api_reference COMMAND ${PROJECT_SOURCE_DIR}/scripts/api_reference)
-  set_tests_properties(api_reference PROPERTIES TIMEOUT 60 ENVIRONMENT AFM_BUILD_DIR=${PROJECT_BINARY_DIR})
+execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import breathe, furo, myst_parser, sphinx_copybutton"
+  RESULT_VARIABLE sphinx_result OUTPUT_QUIET ERROR_QUIET)
+if(DOXYGEN_PROGRAM AND sphinx_result EQUAL 0 AND TARGET afm_python)
+  add_test(NAME site COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/site_test.py
+    ${PROJECT_SOURCE_DIR} ${CATKIN_DEVEL_PREFIX} ${PROJECT_BINARY_DIR}/docs)
+  set_tests_properties(site PROPERTIES TIMEOUT 300)
 endif()
 
 # the parts of scripts/qualify name programs that are there, and the short tables of the documents are those of their data

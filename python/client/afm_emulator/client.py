@@ -26,7 +26,13 @@ def tau_between(begin, end):
 
 
 class Client:
-    """An emulator, by the name of its node. timeout: of wall time that everything waits for an answer, before it raises."""
+    """An emulator, by the name of its node. The same calls work in real time and in lockstep.
+
+    name: of the node, such as 'afm'
+    timeout: wall time that every call waits for an answer before it raises an EmulatorError [s]
+
+    `configuration` and `applied` are the latest messages of these topics. They are there from the beginning.
+    """
 
     def __init__(self, name='afm', timeout=10.0):
         self.name = rospy.resolve_name(name)
@@ -49,6 +55,7 @@ class Client:
 
     @property
     def is_lockstep(self):
+        """Whether the emulator waits for `control`, instead of for the wall clock."""
         return self.configuration.pace == 'lockstep'
 
     @property
@@ -58,17 +65,23 @@ class Client:
 
     @property
     def lateral_stiffness(self):
-        """[N/m] of the horizontal spring."""
+        """Stiffness of the horizontal spring [N/m]."""
         return self.configuration.tip_mass_kg * self.configuration.omega_h_rad_per_s ** 2
 
     @property
     def stiffness(self):
-        """[N/m] of the vertical spring."""
+        """Stiffness of the vertical spring [N/m]."""
         return self.configuration.tip_mass_kg * self.configuration.omega_v_rad_per_s ** 2
 
     def control(self, duration, drag_velocity=None, rest_height=None):
-        """Commands what is given, advances by `duration` [s of model time], and returns what was measured over it, as the answer of
-        the service ~control holds it (srv/Control.srv). drag_velocity [m/s], rest_height [m]; None: as it is."""
+        """Commands what is given, advances, and returns what was measured on the way: the answer of the service ~control.
+
+        duration: of the control period [s of model time]
+        drag_velocity: [m/s]; None: as it is
+        rest_height: height of the holder above mid-surface [m]; None: as it is
+
+        Raises an EmulatorError if the emulator refuses, or does not answer within the timeout.
+        """
         nan = float('nan')
         if not self.is_lockstep:
             return self._measure(self.command_and_wait(drag_velocity, rest_height), duration)
@@ -83,7 +96,11 @@ class Client:
         return answer
 
     def command_and_wait(self, drag_velocity=None, rest_height=None):
-        """Commands what is given [m/s, m] and waits until it holds. Returns the Applied message from which on it does."""
+        """Commands what is given and waits until it holds. Returns the Applied message from which on it does.
+
+        drag_velocity: [m/s]; None: as it is
+        rest_height: height of the holder above mid-surface [m]; None: as it is
+        """
         if self.is_lockstep:
             self.control(0.0, drag_velocity, rest_height)
             wanted = {'drag_velocity': drag_velocity, 'rest_height_m': rest_height}
@@ -97,8 +114,13 @@ class Client:
         return self.applied
 
     def mean_force(self, duration, settle=0.0, drag_velocity=None, rest_height=None):
-        """Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after what is
-        commanded holds."""
+        """Mean force of the holder on the tip along +x [N].
+
+        duration: over which the force is averaged [s of model time]
+        settle: time from when the command holds to the beginning of the average [s of model time]
+        drag_velocity: [m/s]; None: as it is
+        rest_height: height of the holder above mid-surface [m]; None: as it is
+        """
         if settle > 0.0:
             self.control(settle, drag_velocity, rest_height)
             drag_velocity = rest_height = None
