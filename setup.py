@@ -2,4 +2,4 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=['afm_emulator'], package_dir={'': 'python/client'}))
+setup(**generate_distutils_setup(packages=['afm_emulator', 'afm_emulator.panel'], package_dir={'': 'python/client'}))

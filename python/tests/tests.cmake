@@ -17,3 +17,10 @@ if(TARGET afm_python_module)
   # it builds where the test without_ros builds
   set_tests_properties(python_pip PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77 RESOURCE_LOCK without_ros)
 endif()
+
+# the signals of the panel need no module
+if(catkin_FOUND)
+  add_test(NAME panel_signals COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${PYTHON_EXECUTABLE}
+    ${PROJECT_SOURCE_DIR}/python/tests/panel_signals_test.py ${PROJECT_SOURCE_DIR}/python/client)
+  set_tests_properties(panel_signals PROPERTIES TIMEOUT 60)
+endif()

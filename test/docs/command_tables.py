@@ -48,7 +48,8 @@ SUBSTITUTIONS = [
 # (pattern, why the command is not run); each must be used. The tools of these commands must know the options used.
 NOT_RUN = [
     (r'^scripts/test', 'this test is a part of it'),
-    (r'^scripts/run --view', 'installs rviz'),
+    (r'^scripts/run --(view|panel)', 'opens a window'),
+    (r'^rosrun afm_emulator panel', 'opens a window'),
     (r'^scripts/qualify', 'measures for an hour or more; the test qualify checks its parts'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
     (r'^scripts/compare_builds', 'builds with every compiler for minutes'),

@@ -4,6 +4,7 @@ them Python itself starts, and may swallow a SIGINT: it prints a KeyboardInterru
 
 usage: ending_test.py [ROUNDS]     in each round all nodes start at once, and each is stopped at a random moment
 """
+import os
 import random
 import signal
 import sys
@@ -14,7 +15,7 @@ import roslib.packages
 from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
 from topics import wait_until
 
-NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status')
+NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status', 'panel')
 ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 6
 LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0
@@ -30,8 +31,8 @@ def blocks_sigint(process):
 class Ending(NodeTest):
     def stop_all(self, moments):
         """Nodes with the moment of each. Returns how long each took to end, and its exit code."""
-        running = {name: self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]]))
-                   for name in moments}
+        running = {name: self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]],
+                                            dict(os.environ, QT_QPA_PLATFORM='offscreen'))) for name in moments}
         wait_until(lambda: all(blocks_sigint(process) for process in running.values()), 'the first lines of all nodes have run')
         begin = time.monotonic()
         ends = {}

@@ -14,6 +14,7 @@ set(node_tests
   full_disk
   lockstep
   loopback
+  panel
   publishes
   replay
   reset_pause_step

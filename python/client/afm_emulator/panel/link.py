@@ -1,0 +1,199 @@
+"""The emulator on its topics and services, live or replayed. Callbacks only put aside what comes; the window takes it 30 times a second."""
+import collections
+import math
+import queue
+import threading
+import time
+
+import numpy as np
+import rospy
+from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, Impact, ImpactArray
+from afm_emulator.srv import StartRecording, Step
+from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
+from rospy.numpy_msg import numpy_msg
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
+
+ASK_AGAIN_S = 2.0     # rospy may miss a publisher that comes back, and a master that comes back knows nobody
+PAIRING_S = 0.1       # that a batch waits for its impacts, which come on another topic
+SERVICE_S = 5.0       # that a service is waited for
+WAITING_BATCHES = 200
+LATEST = {'configuration': Configuration, 'applied': Applied, 'friction': Friction, 'status': EmulatorStatus}
+TYPES = {'float64': '<f8', 'uint8': 'u1', 'uint32': '<u4', 'int64': '<i8'}
+
+
+def record_type(message):
+    """The numpy type of a message of fixed length, as it stands in the bytes of a message that holds it."""
+    fields = []
+    for name, kind in zip(message.__slots__, message._slot_types):
+        nested = getattr(message(), name)
+        fields.append((name, TYPES[kind] if kind in TYPES else record_type(type(nested))))
+    return np.dtype(fields)
+
+
+IMPACT = record_type(Impact)
+
+
+def read_impacts(raw):
+    """(seq, epoch, table) of the bytes of an ImpactArray: tens of thousands of impacts a second are too many for Python objects."""
+    seq, name_length = np.frombuffer(raw, '<u4', 4)[[0, 3]]
+    epoch = np.frombuffer(raw, '<u4', 1, 16 + name_length)[0]
+    begin = 16 + name_length + 4 + 8  # first_index
+    count = np.frombuffer(raw, '<u4', 1, begin)[0]
+    return int(seq), int(epoch), np.frombuffer(raw, IMPACT, count, begin + 4)
+
+
+def is_of(message, kind):
+    """Else it is of another version."""
+    return message._connection_header['md5sum'] == kind._md5sum
+
+
+class Link:
+    def __init__(self, name):
+        self.name = name
+        self._raw, self._decoded = {}, {}  # by topic of LATEST
+        self.diagnostics = {}           # status by its name
+        self.notes = collections.deque(maxlen=1)  # what a service answered, for the operator
+        self._batches, self._impacts = (collections.deque(maxlen=WAITING_BATCHES) for _ in range(2))
+        self._heard = self._asked = -math.inf
+        self._subscribers, self._jobs, self._wanted = [], queue.Queue(), {}
+        self._lock = threading.Lock()
+        self._commands = {topic: rospy.Publisher('%s/%s' % (name, topic), Float64, queue_size=10, tcp_nodelay=True)
+                          for topic in ('drag_velocity', 'rest_height', 'load')}
+        threading.Thread(target=self._work, daemon=True).start()
+
+    # what comes
+
+    def close(self):
+        self._asked = math.inf
+        self._jobs.put(None)
+        with self._lock:
+            for subscriber in self._subscribers:
+                subscriber.unregister()
+        for publisher in self._commands.values():
+            publisher.unregister()
+
+    def silence(self):
+        """Seconds of wall time since anything came. Asks for the emulator again when that is long."""
+        now = time.monotonic()
+        if now - max(self._heard, self._asked) > ASK_AGAIN_S:
+            self._asked = now
+            threading.Thread(target=self._subscribe, daemon=True).start()  # a master that is gone lets one wait
+        return now - self._heard
+
+    def latest(self, topic):
+        """The newest message, decoded now, or None."""
+        raw = self._raw.get(topic)
+        if raw is not None and self._decoded.get(topic, (None,))[0] is not raw:
+            self._decoded[topic] = raw, LATEST[topic]().deserialize(raw)
+        return self._decoded[topic][1] if raw is not None else None
+
+    def takes_commands(self):
+        """Else it is a recording that is played."""
+        return self._commands['drag_velocity'].get_num_connections() > 0
+
+    def batches(self):
+        """(Deflection message, its impacts as (epoch, table)) of every batch since the last call; without impacts if they did
+        not come in time."""
+        while self._batches:
+            arrived, batch = self._batches[0]
+            have_come = self._impacts and self._impacts[-1][0] >= batch.header.seq
+            if not have_come and time.monotonic() - arrived < PAIRING_S:
+                return
+            self._batches.popleft()
+            impacts = []
+            while self._impacts and self._impacts[0][0] <= batch.header.seq:
+                impacts.append(self._impacts.popleft()[1:])
+            yield batch, impacts
+
+    def _subscribe(self):
+        with self._lock:
+            for subscriber in self._subscribers:
+                subscriber.unregister()
+            fast = {'tcp_nodelay': True, 'buff_size': 1 << 20}
+            self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, keep, (topic, kind), **fast)
+                                 for topic, kind, keep in [(topic, kind, self._keep) for topic, kind in LATEST.items()]
+                                 + [('deflection', Deflection, self._keep_batch), ('impacts', ImpactArray, self._keep_impacts)]]
+            self._subscribers.append(rospy.Subscriber('/diagnostics', DiagnosticArray, self._keep_diagnostics))
+
+    def _keep(self, message, subject):
+        topic, kind = subject
+        if is_of(message, kind):
+            self._raw[topic] = message._buff
+            self._heard = time.monotonic()
+
+    def _keep_batch(self, message, subject):
+        if is_of(message, subject[1]):
+            self._batches.append((time.monotonic(), numpy_msg(Deflection)().deserialize(message._buff)))
+
+    def _keep_impacts(self, message, subject):
+        if is_of(message, subject[1]):
+            impacts = read_impacts(message._buff)
+            if self._impacts and impacts[0] < self._impacts[-1][0]:
+                self._impacts.clear()  # another emulator of that name
+            self._impacts.append(impacts)
+
+    def _keep_diagnostics(self, message):
+        for status in message.status:
+            node, _, what = status.name.partition(':')
+            if node.strip() == self.name.lstrip('/'):
+                self.diagnostics[what.strip()] = status
+
+    # what goes
+
+    def command(self, topic, value):
+        self._commands[topic].publish(value)
+
+    def set_parameter(self, name, value):
+        """A slider may ask for more than is done: the last value of each counts."""
+        with self._lock:
+            self._wanted[name] = value
+        self._jobs.put(self._set_wanted)
+
+    def call(self, service, kind, **request):
+        self._jobs.put(lambda: self._call(service, kind, **request))
+
+    def pause(self, paused):
+        self.call('pause', SetBool, data=paused)
+
+    def step(self, **how_far):
+        self.call('step', Step, **how_far)
+
+    def reset(self):
+        self.call('reset', Trigger)
+
+    def record(self, on):
+        if on:
+            self.call('start_recording', StartRecording, name='')
+        else:
+            self.call('stop_recording', Trigger)
+
+    def _set_wanted(self):
+        with self._lock:
+            wanted, self._wanted = self._wanted, {}
+        if wanted:
+            config = Config(doubles=[DoubleParameter(name, value) for name, value in wanted.items()])
+            got = {value.name: value.value for value in self._call('set_parameters', Reconfigure, config=config).config.doubles}
+            refused = [name for name, value in wanted.items() if got.get(name) != value]
+            if refused:
+                self.notes.append('%s was refused, or cut to its range' % ', '.join(refused))
+
+    def _call(self, service, kind, **request):
+        name = '%s/%s' % (self.name, service)
+        rospy.wait_for_service(name, timeout=SERVICE_S)
+        answer = rospy.ServiceProxy(name, kind)(**request)
+        if not getattr(answer, 'success', True):
+            self.notes.append('%s: %s' % (service, answer.message))
+        return answer
+
+    def _work(self):
+        while True:
+            job = self._jobs.get()
+            try:
+                if job is None:
+                    return
+                job()
+            except (rospy.ROSException, rospy.ServiceException, OSError) as fault:
+                self.notes.append(str(fault))

@@ -1,0 +1,216 @@
+"""Signals as an instrument shows them. Lengths are in cells (a), times in tau, unless a name says otherwise."""
+import collections
+
+import numpy as np
+
+TRIGGER_PHASE = 0.75    # middle of the rising flank, for a tip that moves to the right: a crest is at 0, a valley at 0.5
+TRIGGER_SEARCH = 16.0   # tau: a motion with a period up to this stands still
+FINE_SAMPLES = 3000     # up to so many samples a signal is drawn in full
+FINE_STEPS = 3          # points drawn per interval between samples then
+
+
+class Ring:
+    """The newest rows of a table, by columns. Each append copies them once; reading copies nothing."""
+
+    def __init__(self, columns, capacity):
+        self._data, self._begin, self._end = np.empty((columns, 2 * capacity)), 0, 0
+        self.capacity = capacity
+
+    def __len__(self):
+        return self._end - self._begin
+
+    def clear(self):
+        self._begin = self._end = 0
+
+    def append(self, columns):
+        columns = np.atleast_2d(columns)[:, -self.capacity:]
+        count = columns.shape[1]
+        keep = min(len(self), self.capacity - count)
+        if self._end + count > self._data.shape[1]:
+            self._data[:, :keep] = self._data[:, self._end - keep:self._end]
+            self._end = keep
+        self._data[:, self._end:self._end + count] = columns
+        self._end += count
+        self._begin = self._end - keep - count
+
+    def columns(self):
+        return self._data[:, self._begin:self._end]
+
+
+def envelope(t, y, buckets):
+    """At most 2 points per bucket, its least and its greatest, in their order: no peak is lost."""
+    size = -(-len(y) // buckets) if buckets else len(y)
+    if size <= 2:
+        return t, y
+    padded = np.full(-(-len(y) // size) * size, y[-1])
+    padded[:len(y)] = y
+    table = padded.reshape(-1, size)
+    ends = np.sort(np.stack([table.argmin(axis=1), table.argmax(axis=1)], axis=1), axis=1)
+    index = np.minimum((ends + size * np.arange(len(table))[:, None]).ravel(), len(y) - 1)
+    return t[index], y[index]
+
+
+def swing(t, y, omega, steps):
+    """`steps` points per interval on the free oscillation of angular frequency omega through both of its ends; a straight line
+    where the interval is too long to know it."""
+    angle = omega * np.diff(t)[:, None]
+    part = np.arange(steps) / steps
+    with np.errstate(divide='ignore', invalid='ignore'):
+        before, after = np.sin(angle * (1.0 - part)) / np.sin(angle), np.sin(angle * part) / np.sin(angle)
+    known = (angle > 1e-6) & (angle < 2.8)  # the sine of pi is 0
+    before, after = np.where(known, before, 1.0 - part), np.where(known, after, part)
+    return np.append((before * y[:-1, None] + after * y[1:, None]).ravel(), y[-1])
+
+
+class Motion:
+    """The tip's motion over a time, of all that is known: samples, and impacts, which lie on the surface. Between them it flies."""
+
+    def __init__(self, samples, impacts, amplitude, rest_height, omega_h, steps=FINE_STEPS):
+        t, Y, X, xc = samples
+        self.is_fine = len(t) <= FINE_SAMPLES
+        if self.is_fine and len(t) > 1:
+            at, phase = impacts[:2, (impacts[0] > t[0]) & (impacts[0] < t[-1])]
+            holder = np.interp(at, t, xc)
+            X_at = phase - holder - np.round(phase - holder)  # the lateral extension is far below half a cell
+            Y_at = amplitude * np.cos(2 * np.pi * phase) - rest_height
+            order = np.argsort(np.concatenate([t, at]), kind='stable')
+            t, Y, X, xc = (np.concatenate(pair)[order] for pair in ((t, at), (Y, Y_at), (X, X_at), (xc, holder)))
+            part = np.arange(steps) / steps
+            Y, X = swing(t, Y, 2 * np.pi, steps), swing(t, X, omega_h, steps)
+            t, xc = (np.append((v[:-1, None] + part * np.diff(v)[:, None]).ravel(), v[-1]) for v in (t, xc))
+        self.t, self.Y, self.X, self.xc = t, Y, X, xc
+
+    def trigger(self, span, direction):
+        """Begin of a picture of that span: where the tip passes the middle of a rising flank; of the last passages the highest, so
+        that a periodic motion stands still. None if it passes none."""
+        x = direction * (self.xc + self.X) - TRIGGER_PHASE
+        flank = np.floor(x)
+        i = np.flatnonzero(np.diff(flank) > 0)
+        part = (flank[i + 1] - x[i]) / (x[i + 1] - x[i])
+        begin = self.t[i] + part * (self.t[i + 1] - self.t[i])
+        height = self.Y[i] + part * (self.Y[i + 1] - self.Y[i])
+        height[(begin + span > self.t[-1]) | (begin + span + TRIGGER_SEARCH < self.t[-1])] = -np.inf
+        if not len(height) or height.max() == -np.inf:
+            return None
+        # of equal heights the last: rounding and the line between two points make differences of a thousandth
+        return begin[np.flatnonzero(height > height.max() - 1e-3 * np.ptp(self.Y))[-1]]
+
+    def within(self, begin, end):
+        a, b = np.searchsorted(self.t, (begin, end))
+        return slice(max(a - 1, 0), b + 1)
+
+
+class Recent:
+    """The newest batches, of one epoch, without a gap. Only those that a picture needs become a table."""
+
+    def __init__(self, capacity=1 << 19):
+        self.capacity, self.batches, self.impacts = capacity, collections.deque(), collections.deque(maxlen=2000)
+        self._count, self._next = 0, None
+
+    def clear(self):
+        self.batches.clear()
+        self.impacts.clear()
+        self._count, self._next = 0, None
+
+    def add(self, batch, impacts):
+        """A Deflection message whose arrays are of numpy, and its impacts: (epoch, table with the fields of Impact). Returns whether
+        it goes on where the last batch ended."""
+        goes_on = self._next == (batch.epoch, batch.first_sample)
+        if not goes_on:
+            self.clear()
+        count = len(batch.vertical)
+        self._next = batch.epoch, batch.first_sample + count
+        if count:
+            self.batches.append(batch)
+            self._count += count
+        while self.batches and self._count - len(self.batches[0].vertical) > self.capacity:
+            self._count -= len(self.batches.popleft().vertical)
+        self.impacts.extend(table for epoch, table in impacts if epoch == batch.epoch and len(table))
+        return goes_on
+
+    def last(self, duration, spacing_m, tau_s):
+        """Samples (t, Y, X, xc) and impacts (t, phase, energy lost) of the last so many tau; t counts from a whole tau near them."""
+        origin, tables = self.batches[-1].time.tau, []
+        for batch in reversed(self.batches):
+            seconds = batch.sample_period * np.arange(len(batch.vertical))
+            t = (batch.time.tau - origin) + batch.time.phase + seconds / tau_s
+            tables.append(np.stack([t, batch.vertical / spacing_m, batch.lateral / spacing_m,
+                                    (batch.holder_position + batch.drag_velocity * seconds) / spacing_m]))
+            if t[0] < tables[0][0, -1] - duration:
+                break
+        samples = np.concatenate(tables[::-1], axis=1) if len(tables) > 1 else tables[0]
+        begin = samples[0, -1] - duration
+        events = [np.empty((3, 0))]
+        for table in reversed(self.impacts):
+            t = (table['time']['tau'] - origin) + table['time']['phase']
+            events.append(np.stack([t, table['surface_phase'], table['energy_loss']]))
+            if t[0] < begin:
+                break
+        impacts = np.concatenate(events[::-1], axis=1)
+        return samples[:, np.searchsorted(samples[0], begin):], impacts[:, np.searchsorted(impacts[0], begin):]
+
+
+class FrictionLoop:
+    """Mean lateral force against the position of the holder: the last line in either direction."""
+    PART_TAU = 8.0  # of the means
+
+    def __init__(self, capacity=4000):
+        self.lines, self.direction = {1: Ring(2, capacity), -1: Ring(2, capacity)}, 0
+
+    def clear(self):
+        self.lines[1].clear()
+        self.lines[-1].clear()
+        self.direction = 0
+
+    def add(self, batch, stiffness, tau_s):
+        """A Deflection message whose arrays are of numpy; all in SI."""
+        velocity, period, lateral = batch.drag_velocity, batch.sample_period, batch.lateral
+        if velocity == 0.0 or len(lateral) == 0:
+            return
+        direction = 1 if velocity > 0.0 else -1
+        if direction != self.direction:
+            self.lines[direction].clear()
+        self.direction = direction
+        size = min(max(1, round(self.PART_TAU * tau_s / period)), len(lateral))
+        force = -stiffness * lateral[:len(lateral) // size * size].reshape(-1, size).mean(axis=1)
+        middle = period * size * (np.arange(len(force)) + 0.5)
+        self.lines[direction].append(np.stack([batch.holder_position + velocity * middle, force]))
+
+
+class Trail:
+    """Friction at the drag speeds that were, and at the present one."""
+
+    def __init__(self, capacity=3000):
+        self.past, self.now = Ring(2, capacity), None  # (eta, K_f, its error)
+
+    def clear(self):
+        self.past.clear()
+        self.now = None
+
+    def add(self, eta, k_f, error):
+        if self.now is not None and self.now[0] != abs(eta):
+            self.past.append(np.array(self.now[:2])[:, None])
+        self.now = (abs(eta), k_f, error) if np.isfinite(k_f) else None
+
+
+class Scale:
+    """Bounds of an axis that grow at once, and shrink when they were far too wide for a while: so that a picture does not tremble."""
+
+    def __init__(self, least_span, patience=30):
+        """patience: updates until it shrinks."""
+        self.least_span, self.patience = least_span, patience
+        self.low, self.high, self._empty = 0.0, 0.0, 0
+
+    def update(self, low, high):
+        """Whether the bounds changed."""
+        self._empty = self._empty + 1 if self.high - self.low > 2.5 * max(high - low, self.least_span) else 0
+        shrinks = self._empty >= self.patience
+        if self.low <= low and high <= self.high and not shrinks:
+            return False
+        if not shrinks:
+            low, high = min(low, self.low), max(high, self.high)
+        span = max(high - low, self.least_span)
+        unit = 10.0 ** np.floor(np.log10(span))
+        step = unit * next(f for f in (0.1, 0.2, 0.5, 1.0) if 10.0 * f * unit >= span)
+        self.low, self.high, self._empty = step * np.floor(low / step), step * np.ceil(max(high, low + span) / step), 0
+        return True

@@ -1,0 +1,289 @@
+#!/usr/bin/python3
+"""The front panel on a display of its own: what is turned and pressed takes effect, what comes is drawn; it greys out without an
+emulator, comes back with it, shows a recording, and ends when it is asked to. Pictures of it go to the test's results."""
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import roslib.packages
+import rospy
+
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process, run
+from topics import NAMESPACE, Topic, key, tau_between, wait_until
+
+SLOWEST_END_S = 2.0
+
+
+class Display:
+    """An X server, on the first free number."""
+
+    def __init__(self):
+        readable, writable = os.pipe()
+        self.child = subprocess.Popen(['Xvfb', '-displayfd', str(writable), '-screen', '0', '1000x700x24', '-nolisten', 'tcp'],
+                                      pass_fds=[writable], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(writable)
+        with os.fdopen(readable) as numbers:
+            os.environ['DISPLAY'] = ':' + numbers.readline().strip()
+
+    def close(self):
+        self.child.terminate()
+        self.child.wait()
+
+
+DISPLAY = Display()
+from PyQt5 import QtCore, QtTest, QtWidgets  # noqa: E402
+from afm_emulator.panel.link import Link  # noqa: E402
+from afm_emulator.panel.pictures import BLUE, ORANGE, friction_curve  # noqa: E402
+from afm_emulator.panel.window import Window  # noqa: E402
+from afm_emulator.expectations import results_path  # noqa: E402
+
+APPLICATION = QtWidgets.QApplication(['panel'])
+
+
+def until(condition, what, deadline_s=15.0):
+    """While the window lives."""
+    def and_alive():
+        APPLICATION.processEvents()
+        return condition()
+    return wait_until(and_alive, what, deadline_s)
+
+
+class Panel:
+    def __init__(self):
+        self.link = Link(NAMESPACE)
+        self.window = Window(self.link, friction_curve())
+        self.window.show()
+
+    def close(self):
+        self.window.close()
+        self.window.deleteLater()
+        self.link.close()
+
+    def part(self, name):
+        found = self.window.findChild(QtWidgets.QWidget, name)
+        assert found is not None, 'no %s' % name
+        return found
+
+    def is_ready(self):
+        return self.window.drag.isEnabled()
+
+    def is_grey(self):
+        return all(plot.backgroundBrush().color().name() != '#ffffff' for plot in self.window.plots)
+
+    def press(self, name):
+        until(self.part(name).isEnabled, name + ' can be pressed')
+        QtTest.QTest.mouseClick(self.part(name), QtCore.Qt.LeftButton)
+
+    def type_in(self, name, text):
+        box = self.part(name)
+        box.selectAll()
+        QtTest.QTest.keyClicks(box, text)
+        QtTest.QTest.keyClick(box, QtCore.Qt.Key_Return)
+
+    def pixels(self, plot, colour):
+        """How many of that colour a picture has."""
+        image, count = plot.grab().toImage(), 0
+        wanted = int(colour[1:], 16)
+        return sum(image.pixel(x, y) & 0xffffff == wanted for x in range(image.width()) for y in range(image.height()))
+
+    def keep(self, name):
+        path = results_path('panel_%s.png' % name)
+        assert self.window.grab().save(path), path
+        print('a picture of the panel: ' + path)
+
+
+class Knobs(EmulatorTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.panel = Panel()
+        until(cls.panel.is_ready, 'the panel has found the emulator')
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.panel.close()
+        super().tearDownClass()
+
+    def applied(self, condition, what):
+        until(lambda: self.topics['applied'].messages and condition(self.topics['applied'].messages[-1]), what)
+
+    def paused_at(self):
+        """The time at which it stands, when all of before has come."""
+        self.status(lambda m: m.paused and key(m.time) == key(self.time()), 'it stands')
+        return self.time()
+
+    def status(self, condition, what):
+        until(lambda: condition(self.topics['status'].messages[-1]), what)
+
+    def time(self):
+        return self.topics['friction'].messages[-1].time
+
+    def test_the_drag_speed_is_turned(self):
+        self.panel.type_in('eta', '2.0')
+        self.applied(lambda m: abs(m.drag_velocity / SPEED_UNIT - 2.0) < 1e-9, 'eta = 2')
+        until(lambda: abs(self.panel.part('drag_um_s').value() - 2e6 * SPEED_UNIT) < 1e-3, 'the other box follows')
+        self.panel.type_in('drag_um_s', '5.5')
+        self.applied(lambda m: abs(m.drag_velocity - 5.5e-6) < 1e-15, '5.5 um/s')
+        self.panel.press('reverse')
+        self.applied(lambda m: abs(m.drag_velocity + 5.5e-6) < 1e-15, '-5.5 um/s')
+        slider = self.panel.part('eta_slider')
+        before = self.topics['applied'].messages[-1].drag_velocity
+        QtTest.QTest.keyClick(slider, QtCore.Qt.Key_Right)
+        self.applied(lambda m: before < m.drag_velocity < before + 0.1 * SPEED_UNIT, 'a step of the slider')
+        self.panel.press('stop')
+        self.applied(lambda m: m.drag_velocity == 0.0, 'a standstill')
+
+    def test_a_knob_follows_what_others_command(self):
+        self.drag(-1.5)
+        until(lambda: abs(self.panel.part('eta').value() + 1.5) < 1e-3, 'eta = -1.5 is shown')
+        self.assertEqual(self.topics['applied'].messages[-1].drag_velocity, -1.5 * SPEED_UNIT)  # and not commanded again
+
+    def test_load_surface_and_bath(self):
+        stiffness = 408e-12 * 40e3 ** 2
+        self.panel.type_in('load_pn', '10')
+        self.applied(lambda m: abs(m.rest_height_m * stiffness + 10e-12) < 1e-18, '10 pN')
+        self.panel.type_in('height_pm', '-20')
+        self.applied(lambda m: abs(m.rest_height_m + 20e-12) < 1e-18, '-20 pm')
+        self.panel.type_in('gamma', '0.5')
+        self.applied(lambda m: m.restitution_gamma == 0.5, 'gamma = 0.5')
+        self.panel.type_in('quality', '100')
+        self.panel.type_in('temperature', '300')
+        self.applied(lambda m: (m.quality_factor, m.temperature_k) == (100.0, 300.0), 'a bath')
+
+    def test_what_is_refused_is_said(self):
+        self.panel.type_in('height_pm', '70')  # above the crest: it would hover
+        until(lambda: 'commands' in self.panel.window.lamps and 'refused' in self.panel.window.lamps['commands'].label.text(), 'a lamp')
+        until(lambda: self.panel.part('height_pm').value() == 0.0, 'the box shows what holds')
+
+    def test_pause_step_and_reset(self):
+        self.panel.press('pause')
+        begin = self.paused_at()
+        self.panel.press('step_tau')
+        until(lambda: key(self.time()) > key(begin), 'a step')
+        end = self.paused_at()
+        self.assertAlmostEqual(tau_between(begin, end), 1.0, delta=1e-12)
+        impacts = sum(i.count for m in self.topics['impacts'].messages for i in m.impacts)
+        self.panel.press('step_impact')
+        until(lambda: sum(i.count for m in self.topics['impacts'].messages for i in m.impacts) > impacts, 'an impact later')
+        epoch = self.topics['status'].messages[-1].epoch
+        self.panel.press('reset')
+        self.status(lambda m: m.epoch == epoch + 1, 'a new epoch')
+        type(self).epoch = epoch + 1
+        until(lambda: self.panel.part('pause').text() == 'Go on', 'the panel knows that it is paused')
+        self.panel.press('pause')
+        self.status(lambda m: not m.paused and m.time.tau > 10, 'it goes on')
+
+    def test_pictures(self):
+        self.panel.type_in('eta', '2.0')
+        self.applied(lambda m: abs(m.drag_velocity / SPEED_UNIT - 2.0) < 1e-9, 'eta = 2')
+        window = self.panel.window
+        until(lambda: 'η = 2.000' in window.readouts['eta'].text() and 'pace' in window.lamps and 'numerics' in window.lamps, 'read-outs')
+        until(lambda: len(window.trail.past) > 0, 'a trail')
+        for plot, colour, least in ((window.scope.vertical, BLUE, 300), (window.scope.lateral, ORANGE, 300),
+                                    (window.path.plot, BLUE, 200), (window.loop_plot.plot, BLUE, 50), (window.curve.plot, ORANGE, 10)):
+            self.assertGreater(self.panel.pixels(plot, colour), least)
+        self.panel.keep('eta_2')
+        for _ in range(5):
+            self.panel.press('reverse')
+            end = time.monotonic() + 0.15
+            until(lambda: time.monotonic() > end, '')
+        until(lambda: self.panel.pixels(window.loop_plot.plot, ORANGE) > 50, 'a retrace')
+        self.panel.keep('loop')
+
+    def test_held_pictures_stand_still(self):
+        self.panel.press('hold')
+        end = time.monotonic() + 0.2
+        until(lambda: time.monotonic() > end, '')
+        still = self.panel.window.scope.vertical.grab().toImage()
+        self.panel.window.refresh()
+        self.assertEqual(self.panel.window.scope.vertical.grab().toImage(), still)
+        self.panel.press('hold')
+        until(lambda: self.panel.window.scope.vertical.grab().toImage() != still, 'it goes on')
+
+
+class Coming(NodeTest):
+    def test_greys_out_and_comes_back(self):
+        panel = Panel()
+        self.addCleanup(panel.close)
+        APPLICATION.processEvents()
+        self.assertFalse(panel.is_ready())
+        for _ in range(2):
+            emulator = self.start(Emulator())
+            until(panel.is_ready, 'it has found the emulator', deadline_s=30.0)
+            until(lambda: not panel.part('banner').isVisible(), 'it says nothing any more')
+            self.assertFalse(panel.is_grey())
+            os.kill(emulator.child.pid, signal.SIGKILL)
+            emulator.wait()
+            until(panel.is_grey, 'it greys out')
+            self.assertFalse(panel.is_ready())
+            until(lambda: 'no emulator' in panel.part('banner').text(), 'it says why')
+        panel.keep('without_emulator')
+
+    def test_shows_a_recording(self):
+        directory = self.temporary_directory()
+        emulator = self.start(Emulator({'record': True, 'bag_directory': directory}))
+        status = Topic('status')
+        status.wait_for(lambda m: m.time.tau > 20000, 'three seconds')
+        self.assertEqual(emulator.stop(), 0)
+        bag = os.path.join(directory, os.listdir(directory)[0])
+        panel = Panel()
+        self.addCleanup(panel.close)
+        self.start(Process(['rosbag', 'play', '--quiet', '--loop', bag]))
+        until(lambda: panel.part('banner').isVisible() and 'recording' in panel.part('banner').text(), 'it knows a recording', deadline_s=30.0)
+        until(lambda: 'η = 3.400' in panel.window.readouts['eta'].text(), 'its drag speed')
+        until(lambda: panel.pixels(panel.window.scope.vertical, BLUE) > 300, 'its signals')
+        self.assertFalse(panel.is_ready() or panel.is_grey())
+        self.assertTrue(panel.part('hold').isEnabled())
+        panel.keep('recording')
+
+
+class Ending(NodeTest):
+    NODE = roslib.packages.find_node(PACKAGE, 'panel')[0]
+
+    def test_without_a_display(self):
+        for display, why in ((None, 'DISPLAY is not set'), (':987', ':987 cannot be opened')):
+            environment = {name: value for name, value in os.environ.items() if name not in ('DISPLAY', 'WAYLAND_DISPLAY')}
+            if display:
+                environment['DISPLAY'] = display
+            panel = self.start(Process([self.NODE], environment))
+            self.assertEqual(panel.wait(), 1)
+            self.assertEqual(panel.output().count('\n'), 1, panel.output())
+            self.assertIn(why, panel.output())
+
+    def ended(self, panel, asked):
+        code = panel.wait()
+        seconds = time.monotonic() - asked
+        self.assertIn(code, (0, -signal.SIGALRM), panel.output())  # else the kernel ends it, after a second
+        print('ended after %.2f s' % seconds)
+        self.assertLess(seconds, SLOWEST_END_S)
+
+    def test_at_ctrl_c(self):
+        panel = self.start(Process([self.NODE, '__name:=panel_to_end']))
+        wait_until(lambda: any('/panel_to_end' in nodes for _, nodes in rospy.get_master().getSystemState()[2][1]), 'it subscribes')
+        panel.child.send_signal(signal.SIGINT)
+        self.ended(panel, time.monotonic())
+
+    def test_when_its_window_is_closed(self):
+        close_it = '''
+import os, sys, threading
+from afm_emulator import ending
+from afm_emulator.panel import application
+def close():
+    window, = [w for w in application.QtWidgets.QApplication.topLevelWidgets() if isinstance(w, application.Window)]
+    os.write(1, b'closing')
+    application.QtCore.QMetaObject.invokeMethod(window, 'close', application.QtCore.Qt.QueuedConnection)
+threading.Timer(3.0, close).start()
+sys.exit(application.run())
+'''
+        panel = self.start(Process([sys.executable, '-c', close_it]))
+        wait_until(lambda: 'closing' in panel.output(), 'it is closed')
+        self.ended(panel, time.monotonic())
+
+
+if __name__ == '__main__':
+    try:
+        run(Knobs, Coming, Ending)
+    finally:
+        DISPLAY.close()
