@@ -43,7 +43,7 @@ NEEDED = 'afm_emulator: %s. The module needs a compiler, CMake, Boost, Eigen, py
 def configure(build, *options):
     """Ends with a sentence where something is missing."""
     try:
-        subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DBUILD_TESTING=OFF',
+        subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DAFM_DYNAMICS=ON', '-DBUILD_TESTING=OFF',
                                '-DCMAKE_BUILD_TYPE=Release', '-DAFM_PYTHON_DESTINATION=.',
                                '-DPYTHON_EXECUTABLE=' + sys.executable, '-DPython3_EXECUTABLE=' + sys.executable, *options])
     except FileNotFoundError:

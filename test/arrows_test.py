@@ -9,23 +9,24 @@ from collections import Counter
 from pathlib import Path
 
 # the longest beginning of a path names its room
-ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'include/afm/dynamics': 'dynamics',
-         'src/core': 'core', 'src/core/dynamics': 'dynamics', 'src/core/lanes': 'lanes',
+ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'dynamics/include/afm': 'dynamics',
+         'dynamics/src': 'dynamics', 'dynamics/tools': 'studies', 'dynamics/test': 'test',
+         'src/core': 'core', 'src/core/lanes': 'lanes',
          'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
          'src/node/params': 'params', 'src/node/runner': 'runner', 'src/node/publisher': 'publisher', 'src/node/recorder': 'recorder',
          'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
-ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'}, 'sweep': {'common', 'core', 'dynamics'},
+ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'}, 'studies': {'common', 'core', 'dynamics'}, 'sweep': {'common', 'core'},
            'params': {'core'}, 'runner': {'core', 'params'}, 'recorder': set(),
            'publisher': {'core', 'params', 'runner', 'recorder'},
            'node': {'core', 'params', 'runner', 'publisher', 'recorder'}, 'view': {'core', 'publisher'},
            'tools': {'common', 'core', 'dynamics', 'sweep', 'params', 'publisher', 'recorder'},
-           'python': {'core', 'dynamics', 'sweep'}, 'trials': {'core', 'dynamics'},
-           'benchmark': {'common', 'core', 'dynamics', 'trials'},
+           'python': {'core', 'common', 'dynamics', 'studies', 'sweep'}, 'trials': {'core'},
+           'benchmark': {'common', 'core', 'trials'},
            'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher', 'recorder',
                     'view', 'trials'}}
 # where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
 DOORS = {('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h')}
-SEARCHED = ('include', 'src', 'test', 'benchmark')  # after the folder of the file itself
+SEARCHED = ('include', 'dynamics/include', 'src', 'dynamics/tools', 'test', 'benchmark')  # after the folder of the file itself
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 
@@ -43,7 +44,7 @@ def target(root, path, name):
 
 def arrows(root):
     """Of every include: the file, what it includes, and the rooms of both."""
-    for folder in ('include', 'src', 'python', 'benchmark', 'test'):
+    for folder in ('include', 'src', 'dynamics', 'python', 'benchmark', 'test'):
         for path in sorted((root / folder).rglob('*')):
             if path.suffix not in ('.h', '.cpp'):
                 continue

@@ -73,6 +73,13 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
                                             number('transient', transient), bath, seed, count('threads', threads), progress))
 
 
+def _laboratory(name):
+    """The function of the library, where it was built with the laboratory."""
+    if not hasattr(_afm, name):
+        raise NotImplementedError('%s: this module was built without the laboratory (AFM_DYNAMICS=OFF)' % name)
+    return getattr(_afm, name)
+
+
 def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optional[Axis] = None,
                rest_height: Optional[Axis] = None, amplitude: Optional[Axis] = None,
                frequency_ratio: Optional[Axis] = None, model: Union[str, Model] = 'oscillator',
@@ -94,9 +101,10 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     mesh = np.meshgrid(*reversed(axes), indexing='ij')  # eta changes fastest
     points = np.stack([axis.ravel() for axis in reversed(mesh)], axis=1)
     given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
-    *table, where = _afm.attractors(points, chosen.kind, count('starts', starts) if np.ndim(starts) == 0 else len(given), given,
-                                    count('seed', seed), number('transient', transient), number('duration', duration),
-                                    number('friction_duration', friction_duration), count('threads', threads))
+    how_many = count('starts', starts) if np.ndim(starts) == 0 else len(given)
+    *table, where = _laboratory('attractors')(
+        points, chosen.kind, how_many, given, count('seed', seed), number('transient', transient), number('duration', duration),
+        number('friction_duration', friction_duration), count('threads', threads))
     found = _structured(*table, whole=('impacts', 'cells'))
     if not labels:
         return found
@@ -123,8 +131,9 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
     Returns a structured array, a row for each orbit: length [impacts], cells, period [tau], k_f [m_tip/tau], residual, the first
     point just after an impact (phase, extension [a], u, w [a/tau]), multipliers (4 complex numbers, largest first).
     """
-    columns, rows, _ = _afm.periodic_orbits(_model(model), number('eta', eta), count('max_length', max_length),
-                                            count('trajectory', trajectory), count('guesses', guesses), count('seed', seed))
+    columns, rows, _ = _laboratory('periodic_orbits')(
+        _model(model), number('eta', eta), count('max_length', max_length), count('trajectory', trajectory),
+        count('guesses', guesses), count('seed', seed))
     width = len(columns) - 8  # behind them the multipliers' real and imaginary parts
     whole = ('length', 'cells')
     orbits = np.empty(len(rows), [(c, 'i8' if c in whole else 'f8') for c in columns[:width]] + [('multipliers', 'c16', 4)])
@@ -141,9 +150,10 @@ def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase
 
     The start as of Tip; transient and duration: before and of the measurement [tau]; most_events: allowed to both together.
     """
-    return _afm.lyapunov(_model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u,
-                         number('w', w), number('transient', transient), number('duration', duration),
-                         count('most_events', most_events, 1), number('contact_tolerance', contact_tolerance))
+    return _laboratory('lyapunov')(
+        _model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u, number('w', w),
+        number('transient', transient), number('duration', duration), count('most_events', most_events, 1),
+        number('contact_tolerance', contact_tolerance))
 
 
 _INPUTS = ('eta', 'gamma', 'cutoff', 'phase', 'extension', 'u', 'w')

@@ -63,5 +63,6 @@ void add_tip(py::module& m);
 void add_ensemble(py::module& m);
 void add_run(py::module& m);
 void add_tables(py::module& m);
+void add_studies(py::module& m);
 
 }  // namespace afm::python

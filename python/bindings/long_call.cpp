@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "afm/dynamics/interruption.h"
+#include "afm/interruption.h"
 
 namespace afm::python {
 namespace {

@@ -9,4 +9,7 @@ PYBIND11_MODULE(_afm, m) {
   afm::python::add_ensemble(m);
   afm::python::add_run(m);
   afm::python::add_tables(m);
+#ifdef AFM_DYNAMICS
+  afm::python::add_studies(m);
+#endif
 }

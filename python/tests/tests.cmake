@@ -1,5 +1,5 @@
 # The module as a user has it: in the folder that setup.bash puts on PYTHONPATH.
-if(TARGET afm_python_module)
+if(TARGET afm_python_module AND AFM_DYNAMICS)
   function(afm_add_python_test name)
     add_test(NAME python_${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${afm_python_path} PYTHONDONTWRITEBYTECODE=1
       AFM_MODULE=$<TARGET_FILE:afm_python_module> ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})

@@ -2,8 +2,12 @@
 
 namespace afm {
 
-CurvePoints::CurvePoints(const SweepGrid& grid, const SweepSettings& settings, std::size_t first)
-    : grid_(grid), settings_(settings), next_chain_(first / grid.chain_length()), next_row_(first) {}
+CurvePoints::CurvePoints(const SweepGrid& grid, const CurveSettings& settings, std::size_t first)
+    : grid_(grid),
+      settings_(settings.sweep),
+      method_(settings.method),
+      next_chain_(first / grid.chain_length()),
+      next_row_(first) {}
 
 void CurvePoints::work() {
   for (std::size_t begin; (begin = next_chain_++ * grid_.chain_length()) < grid_.size();) compute_chain(begin);
@@ -15,7 +19,7 @@ void CurvePoints::compute_chain(std::size_t begin) {
   for (std::size_t row = begin; row < begin + grid_.chain_length(); ++row) {
     SweepSettings own = settings_;
     own.bath.stream = row;
-    const SweepResult result = sweep_point(grid_.at(row), own, start);
+    const SweepResult result = method_(grid_.at(row), own, start);
     deliver(row, result);
     start = result.end;
   }

@@ -17,7 +17,7 @@ namespace afm {
 class CurvePoints {
  public:
   // From row `first` on. Precondition: a chain begins there.
-  CurvePoints(const SweepGrid& grid, const SweepSettings& settings, std::size_t first = 0);
+  CurvePoints(const SweepGrid& grid, const CurveSettings& settings, std::size_t first = 0);
 
   void work();  // to be called by each thread; returns when no point is left
   // The next rows in order, as far as they are known without a gap. Waits for one as long as `patience`.
@@ -29,6 +29,7 @@ class CurvePoints {
 
   const SweepGrid& grid_;
   const SweepSettings settings_;
+  const SweepMethod method_;
   std::atomic<std::size_t> next_chain_;
   std::mutex mutex_;
   std::condition_variable delivered_;

@@ -56,7 +56,7 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
   }
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
-  CurvePoints points(grid, settings.sweep, table->rows());
+  CurvePoints points(grid, settings, table->rows());
   std::vector<std::thread> workers;
   const int n = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   for (int i = 0; i < n; ++i) workers.emplace_back([&] { points.work(); });

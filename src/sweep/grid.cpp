@@ -57,7 +57,7 @@ std::string identity(const CurveSettings& s) {
        << " kicks-per-tau=" << number_text(s.sweep.bath.kicks_per_tau) << " ";
   text << "duration=" << number_text(s.sweep.duration) << " transient=" << number_text(s.sweep.transient)
        << " model=" << name(s.model) << " sweep=" << name_of(s.direction) << " seed=" << s.sweep.seed;
-  text << " version=" << AFM_EMULATOR_VERSION;
+  text << " average=" << (s.method == sweep_point ? "time" : "attractor") << " version=" << AFM_EMULATOR_VERSION;
   return text.str();
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "afm/dynamics/sweep.h"
+#include "afm/sweep.h"
 
 namespace afm {
 
@@ -20,6 +20,7 @@ struct CurveSettings {
   SweepDirection direction = SweepDirection::fresh;
   ModelKind model = ModelKind::oscillator;
   SweepSettings sweep;
+  SweepMethod method = sweep_point;
 };
 
 // Every fault, under the names of the command line.

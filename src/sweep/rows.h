@@ -1,48 +1,22 @@
-// The tables that tools print and the Python module returns: their columns, and the cells of their rows, from left to right.
-// A table takes numbers and text by `<<` and the end of a row by end_row(), as TableWriter does. Natural units.
+// The table of a curve, as the tool prints it and the Python module returns it: its columns, and the cells of its rows, from
+// left to right. A table takes numbers and text by `<<` and the end of a row by end_row(), as TableWriter does. Natural units.
 #pragma once
 
-#include <complex>
 #include <vector>
 
-#include "afm/dynamics/basins.h"
-#include "afm/dynamics/periodic_orbit.h"
-#include "afm/dynamics/sweep.h"
+#include "afm/sweep.h"
 #include "common/table_units.h"
 
 namespace afm {
 
 const std::vector<Column>& curve_columns();
-const std::vector<Column>& basin_columns();
-const std::vector<Column>& orbit_columns();
 
 template <class Table>
 void write_row(const SweepPoint& point, const SweepResult& r, Table& to) {
   const FrictionAverage& f = r.friction;
   to << point.eta << point.gamma << point.v_c << f.K_f << f.K_f_std_error << f.impacts_per_tau << f.mean_energy_loss
-     << f.mean_flight_time << r.attractor.lyapunov.exponents[0] << r.attractor.name() << point.y0 << point.H
-     << point.frequency_ratio << f.K_f_work << f.K_f_work_std_error;
-  to.end_row();
-}
-
-template <class Table>
-void write_row(const SweepPoint& point, const Basin& basin, Table& to) {
-  const Attractor& a = basin.first.attractor;
-  const FreeState start = to_free_state(model_of(point).H, basin.first.start);
-  to << point.eta << point.gamma << point.v_c << a.name() << a.impacts << a.cells << basin.first.K_f
-     << basin.first.K_f_std_error;
-  for (const double exponent : a.lyapunov.exponents) to << exponent;
-  to << a.rotation_number << a.contact_share << basin.share << basin.share_std_error << start.phase << start.X
-     << start.y << start.u << start.w;
-  to.end_row();
-}
-
-template <class Table>
-void write_row(double H, const PeriodicOrbit& orbit, Table& to) {
-  const FreeState first = to_free_state(H, orbit.points.front());
-  to << orbit.length() << orbit.cells << orbit.period << orbit.K_f << orbit.residual << first.phase << first.X
-     << first.u << first.w;
-  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
+     << f.mean_flight_time << r.largest_lyapunov << r.attractor << point.y0 << point.H << point.frequency_ratio
+     << f.K_f_work << f.K_f_work_std_error;
   to.end_row();
 }
 

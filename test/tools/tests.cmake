@@ -20,21 +20,10 @@ add_test(NAME friction_curve
     $<TARGET_FILE:afm_friction_curve>)
 set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
 
-add_test(NAME orbit_tools COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/orbit_tools_test.py
-  $<TARGET_FILE_DIR:afm_continue_orbits>)
-set_tests_properties(orbit_tools PROPERTIES TIMEOUT 120)
-add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py $<TARGET_FILE_DIR:afm_friction_curve>)
-set_tests_properties(si PROPERTIES TIMEOUT 120)
-add_test(NAME scene_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/scene_levels_test.py
-  $<TARGET_FILE_DIR:afm_choose_level> ${PROJECT_SOURCE_DIR}/scripts)
-set_tests_properties(scene_levels PROPERTIES TIMEOUT 180)
-add_test(NAME shipped_levels COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/shipped_levels_test.py
-  $<TARGET_FILE:afm_level_table> ${PROJECT_SOURCE_DIR}/config/levels.csv)
-set_tests_properties(shipped_levels PROPERTIES TIMEOUT 180)
-foreach(tool attractors model_error periodic_orbits symbolic_dynamics)
-  add_test(NAME ${tool} COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/${tool}_test.py $<TARGET_FILE:afm_${tool}>)
-  set_tests_properties(${tool} PROPERTIES TIMEOUT 120)
-endforeach()
+if(AFM_DYNAMICS)
+  add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py $<TARGET_FILE_DIR:afm_friction_curve>)
+  set_tests_properties(si PROPERTIES TIMEOUT 120)
+endif()
 
 # a short form; for longer ones give the program more --seconds
 add_test(NAME stress COMMAND afm_stress --seconds 15)
@@ -49,10 +38,6 @@ endif()
 
 add_test(NAME arrows COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(arrows PROPERTIES TIMEOUT 30)
-
-add_test(NAME figure_tables COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/figure_tables_test.py
-  ${PROJECT_SOURCE_DIR}/scripts)
-set_tests_properties(figure_tables PROPERTIES TIMEOUT 30)
 
 add_test(NAME package COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(package PROPERTIES TIMEOUT 30)
@@ -71,7 +56,7 @@ foreach(name command_line table_writer)
 endforeach()
 
 # projects outside the tree
-if(NOT AFM_SANITIZE)
+if(NOT AFM_SANITIZE AND AFM_DYNAMICS)
   set(examples)
   foreach(name impacts_to_csv one_tip periodic_orbit ten_thousand_tips warm_scene)
     add_executable(afm_example_${name} EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/examples/cpp/${name}.cpp)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/dynamics/interruption.h"
+#include "afm/interruption.h"
 #include "afm/dynamics/tangents.h"
 #include "core/not_numbers.h"
 

@@ -1,4 +1,4 @@
-#include "dynamics_options.h"
+#include "point_options.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -31,9 +31,9 @@ std::vector<double> ranges_option(const std::string& name, const std::string& te
   return values_of(name, text, split_fields(text));
 }
 
-std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
-                                         const std::string& frequency_ratio) {
-  std::vector<DynamicsOptions> grid;
+std::vector<PointOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
+                                      const std::string& frequency_ratio) {
+  std::vector<PointOptions> grid;
   const std::vector<double> gammas = ranges_option("gamma", gamma), etas = ranges_option("eta", eta);
   const std::vector<double> ratios = ranges_option("frequency-ratio", frequency_ratio);
   for (const double v_c : ranges_option("cutoff", cutoff)) {
@@ -56,19 +56,19 @@ ModelKind checked_kind(const std::string& name) {
   return kind;
 }
 
-void add_options(CommandLine& app, DynamicsOptions& o) {
+void add_options(CommandLine& app, PointOptions& o) {
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
   add_model_option(app, o.model);
 }
 
-void add_si_options(CommandLine& app, DynamicsOptions& o) {
+void add_si_options(CommandLine& app, PointOptions& o) {
   add_drag_velocity_option(app, o.drag_velocity);
   add_si_options(app, o.si);
 }
 
-void take_si(const CommandLine& app, DynamicsOptions& o) {
+void take_si(const CommandLine& app, PointOptions& o) {
   checked_units(app, o.si);
   take_si(app, o.si, "cutoff", Quantity::velocity, o.cutoff);
   if (!has_drag_velocity(app, o.si)) return;
@@ -78,7 +78,7 @@ void take_si(const CommandLine& app, DynamicsOptions& o) {
   take_si(app, o.si, "drag-velocity", Quantity::velocity, o.eta);
 }
 
-Model checked_model(const DynamicsOptions& o) {
+Model checked_model(const PointOptions& o) {
   Model model;
   model.kind = checked_kind(o.model);
   model.gamma = o.gamma;

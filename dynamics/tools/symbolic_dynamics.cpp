@@ -11,7 +11,7 @@
 
 #include "afm/dynamics/orbit_search.h"
 #include "common/csv.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 
 namespace {
 
@@ -28,7 +28,7 @@ const char kDescription[] =
     "orbits up to --max-length follow by their words; with --section the points and where the map takes them.";
 
 struct Options {
-  afm::DynamicsOptions dynamics;
+  afm::PointOptions dynamics;
   int impacts = 200000, longest = 8;
   double gap = 0.05;
   afm::OrbitSearchSettings search;

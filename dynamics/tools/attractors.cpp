@@ -12,8 +12,8 @@
 #include "afm/dynamics/basins.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "dynamics_options.h"
-#include "sweep/rows.h"
+#include "common/point_options.h"
+#include "study_rows.h"
 
 namespace {
 
@@ -28,7 +28,7 @@ const char kDescription[] =
 using Q = afm::Quantity;
 
 struct Options {
-  afm::DynamicsOptions dynamics;
+  afm::PointOptions dynamics;
   std::string eta = "3.4", gamma = "0.7";
   bool relative_cutoff = false;
   int threads = 0;
@@ -80,7 +80,7 @@ std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& op
   std::vector<afm::SweepPoint> points;
   for (const double gamma : afm::range_option("gamma", options.gamma)) {
     for (const double eta : etas(app, options)) {
-      afm::DynamicsOptions at = options.dynamics;
+      afm::PointOptions at = options.dynamics;
       at.eta = eta;
       at.gamma = gamma;
       if (options.relative_cutoff) at.cutoff *= std::abs(eta);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "afm/dynamics/interruption.h"
+#include "afm/interruption.h"
 #include "afm/tip.h"
 
 namespace afm {

@@ -1,14 +1,15 @@
-// One point of a friction curve: the attractor of a start, and the friction on it (Eq. 1 and 6-8 of the paper). Natural
-// units. src/sweep/ computes curves of such points.
+// One point of a friction curve: the friction along the orbit of a start (Eq. 1 and 6-8 of the paper). Natural units.
+// src/sweep/ computes curves of such points.
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
-#include "afm/bath.h"
 #include "afm/model.h"
 #include "afm/state.h"
-#include "attractor.h"
+#include "bath.h"
 #include "time_average.h"
 
 namespace afm {
@@ -28,8 +29,9 @@ struct SweepSettings {
 
 struct SweepResult {
   FrictionAverage friction;
-  Attractor attractor;  // with a bath: thermal, and NaN exponents
-  TipState end;         // of the orbit, for the next point to begin with
+  std::string attractor = "unknown";                                   // with a bath: thermal
+  double largest_lyapunov = std::numeric_limits<double>::quiet_NaN();  // [1/tau]; NaN where it was not measured
+  TipState end;                                                        // of the orbit: the next point may begin here
 };
 
 // Every fault of the set.
@@ -42,7 +44,9 @@ Model model_of(const SweepPoint& point);
 // velocity. Guarantee: a function of seed and index, so points can be computed in any order.
 TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index);
 
-// Guarantee: a function of its arguments, to the last bit. Precondition: no faults.
+// An average over time. sweep_attractor() of afm/dynamics/sweep.h knows the attractor: it gives its name and exponent, and
+// is exact where the orbit is periodic. Guarantee: a function of its arguments, to the last bit. Precondition: no faults.
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start);
+using SweepMethod = SweepResult (*)(const SweepPoint&, const SweepSettings&, const TipState&);
 
 }  // namespace afm

@@ -6,7 +6,7 @@
 
 #include "afm/level_table.h"
 #include "common/csv.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 
 namespace {
 
@@ -34,7 +34,7 @@ afm::LevelTable read_table(const std::string& path) {
 
 int run(const Options& o) {
   const afm::LevelTable table = read_table(o.table);
-  afm::DynamicsOptions at;
+  afm::PointOptions at;
   at.gamma = o.gamma;
   at.cutoff = o.cutoff;
   at.frequency_ratio = o.frequency_ratio;

@@ -12,7 +12,7 @@
 #include "afm/number_text.h"
 #include "common/csv.h"
 #include "common/progress_bar.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 #include "level_errors.h"
 
 namespace {
@@ -56,7 +56,7 @@ struct Point {
 
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
-  for (const afm::DynamicsOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
+  for (const afm::PointOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
     if (!(at.eta > 0.0)) throw std::invalid_argument("eta = " + afm::number_text(at.eta) + ": must be above 0");
     points.push_back({afm::checked_model(at), at.eta});
   }

@@ -40,17 +40,17 @@ TEST(Sweep, OnAPeriodicOrbitTheFrictionIsExact) {
                          {2.25, 1.603774408582840476679226},
                          {4.5, 0.445730537638223617016902}};
   for (const Known& k : known) {
-    const SweepResult r = sweep_point({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
-    EXPECT_EQ(r.attractor.kind, AttractorKind::periodic) << k.eta;
+    const SweepResult r = sweep_attractor({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
+    EXPECT_EQ(r.attractor.rfind("period-", 0), 0u) << r.attractor;
     EXPECT_NEAR(r.friction.K_f, k.K_f, 1e-10) << k.eta;
     EXPECT_LT(r.friction.K_f_std_error, 1e-10) << k.eta;
-    EXPECT_LE(r.attractor.lyapunov.exponents[0], 0.0) << k.eta;
+    EXPECT_LE(r.largest_lyapunov, 0.0) << k.eta;
   }
 }
 
 TEST(Sweep, WhatTheEvenOrbitIsLike) {
   const double eta = 2.0, gamma = 0.7, s = kTwoPi * Model{}.H;
-  const SweepResult r = sweep_point({eta, gamma, 0.1 * eta}, settings_of(1000.0, 500.0), plain_start(eta));
+  const SweepResult r = sweep_attractor({eta, gamma, 0.1 * eta}, settings_of(1000.0, 500.0), plain_start(eta));
   const double speed = 2.0 * eta * s / ((1.0 - gamma) * std::sqrt(1.0 + s * s));
   EXPECT_NEAR(r.friction.impacts_per_tau, 2.0, 1e-12);
   EXPECT_NEAR(r.friction.mean_flight_time, 0.5, 1e-12);
@@ -59,9 +59,9 @@ TEST(Sweep, WhatTheEvenOrbitIsLike) {
 
 TEST(Sweep, TheAttractorOfThePaperHasItsFriction) {
   for (const double v_c : {0.05, 0.34}) {
-    const SweepResult r = sweep_point({3.4, 0.7, v_c}, settings_of(100000.0, 500.0), plain_start(3.4));
-    EXPECT_EQ(r.attractor.kind, AttractorKind::chaotic);
-    EXPECT_GT(r.attractor.lyapunov.exponents[0], 0.2);
+    const SweepResult r = sweep_attractor({3.4, 0.7, v_c}, settings_of(100000.0, 500.0), plain_start(3.4));
+    EXPECT_EQ(r.attractor, "chaotic");
+    EXPECT_GT(r.largest_lyapunov, 0.2);
     EXPECT_NEAR(r.friction.K_f, 0.2533, 3.0 * std::hypot(r.friction.K_f_std_error, 3e-4)) << v_c;
     EXPECT_LT(r.friction.K_f_std_error, 2e-4);
   }
@@ -93,8 +93,20 @@ TEST_P(Coverage, IsNineteenInTwenty) {
 INSTANTIATE_TEST_SUITE_P(Chaos, Coverage,
                          testing::Values(Chaotic{2.75, 0.28925}, Chaotic{3.4, 0.25305}, Chaotic{5.0, 0.18813}));
 
+// Without the laboratory there is the average over time alone.
+TEST(Sweep, AnAverageOverTimeAgreesWithTheOneOverPeriods) {
+  const SweepPoint point{4.5, 0.7, 0.45};
+  const SweepSettings settings = settings_of(10000.0, 500.0);
+  const SweepResult by_time = sweep_point(point, settings, plain_start(point.eta));
+  const FrictionAverage exact = sweep_attractor(point, settings, plain_start(point.eta)).friction;
+  EXPECT_EQ(by_time.attractor, "unknown");
+  EXPECT_TRUE(std::isnan(by_time.largest_lyapunov));
+  EXPECT_NEAR(by_time.friction.K_f, exact.K_f, 3.0 * by_time.friction.K_f_std_error);
+  EXPECT_NEAR(by_time.friction.K_f_work, exact.K_f_work, 3.0 * by_time.friction.K_f_work_std_error);
+}
+
 TEST(Sweep, AtRestThereIsNoCoefficient) {
-  const SweepResult r = sweep_point({0.0, 0.7, 0.05}, settings_of(100.0, 100.0), plain_start(0.0));
+  const SweepResult r = sweep_attractor({0.0, 0.7, 0.05}, settings_of(100.0, 100.0), plain_start(0.0));
   EXPECT_TRUE(std::isnan(r.friction.K_f));
   EXPECT_TRUE(std::isnan(r.friction.K_f_std_error));
 }

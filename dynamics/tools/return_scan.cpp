@@ -10,7 +10,7 @@
 #include "afm/dynamics/poincare_map.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ const std::vector<afm::Column> kColumns{{"phase"},          {"gap_rate", Q::velo
                                         {"u", Q::velocity}, {"w", Q::velocity},        {"distance"}};
 
 struct Options {
-  afm::DynamicsOptions dynamics;
+  afm::PointOptions dynamics;
   int length = 2, points = 80, depth = 24;
 };
 

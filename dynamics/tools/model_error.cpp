@@ -9,7 +9,7 @@
 #include "afm/dynamics/sweep.h"
 #include "common/csv.h"
 #include "common/progress_bar.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 #include "tip_times.h"
 
 namespace {
@@ -67,7 +67,7 @@ struct Point {
   double eta;
 };
 
-Point checked_point(const Options& o, afm::DynamicsOptions at) {
+Point checked_point(const Options& o, afm::PointOptions at) {
   if (o.relative_cutoff) at.cutoff *= std::abs(at.eta);
   const Point point{afm::checked_model(at), at.eta};
   if (at.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no friction to compare");
@@ -76,7 +76,7 @@ Point checked_point(const Options& o, afm::DynamicsOptions at) {
 
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
-  for (const afm::DynamicsOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
+  for (const afm::PointOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
     points.push_back(checked_point(o, at));
   }
   return points;

@@ -1,13 +1,12 @@
-#include "afm/dynamics/sweep.h"
+#include "afm/sweep.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "afm/dynamics/interruption.h"
 #include "afm/ensemble.h"
+#include "afm/interruption.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
 
@@ -33,9 +32,6 @@ class Uniform {
  private:
   std::uint64_t state_;
 };
-
-// [tau] A choice: it gives exponents to a few per cent and costs more than the friction.
-constexpr double kLyapunovDuration = 2000.0;
 
 }  // namespace
 
@@ -92,36 +88,16 @@ TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t
   return to_tip_state(H, {phase, X, surface_jet(H, phase).h + rise, u, w});
 }
 
-namespace {
-
-AttractorSettings search_settings(const SweepSettings& settings) {
-  AttractorSettings search;
-  search.transient = settings.transient;
-  search.duration = std::min(settings.duration, kLyapunovDuration);
-  return search;
-}
-
-// With a bath there is no attractor, only averages.
-SweepResult thermal_point(Tip& tip, const SweepSettings& settings) {
-  tip.set_bath(settings.bath);
-  for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;) interruption_point();
-  SweepResult result;
-  result.attractor.kind = AttractorKind::thermal;
-  result.attractor.lyapunov.exponents.fill(std::numeric_limits<double>::quiet_NaN());
-  result.friction = average_over_time(tip, settings.duration);
-  result.end = tip.tip_state();
-  return result;
-}
-
-}  // namespace
-
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start) {
-  const Model model = model_of(point);
-  Tip tip(model, point.eta, start);
-  if (settings.bath.is_on()) return thermal_point(tip, settings);
+  Tip tip(model_of(point), point.eta, start);
   SweepResult result;
-  result.attractor = find_attractor(model, tip, search_settings(settings));
-  result.friction = average_over_periods(tip, result.attractor.cells, settings.duration);
+  if (settings.bath.is_on()) {
+    tip.set_bath(settings.bath);
+    result.attractor = "thermal";
+  }
+  for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;)
+    interruption_point();
+  result.friction = average_over_time(tip, settings.duration);
   result.end = tip.tip_state();
   return result;
 }

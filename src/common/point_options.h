@@ -10,7 +10,7 @@
 
 namespace afm {
 
-struct DynamicsOptions {
+struct PointOptions {
   double eta = 3.4, gamma = 0.7, cutoff = 0.05;
   std::string model = "oscillator";
   double frequency_ratio = Model{}.frequency_ratio;
@@ -18,18 +18,18 @@ struct DynamicsOptions {
   std::string drag_velocity;  // of --si, in place of eta
 };
 
-void add_options(CommandLine& app, DynamicsOptions& options);
+void add_options(CommandLine& app, PointOptions& options);
 // --si and --drag-velocity, beside the options of add_options(); and what follows from them, once they are read: eta and
 // cutoff in natural units. Throws std::invalid_argument.
-void add_si_options(CommandLine& app, DynamicsOptions& options);
-void take_si(const CommandLine& app, DynamicsOptions& options);
+void add_si_options(CommandLine& app, PointOptions& options);
+void take_si(const CommandLine& app, PointOptions& options);
 void add_model_option(CommandLine& app, std::string& model);
 
 // Throws std::invalid_argument where there is no such model.
 ModelKind checked_kind(const std::string& name);
 
 // Throws std::invalid_argument with every fault, by the names of the options.
-Model checked_model(const DynamicsOptions& options);
+Model checked_model(const PointOptions& options);
 
 // What an option holds: numbers as parse_range() knows them; or several such, with commas between. Throw
 // std::invalid_argument with name and text of the option, and the reason.
@@ -37,7 +37,7 @@ std::vector<double> range_option(const std::string& name, const std::string& tex
 std::vector<double> ranges_option(const std::string& name, const std::string& text);
 
 // Every combination of four such options, drag velocities changing fastest; of the oscillator.
-std::vector<DynamicsOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
-                                         const std::string& frequency_ratio);
+std::vector<PointOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
+                                      const std::string& frequency_ratio);
 
 }  // namespace afm

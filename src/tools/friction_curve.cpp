@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#ifdef AFM_DYNAMICS
+#include "afm/dynamics/sweep.h"
+#endif
 #include "afm/number_text.h"
+#include "common/point_options.h"
 #include "common/si_options.h"
-#include "dynamics_options.h"
 #include "sweep/curve_run.h"
 
 namespace {
@@ -95,6 +98,9 @@ void check(const afm::CommandLine& app, Options& o) {
   if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
   s.direction = direction->second;
   s.model = afm::checked_kind(o.model);
+#ifdef AFM_DYNAMICS  // otherwise the columns attractor and largest_lyapunov say that they are not known
+  s.method = afm::sweep_attractor;
+#endif
   if (o.threads < 0 || o.threads > 1024)
     refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
   if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");

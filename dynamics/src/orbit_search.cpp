@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "afm/dynamics/interruption.h"
+#include "afm/interruption.h"
 
 namespace afm {
 namespace {

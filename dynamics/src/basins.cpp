@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/dynamics/time_average.h"
+#include "afm/time_average.h"
 
 namespace afm {
 

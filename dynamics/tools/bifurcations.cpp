@@ -10,7 +10,7 @@
 #include "afm/dynamics/sweep.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 
 namespace {
 
@@ -22,15 +22,15 @@ const char kDescription[] =
 using Q = afm::Quantity;
 
 struct Options {
-  afm::DynamicsOptions dynamics;
+  afm::PointOptions dynamics;
   std::string vary = "eta", range = "2:3:0.01", sweep = "up";
   int impacts = 100;
   double transient = 500.0;
   bool relative_cutoff = false;
 };
 
-afm::DynamicsOptions parameters_at(const Options& o, double value) {
-  afm::DynamicsOptions at = o.dynamics;
+afm::PointOptions parameters_at(const Options& o, double value) {
+  afm::PointOptions at = o.dynamics;
   (o.vary == "eta" ? at.eta : o.vary == "gamma" ? at.gamma : at.cutoff) = value;
   if (o.relative_cutoff) at.cutoff *= std::abs(at.eta);
   return at;
@@ -80,11 +80,11 @@ int run(const afm::CommandLine& app, Options& o) {
   afm::ProgressBar bar(values.size(), 0);
   afm::TableWriter table(std::cout, columns(o), afm::table_units(o.dynamics.si));
   table.write_header();
-  const afm::DynamicsOptions first = parameters_at(o, values.front());
+  const afm::PointOptions first = parameters_at(o, values.front());
   afm::TipState state = afm::random_start({first.eta, first.gamma, first.cutoff, checked_model(first).kind}, 1, 0);
   std::size_t done = 0;
   for (const double value : values) {
-    const afm::DynamicsOptions at = parameters_at(o, value);
+    const afm::PointOptions at = parameters_at(o, value);
     const afm::Model model = checked_model(at);
     afm::Tip tip(model, at.eta, state);
     afm::AttractorSettings settings;

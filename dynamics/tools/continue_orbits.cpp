@@ -7,7 +7,7 @@
 #include "afm/dynamics/continuation.h"
 #include "afm/dynamics/orbit_search.h"
 #include "common/table_writer.h"
-#include "dynamics_options.h"
+#include "common/point_options.h"
 
 namespace {
 
@@ -50,7 +50,7 @@ const std::map<afm::BranchEnd, std::string> kEnds{
     {afm::BranchEnd::steps_spent, "end: steps spent"}};
 
 struct Options {
-  afm::DynamicsOptions dynamics;
+  afm::PointOptions dynamics;
   afm::OrbitSearchSettings search;
   std::string vary = "eta";
   double to = 0.0;

@@ -9,7 +9,7 @@
 #include "afm/model.h"
 #include "afm/tip.h"
 #include "attractor.h"
-#include "time_average.h"
+#include "afm/time_average.h"
 
 namespace afm {
 

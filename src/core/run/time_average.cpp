@@ -1,4 +1,4 @@
-#include "afm/dynamics/time_average.h"
+#include "afm/time_average.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "afm/detail/batch_means.h"
-#include "afm/dynamics/interruption.h"
+#include "afm/interruption.h"
 #include "afm/friction.h"
 #include "core/not_numbers.h"
 

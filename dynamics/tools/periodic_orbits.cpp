@@ -11,8 +11,8 @@
 #include "afm/state.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "dynamics_options.h"
-#include "sweep/rows.h"
+#include "common/point_options.h"
+#include "study_rows.h"
 
 namespace {
 
@@ -29,7 +29,7 @@ const std::vector<afm::Column> kAverageColumns{
     {"method"}, {"order"}, {"terms"}, {"k_f", Q::friction}, {"conservation"}};
 
 struct Options {
-  afm::DynamicsOptions dynamics;
+  afm::PointOptions dynamics;
   afm::OrbitSearchSettings search;
   bool quiet = false;
   std::string averages;
