@@ -78,7 +78,7 @@ class Document:
             if 'build/devel' in line or 'install/setup.bash' in line:
                 yield '%s: build/devel or install/setup.bash: what is sourced is devel/setup.bash' % self.place(number)
         for command in self.commands():
-            if command.text.startswith('scripts/qualify'):  # its parts have the names of tools
+            if command.text.startswith('snakemake'):  # its rules have the names of tools
                 continue
             for name in bare.findall(without_comments(command.text)):
                 yield '%s: %s by its bare name: %s' % (command.place, name, command.text)

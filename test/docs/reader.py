@@ -8,7 +8,7 @@ from documents import Document, Fault, options, without_comments
 from shell import Shell
 
 NEEDS_EMULATOR = re.compile(r'\b(rostopic|rosservice|dynparam|emulator:=)')
-OWN_MASTER = re.compile(r'\broslaunch afm_emulator (?!view)|scripts/(run|plot_scenes)|benchmark/')
+OWN_MASTER = re.compile(r'\broslaunch afm_emulator (?!view)|scripts/run|benchmark/')
 BUILDS = re.compile(r'scripts/(run|build)')
 # for ROS's scripts end with 0 where they have not found something
 BAD_NEWS = re.compile(r"\bERROR\b|^(\S+: )?[Ee]rror:|[Cc]ouldn't find|command not found|No such file|Traceback|process has died", re.M)

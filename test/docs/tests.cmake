@@ -15,7 +15,7 @@ if(NOT AFM_SANITIZE)  # what these run, other tests run under sanitizers
   set_tests_properties(completion PROPERTIES TIMEOUT 120 SKIP_RETURN_CODE 77)
 endif()
 
-add_test(NAME document_tables COMMAND ${PROJECT_SOURCE_DIR}/scripts/tables --check)
+add_test(NAME document_tables COMMAND ${PROJECT_SOURCE_DIR}/workflow/documents.py --check)
 set_tests_properties(document_tables PROPERTIES TIMEOUT 30)
 
 add_test(NAME interface_tables
@@ -33,6 +33,10 @@ if(DOXYGEN_PROGRAM AND sphinx_result EQUAL 0 AND TARGET afm_python)
   set_tests_properties(site PROPERTIES TIMEOUT 300)
 endif()
 
-# the parts of scripts/qualify name programs that are there, and the short tables of the documents are those of their data
-add_test(NAME qualify COMMAND ${PROJECT_SOURCE_DIR}/scripts/qualify --check --tools ${CATKIN_DEVEL_PREFIX}/lib/afm_emulator)
-set_tests_properties(qualify PROPERTIES TIMEOUT 30 ENVIRONMENT AFM_BUILD_DIR=${PROJECT_BINARY_DIR})
+# every rule of the Snakefile by a dry run; one table that is measured, one that is made, and one picture
+find_program(SNAKEMAKE_PROGRAM snakemake)
+if(SNAKEMAKE_PROGRAM AND AFM_DYNAMICS)
+  add_test(NAME laboratory COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/laboratory_test.py
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} $<TARGET_FILE_DIR:afm_friction_curve>)
+  set_tests_properties(laboratory PROPERTIES TIMEOUT 120 SKIP_RETURN_CODE 77)
+endif()

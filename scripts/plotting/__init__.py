@@ -1,1 +1,0 @@
-"""What scripts/figures draws with."""

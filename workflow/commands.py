@@ -1,0 +1,186 @@
+"""Every command that is measured: the name of its table, what runs, and the tables that it writes besides its output."""
+from collections import namedtuple
+
+# may_fail: a failure is a result too
+Command = namedtuple("Command", "words sides may_fail")
+
+KELVIN = 0.926 / 300.0  # kT of mica's tip [m a^2/tau^2] for each kelvin; docs/temperature.md
+TEMPERATURES = (0, 4, 77, 300)  # [K]
+QUALITIES = (500, 100, 20)
+BATHS = [(0, 0)] + [(kelvin, quality) for quality in QUALITIES for kelvin in TEMPERATURES]  # (0, 0): none
+GOLDEN = (2.618, 4.236, 6.854, 11.09, 17.944, 29.034, 46.979, 76.013)  # kicks per tau: powers of the golden ratio
+REFERENCE_KICKS = 122.99
+# coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
+HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),
+        6.5: ((0.4397, 0.5056), 50, (0.02, 0.025, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1, 0.12))}
+HOPS_QUALITY, TRACES = 500, (0.025, 0.08, 0.2377, 0.926)
+MERGE_ETAS, MERGE_QUALITIES = (2, 3.75, 6.5), (500, 100)
+WINDOWS = ((1.9, 2.15), (3.6, 3.9), (6.2, 6.7))  # of eta, where attractors coexist
+LOAD_ETAS = (0.5, 2, 3.4)
+HAMMER_ETA, HAMMER_ETAS = 3.2, (1.5, 2.0, 3.4)
+# no even numbers, at which the horizontal spring is in resonance with the orbit of even eta
+RATIOS = (2.25, 3.25, 4.25, 6.25, 8.25, 12.25, 17.25, 24.25, 34.25, 48.25, 68.25, 98.25, 140.25, 198.25)
+BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--gamma", 0.7), ("--eta 2 --vary eta --to 1.2", "--eta 2 --vary eta --to 3")),
+            "eta_3": ("eta", (3.0, 4.3), ("--gamma", 0.7), ("--eta 4 --vary eta --to 3.0", "--eta 4 --vary eta --to 5.0")),
+            "gamma_3": ("gamma", (0.3, 0.95), ("--eta", 3.4),
+                        ("--eta 3.4 --vary gamma --to 0.2", "--eta 3.4 --vary gamma --to 0.97",
+                         "--eta 3.4 --vary gamma --to 0.97 --length 4"))}
+FUZZED = ("csv_filter", "parameters", "bag_messages", "tip")
+
+
+def bath_name(kelvin, quality):
+    return "%g_%g" % (kelvin, quality)
+
+
+def kicks_name(eta, quality, theta, kicks):
+    return "kicks_%g_%g_%g_%g" % (eta, quality, theta, kicks)
+
+
+def windows_name(eta, theta, quality, window, duration):
+    return "windows_%g_%g_%g_%g_%g" % (eta, quality, theta, window, duration)
+
+
+def kicks_cases(quick):
+    return [(eta, quality, theta) for quality in ((500, 20) if quick else QUALITIES) for theta in (0, 0.926)
+            for eta in ((2,) if quick else (1, 2, 3.4, 5, 6))]
+
+
+def commands(quick):
+    """Those of quick runs or of full ones, by name. {out} stands for the folder of the tables."""
+    all_commands = {}
+
+    def choose(short, full):
+        return short if quick else full
+
+    def add(name, *words, sides=(), may_fail=False):
+        text = " ".join(str(word) for word in words)
+        all_commands[name] = Command(text, tuple(sides), may_fail)
+
+    def curve(name, *words):
+        add(name, "friction_curve", *words)
+
+    # the paper's figures
+    mica = ("--gamma 0.7 --cutoff 0.05",)
+    for direction in ("up", "down"):
+        curve("friction_curve_" + direction, *mica, "--eta", choose("0.02:9:0.1", "0.02:9:0.01"), "--duration 3000 --sweep", direction)
+    for eta in (2, 2.5, 3.75, 6.5):
+        add("coexisting_%g" % eta, "attractors --eta", eta, "--relative-cutoff --cutoff 0.1 --starts", choose(10, 100))
+    for low, high in WINDOWS:
+        add("coexistence_%g" % low, "attractors", *mica, "--eta", "%g:%g:%g" % (low, high, (high - low) / choose(10, 100)),
+            "--starts", choose(10, 60), "--friction-duration 300")
+        for direction in ("up", "down"):
+            curve("sweep_%s_%g" % (direction, low), *mica, "--eta", "%g:%g:%g" % (low, high, choose(0.025, 0.0025)), "--sweep", direction,
+                  "--duration 3000")
+    add("periodic_orbits", "periodic_orbits --eta 3.4", *mica, choose("--max-length 6 --trajectory 20000 --guesses 200",
+        "--max-length 10 --trajectory 1000000 --guesses 3000"), "--averages {out}/cycle_averages.csv --quiet", sides=["cycle_averages"])
+    add("return_scan", "return_scan --eta 3.4", *mica, choose("--points 30 --depth 10", "--points 120 --depth 30"))
+    curve("direct", "--eta 3.4", *mica, "--duration", choose(20000, 1000000))
+    add("even_orbit_gamma", "continue_orbits --cutoff 0.05 --eta 2 --gamma 0.7 --vary gamma --to 0.1")
+    add("even_basins", "attractors --eta 2 --gamma", choose("0.2:0.8:0.1 --starts 20", "0.2:0.8:0.01 --starts 200"),
+        "--cutoff 0.05 --friction-duration 200")
+    for name, (vary, bounds, fixed, branches) in BRANCHES.items():
+        for i, branch in enumerate(branches):
+            add("%s_branch_%d" % (name, i), "continue_orbits --cutoff 0.05", branch)
+        for direction in ("up", "down"):
+            step = (bounds[1] - bounds[0]) / choose(60, 600)
+            add("%s_%s" % (name, direction), "bifurcations --vary", vary, "--range", "%.6g:%.6g:%.6g" % (*bounds, step), "--sweep",
+                direction, "--impacts 60 --cutoff 0.05 --transient 300", *fixed)
+    add("atlas", "attractors --eta", choose("0.1:9:0.1 --gamma 0.3:0.95:0.05", "0.03:9:0.03 --gamma 0.3:0.95:0.01"),
+        "--cutoff 0.05 --starts 1 --friction-duration 200")
+    curve("scaling_eta", "--eta", choose("0.5:9:0.1 --duration 1000", "0.5:9:0.02 --duration 5000"), *mica)
+    add("scaling_gamma", "continue_orbits --eta 4", *mica, "--vary gamma --to 0.9")
+
+    # the hammer
+    length = ("--duration", choose(200, 1000), "--transient 300")
+    for model in ("oscillator", "hammer"):
+        curve("hammer_curve_" + model, "--model", model, "--eta", choose("0.1:9:0.2", "0.1:9:0.05"), "--cutoff 0.05", *length)
+    add("hammer_error_eta", "model_error --eta", choose("0.5:9:0.5", "0.1:9:0.1"), "--relative-cutoff --cutoff 0.05 --starts 2", *length)
+    ratios = RATIOS[::3] if quick else RATIOS
+    add("hammer_error_ratio", "model_error --eta", ",".join(map(str, HAMMER_ETAS)), "--frequency-ratio", ",".join(map(str, ratios)),
+        "--relative-cutoff --cutoff 0.05 --starts 2", *length)
+    add("hammer_words", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 8 --impacts 50000", "--max-length 14 --impacts 2000000"),
+        "--section {out}/hammer_section.csv --forbidden {out}/hammer_forbidden.csv", sides=["hammer_section", "hammer_forbidden"])
+    add("hammer_named", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 5 --guesses 200", "--max-length 8 --guesses 1500"),
+        "--orbits {out}/hammer_orbits.csv", sides=["hammer_orbits"])
+    add("hammer_orbits_10", "periodic_orbits --model hammer --eta", HAMMER_ETA, choose(
+        "--max-length 6 --trajectory 20000 --guesses 200", "--max-length 10 --trajectory 200000 --guesses 3000"),
+        "--averages {out}/hammer_cycles.csv --quiet", sides=["hammer_cycles"])
+    curve("hammer_direct", "--model hammer --eta", HAMMER_ETA, "--duration", choose(2000, 400000))
+
+    # a tip in a heat bath
+    def bath(kelvin, quality):
+        return ("--quality-factor", quality, "--temperature", kelvin * KELVIN) if quality else ()
+    for kelvin, quality in BATHS:
+        curve("thermal_" + bath_name(kelvin, quality), "--eta", choose("0.5:9:0.5 --duration 1000", "0.05:9:0.05 --duration 20000"),
+              *bath(kelvin, quality))
+        for eta in (2, 4, 6):
+            curve("thermal_peak_%s_%g" % (bath_name(kelvin, quality), eta), "--eta", "%g:%g:%g" % (eta - 0.5, eta + 0.5, choose(0.05, 0.01)),
+                  "--duration", choose(500, 20000), *bath(kelvin, quality))
+    for eta, quality, theta in kicks_cases(quick):
+        for kicks in (GOLDEN[::3] if quick else GOLDEN) + (REFERENCE_KICKS,):
+            curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature", theta,
+                  "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
+    add("thermal_real_time", "real_time --temperature 0.926 --quality-factor 100 --cutoff 0.05", choose("--step 1 --tau 100", "--step 0.05 --tau 5000"))
+    add("thermostats", "thermostats --seconds", choose(0.2, 12))
+
+    def windows(eta, theta, quality, window, duration):
+        add(windows_name(eta, theta, quality, window, duration), "friction_windows --eta", eta, "--temperature", theta, "--quality-factor",
+            quality, "--window", window, "--duration", duration / choose(10, 1), "--transient 300 --starts 48")
+    for eta, (_, window, temperatures) in HOPS.items():
+        for theta in temperatures:
+            windows(eta, theta, HOPS_QUALITY, window, 20000)
+    for theta in TRACES:
+        windows(6.5, theta, HOPS_QUALITY, 50, 20000)
+    for eta in MERGE_ETAS:
+        for quality in MERGE_QUALITIES:
+            for kelvin in TEMPERATURES:
+                windows(eta, kelvin * KELVIN, quality, 50, 5000)
+    for eta in LOAD_ETAS:
+        for name, heat in (("cold", ()), ("warm", bath(300, 100))):
+            curve("load_%g_%s" % (eta, name), "--eta", eta, "--rest-height",
+                  choose("-1.1:0.09:0.1 --duration 500", "-1.1:0.09:0.01 --duration 10000"), *heat)
+
+    # accuracy, speed, stability
+    files = "--output {out}/speed_accuracy.csv --pace {out}/pace.csv"
+    add("chart", "speed_accuracy", choose("--flights 60 --rounds 2 --seconds 0.05 --tau 200 --run-seconds 0.3",
+                                          "--flights 200 --seconds 0.7 --run-seconds 3"), files, sides=["speed_accuracy", "pace"])
+    add("matrix", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), "--output {out}/stability.csv", sides=["stability"],
+        may_fail=True)
+    add("work_cost", "work_cost", choose("--impacts 100000 --tips 10000 --rounds 1", ""))
+    add("verbs_json", "verbs --benchmark_min_time=%s --benchmark_format=json" % choose("0.05", "0.5"))
+    for i in range(choose(1, 3)):
+        add("real_time_%d" % i, "real_time", choose("--tau 200 --transient 100", "--tau 1000 --transient 200"))
+    add("burst_error", "burst_error --eta 0.2 0.5 3 5 7 --bursts", choose(300, 3000), "--most-bounces 20000")
+    add("burst_friction", "burst_friction", choose("--tau 1000 --eta 0.5 1.5 3 3.4 5 --cutoff 0.1 0.03 --most-events 2e6",
+                                                   "--tau 10000 --cutoff 0.1 0.03 --most-events 2e7"))
+    add("cutoff_friction", "real_time --eta 0.5 1.5 3 3.4 5 7 --cutoff 0.1 0.03 0.01 0.003 0.001 0.0003",
+        choose("--tau 2000", "--tau 20000"), "--transient 500")
+    add("grazes_flight", "grazes --kinds flight", choose("--flights 100 --ordinary 10000", "--flights 3000 --ordinary 400000"))
+    add("grazes_start", "grazes --kinds start --ordinary 10 --flights", choose(10, 100))
+    add("grazes_tau", "grazes --kinds tau --ordinary 10 --flights", choose(3, 20))
+    seconds = choose(15, 110)
+    add("stress_any", "stress --seed 41000000 --seconds", seconds, may_fail=True)
+    add("stress_mica", "stress --mica --tau 10000 --seed 91000 --seconds", seconds, may_fail=True)
+    add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"), may_fail=True)
+
+    # levels, scenes, recording, control
+    add("new_levels", "level_table --output {out}/levels.csv", sides=["levels"])
+    add("scene_levels_run", "scripts/scene_levels", choose("--duration 500", ""), "--output {out}/scene_levels.csv", sides=["scene_levels"])
+    add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
+    add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000), sides=["loop_delay"])
+
+    # reliability
+    add("soak", "scripts/soak --seed 23 --duration", choose(60, 3600), may_fail=True)
+    if quick:
+        return all_commands
+    add("soak_faster", "scripts/soak --duration 900 --time-scale 2.5 --sample-rate 200000", may_fail=True)
+    for kind in ("address", "thread"):
+        add("sanitized_" + kind, "scripts/sanitize", kind, may_fail=True)
+    single = "AFM_BUILD_DIR=$PWD/build/single_version "
+    add("leaks", single + "scripts/build --emulator -- -DCMAKE_CXX_FLAGS=-DAFM_SINGLE_VERSION &&", single +
+        'scripts/soak --duration 300 --time-scale 0.01 --any-memory --any-bits --under "valgrind --leak-check=full --error-exitcode=9"',
+        may_fail=True)
+    for target in FUZZED:
+        add("fuzz_" + target, "scripts/fuzz --runs 1000000", target, "2>&1", may_fail=True)
+    add("builds", "scripts/compare_builds --older", may_fail=True)
+    return all_commands

@@ -1,0 +1,1 @@
+"""The pictures of the documents: a function each, with one look."""

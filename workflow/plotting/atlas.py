@@ -1,0 +1,50 @@
+"""Which attractor a random start finds, over drag velocity and restitution."""
+from matplotlib.colors import BoundaryNorm, ListedColormap
+
+from registry import picture
+
+from . import style
+
+KINDS = [("period 1", "#004D80"), ("period 2", "#0072B2"), ("period 3-4", "#56B4E9"),
+         ("longer periods", "#B5DDF5"),
+         ("quasi-periodic", style.GREEN), ("chaotic", style.ORANGE), ("contact", style.YELLOW),
+         ("undecided", "#000000")]
+
+
+def kind(row):
+    name = row["attractor"]
+    if name.startswith("period-"):
+        n = int(name[len("period-"):])
+        return 0 if n <= 1 else 1 if n == 2 else 2 if n <= 4 else 3
+    return {"quasi-periodic": 4, "chaotic": 5, "contact": 6}.get(name, 7)
+
+
+def image_of(rows, value):
+    etas, gammas = sorted({row["eta"] for row in rows}), sorted({row["gamma"] for row in rows})
+    column, line = {v: i for i, v in enumerate(etas)}, {v: i for i, v in enumerate(gammas)}
+    image = [[float("nan")] * len(etas) for _ in gammas]
+    for row in rows:
+        image[line[row["gamma"]]][column[row["eta"]]] = value(row)
+    half = 0.5 * (etas[1] - etas[0]), 0.5 * (gammas[1] - gammas[0])
+    return image, (etas[0] - half[0], etas[-1] + half[0], gammas[0] - half[1], gammas[-1] + half[1])
+
+
+@picture("atlas")
+def fig7_atlas(tables):
+    rows = tables.rows("atlas")
+    figure, axes = style.new(11.0, 8.0, 2, 1, sharex=True)
+    image, extent = image_of(rows, kind)
+    colours = ListedColormap([colour for _, colour in KINDS])
+    drawn = axes[0].imshow(image, extent=extent, origin="lower", aspect="auto", cmap=colours, interpolation="nearest",
+                           norm=BoundaryNorm([i - 0.5 for i in range(len(KINDS) + 1)], len(KINDS)))
+    bar = figure.colorbar(drawn, ax=axes[0], ticks=range(len(KINDS)))
+    bar.ax.set_yticklabels([name for name, _ in KINDS])
+    axes[0].set_title("What one random start ends on")
+    image, extent = image_of(rows, lambda row: row["k_f"] / style.closed_form(row["gamma"]))
+    drawn = axes[1].imshow(image, extent=extent, origin="lower", aspect="auto", cmap="magma", interpolation="nearest",
+                           vmin=0, vmax=1)
+    figure.colorbar(drawn, ax=axes[1], label=r"$K_f$ / closed form at even $\eta$")
+    axes[1].set_xlabel(style.ETA_LABEL)
+    for ax in axes:
+        ax.set_ylabel(r"restitution $\gamma$")
+    return figure

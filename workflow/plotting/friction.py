@@ -1,0 +1,90 @@
+"""FIG. 1: K_f against drag velocity, and what it depends on besides."""
+from commands import WINDOWS
+from registry import picture, table
+
+from . import style
+
+
+SWEPT = ("friction_curve_up", "friction_curve_down")
+
+
+def swept(tables, direction):
+    """K_f against eta, each point begun where the one before it ended: "up" or "down"."""
+    return sorted(tables.rows("friction_curve_" + direction), key=lambda row: row["eta"])
+
+
+@picture(*SWEPT)
+def fig1_friction(tables):
+    figure, (linear, logarithmic) = style.new(9.0, 8.0, 2, 1, sharex=True)
+    peak = style.closed_form(0.7)
+    for axes in (linear, logarithmic):
+        for direction, line in style.SWEEPS.items():
+            rows = swept(tables, direction)
+            eta = [row["eta"] for row in rows]
+            axes.plot(eta, [row["k_f"] for row in rows], **line)
+            axes.fill_between(eta, *[[max(1e-12, row["k_f"] + sign * 1.96 * row["k_f_std_error"]) for row in rows]
+                                     for sign in (-1, 1)], color=line["color"], alpha=0.3, linewidth=0)
+        axes.plot([2, 4, 6, 8], [peak] * 4, "o", color="black", fillstyle="none", markersize=9,
+                  label=r"closed form at even $\eta$: %.4f" % peak)
+        axes.set_ylabel(style.K_F_LABEL)
+        axes.grid(color="#dddddd", linewidth=0.6)
+        right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4, lambda k: k / style.PAPER / 1e4))
+        if axes is linear:  # both scales have it
+            right.set_ylabel(r"in the paper's unit $\times 10^4$")
+    linear.set_xlim(0, 9)
+    linear.set_ylim(0, 1.08 * peak)
+    logarithmic.set_yscale("log")
+    logarithmic.set_ylim(1e-4, 10)
+    logarithmic.set_xlabel(style.ETA_LABEL)
+    linear.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, frameon=False, fontsize=10)
+    return figure
+
+
+MOST_ERROR = 0.2  # relative standard error of K_f: beyond it a transient outlasts the measurement (eta = 25/12, a resonance of omega_h)
+
+
+def draw_attractors(axes, rows):
+    """Each attractor a dot, the larger the more starts it draws."""
+    kinds = (("period-1", "period 1", style.BLUE), ("period-", "longer periods", style.SKY),
+             ("quasi-periodic", "quasi-periodic", style.GREEN), ("chaotic", "chaotic", style.ORANGE),
+             ("contact", "contact", style.YELLOW))
+    left = [row for row in rows if row["k_f_std_error"] <= MOST_ERROR * row["k_f"]]
+    for name, label, colour in kinds:
+        some = [r for r in left if r["attractor"] == name or (name == "period-" and r["attractor"].startswith(name))]
+        left = [r for r in left if r not in some]
+        axes.scatter([r["eta"] for r in some], [r["k_f"] for r in some], s=[3 + 25 * r["basin"] for r in some],
+                     color=colour,
+                     label=label, linewidths=0)
+
+
+COEXISTING = (2, 2.5, 3.75, 6.5)
+
+
+@table(*("coexisting_%g" % eta for eta in COEXISTING))
+def friction_attractors(tables):
+    """Of docs/friction.md: what coexists at four drag speeds."""
+    rows = []
+    for eta in COEXISTING:
+        found = tables.rows("coexisting_%g" % eta)
+        rows += [("%g" % eta, row["attractor"], "%.6g +- %.1g" % (row["k_f"], row["k_f_std_error"]),
+                  "%.2f +- %.2f" % (row["basin"], row["basin_std_error"]))
+                 for row in sorted(found, key=lambda row: -row["basin"])]
+    return ["eta", "attractor", "K_f [m_tip/tau]", "share of 100 random starts"], rows
+
+
+@picture(*(name % low for low, _ in WINDOWS for name in ("coexistence_%g", "sweep_up_%g", "sweep_down_%g")))
+def fig1_coexistence(tables):
+    figure, axes = style.new(11.0, 4.5, 1, 3)
+    for ax, (low, _) in zip(axes, WINDOWS):
+        draw_attractors(ax, tables.rows("coexistence_%g" % low))
+        for direction, line in (("up", "-"), ("down", ":")):
+            rows = tables.rows("sweep_%s_%g" % (direction, low))
+            ax.plot([row["eta"] for row in rows], [row["k_f"] for row in rows], color="black", linestyle=line,
+                    linewidth=0.8,
+                    label="one tip, drag velocity %s" % ("raised" if direction == "up" else "lowered"))
+        ax.set_xlabel(style.ETA_LABEL)
+    axes[0].set_ylabel(style.K_F_LABEL)
+    axes[1].legend(fontsize=8)
+    figure.suptitle(r"Where attractors coexist friction depends on history "
+                    r"($\gamma$ = 0.7; the area of a dot: its basin)")
+    return figure

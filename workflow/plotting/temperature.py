@@ -1,0 +1,201 @@
+"""docs/temperature.md: friction with a heat bath, and what its kicks cost."""
+import math
+
+import numpy as np
+
+from commands import BATHS, GOLDEN, QUALITIES, REFERENCE_KICKS, bath_name, kicks_cases, kicks_name
+from registry import picture, table
+
+from . import style
+
+TEMPERATURES = {0: "#000000", 4: style.BLUE, 77: style.GREEN, 300: style.ORANGE}  # [K]
+CURVES = tuple("thermal_" + bath_name(*bath) for bath in BATHS)
+
+
+def all_curves(tables):
+    """(temperature [K], quality factor; 0: no bath): rows"""
+    return {bath: tables.rows("thermal_" + bath_name(*bath)) for bath in BATHS}
+
+
+def draw_curve(axes, rows, colour, label):
+    eta = [row["eta"] for row in rows]
+    axes.plot(eta, [row["k_f_work"] for row in rows], color=colour, linewidth=1.1, label=label)
+    low, high = ([row["k_f_work"] + sign * 1.96 * row["k_f_work_std_error"] for row in rows] for sign in (-1, 1))
+    axes.fill_between(eta, low, high, color=colour, alpha=0.3, linewidth=0)
+
+
+@table(*CURVES)
+def thermal_friction(tables):
+    return (("temperature_k", "quality_factor", "eta", "k_f_work", "k_f_work_std_error", "k_f"),
+            [(kelvin, quality, row["eta"], row["k_f_work"], row["k_f_work_std_error"], row["k_f"])
+             for (kelvin, quality), rows in all_curves(tables).items() for row in rows])
+
+
+@picture(*CURVES, name="thermal_friction")
+def draw_thermal_friction(tables):
+    curves = all_curves(tables)
+    figure, axes = style.new(9.0, 10.0, len(QUALITIES), 1, sharex=True, sharey=True)
+    for ax, quality in zip(axes, QUALITIES):
+        draw_curve(ax, curves[0, 0], "#bbbbbb", "no bath")
+        for kelvin, colour in TEMPERATURES.items():
+            draw_curve(ax, curves[kelvin, quality], colour, "%g K" % kelvin)
+        ax.set_ylabel("Q = %g:  " % quality + style.K_F_LABEL)
+        ax.grid(color="#dddddd", linewidth=0.6)
+        ax.set_ylim(0, 6.6)
+    axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=5, frameon=False)
+    axes[-1].set_xlabel(style.ETA_LABEL)
+    axes[-1].set_xlim(0, 9)
+    return figure
+
+
+def at(rows, eta):
+    return min(rows, key=lambda row: abs(row["eta"] - eta))
+
+
+AVERAGED = 0.1  # of the difference between peak and trough: how exact the mean has to be
+
+
+def averaging_time(peak, trough, duration):
+    """For which the standard error of the peak's K_f is a tenth of its height over the trough [tau]."""
+    height = peak["k_f_work"] - trough["k_f_work"]
+    return duration * (peak["k_f_work_std_error"] / (AVERAGED * height)) ** 2
+
+
+@table(*CURVES)
+def thermal_even_odd(tables):
+    """K_f at even and odd eta, and the time that averages it."""
+    duration, curves = 1000 if tables.quick else 20000, all_curves(tables)
+    rows = []
+    for (kelvin, quality), curve_rows in curves.items():
+        at_even = [at(curve_rows, eta) for eta in (2, 4, 6)]
+        troughs = [at(curve_rows, eta) for eta in (3, 5, 7)]
+        needed = max(averaging_time(at_even[2], trough, duration) for trough in troughs[1:])
+        memory = quality / (2.0 * math.pi)  # in which a free spring forgets its energy [tau]: no mean is shorter
+        rows.append([kelvin, quality or "no bath"] + ["%.3f" % row["k_f_work"] for row in at_even + troughs]
+                    + [("%.2g" % needed if needed > memory else "below %.2g" % memory) if kelvin else ""])
+    return ("T / K", "Q", "eta = 2", "eta = 4", "eta = 6", "eta = 3", "eta = 5", "eta = 7", "averaging time / tau"), rows
+
+
+def maximum(rows):
+    """Place and height of the peak: the vertex of a parabola through the five points about the greatest K_f.
+
+    Each with its standard error, from the scatter of the points about the parabola or from their own errors, whichever
+    is greater.
+    """
+    top = max(range(2, len(rows) - 2), key=lambda i: rows[i]["k_f_work"])
+    near = rows[top - 2:top + 3]
+    x = np.array([row["eta"] for row in near]) - rows[top]["eta"]
+    y = np.array([row["k_f_work"] for row in near])
+    powers = np.vander(x, 3)
+    c, _, _, _ = np.linalg.lstsq(powers, y, rcond=None)
+    scatter = np.sum((y - powers @ c) ** 2) / (len(x) - 3)
+    variance = max(scatter, np.mean([row["k_f_work_std_error"] ** 2 for row in near]))
+    covariance = variance * np.linalg.inv(powers.T @ powers)
+    place = -c[1] / (2.0 * c[0])
+    by_c = np.array([-place / c[0], -1.0 / (2.0 * c[0]), 0.0])  # derivatives of the place
+    by_height = np.array([place ** 2, place, 1.0])
+    return (rows[top]["eta"] + place, (by_c @ covariance @ by_c) ** 0.5,
+            np.polyval(c, place), (by_height @ covariance @ by_height) ** 0.5)
+
+
+def width(rows, height):
+    """For how much of eta K_f is above half the peak's height, and its standard error."""
+    total, variance = 0.0, 0.0
+    for left, right in zip(rows, rows[1:]):
+        step = right["eta"] - left["eta"]
+        above = [row["k_f_work"] - 0.5 * height for row in (left, right)]
+        rise = above[1] - above[0]
+        if above[0] * above[1] < 0.0:  # K_f is linear between two points
+            total += step * max(above) / abs(rise)
+            noise = max(left["k_f_work_std_error"], right["k_f_work_std_error"])
+            variance += (step * noise / rise) ** 2
+        elif above[0] > 0.0:
+            total += step
+    return total, variance ** 0.5
+
+
+@table(*("thermal_peak_%s_%d" % (bath_name(*bath), eta) for bath in BATHS for eta in (2, 4, 6)))
+def thermal_peaks(tables):
+    """Place, height and width of the first three peaks, on a fine grid about each."""
+    rows = []
+    for kelvin, quality in BATHS:
+        for eta in (2, 4, 6):
+            fine = tables.rows("thermal_peak_%s_%d" % (bath_name(kelvin, quality), eta))
+            place, place_error, height, height_error = maximum(fine)
+            half, half_error = width(fine, height)
+            three = ((place, place_error), (height, height_error), (half, half_error))
+            rows.append([kelvin, quality or "no bath", "%d" % (eta / 2)] + [
+                "%.3f ± %.3f" % (value, math.ceil(1960 * error) / 1000) for value, error in three])
+    return ("T / K", "Q", "peak", "at eta", "K_f / (m_tip/tau)", "width"), rows
+
+
+def kicks_read(quick):
+    return [kicks_name(*case, kicks) for case in kicks_cases(quick)
+            for kicks in (GOLDEN[::3] if quick else GOLDEN) + (REFERENCE_KICKS,)]
+
+
+@table(kicks_read)
+def thermal_kicks(tables):
+    """Error of K_f against the rate of kicks."""
+    duration, rows = 1000 if tables.quick else 100000, []
+    for case in kicks_cases(tables.quick):
+        truth, = tables.rows(kicks_name(*case, REFERENCE_KICKS))
+        for kicks in GOLDEN[::3] if tables.quick else GOLDEN:
+            name = kicks_name(*case, kicks)
+            row, = tables.rows(name)
+            error = row["k_f_work"] - truth["k_f_work"]
+            noise = (row["k_f_work_std_error"] ** 2 + truth["k_f_work_std_error"] ** 2) ** 0.5
+            rows.append((*case, kicks, truth["k_f_work"], error / truth["k_f_work"], noise / truth["k_f_work"],
+                         tables.seconds(name) / duration * 1e6))
+    return ("eta", "quality_factor", "temperature", "kicks_per_tau", "k_f_work", "error", "std_error", "us_per_tau"), rows
+
+
+def draw_kicks(axes, rows):
+    marks = {500: "^", 100: "o", 20: "s"}
+    colours = {1: style.PINK, 2: style.ORANGE, 3.4: style.BLUE, 5: style.GREEN, 6: style.YELLOW}
+    for eta, quality in sorted({(row[0], row[1]) for row in rows}):
+        for theta, fill in ((0, "none"), (0.926, "full")):
+            some = [row for row in rows if row[:3] == (eta, quality, theta)]
+            axes.plot([row[7] for row in some], [max(abs(row[5]), 1e-5) for row in some], marker=marks[quality],
+                      color=colours[eta], fillstyle=fill, linewidth=0.5, markersize=5)
+    for eta, colour in colours.items():
+        axes.plot([], [], color=colour, label=r"$\eta$ = %g" % eta)
+    for quality, mark in marks.items():
+        axes.plot([], [], mark, color="black", label="Q = %g" % quality)
+    axes.plot([], [], "o", color="black", fillstyle="none", label="0 K (full: 300 K)")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.axhline(0.005, color="black", linestyle=":", linewidth=1)
+    axes.set_xlabel(r"time per $\tau$ / $\mu$s")
+    axes.set_ylabel(r"error of $K_f$, relative to 123 kicks per $\tau$")
+    axes.legend(fontsize=8, ncol=2, loc="upper right")
+
+
+def draw_thermostats(axes, rows):
+    looks = {("exact", float("inf")): ("exact motion between kicks", style.ORANGE, "*", "-"),
+             ("baoab_penalty", 1.0): (r"BAOAB, penalty spring, $\omega_p h$ = 1", style.BLUE, "o", "-"),
+             ("baoab_penalty", 0.25): (r"BAOAB, penalty spring, $\omega_p h$ = 1/4", style.BLUE, "o", ":"),
+             ("euler_maruyama_penalty", 1.0): (r"Euler-Maruyama, $\omega_p h$ = 1", style.GREEN, "s", "-"),
+             ("euler_maruyama_penalty", 0.25): (r"Euler-Maruyama, $\omega_p h$ = 1/4", style.GREEN, "s", ":")}
+    for (method, stiffness), (label, colour, mark, line) in looks.items():
+        some = [row for row in rows if (row["method"], row["stiffness"]) == (method, stiffness)]
+        axes.errorbar([row["us_per_tau"] for row in some], [abs(row["bias"]) for row in some],
+                      [1.96 * row["std_error"] for row in some], color=colour, marker=mark, label=label, linewidth=0.8,
+                      linestyle=line, markersize=9 if mark == "*" else 5)
+    axes.axvline(157.0, color="black", linestyle=":", linewidth=1)
+    axes.text(150.0, 1.2e-4, "real time", rotation=90, ha="right", va="bottom")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_ylim(1e-4, 0.2)
+    axes.set_xlabel(r"time per $\tau$ / $\mu$s")
+    axes.set_ylabel(r"bias of $\langle (y - y_0)^2 \rangle$ at equilibrium, relative")
+    axes.legend(fontsize=9)
+
+
+@picture("thermal_kicks", "thermostats")
+def thermal_accuracy(tables):
+    rows, thermostats = [tuple(row.values()) for row in tables.rows("thermal_kicks")], tables.rows("thermostats")
+    figure, (left, right) = style.new(13.0, 5.5, 1, 2)
+    draw_kicks(left, rows)
+    draw_thermostats(right, thermostats)
+    return figure

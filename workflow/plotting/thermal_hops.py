@@ -1,0 +1,102 @@
+"""What becomes of coexisting attractors in a heat bath: how often the tip hops between the two."""
+from commands import (HOPS, HOPS_QUALITY, KELVIN, MERGE_ETAS, MERGE_QUALITIES, TEMPERATURES, TRACES, windows_name)
+from registry import picture, table
+
+from . import style
+
+RATES = tuple(windows_name(eta, theta, HOPS_QUALITY, window, 20000) for eta, (_, window, temperatures) in HOPS.items()
+              for theta in temperatures)
+TRACED = tuple(windows_name(6.5, theta, HOPS_QUALITY, 50, 20000) for theta in TRACES)
+MERGED = tuple(windows_name(eta, kelvin * KELVIN, quality, 50, 5000) for eta in MERGE_ETAS for quality in MERGE_QUALITIES
+               for kelvin in TEMPERATURES)
+
+
+def windows(tables, eta, theta, quality=HOPS_QUALITY, window=20, duration=20000):
+    """K_f of the windows of each start."""
+    tips = {}
+    for row in tables.rows(windows_name(eta, theta, quality, window, duration)):
+        tips.setdefault(row["start"], []).append(row["k_f_work"])
+    return tips
+
+
+def count(tips, levels, window):
+    """Times spent [tau] on the lower and the upper attractor, and how often each was left for the other."""
+    low, high = levels
+    spent, left = [0.0, 0.0], [0, 0]
+    for values in tips.values():
+        on = None
+        for value in values:
+            place = (value - low) / (high - low)
+            now = 0 if place < 0.2 else 1 if place > 0.8 else on
+            if on is not None and now != on:
+                left[on] += 1
+            on = now
+            if on is not None:
+                spent[on] += window
+    return spent, left
+
+
+@table(*RATES)
+def thermal_hops(tables):
+    rows = []
+    for eta, (levels, window, temperatures) in HOPS.items():
+        for theta in temperatures:
+            spent, left = count(windows(tables, eta, theta, window=window), levels, window)
+            for which, k_f, time, n in zip(("lower", "upper"), levels, spent, left):
+                rows.append((eta, HOPS_QUALITY, theta, theta / KELVIN, which, k_f, time, n))
+    return ("eta", "quality_factor", "temperature", "temperature_k", "attractor", "k_f_work", "time_spent", "times_left"), rows
+
+
+@table(*MERGED)
+def thermal_merge(tables):
+    """Do tips from many starts end alike? The least and the greatest mean, and the standard error of each."""
+    rows = []
+    for eta in MERGE_ETAS:
+        for quality in MERGE_QUALITIES:
+            for kelvin in TEMPERATURES:
+                tips = windows(tables, eta, kelvin * KELVIN, quality, 50, 5000)
+                means = sorted(sum(values) / len(values) for values in tips.values())
+                spread = [sum((v - sum(values) / len(values)) ** 2 for v in values) for values in tips.values()]
+                n = len(tips[0.0])
+                error = (sum(spread) / len(tips) / n) ** 0.5 / n ** 0.5
+                rows.append((eta, quality, kelvin, "%.4f" % means[0], "%.4f" % means[-1], "%.4f" % error if kelvin else ""))
+    return ("eta", "Q", "T / K", "least K_f", "greatest K_f", "standard error of each"), rows
+
+
+def draw_rates(axes, rows):
+    looks = {(2, "upper"): (style.ORANGE, "s"), (2, "lower"): (style.ORANGE, "o"), (6.5, "upper"): (style.BLUE, "s"),
+             (6.5, "lower"): (style.BLUE, "o")}
+    for (eta, which), (colour, mark) in looks.items():
+        some = [row for row in rows if row[0] == eta and row[4] == which and row[7] > 0]
+        if not some:
+            continue
+        axes.errorbar([row[3] for row in some], [row[7] / row[6] for row in some],
+                      [1.96 * row[7] ** 0.5 / row[6] for row in some], marker=mark, color=colour, linewidth=0.8,
+                      label=r"$\eta$ = %g, from $K_f$ = %.3g" % (eta, some[0][5]))
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("temperature / K")
+    axes.set_ylabel(r"rate of leaving an attractor for the other / $\tau^{-1}$")
+    axes.legend(fontsize=9)
+
+
+def draw_traces(axes, tables):
+    for i, theta in enumerate(TRACES):
+        tips = windows(tables, 6.5, theta, window=50)
+        values = tips[0.0][:400]
+        axes[i].plot([50 * k for k in range(len(values))], values, color=style.BLUE, linewidth=0.8)
+        axes[i].set_ylabel("%.3g K" % (theta / KELVIN))
+        for level in HOPS[6.5][0]:
+            axes[i].axhline(level, color="black", linewidth=0.6, linestyle=":")
+        axes[i].set_ylim(0.37, 0.60)
+    axes[0].set_title(r"$K_f$ / (m/$\tau$) in windows of 50 $\tau$, $\eta$ = 6.5, Q = 500")
+    axes[-1].set_xlabel(r"time / $\tau$")
+
+
+@picture("thermal_hops", *TRACED, name="thermal_hops")
+def draw_hops(tables):
+    figure = style.figure(13.0, 6.0)
+    grid = figure.add_gridspec(4, 2)
+    draw_rates(figure.add_subplot(grid[:, 0]), [tuple(row.values()) for row in tables.rows("thermal_hops")])
+    draw_traces([figure.add_subplot(grid[i, 1]) for i in range(4)], tables)
+    return figure

@@ -1,0 +1,98 @@
+"""Tables made from what programs print."""
+import json
+import re
+
+from commands import FUZZED
+from registry import table
+
+
+@table("verbs_json")
+def verbs(tables):
+    """Of Google Benchmark's JSON: its CSV cannot hold rows with counters of their own."""
+    text = tables.text("verbs_json")
+    return [{"name": b["name"], "iterations": b["iterations"], "real_time": "%.4f" % b["real_time"], "cpu_time": "%.4f" % b["cpu_time"],
+             "time_unit": b["time_unit"], "items_per_second": "%.6g" % b["items_per_second"] if "items_per_second" in b else ""}
+            for b in json.loads(text[text.index("{"):])["benchmarks"] if not b.get("error_occurred")]
+
+
+@table(lambda quick: ["real_time_%d" % i for i in range(1 if quick else 3)])
+def real_time(tables):
+    """At each point the fastest of several runs, and the least of the slowest tau."""
+    runs = [tables.strings("real_time_%d" % i) for i in range(1 if tables.quick else 3)]
+    for run in runs[1:]:
+        for best, row in zip(runs[0], run):
+            best["times_real_time"] = max(best["times_real_time"], row["times_real_time"], key=float)
+            best["slowest_tau_us"] = min(best["slowest_tau_us"], row["slowest_tau_us"], key=float)
+    return runs[0]
+
+
+@table("grazes_flight", "grazes_start", "grazes_tau")
+def grazes(tables):
+    return tables.strings("grazes_flight") + [row for name in ("grazes_start", "grazes_tau") for row in tables.strings(name)
+                                              if not row["graze"].startswith("ordinary")]
+
+
+STRESS = re.compile(r"(\d+) scenes of (\d+) tau: (\d+) commands, (\d+) \w+, (\d+) impacts standing for (\d+) bounces.*"
+                    r"in a tau (\d+), deepest (\S+) a, worst imbalance (\S+)")
+
+
+@table("stress_any", "stress_mica", "stress_shipped")
+def stress(tables):
+    rows = []
+    for name, models in (("any", "any model, drag 1e-6 to 100"), ("mica", "mica, drag up to 9"), ("shipped", "the shipped node's budget")):
+        found = STRESS.findall(tables.text("stress_" + name))
+        scenes, tau, commands, segments, _, bounces, most, deepest, imbalance = found[-1]
+        rows.append({"models": models, "tau": "%.2g" % (int(scenes) * int(tau)), "commands": "%.2g" % int(commands),
+                     "segments": "%.2g" % int(segments), "bounces": "%.2g" % int(bounces),
+                     "violations": "at least 1" if failed(tables, "stress_" + name) else "0", "deepest / a": deepest,
+                     "worst imbalance": imbalance, "most segments in a tau": most})
+    return rows
+
+
+@table("recording")
+def recording_cost(tables):
+    text = tables.text("recording")
+    line = [line for line in text.splitlines() if "MB resident" in line][-1]
+    found = re.search(r"([\d.]+) s, +(\d+) MB resident, per cent of a core: (.*)", line)
+    bags = re.search(r"([\d.]+) GB in (\d+) bags", text)
+    return [dict([("seconds", found[1]), ("memory / MB", found[2]), ("recorded / GB", bags[1])] +
+                 [part.rsplit(" ", 1) for part in found[3].split(", ")])]
+
+
+def failed(tables, name):
+    return ", it ended with " in tables.stamp(name)
+
+
+def last_line(text):
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    return lines[-1] if lines else "no output"
+
+
+def soak_result(text):
+    return "; ".join(line.strip() for line in text.splitlines() if re.search(r"wall time|memory|recordings identical|FAULT", line))
+
+
+def sanitizer_result(text):
+    tests = re.search(r"\d+% tests passed, \d+ tests failed out of \d+", text)
+    return tests[0] if tests else "no tests ran"
+
+
+def fuzz_result(text):
+    runs = re.search(r"number_of_executed_units: (\d+)", text)
+    finding = re.search(r"SUMMARY: .*|ALARM.*|Test unit written to .*", text)
+    return "%s inputs: %s" % ("{:,}".format(int(runs[1])) if runs else "?", "FAILED: " + finding[0] if finding else "no finding")
+
+
+RELIABILITY = {"builds": ("compilers", last_line), "leaks": ("leaks", last_line), "soak": ("soak", soak_result),
+               "sanitized_address": ("memory, undefined behaviour", sanitizer_result), "sanitized_thread": ("races", sanitizer_result),
+               "soak_faster": ("soak, faster", soak_result), **{"fuzz_" + name: ("fuzzing: " + name, fuzz_result) for name in FUZZED}}
+
+
+@table(*RELIABILITY, full_only=True)
+def reliability(tables):
+    rows = []
+    for name, (what, result) in RELIABILITY.items():
+        stamp = re.search(r"run of (`.*`), commit ([^,]*),.*(\d{4}-\d\d-\d\d)", tables.stamp(name))
+        rows.append({"what": what, "command": stamp[1], "result": ("FAILED: " if failed(tables, name) else "") + result(tables.text(name)),
+                     "commit": stamp[2], "date": stamp[3]})
+    return sorted(rows, key=lambda row: row["what"])

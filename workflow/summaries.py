@@ -1,0 +1,145 @@
+"""Short tables for the documents, a row a method or a line of text, from the full ones beside them in docs/data."""
+import math
+from collections import OrderedDict
+
+from registry import short_table
+
+CHANCE = 0.01     # scenes with a wider threshold are chaotic
+ROUNDING = 1e-12  # errors below are
+VERDICTS = ("right", "inaccurate", "misses", "phantom", "stalls", "blows up")
+
+
+def short_time(nanoseconds):
+    for unit, size in (("ns", 1.0), ("us", 1e3), ("ms", 1e6)):
+        if nanoseconds < 999.5 * size or unit == "ms":
+            return "%.3g %s" % (nanoseconds / size, unit)
+
+
+def short(value):
+    number = float(value)
+    if number == 0 or not math.isfinite(number):
+        return "%g" % number
+    if 0.01 <= abs(number) < 1000:
+        return "%.3g" % number
+    digits, exponent = ("%.1e" % number).split("e")
+    return "%se%d" % (digits, int(exponent))
+
+
+def bold(method):
+    return "**%s**" % method if method == "exact" else method
+
+
+def usual_settings(tables):
+    """Of each method, what the matrix runs it with."""
+    return OrderedDict((row["method"], row["setting"]) for row in tables.strings("stability") if row["scene"] == "even")
+
+
+def ratio(row):
+    value = float(row["ratio_to_exact"])
+    return "1" if row["method"] == "exact" else "%.2g" % value if value < 10 else "%.0f" % value
+
+
+@short_table("speed_accuracy", "stability")
+def accuracy_methods(tables):
+    usual = dict(usual_settings(tables), exact="0")  # a flight of ours has no setting
+    rows = [row for row in tables.strings("speed_accuracy") if row["scene"] == "all" and usual.get(row["method"]) == row["setting"]]
+    return [OrderedDict([("method", bold(r["method"])), ("setting", "" if float(r["setting"]) == 0 else r["setting"]),
+                         ("time per impact", short_time(float(r["ns_per_impact"]))),
+                         ("times ours", ratio(r)),
+                         ("error, median", short(r["error_median"])), ("error, 99 %", short(r["error_p99"])), ("missed", r["missed"]),
+                         ("phantom", r["phantom"]), ("of", r["impacts"])]) for r in rows]
+
+
+@short_table("pace", "stability")
+def pace_methods(tables):
+    usual, rows = usual_settings(tables), OrderedDict()
+    for r in tables.strings("pace"):
+        if usual.get(r["method"]) == r["setting"]:
+            rows.setdefault(r["method"], {})[r["scene"]] = r
+    table = []
+    for method, scenes in rows.items():
+        line = OrderedDict([("method", bold(method)), ("setting", "" if float(usual[method]) == 0 else usual[method])])
+        for scene, eta in (("kf_2", "2"), ("kf_3.4", "3.4"), ("kf_3", "3")):
+            r = scenes.get(scene)
+            line["eta = %s: error of K_f" % eta] = short(r["k_f_error"]) if r else ""
+            line["seconds a second (%s)" % eta] = short(r["seconds_per_second"]) if r else ""
+        table.append(line)
+    return table
+
+
+@short_table("stability")
+def stability_methods(tables):
+    counts = OrderedDict()
+    for row in tables.strings("stability"):
+        count = counts.setdefault(row["method"], dict.fromkeys(VERDICTS, 0))
+        count[row["verdict"]] += 1
+    return [OrderedDict([("method", bold(method))] + [(v, str(count[v])) for v in VERDICTS]) for method, count in counts.items()]
+
+
+@short_table("stability")
+def rival_wins(tables):
+    """Cells in which a rival is right too, and faster, or clearly nearer where the error is not one of chance or rounding."""
+    rows = tables.strings("stability")
+    ours = {row["scene"]: row for row in rows if row["method"] == "exact"}
+    table = []
+    for r in (row for row in rows if row["verdict"] == "right" and not row["method"].startswith("exact")):
+        own, chaotic = ours[r["scene"]], float(r.get("right_below") or 0) > CHANCE
+        nearer = not chaotic and float(own["number"]) > ROUNDING and float(r["number"]) < 0.5 * float(own["number"])
+        faster = float(r["ns_per_tau"]) < float(own["ns_per_tau"])
+        if nearer or faster:
+            table.append(OrderedDict([("scene", r["scene"]), ("method", r["method"]),
+                                      ("error", short(r["number"])), ("ours: error", short(own["number"])),
+                                      ("time of a tau", short_time(float(r["ns_per_tau"]))),
+                                      ("ours: time", short_time(float(own["ns_per_tau"])))]))
+    return table or [OrderedDict([("scene", "none"), ("method", "")])]
+
+
+@short_table("real_time")
+def real_time_slowest(tables):
+    rows = sorted(tables.strings("real_time"), key=lambda row: float(row["times_real_time"]))[:10]
+    return [OrderedDict([("eta", "%.4g" % float(r["eta"])), ("v_c", "%.4g" % float(r["cutoff"])), ("times real time", r["times_real_time"]),
+                         ("slowest tau / us", r["slowest_tau_us"])]) for r in rows]
+
+
+@short_table("real_time")
+def real_time_points(tables):
+    rows = tables.strings("real_time")
+    times = sorted(float(row["times_real_time"]) for row in rows)
+    return [OrderedDict([("points", str(len(rows))), ("above 10 times real time", str(sum(t > 10 for t in times))),
+                         ("above 20 times", str(sum(t > 20 for t in times))), ("median", "%.3g" % times[len(times) // 2]),
+                         ("slowest", "%.3g" % times[0]), ("failed searches", str(sum(int(row["search_failures"]) for row in rows)))])]
+
+
+@short_table("verbs")
+def bounce_times(tables):
+    times = {row["name"]: float(row["cpu_time"]) for row in tables.strings("verbs")}
+    etas = [name.split("/")[1] for name in times if name.startswith("Bounce/")]
+    return [OrderedDict([("eta", "%g" % (int(eta) / 100.0)), ("impact / ns", "%.0f" % times["Bounce/" + eta]),
+                         ("of it the search / ns", "%.0f" % times["Search/" + eta])]) for eta in etas]
+
+
+@short_table("grazes")
+def grazes_kinds(tables):
+    kinds = OrderedDict()
+    for row in tables.strings("grazes"):
+        kind = "ordinary flights" if row["graze"].startswith("ordinary") else row["graze"]
+        sums = kinds.setdefault(kind, [0, 0, 0])
+        for i, name in enumerate(("flights", "in_twice_the_digits", "wrong")):
+            sums[i] += int(row[name] or 0)
+    return [OrderedDict([("grazes", kind), ("flights", str(s[0])), ("decided in double-double", str(s[1])),
+                         ("wrong", "" if kind == "ordinary flights" else str(s[2]))]) for kind, s in kinds.items()]
+
+
+@short_table("burst_error")
+def burst_error_table(tables):
+    return [OrderedDict([("eta", r["eta"]), ("v_c", r["v_c"]), ("sequences", r["bursts"]), ("bounces replaced", r["bounces"]),
+                         ("median", r["median"]), ("99 %", r["99_percent"]), ("largest", r["max"])])
+            for r in tables.strings("burst_error")]
+
+
+@short_table("cutoff_friction")
+def cutoff_table(tables):
+    table = OrderedDict()
+    for r in tables.strings("cutoff_friction"):
+        table.setdefault("%.4g" % float(r["cutoff"]), OrderedDict())["eta = %.4g" % float(r["eta"])] = "%.6g" % float(r["k_f"])
+    return [OrderedDict([("v_c", cutoff)] + list(row.items())) for cutoff, row in table.items()]
