@@ -182,5 +182,5 @@ def commands(quick):
         may_fail=True)
     for target in FUZZED:
         add("fuzz_" + target, "scripts/fuzz --runs 1000000", target, "2>&1", may_fail=True)
-    add("builds", "scripts/compare_builds --older", may_fail=True)
+    add("builds", "scripts/platforms --digests --older", may_fail=True)
     return all_commands

@@ -14,6 +14,6 @@ for program in "$@"; do
 done
 if [[ $failed -ne 0 ]]; then
   echo "If all programs agree with each other, the core's arithmetic was changed: recordings made before differ from" \
-    "then on. If that is meant, scripts/compare_builds --accept writes the new digests down."
+    "then on. If that is meant, scripts/platforms --digests --accept writes the new digests down."
 fi
 exit $failed

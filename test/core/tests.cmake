@@ -60,7 +60,7 @@ foreach(name IN LISTS core_tests)
   afm_add_core_test(${name})
 endforeach()
 # The bits of a run depend on no compiler and no option: reference runs as shipped and without any optimisation, against
-# digests that are written down. scripts/compare_builds does it for every compiler there is.
+# digests that are written down. scripts/platforms --digests does it for every compiler there is.
 get_target_property(core_sources afm_emulator_core SOURCES)
 list(FILTER core_sources EXCLUDE REGEX "^\\$<")  # objects of lanes
 list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
