@@ -29,6 +29,7 @@ struct FrictionEstimate {
   double mean_lateral_force_std_error = 0.0;
   double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;
+  double mean_normal_force = 0.0;  // of the holder on the tip towards the surface, mean of the samples [m a/tau^2]
   double heat_to_bath = 0.0;  // since the last change of drag velocity [m a^2/tau^2]
 };
 
@@ -82,6 +83,8 @@ struct FrictionSums {
   double eta = 0.0;
   CompensatedSum energy, impulse, heat;
   std::uint64_t impact_count = 0;
+  CompensatedSum vertical;  // y - y0 of the samples [a]
+  std::uint64_t samples = 0;
   RateBins energy_bins, impulse_bins;
   PowerWindow window;
 };
@@ -95,6 +98,7 @@ class Friction {
   void restart(const ModelTime& now, double eta);
   void set_window(const ModelTime& now, double window_tau);  // the window alone restarts at `now`
   void add(const Segment& segment);                          // segments since restart(), in order
+  void add_samples(const double* vertical, std::size_t n);   // y - y0 of each [a]
   // `open`: the segment under way. It counts for the mean lateral force only.
   FrictionEstimate estimate(const ModelTime& now, const Segment& open);
   const FrictionSums& sums() const { return sums_; }

@@ -21,6 +21,26 @@ struct SiModel {
 // Every fault, named as in SiModel and in SI.
 std::vector<ParameterError> find_faults(const SiModel& si);
 
+// A cantilever as its owner knows it.
+struct Lever {
+  double spring_constant_n_per_m = 0.0;          // k
+  double resonance_hz = 0.0;                     // f0
+  double lateral_spring_constant_n_per_m = 0.0;  // k_h, at the tip
+
+  bool is_given() const {
+    return spring_constant_n_per_m != 0.0 || resonance_hz != 0.0 || lateral_spring_constant_n_per_m != 0.0;
+  }
+};
+
+// Every fault, named as in Lever.
+std::vector<ParameterError> find_faults(const Lever& lever);
+
+// The springs and the effective mass of a lever: omega_v = 2 pi f0, m = k / omega_v^2, omega_h = sqrt(k_h / m).
+void set_lever(const Lever& lever, SiModel& si);
+
+// The vertical spring constant k = m omega_v^2 [N/m]. A load is -k times the rest height.
+double spring_constant(const SiModel& si);
+
 // The heat bath in SI (bath.h); off by default.
 struct SiBath {
   double temperature_k = 0.0;

@@ -191,7 +191,7 @@ class Client {
     r.rms_vertical = std::sqrt(vertical_squares / n);
     r.mean_lateral_force = -lateral_stiffness() * lateral / n;
     r.rms_lateral_force = lateral_stiffness() * std::sqrt(lateral_squares / n);
-    r.mean_normal_force = -vertical_stiffness() * r.mean_vertical;
+    r.mean_normal_force = vertical_stiffness() * r.mean_vertical;
     const double v0 = since.drag_velocity != 0.0 ? since.drag_velocity : kAsItIs;
     r.k_f = r.energy_loss / (v0 * v0 * seconds);
     r.k_f_work = r.mean_lateral_force / v0;

@@ -107,7 +107,8 @@ py::dict to_python(const FrictionEstimate& f) {
                   "impact_count"_a = f.impact_count, "window_force"_a = f.window_force, "window_k_f"_a = f.window_K_f,
                   "window_k_f_std_error"_a = f.window_K_f_std_error, "mean_lateral_force"_a = f.mean_lateral_force,
                   "mean_lateral_force_std_error"_a = f.mean_lateral_force_std_error, "k_f_work"_a = f.K_f_work,
-                  "k_f_work_std_error"_a = f.K_f_work_std_error, "heat_to_bath"_a = f.heat_to_bath);
+                  "k_f_work_std_error"_a = f.K_f_work_std_error, "mean_normal_force"_a = f.mean_normal_force,
+                  "heat_to_bath"_a = f.heat_to_bath);
 }
 
 RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y,

@@ -36,6 +36,27 @@ std::vector<ParameterError> find_faults(const SiModel& si) {
   return faults;
 }
 
+std::vector<ParameterError> find_faults(const Lever& lever) {
+  std::vector<ParameterError> faults;
+  const auto require = [&](const char* name, double value) {
+    if (!(value >= 1e-12 && value <= 1e12)) {
+      faults.emplace_back(name, value, "must be between 1e-12 and 1e12; a lever needs all three of its constants");
+    }
+  };
+  require("spring_constant_n_per_m", lever.spring_constant_n_per_m);
+  require("resonance_hz", lever.resonance_hz);
+  require("lateral_spring_constant_n_per_m", lever.lateral_spring_constant_n_per_m);
+  return faults;
+}
+
+void set_lever(const Lever& lever, SiModel& si) {
+  si.omega_v_rad_per_s = kTwoPi * lever.resonance_hz;
+  si.tip_mass_kg = lever.spring_constant_n_per_m / (si.omega_v_rad_per_s * si.omega_v_rad_per_s);
+  si.omega_h_rad_per_s = std::sqrt(lever.lateral_spring_constant_n_per_m / si.tip_mass_kg);
+}
+
+double spring_constant(const SiModel& si) { return si.tip_mass_kg * si.omega_v_rad_per_s * si.omega_v_rad_per_s; }
+
 Units::Units(const SiModel& si) : a_(si.lattice_spacing_m), tau_(kTwoPi / si.omega_v_rad_per_s), m_(si.tip_mass_kg) {}
 
 Model Units::to_natural(const SiModel& si) const {

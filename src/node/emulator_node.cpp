@@ -15,6 +15,7 @@
 #include "afm/number_text.h"
 #include "node/publisher/topics.h"
 #include "node/recorder/paths.h"
+#include "node/runner/trial.h"
 
 namespace afm::node {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
+constexpr double kSafePace = 1.2;  // of the trial run over what is needed: publishing and other programs take their part
 constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
@@ -81,6 +83,16 @@ std::string find_clock_publisher() {
   return {};
 }
 
+// A run that cannot keep real time says so before it falls behind.
+void foretell_pace(const Parameters& p) {
+  const double pace = measure_pace(p);
+  ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
+  if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
+  ROS_WARN("this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = %.1g, "
+           "a lower sample_rate_hz, a contact_tolerance up to 1e-2, or model = hammer",
+           p.time_scale, pace, 0.7 * pace);
+}
+
 }  // namespace
 
 EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
@@ -97,6 +109,7 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
   }
   free_bytes_ = free_bytes(parameters.bag_directory);
+  foretell_pace(parameters);
   live_server_.emplace(node, parameters, refusals_, [this](const Live& live) {
     return ask({Request::Kind::change, 0.0, 0, live, {}}).fault;
   });
@@ -110,6 +123,10 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip",
              parameters.bath.temperature_k);
   }
+  ROS_INFO("tip: %g N/m at %g Hz, %g N/m laterally, effective mass %g kg; load %g N; tau = %g s", spring_constant(parameters.si),
+           parameters.si.omega_v_rad_per_s / kTwoPi, parameters.si.tip_mass_kg * std::pow(parameters.si.omega_h_rad_per_s, 2),
+           parameters.si.tip_mass_kg, -spring_constant(parameters.si) * parameters.si.rest_height_m,
+           Units(parameters.si).time());
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
            to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
            static_cast<unsigned long>(samples_per_batch(parameters)), runner_.scheduler().c_str());
@@ -155,8 +172,7 @@ void EmulatorNode::on_rest_height(const std_msgs::Float64& command) {
 }
 
 void EmulatorNode::on_load(const std_msgs::Float64& command) {
-  const double stiffness = parameters_.si.tip_mass_kg * std::pow(parameters_.si.omega_v_rad_per_s, 2);
-  set_rest_height(Request::Kind::load, "load", "N", command.data, -command.data / stiffness);
+  set_rest_height(Request::Kind::load, "load", "N", command.data, -command.data / spring_constant(parameters_.si));
 }
 
 void EmulatorNode::set_rest_height(Request::Kind kind, const char* name, const char* unit, double given,

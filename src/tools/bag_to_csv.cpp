@@ -120,7 +120,8 @@ const std::vector<FrictionField> kFrictionFields{
     AFM_FIELD(energy_loss, Q::energy), AFM_FIELD(window_force, Q::force), AFM_FIELD(window_k_f, Q::friction),
     AFM_FIELD(window_k_f_std_error, Q::friction), AFM_FIELD(mean_lateral_force, Q::force),
     AFM_FIELD(mean_lateral_force_std_error, Q::force), AFM_FIELD(k_f_work, Q::friction),
-    AFM_FIELD(k_f_work_std_error, Q::friction), AFM_FIELD(heat_to_bath, Q::energy)};
+    AFM_FIELD(k_f_work_std_error, Q::friction), AFM_FIELD(mean_normal_force, Q::force),
+    AFM_FIELD(heat_to_bath, Q::energy)};
 #undef AFM_FIELD
 
 std::uint64_t write_friction(const Recording& recording, const Target& to) {

@@ -49,6 +49,18 @@ TEST(Units, FactorsFitTogether) {
   EXPECT_DOUBLE_EQ(units.friction() * units.velocity(), units.force());
 }
 
+TEST(Units, ALeverHasItsSpringsAndItsResonance) {
+  const Lever lever{0.2, 13e3, 88.2};
+  ASSERT_TRUE(find_faults(lever).empty());
+  SiModel si;
+  set_lever(lever, si);
+  EXPECT_DOUBLE_EQ(spring_constant(si), 0.2);
+  EXPECT_DOUBLE_EQ(Units(si).time(), 1.0 / 13e3);
+  EXPECT_DOUBLE_EQ(Units(si).to_natural(si).frequency_ratio, 21.0);
+  EXPECT_EQ(names(find_faults(Lever{0.2, kNaN, 0.0})),
+            (std::multiset<std::string>{"resonance_hz", "lateral_spring_constant_n_per_m"}));
+}
+
 TEST(Units, ThereAndBackIsTheSame) {
   SiModel si;
   si.surface_amplitude_m = 0.07e-9;

@@ -74,6 +74,15 @@ class BadParameters(NodeTest):
                             'drag_speed = 1e-05: there is no such parameter', 'time_scale = 200: must be between 1e-06 and 100',
                             'rest_height_m = 6e-11: ', 'element 1: must be a number')
 
+    def test_a_lever_is_given_in_one_way(self):
+        lever = {'spring_constant_n_per_m': 0.2, 'resonance_hz': 13e3, 'lateral_spring_constant_n_per_m': 88.2}
+        self.assert_refused(dict(lever, tip_mass_kg=3e-11), 'tip_mass_kg = 3e-11: is given beside the spring constants and the resonance')
+        self.assert_refused({'load_n': 1e-9, 'rest_height_m': -1e-9}, 'rest_height_m = -1e-09: is given beside load_n')
+        emulator = self.assert_refused({'resonance_hz': 13e3, 'spring_constant_n_per_m': -0.2},
+                                       'spring_constant_n_per_m = -0.2: ', 'lateral_spring_constant_n_per_m = 0: ')
+        self.assertNotIn('resonance_hz = ', emulator.output())
+        self.assert_refused({'load_n': -1e-9}, 'rest_height_m = 1.53')
+
     def test_drag_velocity_beyond_its_limit(self):
         self.assert_refused({'drag_velocity': -2e-5, 'max_drag_velocity': 1e-5}, 'max_drag_velocity = ', 'drag_velocity = -2')
 

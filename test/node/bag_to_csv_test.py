@@ -20,7 +20,7 @@ IMPACT = {'surface_phase': ('surface_phase', 1), 'normal_speed': ('normal_speed_
           'kind': ('kind', 1), 'count': ('count', 1)}
 FRICTION_SUFFIX = {'eta': '', 'impact_count': '', 'drag_velocity': '_m_per_s', 'energy_loss': '_j', 'heat_to_bath': '_j',
                    'force': '_n', 'force_std_error': '_n', 'window_force': '_n', 'mean_lateral_force': '_n',
-                   'mean_lateral_force_std_error': '_n'}  # all others: _kg_per_s
+                   'mean_lateral_force_std_error': '_n', 'mean_normal_force': '_n'}  # all others: _kg_per_s
 NOT_IN_TABLE = ('header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'k_f_natural', 'window_k_f_natural',
                 'k_f_work_natural')
 APPLIED = {'drag_velocity_m_per_s': 'drag_velocity', 'restitution_gamma': 'restitution_gamma', 'cutoff_speed_m_per_s': 'cutoff_speed',

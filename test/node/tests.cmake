@@ -12,6 +12,7 @@ set(node_tests
   diagnostics
   ending
   full_disk
+  lever
   lockstep
   loopback
   panel

@@ -206,7 +206,7 @@ class Client:
         answer.rms_vertical = math.sqrt(squares[0] / n)
         answer.mean_lateral_force *= self.lateral_stiffness / n
         answer.rms_lateral_force = self.lateral_stiffness * math.sqrt(squares[1] / n)
-        answer.mean_normal_force = -self.stiffness * answer.mean_vertical
+        answer.mean_normal_force = self.stiffness * answer.mean_vertical
         total = answer.begin.phase + seconds / self.tau_s
         answer.end.tau, answer.end.phase = answer.begin.tau + math.floor(total), total - math.floor(total)
         v0 = applied.drag_velocity or float('nan')

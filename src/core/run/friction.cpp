@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "afm/detail/sample_grid.h"
+#include "afm/model.h"
 #include "core/not_numbers.h"
 
 namespace afm {
@@ -126,6 +127,11 @@ void Friction::add(const Segment& segment) {
   sums_.window.add(std::max(0.0, segment.end - sums_.window_start), segment.loss);
 }
 
+void Friction::add_samples(const double* vertical, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) sums_.vertical.add(vertical[i]);
+  sums_.samples += n;
+}
+
 FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   const double age = now - sums_.start;
   FrictionEstimate e;
@@ -149,6 +155,9 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   e.mean_lateral_force_std_error = sums_.impulse_bins.std_error(age);
   e.K_f_work = moving ? e.mean_lateral_force / sums_.eta : kNaN;
   e.K_f_work_std_error = moving ? e.mean_lateral_force_std_error / std::abs(sums_.eta) : kNaN;
+  const double spring_constant = kTwoPi * kTwoPi;  // of the vertical spring: m omega_v^2
+  e.mean_normal_force =
+      sums_.samples > 0 ? spring_constant * (sums_.vertical.value / static_cast<double>(sums_.samples)) : kNaN;
   e.heat_to_bath = sums_.heat.value;
   return e;
 }
@@ -158,8 +167,8 @@ bool Friction::is_possible(const ModelTime& now, double eta, double window_tau) 
   const auto are_finite = [](const auto& numbers) {
     return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
   };
-  const std::array<double, 6> sums{s.energy.value, s.energy.rest, s.impulse.value,
-                                   s.impulse.rest, s.heat.value,  s.heat.rest};
+  const std::array<double, 8> sums{s.energy.value, s.energy.rest, s.impulse.value,  s.impulse.rest,
+                                   s.heat.value,   s.heat.rest,   s.vertical.value, s.vertical.rest};
   const auto is_width = [](double width) { return width >= RateBins{}.width && std::isfinite(width); };
   return afm::is_possible(s.start) && afm::is_possible(s.window_start) && s.start <= s.window_start &&
          s.window_start <= now && s.eta == eta && s.window_tau == window_tau && are_finite(sums) &&

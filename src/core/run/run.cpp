@@ -226,6 +226,7 @@ void Run::sample_until(const ModelTime& time, Batch& batch) {
   batch.vertical.resize(had + n);
   batch.lateral.resize(had + n);
   const double lowest = tip_.deflections(grid_, next_sample_, n, &batch.vertical[had], &batch.lateral[had]);
+  friction_.add_samples(&batch.vertical[had], n);
   counters_.worst_penetration = std::max(counters_.worst_penetration, -lowest);
   next_sample_ = end;
 }

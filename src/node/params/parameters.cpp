@@ -26,6 +26,10 @@ std::map<std::string, Field> fields_of(Parameters& p) {
           {"rest_height_m", &p.si.rest_height_m},
           {"restitution_gamma", &p.si.restitution_gamma},
           {"cutoff_speed", &p.si.cutoff_speed},
+          {"spring_constant_n_per_m", &p.lever.spring_constant_n_per_m},
+          {"resonance_hz", &p.lever.resonance_hz},
+          {"lateral_spring_constant_n_per_m", &p.lever.lateral_spring_constant_n_per_m},
+          {"load_n", &p.load_n},
           {"temperature_k", &p.bath.temperature_k},
           {"quality_factor", &p.bath.quality_factor},
           {"lateral_quality_factor", &p.bath.lateral_quality_factor},
@@ -128,6 +132,28 @@ std::string read(Value& value, std::vector<double>* out) {
   return {};
 }
 
+// A lever and a load are given in the terms of their owner, or in those of the model.
+void apply_lever(Parameters& p, Faults& faults) {
+  const SiModel usual;
+  const auto forbid = [&](const char* name, double value, double default_value, const char* instead) {
+    if (value != default_value) faults.push_back({name, number_text(value), std::string("is given beside ") + instead + ": give one of them"});
+  };
+  if (p.lever.is_given()) {
+    const char* const kLever = "the spring constants and the resonance of a lever";
+    forbid("omega_v_rad_per_s", p.si.omega_v_rad_per_s, usual.omega_v_rad_per_s, kLever);
+    forbid("omega_h_rad_per_s", p.si.omega_h_rad_per_s, usual.omega_h_rad_per_s, kLever);
+    forbid("tip_mass_kg", p.si.tip_mass_kg, usual.tip_mass_kg, kLever);
+    const auto wrong = find_faults(p.lever);
+    for (const ParameterError& fault : wrong) faults.push_back({fault.name, number_text(fault.value), fault.reason});
+    if (wrong.empty()) set_lever(p.lever, p.si);
+  }
+  if (p.load_n != 0.0) {
+    forbid("rest_height_m", p.si.rest_height_m, usual.rest_height_m, "load_n");
+    if (!std::isfinite(p.load_n)) return faults.push_back({"load_n", number_text(p.load_n), "must be finite"});
+    p.si.rest_height_m = -p.load_n / spring_constant(p.si);
+  }
+}
+
 bool is_foreign(const std::string& name) {
   for (const char* foreign : kForeignNames) {
     if (name == foreign) return true;
@@ -164,6 +190,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
       }
     }
   }
+  apply_lever(parameters, faults);
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
   // what could not be read stands at its default here and adds no fault of its own

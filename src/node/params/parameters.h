@@ -21,6 +21,8 @@ constexpr char kRealTime[] = "real_time", kLockstep[] = "lockstep", kCommand[] =
 // Named as on the parameter server. The defaults are those of config/emulator.yaml.
 struct Parameters {
   SiModel si;
+  Lever lever;                                    // instead of frequencies and mass: what read_parameters sets them by
+  double load_n = 0.0;                            // instead of si.rest_height_m [N]
   SiBath bath;
   std::string model = "oscillator";
   double tolerance = 0.0;                         // of model auto: error allowed, relative; 0: none given

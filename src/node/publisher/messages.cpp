@@ -101,6 +101,7 @@ afm_emulator::Friction to_friction(const Batch& batch, const Live& live, const U
   message.k_f_work = estimate.K_f_work * units.friction();
   message.k_f_work_std_error = estimate.K_f_work_std_error * units.friction();
   message.k_f_work_natural = estimate.K_f_work;
+  message.mean_normal_force = estimate.mean_normal_force * units.force();
   message.heat_to_bath = estimate.heat_to_bath * units.energy();
   return message;
 }
@@ -148,7 +149,7 @@ afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& 
   const Units units(si);
   const Measured& m = answer.measured;
   const double n = static_cast<double>(m.samples), seconds = (answer.time - m.begin) * units.time();
-  const double k_v = si.tip_mass_kg * si.omega_v_rad_per_s * si.omega_v_rad_per_s;
+  const double k_v = spring_constant(si);
   const double k_h = si.tip_mass_kg * si.omega_h_rad_per_s * si.omega_h_rad_per_s;
   const double v0 = answer.drag_velocity != 0.0 ? answer.drag_velocity : std::numeric_limits<double>::quiet_NaN();
   afm_emulator::Control::Response r;
@@ -161,7 +162,7 @@ afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& 
   r.rms_vertical = std::sqrt(m.vertical_squares / n) * units.length();
   r.mean_lateral_force = -k_h * (m.lateral / n * units.length());
   r.rms_lateral_force = k_h * (std::sqrt(m.lateral_squares / n) * units.length());
-  r.mean_normal_force = -k_v * r.mean_vertical;
+  r.mean_normal_force = k_v * r.mean_vertical;
   r.impact_count = m.bounces;
   r.energy_loss = m.energy_loss * units.energy();
   r.k_f = r.energy_loss / (v0 * v0 * seconds);

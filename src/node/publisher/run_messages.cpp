@@ -68,6 +68,9 @@ void for_each_sum(Message& m, Sums& s, Copy copy) {
   copy(m.estimate_impulse[1], s.impulse.rest);
   copy(m.estimate_heat[0], s.heat.value);
   copy(m.estimate_heat[1], s.heat.rest);
+  copy(m.estimate_vertical[0], s.vertical.value);
+  copy(m.estimate_vertical[1], s.vertical.rest);
+  copy(m.estimate_samples, s.samples);
   copy(m.energy_bin_width, s.energy_bins.width);
   copy(m.impulse_bin_width, s.impulse_bins.width);
   copy(m.window_bin, s.window.current);

@@ -209,6 +209,29 @@ TEST(Run, TheMeanLateralForceIsThePowerOfTheDragOverItsVelocity) {
   }
 }
 
+// On average the holder presses with the force of the vertical spring, also over a snapshot.
+TEST(Run, TheMeanNormalForceIsThatOfTheSamples) {
+  for (const double y0 : {0.0, -0.5}) {
+    RunSettings settings = settings_at(3.4, 1000);
+    settings.model.y0 = y0;
+    afm::Run run(settings);
+    Batch batch;
+    double vertical = 0.0;
+    std::size_t samples = 0;
+    for (int i = 0; i < 50; ++i) {
+      if (i == 20) run = afm::Run(run.split());
+      run.advance(batch);
+      for (const double y : batch.vertical) vertical += y;
+      samples += batch.vertical.size();
+    }
+    const double force = kTwoPi * kTwoPi * vertical / static_cast<double>(samples);
+    EXPECT_NEAR(batch.friction.mean_normal_force, force, 1e-12);
+    drag(run, 1.0);
+    run.advance(ModelTime(run.now()), 1, batch);
+    EXPECT_TRUE(std::isnan(batch.friction.mean_normal_force));  // no sample yet
+  }
+}
+
 // Of the chaotic tip at 3.4: the error is no smaller than the scatter, and little larger.
 TEST(Run, TheErrorOfTheMeanLateralForceIsThatOfRepeatedRuns) {
   constexpr int kRuns = 60;

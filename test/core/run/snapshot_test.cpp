@@ -345,6 +345,7 @@ std::vector<Field> fields() {
   add_sum("energy", [](FrictionSums& f) -> double& { return f.energy.value; });
   add_sum("impulse.rest", [](FrictionSums& f) -> double& { return f.impulse.rest; });
   add_sum("heat", [](FrictionSums& f) -> double& { return f.heat.value; });
+  add_sum("vertical", [](FrictionSums& f) -> double& { return f.vertical.value; });
   add_sum("energy_bins.width", [](FrictionSums& f) -> double& { return f.energy_bins.width; });
   add_sum("energy_bins", [](FrictionSums& f) -> double& { return f.energy_bins.amount[3]; });
   add_sum("impulse_bins.width", [](FrictionSums& f) -> double& { return f.impulse_bins.width; });

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""Every lever that is shipped runs on a crystal under a load, in the terms of its owner."""
+import math
+from pathlib import Path
+
+import roslib.packages
+import rospy
+import yaml
+from afm_emulator.srv import Control
+
+from emulator_under_test import PACKAGE, Launch, NodeTest, run
+from topics import Topic
+
+CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
+LOAD = 0.4e-9  # [N], in lever.test
+BOLTZMANN = 1.380649e-23
+
+
+def settings(kind, name):
+    return yaml.safe_load((CONFIG / kind / (name + '.yaml')).read_text())
+
+
+class LeverTest(NodeTest):
+    def advance(self, name, seconds):
+        service = '/%s/control' % name
+        rospy.wait_for_service(service, timeout=20.0)
+        answer = rospy.ServiceProxy(service, Control)(math.nan, math.nan, seconds)
+        self.assertTrue(answer.success, answer.message)
+        return answer
+
+    def test_every_shipped_lever(self):
+        surface = settings('surfaces', 'nacl')
+        for path in sorted((CONFIG / 'levers').glob('*.yaml')):
+            name, lever = path.stem, settings('levers', path.stem)
+            with self.subTest(lever=name):
+                c = Topic('/%s/configuration' % name).wait_for()
+                k = lever['spring_constant_n_per_m']
+                self.assertAlmostEqual(c.omega_v_rad_per_s / (2 * math.pi) / lever['resonance_hz'], 1.0, delta=1e-12)
+                self.assertAlmostEqual(c.tip_mass_kg * c.omega_v_rad_per_s ** 2 / k, 1.0, delta=1e-12)
+                self.assertAlmostEqual(c.tip_mass_kg * c.omega_h_rad_per_s ** 2 / lever['lateral_spring_constant_n_per_m'], 1.0,
+                                       delta=1e-12)
+                self.assertEqual((c.lattice_spacing_m, c.surface_amplitude_m),
+                                 (surface['lattice_spacing_m'], surface['surface_amplitude_m']))
+                self.assertAlmostEqual(-k * c.rest_height_m / LOAD, 1.0, delta=1e-12)
+
+    def test_the_tip_carries_its_load(self):
+        """The mean normal force is the load, but for the height at which the tip is: the corrugation, and above it the heat."""
+        for name in ('ppp_cont', 'laterally_soft'):
+            with self.subTest(lever=name):
+                friction = Topic('/%s/friction' % name)
+                friction.wait_for_connection()
+                answer = self.advance(name, 0.02)
+                last = friction.wait_for(lambda m: m.time == answer.end, 'the end of the period')
+                k, surface = settings('levers', name)['spring_constant_n_per_m'], settings('surfaces', 'nacl')
+                higher = surface['surface_amplitude_m'] + math.sqrt(2.0 * BOLTZMANN * 300.0 / k)
+                self.assertTrue(LOAD - k * surface['surface_amplitude_m'] < last.mean_normal_force < LOAD + k * higher,
+                                last.mean_normal_force)
+                self.assertAlmostEqual(last.mean_normal_force / answer.mean_normal_force, 1.0, delta=1e-9)
+
+    def test_a_lever_of_ones_own(self):
+        lever = Path(self.temporary_directory()) / 'mine.yaml'
+        lever.write_text('{spring_constant_n_per_m: 0.1, resonance_hz: 9000, lateral_spring_constant_n_per_m: 50.0}')
+        launch = self.start(Launch('emulator.launch', {'name': 'mine', 'lever': lever, 'load_n': '1e-9', 'pace': 'lockstep'}))
+        c = Topic('/mine/configuration').wait_for()
+        self.assertAlmostEqual(c.rest_height_m, -1e-8, delta=1e-20)
+        launch.stop()
+        self.assertIn('0.1 N/m at 9000 Hz, 50 N/m laterally', launch.output())
+        self.assertIn('times real time on this machine', launch.output())
+
+
+if __name__ == '__main__':
+    run(LeverTest)
