@@ -1,12 +1,12 @@
-# Everything that a document quotes: measured, made into tables, drawn. Needs the build that scripts/build --tests makes.
+# Everything that a document quotes: measured, made into tables, drawn. Needs the build of scripts/build --tests.
 #
 #   snakemake --list                              the rules; the name of a table or of a picture is one
 #   snakemake fig1_friction -c2 --config quick=1  a short run, in minutes
 #   snakemake load thermal_hops -c2               full runs; all of them take a night
 #   snakemake publish -c1                         copies full runs to docs/, and renders the tables in the documents
 #
-# Results lie in build/laboratory/quick and build/laboratory/full. What is there is not measured again, unless its command changed or
-# its program was built anew; an interrupted run goes on where it was.
+# Results lie in build/laboratory/quick and build/laboratory/full. What is there is not measured again, unless its
+# command changed or its program was built anew; an interrupted run goes on where it was.
 import os
 import re
 import sys
@@ -28,7 +28,8 @@ COMMANDS = commands(QUICK)
 MADE = {name: table for name, table in TABLES.items() if not (QUICK and table.full_only)}
 SCENES = ("paper", "resonance", "splash", "glide", "rest", "sweep", "slow_motion", "room", "loop")
 CHARTS = ("pace", "speed_accuracy", "stability", "work_cost")  # as SVG too
-SHELL = 'source scripts/environment.bash; ! [[ -f "%s/setup.bash" ]] || source_setup "%s/setup.bash"; export PATH="%s:$PATH"; '
+SHELL = ('source scripts/environment.bash; ! [[ -f "%s/setup.bash" ]] || source_setup "%s/setup.bash"; '
+         'export PATH="%s:$PATH"; ')
 
 workdir: str(ROOT)
 shell.executable("/bin/bash")
@@ -71,9 +72,10 @@ TARGETS["scenes"] = TARGETS["scene_pictures"] + TARGETS["scene_levels"]
 TARGETS["paper"] = [file for name in PICTURES if re.match("fig|model", name) for file in TARGETS[name]] + \
     [table(name) for name in ("mica_in_si", "friction_attractors", "friction_orbits", "friction_averages")]
 TARGETS["hammer"] = [file for name in PICTURES if name.startswith("hammer") for file in TARGETS[name]]
-TARGETS["temperature"] = [file for name in list(MADE) + list(PICTURES) if re.match("thermal|load", name) for file in TARGETS[name]] + \
-    [table("thermal_real_time")]
-LISTED = [name for name in TARGETS if name not in COMMANDS or name in TABLES or (ROOT / "docs/data" / (name + ".csv")).exists()]
+HEATED = [name for name in list(MADE) + list(PICTURES) if re.match("thermal|load", name)]
+TARGETS["temperature"] = [file for name in HEATED for file in TARGETS[name]] + [table("thermal_real_time")]
+LISTED = [name for name in TARGETS if name not in COMMANDS or name in TABLES or
+          (ROOT / "docs/data" / (name + ".csv")).exists()]
 
 
 rule all:
@@ -88,7 +90,9 @@ rule measure:
     output: OUT + "/tables/{name}.csv"
     input: lambda wildcards: program(COMMANDS[wildcards.name].words)
     wildcard_constraints: name=any_of(name for name, command in COMMANDS.items() if not command.sides)
-    params: words=lambda wildcards: words(wildcards.name), may_fail=lambda wildcards: int(COMMANDS[wildcards.name].may_fail)
+    params:
+        words=lambda wildcards: words(wildcards.name),
+        may_fail=lambda wildcards: int(COMMANDS[wildcards.name].may_fail)
     threads: workflow.cores  # the programs use all, or are timed
     shell: "workflow/measure.py {MODE} {params.may_fail} {output} -- {params.words:q}"
 

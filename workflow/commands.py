@@ -1,4 +1,4 @@
-"""Every command that is measured: the name of its table, what runs, and the tables that it writes besides its output."""
+"""Every command that is measured: the name of its table, what runs, and the tables that it writes besides."""
 from collections import namedtuple
 
 # may_fail: a failure is a result too
@@ -20,8 +20,10 @@ LOAD_ETAS = (0.5, 2, 3.4)
 HAMMER_ETA, HAMMER_ETAS = 3.2, (1.5, 2.0, 3.4)
 # no even numbers, at which the horizontal spring is in resonance with the orbit of even eta
 RATIOS = (2.25, 3.25, 4.25, 6.25, 8.25, 12.25, 17.25, 24.25, 34.25, 48.25, 68.25, 98.25, 140.25, 198.25)
-BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--gamma", 0.7), ("--eta 2 --vary eta --to 1.2", "--eta 2 --vary eta --to 3")),
-            "eta_3": ("eta", (3.0, 4.3), ("--gamma", 0.7), ("--eta 4 --vary eta --to 3.0", "--eta 4 --vary eta --to 5.0")),
+BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--gamma", 0.7), ("--eta 2 --vary eta --to 1.2",
+                                                            "--eta 2 --vary eta --to 3")),
+            "eta_3": ("eta", (3.0, 4.3), ("--gamma", 0.7), ("--eta 4 --vary eta --to 3.0",
+                                                            "--eta 4 --vary eta --to 5.0")),
             "gamma_3": ("gamma", (0.3, 0.95), ("--eta", 3.4),
                         ("--eta 3.4 --vary gamma --to 0.2", "--eta 3.4 --vary gamma --to 0.97",
                          "--eta 3.4 --vary gamma --to 0.97 --length 4"))}
@@ -62,17 +64,21 @@ def commands(quick):
     # the paper's figures
     mica = ("--gamma 0.7 --cutoff 0.05",)
     for direction in ("up", "down"):
-        curve("friction_curve_" + direction, *mica, "--eta", choose("0.02:9:0.1", "0.02:9:0.01"), "--duration 3000 --sweep", direction)
+        curve("friction_curve_" + direction, *mica, "--eta", choose("0.02:9:0.1", "0.02:9:0.01"),
+              "--duration 3000 --sweep", direction)
     for eta in (2, 2.5, 3.75, 6.5):
         add("coexisting_%g" % eta, "attractors --eta", eta, "--relative-cutoff --cutoff 0.1 --starts", choose(10, 100))
     for low, high in WINDOWS:
-        add("coexistence_%g" % low, "attractors", *mica, "--eta", "%g:%g:%g" % (low, high, (high - low) / choose(10, 100)),
+        add("coexistence_%g" % low, "attractors", *mica, "--eta", "%g:%g:%g"
+            % (low, high, (high - low) / choose(10, 100)),
             "--starts", choose(10, 60), "--friction-duration 300")
         for direction in ("up", "down"):
-            curve("sweep_%s_%g" % (direction, low), *mica, "--eta", "%g:%g:%g" % (low, high, choose(0.025, 0.0025)), "--sweep", direction,
+            curve("sweep_%s_%g" % (direction, low), *mica, "--eta", "%g:%g:%g" % (low, high, choose(0.025, 0.0025)),
+                  "--sweep", direction,
                   "--duration 3000")
     add("periodic_orbits", "periodic_orbits --eta 3.4", *mica, choose("--max-length 6 --trajectory 20000 --guesses 200",
-        "--max-length 10 --trajectory 1000000 --guesses 3000"), "--averages {out}/cycle_averages.csv --quiet", sides=["cycle_averages"])
+        "--max-length 10 --trajectory 1000000 --guesses 3000"), "--averages {out}/cycle_averages.csv --quiet",
+        sides=["cycle_averages"])
     add("return_scan", "return_scan --eta 3.4", *mica, choose("--points 30 --depth 10", "--points 120 --depth 30"))
     curve("direct", "--eta 3.4", *mica, "--duration", choose(20000, 1000000))
     add("even_orbit_gamma", "continue_orbits --cutoff 0.05 --eta 2 --gamma 0.7 --vary gamma --to 0.1")
@@ -83,7 +89,8 @@ def commands(quick):
             add("%s_branch_%d" % (name, i), "continue_orbits --cutoff 0.05", branch)
         for direction in ("up", "down"):
             step = (bounds[1] - bounds[0]) / choose(60, 600)
-            add("%s_%s" % (name, direction), "bifurcations --vary", vary, "--range", "%.6g:%.6g:%.6g" % (*bounds, step), "--sweep",
+            add("%s_%s" % (name, direction), "bifurcations --vary", vary, "--range",
+                "%.6g:%.6g:%.6g" % (*bounds, step), "--sweep",
                 direction, "--impacts 60 --cutoff 0.05 --transient 300", *fixed)
     add("atlas", "attractors --eta", choose("0.1:9:0.1 --gamma 0.3:0.95:0.05", "0.03:9:0.03 --gamma 0.3:0.95:0.01"),
         "--cutoff 0.05 --starts 1 --friction-duration 200")
@@ -93,14 +100,20 @@ def commands(quick):
     # the hammer
     length = ("--duration", choose(200, 1000), "--transient 300")
     for model in ("oscillator", "hammer"):
-        curve("hammer_curve_" + model, "--model", model, "--eta", choose("0.1:9:0.2", "0.1:9:0.05"), "--cutoff 0.05", *length)
-    add("hammer_error_eta", "model_error --eta", choose("0.5:9:0.5", "0.1:9:0.1"), "--relative-cutoff --cutoff 0.05 --starts 2", *length)
-    ratios = RATIOS[::3] if quick else RATIOS
-    add("hammer_error_ratio", "model_error --eta", ",".join(map(str, HAMMER_ETAS)), "--frequency-ratio", ",".join(map(str, ratios)),
+        curve("hammer_curve_" + model, "--model", model, "--eta", choose("0.1:9:0.2", "0.1:9:0.05"), "--cutoff 0.05",
+              *length)
+    add("hammer_error_eta", "model_error --eta", choose("0.5:9:0.5", "0.1:9:0.1"),
         "--relative-cutoff --cutoff 0.05 --starts 2", *length)
-    add("hammer_words", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 8 --impacts 50000", "--max-length 14 --impacts 2000000"),
-        "--section {out}/hammer_section.csv --forbidden {out}/hammer_forbidden.csv", sides=["hammer_section", "hammer_forbidden"])
-    add("hammer_named", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 5 --guesses 200", "--max-length 8 --guesses 1500"),
+    ratios = RATIOS[::3] if quick else RATIOS
+    add("hammer_error_ratio", "model_error --eta", ",".join(map(str, HAMMER_ETAS)), "--frequency-ratio",
+        ",".join(map(str, ratios)),
+        "--relative-cutoff --cutoff 0.05 --starts 2", *length)
+    add("hammer_words", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 8 --impacts 50000",
+                                                                      "--max-length 14 --impacts 2000000"),
+        "--section {out}/hammer_section.csv --forbidden {out}/hammer_forbidden.csv",
+        sides=["hammer_section", "hammer_forbidden"])
+    add("hammer_named", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 5 --guesses 200",
+                                                                      "--max-length 8 --guesses 1500"),
         "--orbits {out}/hammer_orbits.csv", sides=["hammer_orbits"])
     add("hammer_orbits_10", "periodic_orbits --model hammer --eta", HAMMER_ETA, choose(
         "--max-length 6 --trajectory 20000 --guesses 200", "--max-length 10 --trajectory 200000 --guesses 3000"),
@@ -111,20 +124,25 @@ def commands(quick):
     def bath(kelvin, quality):
         return ("--quality-factor", quality, "--temperature", kelvin * KELVIN) if quality else ()
     for kelvin, quality in BATHS:
-        curve("thermal_" + bath_name(kelvin, quality), "--eta", choose("0.5:9:0.5 --duration 1000", "0.05:9:0.05 --duration 20000"),
+        curve("thermal_" + bath_name(kelvin, quality), "--eta", choose("0.5:9:0.5 --duration 1000",
+                                                                       "0.05:9:0.05 --duration 20000"),
               *bath(kelvin, quality))
         for eta in (2, 4, 6):
-            curve("thermal_peak_%s_%g" % (bath_name(kelvin, quality), eta), "--eta", "%g:%g:%g" % (eta - 0.5, eta + 0.5, choose(0.05, 0.01)),
+            curve("thermal_peak_%s_%g" % (bath_name(kelvin, quality), eta), "--eta",
+                  "%g:%g:%g" % (eta - 0.5, eta + 0.5, choose(0.05, 0.01)),
                   "--duration", choose(500, 20000), *bath(kelvin, quality))
     for eta, quality, theta in kicks_cases(quick):
         for kicks in (GOLDEN[::3] if quick else GOLDEN) + (REFERENCE_KICKS,):
-            curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature", theta,
+            curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature",
+                  theta,
                   "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
-    add("thermal_real_time", "real_time --temperature 0.926 --quality-factor 100 --cutoff 0.05", choose("--step 1 --tau 100", "--step 0.05 --tau 5000"))
+    add("thermal_real_time", "real_time --temperature 0.926 --quality-factor 100 --cutoff 0.05",
+        choose("--step 1 --tau 100", "--step 0.05 --tau 5000"))
     add("thermostats", "thermostats --seconds", choose(0.2, 12))
 
     def windows(eta, theta, quality, window, duration):
-        add(windows_name(eta, theta, quality, window, duration), "friction_windows --eta", eta, "--temperature", theta, "--quality-factor",
+        add(windows_name(eta, theta, quality, window, duration), "friction_windows --eta", eta, "--temperature", theta,
+            "--quality-factor",
             quality, "--window", window, "--duration", duration / choose(10, 1), "--transient 300 --starts 48")
     for eta, (_, window, temperatures) in HOPS.items():
         for theta in temperatures:
@@ -143,31 +161,38 @@ def commands(quick):
     # accuracy, speed, stability
     files = "--output {out}/speed_accuracy.csv --pace {out}/pace.csv"
     add("chart", "speed_accuracy", choose("--flights 60 --rounds 2 --seconds 0.05 --tau 200 --run-seconds 0.3",
-                                          "--flights 200 --seconds 0.7 --run-seconds 3"), files, sides=["speed_accuracy", "pace"])
-    add("matrix", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), "--output {out}/stability.csv", sides=["stability"],
+                                          "--flights 200 --seconds 0.7 --run-seconds 3"), files,
+                                          sides=["speed_accuracy", "pace"])
+    add("matrix", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), "--output {out}/stability.csv",
+        sides=["stability"],
         may_fail=True)
     add("work_cost", "work_cost", choose("--impacts 100000 --tips 10000 --rounds 1", ""))
     add("verbs_json", "verbs --benchmark_min_time=%s --benchmark_format=json" % choose("0.05", "0.5"))
     for i in range(choose(1, 3)):
         add("real_time_%d" % i, "real_time", choose("--tau 200 --transient 100", "--tau 1000 --transient 200"))
     add("burst_error", "burst_error --eta 0.2 0.5 3 5 7 --bursts", choose(300, 3000), "--most-bounces 20000")
-    add("burst_friction", "burst_friction", choose("--tau 1000 --eta 0.5 1.5 3 3.4 5 --cutoff 0.1 0.03 --most-events 2e6",
+    add("burst_friction", "burst_friction",
+        choose("--tau 1000 --eta 0.5 1.5 3 3.4 5 --cutoff 0.1 0.03 --most-events 2e6",
                                                    "--tau 10000 --cutoff 0.1 0.03 --most-events 2e7"))
     add("cutoff_friction", "real_time --eta 0.5 1.5 3 3.4 5 7 --cutoff 0.1 0.03 0.01 0.003 0.001 0.0003",
         choose("--tau 2000", "--tau 20000"), "--transient 500")
-    add("grazes_flight", "grazes --kinds flight", choose("--flights 100 --ordinary 10000", "--flights 3000 --ordinary 400000"))
+    add("grazes_flight", "grazes --kinds flight", choose("--flights 100 --ordinary 10000",
+                                                         "--flights 3000 --ordinary 400000"))
     add("grazes_start", "grazes --kinds start --ordinary 10 --flights", choose(10, 100))
     add("grazes_tau", "grazes --kinds tau --ordinary 10 --flights", choose(3, 20))
     seconds = choose(15, 110)
     add("stress_any", "stress --seed 41000000 --seconds", seconds, may_fail=True)
     add("stress_mica", "stress --mica --tau 10000 --seed 91000 --seconds", seconds, may_fail=True)
-    add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"), may_fail=True)
+    add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"),
+        may_fail=True)
 
     # levels, scenes, recording, control
     add("new_levels", "level_table --output {out}/levels.csv", sides=["levels"])
-    add("scene_levels_run", "scripts/scene_levels", choose("--duration 500", ""), "--output {out}/scene_levels.csv", sides=["scene_levels"])
+    add("scene_levels_run", "scripts/scene_levels", choose("--duration 500", ""), "--output {out}/scene_levels.csv",
+        sides=["scene_levels"])
     add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
-    add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000), sides=["loop_delay"])
+    add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000),
+        sides=["loop_delay"])
 
     # reliability
     add("soak", "scripts/soak --seed 23 --duration", choose(60, 3600), may_fail=True)
@@ -178,7 +203,8 @@ def commands(quick):
         add("sanitized_" + kind, "scripts/sanitize", kind, may_fail=True)
     single = "AFM_BUILD_DIR=$PWD/build/single_version "
     add("leaks", single + "scripts/build --emulator -- -DCMAKE_CXX_FLAGS=-DAFM_SINGLE_VERSION &&", single +
-        'scripts/soak --duration 300 --time-scale 0.01 --any-memory --any-bits --under "valgrind --leak-check=full --error-exitcode=9"',
+        'scripts/soak --duration 300 --time-scale 0.01 --any-memory --any-bits',
+        '--under "valgrind --leak-check=full --error-exitcode=9"',
         may_fail=True)
     for target in FUZZED:
         add("fuzz_" + target, "scripts/fuzz --runs 1000000", target, "2>&1", may_fail=True)

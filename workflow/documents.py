@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Renders what documents show of files: short tables from the long ones in docs/data, tables in documents, and code. A document
-names the file in a line of its own,
+"""Renders what documents show of files: short tables from the long ones in docs/data, tables in documents, and code. A
+document names the file in a line of its own,
 
     <!-- table: data/thermal_peaks.csv -->      or      <!-- code: ../examples/cpp/one_tip.cpp -->
 
 and what follows, up to the line <!-- end of table --> or <!-- end of code -->, is written anew. With --check nothing is
-written, and the exit code is 1 where something differs from its files. With --publish it first copies the tables and pictures of a full
-run that docs/ has too.
+written, and the exit code is 1 where something differs from its files. With --publish it first copies the tables and
+pictures of a full run that docs/ has too.
 """
 import argparse
 import csv
@@ -63,7 +63,8 @@ def rendered(document):
     if len(INCLUSION.findall(text)) != len(re.findall(r"^<!-- (?:table|code): ", text, re.M)):
         sys.exit("%s: a table or code without its end" % document)
     show = {"table": table, "code": code}
-    return INCLUSION.sub(lambda found: found[1] + "\n" + show[found[2]](document.parent / found[3]) + "\n" + found[4], text)
+    return INCLUSION.sub(lambda found: found[1] + "\n" + show[found[2]](document.parent / found[3]) + "\n" + found[4],
+                         text)
 
 
 def main():

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Makes one table or picture of the laboratory from the tables that it reads.
 
-Usage: make.py MODE table|picture NAME TABLES DATA OUTPUT...     (TABLES, DATA: folders of what was measured and of what is made)
+Usage: make.py MODE table|picture NAME TABLES DATA OUTPUT...
+TABLES, DATA: the folders of what was measured and of what is made.
 """
 import importlib
 import sys
@@ -12,7 +13,8 @@ import results  # noqa: E402,F401  (registers its tables)
 from measure import stamp  # noqa: E402
 from registry import PICTURES, TABLES, Tables, text_of  # noqa: E402
 
-PLOTTING = ("atlas", "bifurcations", "bounce", "friction", "hammer", "load", "model", "orbits", "pace", "scaling", "speed_accuracy",
+PLOTTING = ("atlas", "bifurcations", "bounce", "friction", "hammer", "load", "model", "orbits", "pace", "scaling",
+            "speed_accuracy",
             "stability", "temperature", "thermal_hops", "work_cost")
 for module in PLOTTING:
     importlib.import_module("plotting." + module)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs a command of the laboratory into a table, and writes above it where it comes from: the command, the commit, the processor,
-the date, and how long it took. Tables that the command writes by itself get the same line.
+"""Runs a command of the laboratory into a table, and writes above it where it comes from: the command, the commit, the
+processor, the date, and how long it took. Tables that the command writes by itself get the same line.
 
 Usage: measure.py MODE MAY_FAIL TABLE SIDE_TABLE... -- COMMAND      (MAY_FAIL: 1, and a failure is a result too)
 """
@@ -12,7 +12,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-NOT_CODE = ("docs", "README.md", "CHANGELOG.rst", "CONTRIBUTING.md", "LICENSE")  # what a document says changes no measurement
+NOT_CODE = ("docs", "README.md", "CHANGELOG.rst", "CONTRIBUTING.md",
+            "LICENSE")  # what a document says changes no measurement
 
 
 def git(*arguments):
@@ -28,7 +29,8 @@ def commit():
 
 def processor():
     with open("/proc/cpuinfo") as lines:
-        model = next((line.split(":", 1)[1].strip() for line in lines if re.match(r"model name|Model", line)), "unknown processor")
+        model = next((line.split(":", 1)[1].strip() for line in lines if re.match(r"model name|Model", line)),
+                     "unknown processor")
     return "%s, %d processors" % (model, os.cpu_count())
 
 
@@ -43,7 +45,8 @@ def main():
     with part.open("w") as output:
         output.write(" " * 1000 + "\n")  # room for the line that is known at the end
         output.flush()
-        code = subprocess.call(["bash", "-o", "pipefail", "-c", command], stdout=output, cwd=str(ROOT), stdin=subprocess.DEVNULL)
+        code = subprocess.call(["bash", "-o", "pipefail", "-c", command], stdout=output, cwd=str(ROOT),
+                               stdin=subprocess.DEVNULL)
     if code != 0 and may_fail != "1":
         sys.exit("%s ends with %d; its output is in %s" % (command, code, part))
     first = stamp(mode, "`%s`" % command.replace(str(ROOT) + "/", ""))

@@ -1,4 +1,4 @@
-"""The tables and pictures that are made from what was measured: each a function, with the names of the tables that it reads."""
+"""The tables and pictures made from what was measured: each a function, with the names of the tables that it reads."""
 import csv
 import io
 from collections import OrderedDict, namedtuple

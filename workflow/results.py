@@ -10,8 +10,10 @@ from registry import table
 def verbs(tables):
     """Of Google Benchmark's JSON: its CSV cannot hold rows with counters of their own."""
     text = tables.text("verbs_json")
-    return [{"name": b["name"], "iterations": b["iterations"], "real_time": "%.4f" % b["real_time"], "cpu_time": "%.4f" % b["cpu_time"],
-             "time_unit": b["time_unit"], "items_per_second": "%.6g" % b["items_per_second"] if "items_per_second" in b else ""}
+    return [{"name": b["name"], "iterations": b["iterations"], "real_time": "%.4f" % b["real_time"],
+             "cpu_time": "%.4f" % b["cpu_time"],
+             "time_unit": b["time_unit"],
+             "items_per_second": "%.6g" % b["items_per_second"] if "items_per_second" in b else ""}
             for b in json.loads(text[text.index("{"):])["benchmarks"] if not b.get("error_occurred")]
 
 
@@ -28,7 +30,8 @@ def real_time(tables):
 
 @table("grazes_flight", "grazes_start", "grazes_tau")
 def grazes(tables):
-    return tables.strings("grazes_flight") + [row for name in ("grazes_start", "grazes_tau") for row in tables.strings(name)
+    return tables.strings("grazes_flight") + [row for name in ("grazes_start",
+                                                               "grazes_tau") for row in tables.strings(name)
                                               if not row["graze"].startswith("ordinary")]
 
 
@@ -39,7 +42,8 @@ STRESS = re.compile(r"(\d+) scenes of (\d+) tau: (\d+) commands, (\d+) \w+, (\d+
 @table("stress_any", "stress_mica", "stress_shipped")
 def stress(tables):
     rows = []
-    for name, models in (("any", "any model, drag 1e-6 to 100"), ("mica", "mica, drag up to 9"), ("shipped", "the shipped node's budget")):
+    for name, models in (("any", "any model, drag 1e-6 to 100"), ("mica", "mica, drag up to 9"),
+                         ("shipped", "the shipped node's budget")):
         found = STRESS.findall(tables.text("stress_" + name))
         scenes, tau, commands, segments, _, bounces, most, deepest, imbalance = found[-1]
         rows.append({"models": models, "tau": "%.2g" % (int(scenes) * int(tau)), "commands": "%.2g" % int(commands),
@@ -69,7 +73,8 @@ def last_line(text):
 
 
 def soak_result(text):
-    return "; ".join(line.strip() for line in text.splitlines() if re.search(r"wall time|memory|recordings identical|FAULT", line))
+    return "; ".join(line.strip() for line in text.splitlines()
+                     if re.search(r"wall time|memory|recordings identical|FAULT", line))
 
 
 def sanitizer_result(text):
@@ -80,12 +85,15 @@ def sanitizer_result(text):
 def fuzz_result(text):
     runs = re.search(r"number_of_executed_units: (\d+)", text)
     finding = re.search(r"SUMMARY: .*|ALARM.*|Test unit written to .*", text)
-    return "%s inputs: %s" % ("{:,}".format(int(runs[1])) if runs else "?", "FAILED: " + finding[0] if finding else "no finding")
+    return "%s inputs: %s" % ("{:,}".format(int(runs[1])) if runs else "?",
+                              "FAILED: " + finding[0] if finding else "no finding")
 
 
 RELIABILITY = {"builds": ("compilers", last_line), "leaks": ("leaks", last_line), "soak": ("soak", soak_result),
-               "sanitized_address": ("memory, undefined behaviour", sanitizer_result), "sanitized_thread": ("races", sanitizer_result),
-               "soak_faster": ("soak, faster", soak_result), **{"fuzz_" + name: ("fuzzing: " + name, fuzz_result) for name in FUZZED}}
+               "sanitized_address": ("memory, undefined behaviour", sanitizer_result),
+               "sanitized_thread": ("races", sanitizer_result),
+               "soak_faster": ("soak, faster", soak_result), **{"fuzz_" + name: ("fuzzing: " + name, fuzz_result)
+                                                                for name in FUZZED}}
 
 
 @table(*RELIABILITY, full_only=True)
@@ -93,6 +101,7 @@ def reliability(tables):
     rows = []
     for name, (what, result) in RELIABILITY.items():
         stamp = re.search(r"run of (`.*`), commit ([^,]*),.*(\d{4}-\d\d-\d\d)", tables.stamp(name))
-        rows.append({"what": what, "command": stamp[1], "result": ("FAILED: " if failed(tables, name) else "") + result(tables.text(name)),
+        rows.append({"what": what, "command": stamp[1], "result": ("FAILED: " if failed(tables, name) else "")
+                     + result(tables.text(name)),
                      "commit": stamp[2], "date": stamp[3]})
     return sorted(rows, key=lambda row: row["what"])

@@ -42,11 +42,13 @@ def ratio(row):
 @short_table("speed_accuracy", "stability")
 def accuracy_methods(tables):
     usual = dict(usual_settings(tables), exact="0")  # a flight of ours has no setting
-    rows = [row for row in tables.strings("speed_accuracy") if row["scene"] == "all" and usual.get(row["method"]) == row["setting"]]
+    rows = [row for row in tables.strings("speed_accuracy") if row["scene"] == "all"
+            and usual.get(row["method"]) == row["setting"]]
     return [OrderedDict([("method", bold(r["method"])), ("setting", "" if float(r["setting"]) == 0 else r["setting"]),
                          ("time per impact", short_time(float(r["ns_per_impact"]))),
                          ("times ours", ratio(r)),
-                         ("error, median", short(r["error_median"])), ("error, 99 %", short(r["error_p99"])), ("missed", r["missed"]),
+                         ("error, median", short(r["error_median"])), ("error, 99 %", short(r["error_p99"])),
+                         ("missed", r["missed"]),
                          ("phantom", r["phantom"]), ("of", r["impacts"])]) for r in rows]
 
 
@@ -73,12 +75,13 @@ def stability_methods(tables):
     for row in tables.strings("stability"):
         count = counts.setdefault(row["method"], dict.fromkeys(VERDICTS, 0))
         count[row["verdict"]] += 1
-    return [OrderedDict([("method", bold(method))] + [(v, str(count[v])) for v in VERDICTS]) for method, count in counts.items()]
+    return [OrderedDict([("method", bold(method))] + [(v, str(count[v])) for v in VERDICTS]) for method,
+            count in counts.items()]
 
 
 @short_table("stability")
 def rival_wins(tables):
-    """Cells in which a rival is right too, and faster, or clearly nearer where the error is not one of chance or rounding."""
+    """Cells in which a rival is right too, and faster, or clearly nearer beyond chance and rounding."""
     rows = tables.strings("stability")
     ours = {row["scene"]: row for row in rows if row["method"] == "exact"}
     table = []
@@ -97,7 +100,8 @@ def rival_wins(tables):
 @short_table("real_time")
 def real_time_slowest(tables):
     rows = sorted(tables.strings("real_time"), key=lambda row: float(row["times_real_time"]))[:10]
-    return [OrderedDict([("eta", "%.4g" % float(r["eta"])), ("v_c", "%.4g" % float(r["cutoff"])), ("times real time", r["times_real_time"]),
+    return [OrderedDict([("eta", "%.4g" % float(r["eta"])), ("v_c", "%.4g" % float(r["cutoff"])),
+                         ("times real time", r["times_real_time"]),
                          ("slowest tau / us", r["slowest_tau_us"])]) for r in rows]
 
 
@@ -106,8 +110,10 @@ def real_time_points(tables):
     rows = tables.strings("real_time")
     times = sorted(float(row["times_real_time"]) for row in rows)
     return [OrderedDict([("points", str(len(rows))), ("above 10 times real time", str(sum(t > 10 for t in times))),
-                         ("above 20 times", str(sum(t > 20 for t in times))), ("median", "%.3g" % times[len(times) // 2]),
-                         ("slowest", "%.3g" % times[0]), ("failed searches", str(sum(int(row["search_failures"]) for row in rows)))])]
+                         ("above 20 times", str(sum(t > 20 for t in times))),
+                         ("median", "%.3g" % times[len(times) // 2]),
+                         ("slowest", "%.3g" % times[0]), ("failed searches",
+                                                          str(sum(int(row["search_failures"]) for row in rows)))])]
 
 
 @short_table("verbs")
@@ -132,7 +138,8 @@ def grazes_kinds(tables):
 
 @short_table("burst_error")
 def burst_error_table(tables):
-    return [OrderedDict([("eta", r["eta"]), ("v_c", r["v_c"]), ("sequences", r["bursts"]), ("bounces replaced", r["bounces"]),
+    return [OrderedDict([("eta", r["eta"]), ("v_c", r["v_c"]), ("sequences", r["bursts"]),
+                         ("bounces replaced", r["bounces"]),
                          ("median", r["median"]), ("99 %", r["99_percent"]), ("largest", r["max"])])
             for r in tables.strings("burst_error")]
 
@@ -141,5 +148,6 @@ def burst_error_table(tables):
 def cutoff_table(tables):
     table = OrderedDict()
     for r in tables.strings("cutoff_friction"):
-        table.setdefault("%.4g" % float(r["cutoff"]), OrderedDict())["eta = %.4g" % float(r["eta"])] = "%.6g" % float(r["k_f"])
+        table.setdefault("%.4g" % float(r["cutoff"]), OrderedDict())["eta = %.4g"
+                                                                     % float(r["eta"])] = "%.6g" % float(r["k_f"])
     return [OrderedDict([("v_c", cutoff)] + list(row.items())) for cutoff, row in table.items()]

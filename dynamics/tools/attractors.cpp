@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "afm/dynamics/basins.h"
+#include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "common/point_options.h"
 #include "study_rows.h"
 
 namespace {
@@ -24,8 +24,6 @@ const char kDescription[] =
     "share of the time in contact, share of the starts that it draws with its standard error, and a start that\n"
     "leads to it (surface phase, extension, height, lab velocity). --eta and --gamma may be ranges FROM:TO:STEP;\n"
     "--cutoff is absolute, or a share of eta with --relative-cutoff.";
-
-using Q = afm::Quantity;
 
 struct Options {
   afm::PointOptions dynamics;
@@ -55,7 +53,7 @@ std::vector<double> etas(const afm::CommandLine& app, const Options& o) {
   const afm::SiOptions& si = o.dynamics.si;
   if (!afm::has_drag_velocity(app, si)) return afm::range_option("eta", o.eta);
   std::vector<double> values = afm::range_option("drag-velocity", o.dynamics.drag_velocity);
-  afm::take_si(app, si, "drag-velocity", Q::velocity, values);
+  afm::take_si(app, si, "drag-velocity", values);
   return values;
 }
 
@@ -68,10 +66,10 @@ void check_duration(const char* name, double tau) {
 void take_si(const afm::CommandLine& app, Options& o) {
   const afm::SiOptions& si = o.dynamics.si;
   afm::checked_units(app, si);
-  if (!o.relative_cutoff) afm::take_si(app, si, "cutoff", Q::velocity, o.dynamics.cutoff);
-  afm::take_si(app, si, "transient", Q::time, o.basins.attractor.transient);
-  afm::take_si(app, si, "duration", Q::time, o.basins.attractor.duration);
-  afm::take_si(app, si, "friction-duration", Q::time, o.basins.friction_duration);
+  if (!o.relative_cutoff) afm::take_si(app, si, "cutoff", o.dynamics.cutoff);
+  afm::take_si(app, si, "transient", o.basins.attractor.transient);
+  afm::take_si(app, si, "duration", o.basins.attractor.duration);
+  afm::take_si(app, si, "friction-duration", o.basins.friction_duration);
   check_duration("duration", o.basins.attractor.duration);
   check_duration("friction-duration", o.basins.friction_duration);
 }

@@ -8,9 +8,9 @@
 
 #include "afm/dynamics/attractor.h"
 #include "afm/dynamics/sweep.h"
+#include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "common/point_options.h"
 
 namespace {
 
@@ -46,7 +46,7 @@ std::vector<double> checked_values(const afm::CommandLine& app, const Options& o
   }
   if (o.sweep != "up" && o.sweep != "down") throw std::invalid_argument("sweep = " + o.sweep + ": must be up or down");
   std::vector<double> values = afm::range_option("range", o.range);
-  if (varies_speed(o)) afm::take_si(app, o.dynamics.si, "range", Q::velocity, values);
+  if (varies_speed(o)) afm::take_si(app, o.dynamics.si, "range", values);
   for (const double value : values) checked_model(parameters_at(o, value));
   if (o.sweep == "down") std::reverse(values.begin(), values.end());
   return values;
@@ -75,7 +75,7 @@ std::vector<afm::Column> columns(const Options& o) {
 
 int run(const afm::CommandLine& app, Options& o) {
   take_si(app, o.dynamics);
-  afm::take_si(app, o.dynamics.si, "transient", Q::time, o.transient);
+  afm::take_si(app, o.dynamics.si, "transient", o.transient);
   const std::vector<double> values = checked_values(app, o);
   afm::ProgressBar bar(values.size(), 0);
   afm::TableWriter table(std::cout, columns(o), afm::table_units(o.dynamics.si));

@@ -6,8 +6,8 @@
 
 #include "afm/dynamics/continuation.h"
 #include "afm/dynamics/orbit_search.h"
-#include "common/table_writer.h"
 #include "common/point_options.h"
+#include "common/table_writer.h"
 
 namespace {
 
@@ -86,7 +86,7 @@ void print(int number, const afm::Branch& branch, afm::TableWriter& to) {
 
 int run(const afm::CommandLine& app, Options options) {
   take_si(app, options.dynamics);
-  if (options.vary != "gamma") afm::take_si(app, options.dynamics.si, "to", Q::velocity, options.to);
+  if (options.vary != "gamma") afm::take_si(app, options.dynamics.si, "to", options.to);
   const afm::Model model = checked_model(options.dynamics);
   const double eta = options.dynamics.eta;
   const auto vary = kParameters.find(options.vary);

@@ -1,9 +1,8 @@
 #include "command_line.h"
 
-#include <algorithm>
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
-#include <exception>
+#include <cstdint>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -15,17 +14,7 @@ namespace afm {
 namespace po = boost::program_options;
 namespace {
 
-constexpr unsigned kColumns = 110;  // of the help
-// Long options only, and none is guessed from its first letters: "-3.4" is a value.
-constexpr int kStyle = po::command_line_style::allow_long | po::command_line_style::long_allow_adjacent |
-                       po::command_line_style::long_allow_next;
-
-// Holds arguments where none are expected.
-const std::string kUnexpected = "unexpected";
-
-[[noreturn]] void refuse(const std::string& name, const std::string& text, const std::string& reason) {
-  throw std::invalid_argument("--" + name + " = " + text + ": " + reason);
-}
+using Texts = std::vector<std::string>;
 
 template <class T>
 std::string text_of(const T& value) {
@@ -36,168 +25,139 @@ std::string text_of(const T& value) {
 }
 
 template <class T>
-T number(const std::string& name, const std::string& text, Within range) {
-  constexpr const char* kKind = std::is_unsigned<T>::value   ? "must be a whole number, not below 0"
-                                : std::is_integral<T>::value ? "must be a whole number"
-                                                             : "must be a number";
+T parse(const std::string& name, const std::string& text, Within range) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument("--" + name + " = " + text + ": " + why);
+  };
+  const std::string kind = std::is_integral<T>::value ? "must be a whole number" : "must be a number";
   T value;
   // an unsigned number would take a minus, and be huge
   const bool minus = std::is_unsigned<T>::value && !text.empty() && text[0] == '-';
-  if (minus || !boost::conversion::try_lexical_convert(text, value)) refuse(name, text, kKind);
+  if (minus || !boost::conversion::try_lexical_convert(text, value)) {
+    refuse(std::is_unsigned<T>::value ? kind + ", not below 0" : kind);
+  }
   const double size = static_cast<double>(value);
-  if (range.least == kPositive.least && !(size > 0.0)) refuse(name, text, "must be above 0");
-  const bool any = range.least == kAny.least && range.most == kAny.most;
-  if (!any && !(size >= range.least && size <= range.most)) {
-    refuse(name, text, "must be between " + text_of(range.least) + " and " + text_of(range.most));
+  if (range.least == kPositive.least && !(size > 0.0)) refuse("must be above 0");
+  if ((range.least > kAny.least || range.most < kAny.most) && !(size >= range.least && size <= range.most)) {
+    refuse("must be between " + text_of(range.least) + " and " + text_of(range.most));
   }
   return value;
 }
+template <>
+std::string parse(const std::string&, const std::string& text, Within) {
+  return text;
+}
 
-// At spaces the shell has split already.
-std::vector<std::string> split(const std::vector<std::string>& texts) {
-  std::vector<std::string> parts;
+// One value from the one text, or a list from texts with commas in them.
+template <class T>
+void take(const std::string& name, const Texts& texts, T& value, Within range) {
+  value = parse<T>(name, texts[0], range);
+}
+template <class T>
+void take(const std::string& name, const Texts& texts, std::vector<T>& values, Within range) {
+  values.clear();
   for (const std::string& text : texts) {
     std::istringstream rest(text);
-    for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
+    for (std::string part; std::getline(rest, part, ',');) values.push_back(parse<T>(name, part, range));
   }
-  return parts;
-}
-
-bool asks_for_help(int argc, char** argv) {
-  return std::any_of(argv + 1, argv + argc, [](const std::string& a) { return a == "-h" || a == "--help"; });
-}
-
-}  // namespace
-
-struct CommandLine::Parts {
-  std::string tool, description, footer, arguments;
-  po::options_description options{"Options", kColumns};
-  po::options_description hidden;  // the arguments, which are no option
-  std::vector<std::string> required;
-  po::variables_map found;
-};
-
-CommandLine::CommandLine(std::string tool, std::string description) : parts_(std::make_unique<Parts>()) {
-  parts_->tool = std::move(tool);
-  parts_->description = std::move(description);
-  parts_->options.add_options()("help", "this text");
-}
-
-CommandLine::~CommandLine() = default;
-
-void CommandLine::add(const std::string& name, const std::string& help, const std::string& default_text,
-                      const std::function<void(const std::string&)>& take) {
-  const std::string shown = default_text.empty() ? help : help + " [default: " + default_text + "]";
-  auto* value = po::value<std::string>()->notifier(take)->value_name("VALUE");
-  parts_->options.add_options()(name.c_str(), value, shown.c_str());
-}
-
-void CommandLine::add_list(const std::string& name, const std::string& help,
-                           const std::function<void(const std::vector<std::string>&)>& take) {
-  auto* value = po::value<std::vector<std::string>>()->multitoken()->notifier(take)->value_name("VALUES");
-  parts_->options.add_options()(name.c_str(), value, help.c_str());
 }
 
 template <class T>
-void CommandLine::add_number(const std::string& name, T& value, const std::string& help, Within range) {
-  add(name, help, text_of(value),
-      [name, &value, range](const std::string& text) { value = number<T>(name, text, range); });
+std::string with_default(const std::string& help, const T& value) {
+  const std::string text = text_of(value);
+  return text.empty() ? help : help + " [default: " + text + "]";
+}
+template <class T>
+std::string with_default(const std::string& help, const std::vector<T>&) {
+  return help;
 }
 
-void CommandLine::option(const std::string& name, double& value, const std::string& help, Within range) {
-  add_number(name, value, help, range);
-}
-void CommandLine::option(const std::string& name, int& value, const std::string& help, Within range) {
-  add_number(name, value, help, range);
-}
-void CommandLine::option(const std::string& name, unsigned& value, const std::string& help, Within range) {
-  add_number(name, value, help, range);
-}
-void CommandLine::option(const std::string& name, std::int64_t& value, const std::string& help, Within range) {
-  add_number(name, value, help, range);
-}
-void CommandLine::option(const std::string& name, std::uint64_t& value, const std::string& help, Within range) {
-  add_number(name, value, help, range);
-}
+template <class T>
+constexpr bool kIsList = false;
+template <class T>
+constexpr bool kIsList<std::vector<T>> = true;
 
-void CommandLine::option(const std::string& name, std::string& value, const std::string& help) {
-  add(name, help, value, [&value](const std::string& text) { value = text; });
-}
+}  // namespace
 
-void CommandLine::option(const std::string& name, std::vector<double>& values, const std::string& help) {
-  add_list(name, help, [name, &values](const std::vector<std::string>& texts) {
-    values.clear();
-    for (const std::string& text : split(texts)) values.push_back(number<double>(name, text, kAny));
-  });
+template <class T>
+void CommandLine::option(const std::string& name, T& value, const std::string& help, Within range) {
+  options_.push_back({name, with_default(help, value), kIsList<T> ? Takes::many : Takes::one,
+                      [name, &value, range](const Texts& texts) { take(name, texts, value, range); }});
 }
-
-void CommandLine::option(const std::string& name, std::vector<std::string>& values, const std::string& help) {
-  add_list(name, help, [&values](const std::vector<std::string>& texts) { values = split(texts); });
-}
+template void CommandLine::option(const std::string&, double&, const std::string&, Within);
+template void CommandLine::option(const std::string&, int&, const std::string&, Within);
+template void CommandLine::option(const std::string&, unsigned&, const std::string&, Within);
+template void CommandLine::option(const std::string&, std::int64_t&, const std::string&, Within);
+template void CommandLine::option(const std::string&, std::uint64_t&, const std::string&, Within);
+template void CommandLine::option(const std::string&, std::string&, const std::string&, Within);
+template void CommandLine::option(const std::string&, std::vector<double>&, const std::string&, Within);
+template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&, Within);
 
 void CommandLine::flag(const std::string& name, bool& value, const std::string& help) {
-  parts_->options.add_options()(name.c_str(), po::bool_switch(&value), help.c_str());
+  options_.push_back({name, help, Takes::nothing, [&value](const Texts&) { value = true; }});
 }
 
 void CommandLine::arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) {
-  parts_->arguments = name;
-  parts_->description += "\n\n  " + name + "...  " + help;
-  parts_->hidden.add_options()(name.c_str(), po::value(&values));
-}
-
-void CommandLine::require(const std::string& name) { parts_->required.push_back(name); }
-
-bool CommandLine::is_given(const std::string& name) const {
-  const auto option = parts_->found.find(name);
-  return option != parts_->found.end() && !option->second.defaulted();
-}
-
-void CommandLine::footer(const std::string& text) { parts_->footer = text; }
-
-void CommandLine::print_help() const {
-  const Parts& p = *parts_;
-  std::cout << "Usage: " << p.tool << " [OPTION...]" << (p.arguments.empty() ? "" : " " + p.arguments + "...") << "\n\n"
-            << p.description << "\n\n"
-            << p.options;
-  if (!p.footer.empty()) std::cout << "\n" << p.footer << "\n";
+  arguments_ = name;
+  description_ += "\n\n  " + name + "...  " + help;
+  options_.push_back({name, "", Takes::many, [&values](const Texts& texts) { values = texts; }});
 }
 
 // False where the help was all that was asked for.
 bool CommandLine::read(int argc, char** argv) {
-  if (asks_for_help(argc, argv)) {
-    print_help();
+  po::options_description shown("Options", 110), hidden;
+  shown.add_options()("help", "this text");
+  for (const Option& o : options_) {
+    auto* value = po::value<Texts>()->value_name(o.takes == Takes::many ? "VALUES" : "VALUE");
+    if (o.takes == Takes::nothing) value->zero_tokens();
+    if (o.takes == Takes::many) value->multitoken();
+    (o.name == arguments_ ? hidden : shown).add_options()(o.name.c_str(), value, o.help.c_str());
+  }
+  for (const std::string& argument : Texts(argv + 1, argv + argc)) {
+    if (argument != "-h" && argument != "--help") continue;
+    std::cout << "Usage: " << tool_ << " [OPTION...]" << (arguments_.empty() ? "" : " " + arguments_ + "...") << "\n\n"
+              << description_ << "\n\n"
+              << shown << (footer_.empty() ? "" : "\n" + footer_ + "\n");
     return false;
   }
-  po::options_description all;
-  all.add(parts_->options).add(parts_->hidden);
-  const std::string& arguments = parts_->arguments.empty() ? kUnexpected : parts_->arguments;
-  if (parts_->arguments.empty()) all.add_options()(kUnexpected.c_str(), po::value<std::vector<std::string>>());
-  po::positional_options_description positional;
-  positional.add(arguments.c_str(), -1);
-  po::variables_map& found = parts_->found;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).style(kStyle).run(), found);
-  if (found.count(kUnexpected) > 0) {
-    throw std::invalid_argument(found[kUnexpected].as<std::vector<std::string>>()[0] + ": belongs to no option");
+  const std::string rest = arguments_.empty() ? "rest" : arguments_;
+  if (arguments_.empty()) hidden.add_options()("rest", po::value<Texts>());
+  po::variables_map found;
+  // long options only, and none is guessed from its first letters: "-3.4" is a value
+  using namespace po::command_line_style;
+  const int style = allow_long | long_allow_adjacent | long_allow_next;
+  const auto all = po::options_description().add(shown).add(hidden);
+  const auto positional = po::positional_options_description().add(rest.c_str(), -1);
+  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(), found);
+  if (arguments_.empty() && found.count(rest) > 0) {
+    throw std::invalid_argument(found[rest].as<Texts>()[0] + ": belongs to no option");
   }
-  for (const std::string& name : parts_->required) {
+  for (const std::string& name : required_) {
     if (found.count(name) == 0) throw std::invalid_argument(name + ": must be given");
   }
-  po::notify(found);
+  for (const Option& o : options_) {
+    if (found.count(o.name) == 0) continue;
+    const Texts& texts = found[o.name].as<Texts>();
+    if (o.takes == Takes::one && texts.size() > 1) {
+      throw po::error("option '--" + o.name + "' cannot be specified more than once");
+    }
+    given_.insert(o.name);
+    o.take(texts);
+  }
   return true;
 }
 
 int CommandLine::run(int argc, char** argv, const std::function<int()>& work) {
-  const auto fail = [&](const char* what, int code) {
+  const auto fail = [&](const std::string& what, int code) {
     std::cout.flush();
-    std::cerr << parts_->tool << ": " << what << "\n";
+    std::cerr << tool_ << ": " << what << "\n";
     return code;
   };
   try {
     const int code = read(argc, argv) ? work() : 0;
-    std::cout.flush();
-    return std::cout ? code : fail("cannot write the output", 1);
+    return std::cout.flush() ? code : fail("cannot write the output", 1);
   } catch (const po::error& fault) {
-    return fail((std::string(fault.what()) + " (see --help)").c_str(), 2);
+    return fail(std::string(fault.what()) + " (see --help)", 2);
   } catch (const std::invalid_argument& fault) {
     return fail(fault.what(), 2);
   } catch (const std::exception& fault) {

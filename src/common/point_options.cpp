@@ -70,12 +70,12 @@ void add_si_options(CommandLine& app, PointOptions& o) {
 
 void take_si(const CommandLine& app, PointOptions& o) {
   checked_units(app, o.si);
-  take_si(app, o.si, "cutoff", Quantity::velocity, o.cutoff);
+  take_si(app, o.si, "cutoff", o.cutoff);
   if (!has_drag_velocity(app, o.si)) return;
   const std::vector<double> values = range_option("drag-velocity", o.drag_velocity);
   if (values.size() != 1) throw std::invalid_argument("drag-velocity = " + o.drag_velocity + ": must be one number");
   o.eta = values.front();
-  take_si(app, o.si, "drag-velocity", Quantity::velocity, o.eta);
+  take_si(app, o.si, "drag-velocity", o.eta);
 }
 
 Model checked_model(const PointOptions& o) {

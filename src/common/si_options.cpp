@@ -1,11 +1,19 @@
 #include "si_options.h"
 
+#include <map>
 #include <stdexcept>
 
 namespace afm {
 namespace {
 
 constexpr const char* kScale[] = {"lattice-spacing", "omega-v", "tip-mass"};
+
+// The options of all tools that --si takes in SI. --range and --to are of a drag velocity or a cutoff, or not taken.
+const std::map<std::string, Quantity> kQuantityOf{
+    {"amplitude", Quantity::length},   {"cutoff", Quantity::velocity},         {"drag-velocity", Quantity::velocity},
+    {"duration", Quantity::time},      {"friction-duration", Quantity::time},  {"range", Quantity::velocity},
+    {"rest-height", Quantity::length}, {"temperature", Quantity::temperature}, {"to", Quantity::velocity},
+    {"transient", Quantity::time}};
 
 }  // namespace
 
@@ -47,16 +55,15 @@ Units checked_units(const CommandLine& app, const SiOptions& o) {
 
 TableUnits table_units(const SiOptions& o) { return o.on ? TableUnits::into_si(Units(o.scale)) : TableUnits::plain(); }
 
-void take_si(const CommandLine& app, const SiOptions& o, const std::string& name, Quantity quantity,
-             std::vector<double>& values) {
+void take_si(const CommandLine& app, const SiOptions& o, const std::string& name, std::vector<double>& values) {
   if (!o.on || !app.is_given(name)) return;
-  const double unit = si_factor(quantity, Units(o.scale));
+  const double unit = si_factor(kQuantityOf.at(name), Units(o.scale));
   for (double& value : values) value /= unit;
 }
 
-void take_si(const CommandLine& app, const SiOptions& o, const std::string& name, Quantity quantity, double& value) {
+void take_si(const CommandLine& app, const SiOptions& o, const std::string& name, double& value) {
   std::vector<double> values{value};
-  take_si(app, o, name, quantity, values);
+  take_si(app, o, name, values);
   value = values.front();
 }
 

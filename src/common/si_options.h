@@ -29,9 +29,8 @@ Units checked_units(const CommandLine& app, const SiOptions& options);
 TableUnits table_units(const SiOptions& options);
 
 // With --si an option that was given is in SI: its values become natural. A default is natural already.
-void take_si(const CommandLine& app, const SiOptions& options, const std::string& name, Quantity quantity,
-             std::vector<double>& values);
-void take_si(const CommandLine& app, const SiOptions& options, const std::string& name, Quantity quantity,
-             double& value);
+// Which options have a unit stands in one table.
+void take_si(const CommandLine& app, const SiOptions& options, const std::string& name, std::vector<double>& values);
+void take_si(const CommandLine& app, const SiOptions& options, const std::string& name, double& value);
 
 }  // namespace afm

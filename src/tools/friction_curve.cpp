@@ -71,16 +71,14 @@ void parse(afm::CommandLine& app, Options& o) {
 
 void take_si(const afm::CommandLine& app, Options& o) {
   afm::CurveSettings& s = o.settings;
-  const auto take = [&](const char* name, afm::Quantity quantity, auto& value) {
-    afm::take_si(app, o.si, name, quantity, value);
-  };
-  take("drag-velocity", afm::Quantity::velocity, s.eta);
-  take("cutoff", afm::Quantity::velocity, s.cutoff);
-  take("rest-height", afm::Quantity::length, s.rest_height);
-  take("amplitude", afm::Quantity::length, s.amplitude);
-  take("temperature", afm::Quantity::temperature, s.sweep.bath.temperature);
-  take("duration", afm::Quantity::time, s.sweep.duration);
-  take("transient", afm::Quantity::time, s.sweep.transient);
+  const auto take = [&](const char* name, auto& value) { afm::take_si(app, o.si, name, value); };
+  take("drag-velocity", s.eta);
+  take("cutoff", s.cutoff);
+  take("rest-height", s.rest_height);
+  take("amplitude", s.amplitude);
+  take("temperature", s.sweep.bath.temperature);
+  take("duration", s.sweep.duration);
+  take("transient", s.sweep.transient);
 }
 
 void check(const afm::CommandLine& app, Options& o) {

@@ -22,8 +22,10 @@ BY_OTHER_MEANS = {'run', 'platforms', 'compilers'}
 
 
 def snakemake(*arguments):
-    environment = dict(os.environ, AFM_BUILD_DIR=str(BUILD / 'laboratory_test'), AFM_TOOLS=str(TOOLS), PATH='/usr/bin:' + os.environ['PATH'])
-    return subprocess.run(['snakemake', '--snakefile', str(ROOT / 'Snakefile'), '--nolock', '-c2', *arguments], env=environment,
+    environment = dict(os.environ, AFM_BUILD_DIR=str(BUILD / 'laboratory_test'), AFM_TOOLS=str(TOOLS),
+                       PATH='/usr/bin:' + os.environ['PATH'])
+    return subprocess.run(['snakemake', '--snakefile', str(ROOT / 'Snakefile'), '--nolock', '-c2', *arguments],
+                          env=environment,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
 
@@ -45,9 +47,12 @@ class Laboratory(unittest.TestCase):
 
     def test_tables_and_a_picture(self):
         shutil.rmtree(str(BUILD / 'laboratory_test'), ignore_errors=True)
-        self.run_rules('mica_in_si', 'model_restitution', str(self.out('tables/hammer_direct.csv')), '--config', 'quick=1')
+        self.run_rules('mica_in_si', 'model_restitution', str(self.out('tables/hammer_direct.csv')), '--config',
+                       'quick=1')
         measured, made = (self.out(name).read_text() for name in ('tables/hammer_direct.csv', 'data/mica_in_si.csv'))
-        self.assertRegex(measured, r'^# quick run of `friction_curve .*`, commit \S+.*, \d+ processors, \d{4}-\d\d-\d\d, [\d.]+ s\neta,')
+        self.assertRegex(measured,
+                         r'^# quick run of `friction_curve .*`, commit \S+.*, \d+ processors, '
+                                    r'\d{4}-\d\d-\d\d, [\d.]+ s\neta,')
         shipped = (ROOT / 'docs/data/mica_in_si.csv').read_text()
         self.assertEqual(made.split('\n', 1)[1], shipped.split('\n', 1)[1])
         self.assertGreater(self.out('images/model_restitution.png').stat().st_size, 5000)

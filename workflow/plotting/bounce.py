@@ -1,6 +1,6 @@
 """One bounce of the tip: the flights before and after it, the velocities, the gap, the time to the next impact.
 
-Two calls of afm.next_impact() give the impacts; between them the tip flies by the exact formula (Eq. 9-10 of the paper).
+Two calls of afm.next_impact() give the impacts; between them the tip flies by the exact formula (Eq. 9-10).
 """
 import math
 

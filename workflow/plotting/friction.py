@@ -28,7 +28,8 @@ def fig1_friction(tables):
                   label=r"closed form at even $\eta$: %.4f" % peak)
         axes.set_ylabel(style.K_F_LABEL)
         axes.grid(color="#dddddd", linewidth=0.6)
-        right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4, lambda k: k / style.PAPER / 1e4))
+        right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4,
+                                                         lambda k: k / style.PAPER / 1e4))
         if axes is linear:  # both scales have it
             right.set_ylabel(r"in the paper's unit $\times 10^4$")
     linear.set_xlim(0, 9)
@@ -40,7 +41,8 @@ def fig1_friction(tables):
     return figure
 
 
-MOST_ERROR = 0.2  # relative standard error of K_f: beyond it a transient outlasts the measurement (eta = 25/12, a resonance of omega_h)
+# relative standard error of K_f: beyond it a transient outlasts the measurement (eta = 25/12, a resonance of omega_h)
+MOST_ERROR = 0.2
 
 
 def draw_attractors(axes, rows):

@@ -65,7 +65,8 @@ def hammer_error(tables):
     axes[2].axhline(1.0, color=style.GREY, linewidth=0.8)
     axes[2].set_ylabel("time of the oscillator\nover the hammer's")
     axes[2].set_xlabel(style.ETA_LABEL)
-    axes[0].set_title(r"The hammer against the oscillator: $\omega_h/\omega_v$ = 6.25, $\gamma$ = 0.7, $v_c$ = 0.05 $\eta$")
+    axes[0].set_title(r"The hammer against the oscillator: $\omega_h/\omega_v$ = 6.25, $\gamma$ = 0.7, "
+                      r"$v_c$ = 0.05 $\eta$")
     return figure
 
 
@@ -87,13 +88,15 @@ def hammer_ratio(tables):
     style.legend_above(axes[0][0])
     for ax in axes[1]:
         ax.set_xlabel(r"$\omega_h/\omega_v$")
-    figure.suptitle("A stiffer horizontal spring stretches less and less, but moves as fast: its limit is not the hammer")
+    figure.suptitle("A stiffer horizontal spring stretches less and less, but moves as fast: "
+                    "its limit is not the hammer")
     return figure
 
 
 @picture("hammer_section", "hammer_orbits")
 def hammer_section(tables):
-    points, orbits = tables.rows("hammer_section"), [row for row in tables.rows("hammer_orbits") if row["approach"] < 0.1]
+    points, orbits = tables.rows("hammer_section"), [row for row in tables.rows("hammer_orbits")
+                                                     if row["approach"] < 0.1]
     figure, axes = style.new(10.0, 4.8, 1, 2, sharey=True)
     for ax, suffix, title in ((axes[0], "", "the attractor, cut into letters"),
                               (axes[1], "_next", "where the map takes each letter")):
@@ -110,7 +113,8 @@ def hammer_section(tables):
                          arrowprops={"arrowstyle": "-", "linewidth": 0.5})
     axes[0].set_ylabel(r"gap rate after the impact / (a/$\tau$)")
     axes[1].legend(markerscale=6)
-    figure.suptitle(r"The hammer's section, $\eta$ = %g, $\gamma$ = 0.7; circles: the first point of each orbit up to 8 impacts"
+    figure.suptitle(r"The hammer's section, $\eta$ = %g, $\gamma$ = 0.7; "
+                    "circles: the first point of each orbit up to 8 impacts"
                     % ETA)
     return figure
 
@@ -128,7 +132,8 @@ def hammer_cycles(tables):
     for method, colour in (("zeta", style.BLUE), ("determinant", style.ORANGE)):
         mine = [row for row in rows if row["method"] == method]
         axes[1].plot([row["order"] for row in mine], [row["k_f"] for row in mine], "o-", color=colour, label=method)
-    axes[1].axhline(direct["k_f"], color=style.GREY, label="direct, %.5f(%.0f)" % (direct["k_f"], 1e5 * direct["k_f_std_error"]))
+    axes[1].axhline(direct["k_f"], color=style.GREY, label="direct, %.5f(%.0f)"
+                    % (direct["k_f"], 1e5 * direct["k_f_std_error"]))
     axes[1].set_xlabel("longest orbit or product of orbits / impacts")
     axes[1].set_ylabel(style.K_F_LABEL)
     axes[1].legend()

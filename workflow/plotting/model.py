@@ -64,8 +64,10 @@ def draw_holder(axes):
 def draw_impact(axes):
     slope = -HEIGHT * style.TWO_PI * math.sin(style.TWO_PI * HIT)
     size, y = math.hypot(1.0, slope), surface(HIT)
-    arrow(axes, (HIT, y), (HIT - 0.26 * slope / size, y + 0.26 / size), r"$\mathbf{n}$", (HIT - 0.19, y + 0.25), style.GREEN)
-    arrow(axes, (HIT, y), (HIT + 0.22 / size, y + 0.22 * slope / size), r"$\mathbf{t}$", (HIT + 0.06, y + 0.2), style.GREEN)
+    arrow(axes, (HIT, y), (HIT - 0.26 * slope / size, y + 0.26 / size), r"$\mathbf{n}$", (HIT - 0.19, y + 0.25),
+          style.GREEN)
+    arrow(axes, (HIT, y), (HIT + 0.22 / size, y + 0.22 * slope / size), r"$\mathbf{t}$", (HIT + 0.06, y + 0.2),
+          style.GREEN)
 
 
 @picture()
@@ -110,7 +112,8 @@ def model_force(tables):
     speed, unit = LATTICE / TAU, TIP_MASS * LATTICE / TAU ** 2  # of eta [m/s], of a force [N]
     for direction, line in style.SWEEPS.items():
         rows = swept(tables, direction)
-        axes.plot([1e6 * speed * row["eta"] for row in rows], [1e9 * unit * row["k_f"] * row["eta"] for row in rows], **line)
+        axes.plot([1e6 * speed * row["eta"] for row in rows], [1e9 * unit * row["k_f"] * row["eta"] for row in rows],
+                  **line)
     even = range(2, 9, 2)
     axes.plot([1e6 * speed * eta for eta in even], [1e9 * unit * style.closed_form(0.7) * eta for eta in even], "o",
               color="black", fillstyle="none", markersize=9, label=r"even $\eta$, closed form")
@@ -136,8 +139,10 @@ def mica_in_si(_):
             ("unit of energy", "m_tip a^2 / tau^2", unit * LATTICE, "J"),
             ("unit of K_f", "m_tip / tau", TIP_MASS / TAU, "kg/s"),
             ("cutoff, v_c = 0.05", "0.05 a / tau", 0.05 * speed, "m/s"),
-            ("K_f at even eta", "%.6f m_tip / tau" % style.closed_form(0.7), style.closed_form(0.7) * TIP_MASS / TAU, "kg/s"),
+            ("K_f at even eta", "%.6f m_tip / tau" % style.closed_form(0.7), style.closed_form(0.7) * TIP_MASS / TAU,
+             "kg/s"),
             ("friction force at eta = 2", "K_f v_0", 2 * style.closed_form(0.7) * unit, "N"),
             ("static load on a crest", "k_v H", TIP_MASS * OMEGA_V ** 2 * AMPLITUDE, "N"),
-            ("thermal energy at 300 K", "kT = %.3f m_tip a^2 / tau^2" % (BOLTZMANN * 300 / (unit * LATTICE)), BOLTZMANN * 300, "J")]
+            ("thermal energy at 300 K", "kT = %.3f m_tip a^2 / tau^2" % (BOLTZMANN * 300 / (unit * LATTICE)),
+             BOLTZMANN * 300, "J")]
     return ["quantity", "formula", "value", "unit"], [(a, b, "%.4g" % value, d) for a, b, value, d in rows]

@@ -27,7 +27,8 @@ def friction_averages(tables):
     at = {(row["method"], int(row["order"])): row for row in tables.rows("cycle_averages")}
     return (["impacts in the longest orbit", "K_f, zeta function", "K_f, determinant", "1/zeta(1), should be 0",
              "determinant at 1, should be 0"],
-            [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"], at["determinant", n]["conservation"])
+            [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"],
+              at["determinant", n]["conservation"])
              for n in sorted(order for method, order in at if method == "zeta")])
 
 

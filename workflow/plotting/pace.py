@@ -1,5 +1,5 @@
-"""Which method can run an emulator: processor time per second of model time against the error of K_f. Left of the line at 1 a
-method keeps up with the tip.
+"""Which method can run an emulator: processor time per second of model time against the error of K_f. Left of the line
+at 1 a method keeps up with the tip.
 """
 import math
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Plays every shipped scene for some seconds with a master of its own, records it, and draws what one sees: the deflection over a
-few tau with its impacts, and the friction. Needs the package built and its setup.bash sourced.
+"""Plays every shipped scene for some seconds with a master of its own, records it, and draws what one sees: the
+deflection over a few tau with its impacts, and the friction. Needs the package built and its setup.bash sourced.
 
 Usage: scenes.py --output DIRECTORY [SCENE...]     (scene_SCENE.png of each)"""
 import argparse
@@ -21,7 +21,8 @@ try:
     import rosbag
     from matplotlib import pyplot
 except ImportError as missing:
-    sys.exit('scenes: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)' % missing)
+    sys.exit('scenes: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
+             % missing)
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / 'scripts'))
@@ -112,7 +113,8 @@ def draw_deflection(axes, run):
     times, vertical, lateral = np.hstack(run.samples)
     shown = times < times[0] + MOST_TAU
     times, vertical, lateral = times[shown], vertical[shown], lateral[shown]
-    style = {'lw': 0.9} if len(times) > 600 else {'lw': 0.4, 'marker': '.', 'ms': 4}  # where single samples are seen, as such
+    style = {'lw': 0.9} if len(times) > 600 else {'lw': 0.4, 'marker': '.',
+                                                  'ms': 4}  # where single samples are seen, as such
     axes.plot(times, vertical * 1e9, label='vertical', **style)
     axes.plot(times, lateral * 1e9, label='lateral', alpha=0.8, **style)
     axes.margins(y=0.1)
@@ -196,7 +198,8 @@ def draw_path(axes, run):
     c = run.configuration
     place = c.initial_phase - c.initial_extension + run.friction[-1][1] * times + lateral / c.lattice_spacing_m
     place -= np.floor(place[0])
-    axes.fill_between(place, 1e9 * c.surface_amplitude_m * np.cos(2 * np.pi * place), -0.08, color='0.8', label='surface')
+    axes.fill_between(place, 1e9 * c.surface_amplitude_m * np.cos(2 * np.pi * place), -0.08, color='0.8',
+                      label='surface')
     axes.plot(place, vertical * 1e9, lw=1.3, label='tip')
     axes.set_xlabel('x [a]')
     axes.set_ylabel('y [nm]')
@@ -215,7 +218,8 @@ def draw(scene, run, output):
                                             gridspec_kw={'width_ratios': [3, 2]})
     draw_deflection(left, run)
     right.set_ylabel('$K_f$ [$m_{tip}$/$\\tau$]')
-    {'sweep': draw_sweep, 'loop': draw_loop, 'glide': draw_path, 'rest': draw_speeds}.get(scene, draw_friction)(right, run)
+    {'sweep': draw_sweep, 'loop': draw_loop, 'glide': draw_path,
+     'rest': draw_speeds}.get(scene, draw_friction)(right, run)
     for axes in (left, right):
         axes.grid(alpha=0.3)
     figure.suptitle('Scene "%s": %s' % (scene, SCENES[scene][3]), x=0.01, ha='left', fontsize=11)

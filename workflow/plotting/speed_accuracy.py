@@ -1,7 +1,7 @@
 """Speed against accuracy: time per impact against the error of impact time and state.
 
-A point for each setting of a method, a line for each method. Dashed lines: with the gap rate as a second event (minima). An open
-point has missed impacts, or found some that are none.
+A point for each setting of a method, a line for each method. Dashed lines: with the gap rate as a second event
+(minima). An open point has missed impacts, or found some that are none.
 """
 import math
 
@@ -22,11 +22,13 @@ def draw_method(axes, name, data):
     label, colour, marker = method_style(name)
     ours = name == "exact"
     dashed = name in ("cvode_bdf", "certified_plain") or name.endswith("_minima")
-    axes.plot([d[0] for d in data], [d[1] for d in data], color=colour, linewidth=1.6, zorder=2, linestyle="--" if dashed else "-",
+    axes.plot([d[0] for d in data], [d[1] for d in data], color=colour, linewidth=1.6, zorder=2,
+              linestyle="--" if dashed else "-",
               marker=marker, markersize=24 if ours else 8, label="ours" if ours else label.replace("\n", " "))
     for nanoseconds, error, wrong in data:
         if wrong:
-            axes.plot([nanoseconds], [error], marker, color=colour, markersize=8, zorder=3, markerfacecolor="white", markeredgewidth=1.6)
+            axes.plot([nanoseconds], [error], marker, color=colour, markersize=8, zorder=3, markerfacecolor="white",
+                      markeredgewidth=1.6)
 
 
 @picture("speed_accuracy", name="speed_accuracy")
@@ -51,6 +53,7 @@ def draw(tables):
     axes.set_ylabel("error of one flight, median  (a, τ)")
     axes.set_xlabel("processor time per impact")
     axes.set_title("The same flights, truth in 113 bits", fontsize=14)
-    axes.plot([], [], "o", color="#444444", markerfacecolor="white", markeredgewidth=1.6, label="open: missed or phantom impacts")
+    axes.plot([], [], "o", color="#444444", markerfacecolor="white", markeredgewidth=1.6,
+              label="open: missed or phantom impacts")
     figure.legend(loc="lower center", ncol=3, fontsize=11, frameon=False, markerscale=0.75, handlelength=2.6)
     return figure

@@ -8,8 +8,8 @@ from registry import picture
 from . import style
 from .methods import METHODS, method_style
 
-# from the table's verdict: colour (Okabe and Ito, in order of lightness), sign, colour of what is written on it, and what the
-# number means, the same in every row
+# from the table's verdict: colour (Okabe and Ito, in order of lightness), sign, colour of what is written on it, and
+# what the number means, the same in every row
 VERDICTS = OrderedDict([
     ("right", ("#009E73", "✓", "white", "right: error")),
     ("inaccurate", ("#F0E442", "≈", "black", "inaccurate: error")),
@@ -21,12 +21,16 @@ VERDICTS = OrderedDict([
 
 TITLES = {
     "even": "η = 2, 4, 6, 8", "glide": "η = 1, gliding", "rest": "$v_0$ = 0",
-    "splash_3_0.1": "η = 3, $v_c$ = 0.1 η", "splash_3_0.03": "η = 3, $v_c$ = 0.03 η", "splash_3_0.01": "η = 3, $v_c$ = 0.01 η",
+    "splash_3_0.1": "η = 3, $v_c$ = 0.1 η", "splash_3_0.03": "η = 3, $v_c$ = 0.03 η",
+    "splash_3_0.01": "η = 3, $v_c$ = 0.01 η",
     "splash_3_0.003": "η = 3, $v_c$ = 0.003 η", "splash_3_0.001": "η = 3, $v_c$ = 0.001 η",
-    "splash_5_0.1": "η = 5, $v_c$ = 0.1 η", "splash_5_0.01": "η = 5, $v_c$ = 0.01 η", "splash_5_0.001": "η = 5, $v_c$ = 0.001 η",
-    "eta_0.5": "η = 0.5", "eta_0.2": "η = 0.2", "gamma_0.1": "γ = 0.1", "gamma_0.01": "γ = 0.01", "gamma_0": "γ = 0",
+    "splash_5_0.1": "η = 5, $v_c$ = 0.1 η", "splash_5_0.01": "η = 5, $v_c$ = 0.01 η",
+    "splash_5_0.001": "η = 5, $v_c$ = 0.001 η",
+    "eta_0.5": "η = 0.5", "eta_0.2": "η = 0.2", "gamma_0.1": "γ = 0.1", "gamma_0.01": "γ = 0.01",
+    "gamma_0": "γ = 0",
     "gamma_1": "γ = 1, 1e5 impacts", "hour": "one hour", "large_steps": "large steps, η = 7.5",
-    "commands": "commands in flight", "eta_50": "η = 50", "crest_0.9": "holder at 0.9 H", "crest_0.999": "holder at 0.999 H",
+    "commands": "commands in flight", "eta_50": "η = 50", "crest_0.9": "holder at 0.9 H",
+    "crest_0.999": "holder at 0.999 H",
     "steep": "ten times steeper",
 }
 
@@ -98,7 +102,8 @@ def draw(tables):
     axes.set_yticks([i + 0.46 for i in range(len(scenes))])
     axes.set_yticklabels([row_label(scene, rows) for scene in scenes])
     axes.set_xticks([i + 0.48 for i in range(len(methods))])
-    axes.set_xticklabels([method_style(m)[0].replace("\n", " ") for m in methods], rotation=32, ha="left", rotation_mode="anchor")
+    axes.set_xticklabels([method_style(m)[0].replace("\n", " ") for m in methods], rotation=32, ha="left",
+                         rotation_mode="anchor")
     if "exact" in methods:
         axes.get_xticklabels()[methods.index("exact")].set_fontweight("bold")
     axes.xaxis.tick_top()
@@ -106,6 +111,7 @@ def draw(tables):
     for side in axes.spines.values():
         side.set_visible(False)
     handles = [Rectangle((0, 0), 1, 1, color=colour) for colour, _, _, _ in VERDICTS.values()]
-    figure.legend(handles, ["%s %s" % (sign, text) for _, sign, _, text in VERDICTS.values()], loc="lower center", ncol=3, fontsize=12,
+    figure.legend(handles, ["%s %s" % (sign, text) for _, sign, _, text in VERDICTS.values()], loc="lower center",
+                  ncol=3, fontsize=12,
                   frameon=False)
     return figure

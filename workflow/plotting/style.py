@@ -47,4 +47,5 @@ def new(width=8.0, height=5.0, rows=1, columns=1, constrained_layout=True, **opt
 
 def legend_above(axes, columns=3, **options):
     """Where it hides nothing."""
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, frameon=False, borderaxespad=0.1, fontsize=9, **options)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, frameon=False, borderaxespad=0.1,
+                fontsize=9, **options)

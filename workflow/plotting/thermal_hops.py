@@ -7,7 +7,8 @@ from . import style
 RATES = tuple(windows_name(eta, theta, HOPS_QUALITY, window, 20000) for eta, (_, window, temperatures) in HOPS.items()
               for theta in temperatures)
 TRACED = tuple(windows_name(6.5, theta, HOPS_QUALITY, 50, 20000) for theta in TRACES)
-MERGED = tuple(windows_name(eta, kelvin * KELVIN, quality, 50, 5000) for eta in MERGE_ETAS for quality in MERGE_QUALITIES
+MERGED = tuple(windows_name(eta, kelvin * KELVIN, quality, 50, 5000) for eta in MERGE_ETAS
+               for quality in MERGE_QUALITIES
                for kelvin in TEMPERATURES)
 
 
@@ -44,7 +45,8 @@ def thermal_hops(tables):
             spent, left = count(windows(tables, eta, theta, window=window), levels, window)
             for which, k_f, time, n in zip(("lower", "upper"), levels, spent, left):
                 rows.append((eta, HOPS_QUALITY, theta, theta / KELVIN, which, k_f, time, n))
-    return ("eta", "quality_factor", "temperature", "temperature_k", "attractor", "k_f_work", "time_spent", "times_left"), rows
+    return ("eta", "quality_factor", "temperature", "temperature_k", "attractor", "k_f_work", "time_spent",
+            "times_left"), rows
 
 
 @table(*MERGED)
@@ -59,7 +61,8 @@ def thermal_merge(tables):
                 spread = [sum((v - sum(values) / len(values)) ** 2 for v in values) for values in tips.values()]
                 n = len(tips[0.0])
                 error = (sum(spread) / len(tips) / n) ** 0.5 / n ** 0.5
-                rows.append((eta, quality, kelvin, "%.4f" % means[0], "%.4f" % means[-1], "%.4f" % error if kelvin else ""))
+                rows.append((eta, quality, kelvin, "%.4f" % means[0], "%.4f" % means[-1],
+                             "%.4f" % error if kelvin else ""))
     return ("eta", "Q", "T / K", "least K_f", "greatest K_f", "standard error of each"), rows
 
 
