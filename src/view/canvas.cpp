@@ -1,6 +1,10 @@
 #include "canvas.h"
 
-#include "palette.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "afm/surface.h"
 
 namespace afm::view {
 namespace {
@@ -23,9 +27,12 @@ geometry_msgs::Point Canvas::place(double x, double y, double depth) const {
   return point((x - origin_) * scale(), depth, y * scale());
 }
 
-Marker& Canvas::add(const std::string& name, int type) {
-  markers_.markers.emplace_back();
-  Marker& marker = markers_.markers.back();
+double Canvas::over_cell(double x, std::size_t nth) const {
+  return left() + static_cast<double>(nth % static_cast<std::size_t>(look_.cells)) + wrap_phase(x - left());
+}
+
+Marker Canvas::marker(const std::string& name, int type) const {
+  Marker marker;
   marker.header.frame_id = look_.frame;
   marker.header.stamp = stamp_;
   marker.ns = name;
@@ -35,6 +42,11 @@ Marker& Canvas::add(const std::string& name, int type) {
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   marker.color = tip_colour();
   return marker;
+}
+
+Marker& Canvas::add(const std::string& name, int type) {
+  add(marker(name, type));
+  return markers_.markers.back();
 }
 
 Marker& Canvas::add_text(const std::string& name, const std::string& text, const geometry_msgs::Point& where,
@@ -56,6 +68,29 @@ visualization_msgs::MarkerArray Canvas::finish() {
     if (empty) marker.action = Marker::DELETE;
   }
   return std::move(markers_);
+}
+
+EnergyScale::EnergyScale(double energy_unit) : top_(std::pow(10.0, std::round(std::log10(energy_unit)) + 1.0)) {}
+
+double EnergyScale::place(double energy) const {
+  if (!(energy > 0.0)) return 0.0;
+  return std::clamp(1.0 + std::log10(energy / top_) / kDecades, 0.0, 1.0);
+}
+
+std_msgs::ColorRGBA EnergyScale::colour_at(double place) {
+  static const std::array<std_msgs::ColorRGBA, 8> steps = {
+      colour(64, 88, 172),  colour(49, 104, 142), colour(38, 130, 142), colour(31, 158, 137),
+      colour(53, 183, 121), colour(109, 205, 89), colour(180, 222, 44), colour(253, 231, 37)};
+  const double along = std::clamp(place, 0.0, 1.0) * static_cast<double>(steps.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(along), steps.size() - 2);
+  const auto part = static_cast<float>(along - static_cast<double>(below));
+  const auto mix = [part](float a, float b) { return a + part * (b - a); };
+  const std_msgs::ColorRGBA &a = steps[below], &b = steps[below + 1];
+  std_msgs::ColorRGBA result = a;
+  result.r = mix(a.r, b.r);
+  result.g = mix(a.g, b.g);
+  result.b = mix(a.b, b.b);
+  return result;
 }
 
 }  // namespace afm::view

@@ -1,8 +1,12 @@
-// One picture after another, as markers, of a run.
+// One picture after another, as markers, of a run. Where the eye can follow, the picture goes with the holder, and shows
+// the tip's path and impacts. Where a picture is more than half a tau behind the next, the surface stands still with a
+// crest in its middle, and what happened in the last second is a cloud over it.
 #pragma once
 
-#include "afterglow.h"
+#include <deque>
+
 #include "canvas.h"
+#include "run_view.h"
 
 namespace afm::view {
 
@@ -10,17 +14,22 @@ class Picture {
  public:
   explicit Picture(const Look& look) : look_(look) {}
 
-  visualization_msgs::MarkerArray draw(RunView& run, ros::Time stamp);
+  visualization_msgs::MarkerArray draw(const RunView& run, ros::Time stamp);
 
  private:
+  // What one picture adds to the cloud.
+  struct Puff {
+    std::vector<Place> positions, impacts;
+  };
+  void gather(const RunView& run);
   void draw_motion(Canvas& canvas, const RunView& run) const;
-  double drawn_x(const Canvas& canvas, const Spot& spot, std::size_t nth) const;
   void draw_positions(Canvas& canvas) const;
-  void draw_impacts(Canvas& canvas, const Units& units) const;
+  void draw_impacts(Canvas& canvas, const Units& units, bool scattered) const;
 
   const Look look_;
-  Strobe strobe_;
-  Afterglow afterglow_;
+  std::uint32_t epoch_ = 0;
+  ModelTime seen_;  // up to here
+  std::deque<Puff> cloud_;
 };
 
 }  // namespace afm::view

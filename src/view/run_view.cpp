@@ -1,14 +1,40 @@
 #include "run_view.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "afm/surface.h"
 #include "node/publisher/messages.h"
 
 namespace afm::view {
 namespace {
 
-constexpr double kKeptWallTime = 0.5;     // [s] of samples: impacts and samples travel on topics of their own
-constexpr double kMostSamples = 2000000;  // 0.5 s at the fastest, and a tenfold replay of most
+constexpr double kKeptWallTime = 0.5;  // [s] of samples: impacts and samples travel on topics of their own
+constexpr std::size_t kMostSamples = 2000000, kMostImpacts = 200000, kMostLegs = 1000;
+
+using node::from_message;
+
+bool begins_contact(const afm_emulator::Impact& impact) {
+  return static_cast<ImpactKind>(impact.kind) == ImpactKind::contact_begun;
+}
+
+// The first in a deque that comes after a time.
+template <class Items>
+auto after(const Items& items, const ModelTime& time) {
+  return std::upper_bound(items.begin(), items.end(), time, [](const ModelTime& t, const auto& item) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(item)>, afm_emulator::Impact>)
+      return t < from_message(item.time);
+    else
+      return t < item.time;
+  });
+}
+
+// At most so many of [begin, end), evenly.
+template <class Iterator, class Use>
+void take_evenly(Iterator begin, Iterator end, std::size_t most, const Use& use) {
+  const auto count = static_cast<std::size_t>(end - begin), taken = std::min(count, most);
+  for (std::size_t i = 0; i < taken; ++i) use(begin[static_cast<std::ptrdiff_t>(i * count / taken)]);
+}
 
 }  // namespace
 
@@ -17,38 +43,114 @@ void RunView::take(const afm_emulator::Configuration& message) {
   configuration_ = message;
   units_ = Units(si);
   model_ = units_->to_natural(si);
-  holder_.set_units(*units_);
-  keep_enough();
 }
 
 void RunView::take(const afm_emulator::Applied& message) {
+  const ModelTime time = from_message(message.time);
+  if (message.epoch != legs_epoch_ || (!legs_.empty() && time < legs_.back().begin)) legs_.clear();
+  legs_epoch_ = message.epoch;
   applied_ = message;
-  holder_.take(message);
-  keep_enough();
+  const double x = legs_.empty() ? 0.0 : travelled(time);
+  if (!legs_.empty() && legs_.back().begin == time) legs_.pop_back();
+  legs_.push_back({time, x, message.drag_velocity, message.rest_height_m});
+  if (legs_.size() > kMostLegs) legs_.pop_front();
 }
 
-void RunView::keep_enough() {
-  if (!configuration_ || !applied_) return;
-  const double kept = kPathTau / applied_->sample_period_tau +
-                      kKeptWallTime * applied_->sample_rate_hz * configuration_->time_scale +
-                      4.0 * static_cast<double>(applied_->samples_per_batch);
-  trace_.keep(static_cast<std::size_t>(std::min(kept, kMostSamples)));
-}
-
+// Samples of another epoch, or before a gap, are forgotten.
 void RunView::take(const afm_emulator::Deflection& message) {
-  if (!units_) return;
+  if (!units_ || message.vertical.empty()) return;
+  if (message.epoch != samples_epoch_ || message.first_sample != next_sample_) samples_.clear();
+  samples_epoch_ = message.epoch;
+  anchor_time_ = from_message(message.time);
+  anchor_ = message.holder_position;
   // the digits that the core uses, if what is in force is known already
   const bool as_applied = applied_ && message.sample_period == 1.0 / applied_->sample_rate_hz;
-  trace_.add(message, *units_, as_applied ? applied_->sample_period_tau : message.sample_period / units_->time());
-  holder_.take(message);
+  const double period = as_applied ? applied_->sample_period_tau : message.sample_period / units_->time();
+  for (std::size_t i = 0; i < message.vertical.size(); ++i) {
+    samples_.push_back({anchor_time_ + static_cast<double>(i) * period, message.lateral[i] / units_->length(),
+                        message.vertical[i] / units_->length()});
+  }
+  next_sample_ = message.first_sample + message.vertical.size();
+  forget_old();
 }
 
 void RunView::take(const afm_emulator::ImpactArray& message) {
-  if (units_) trace_.add(message, *units_);
+  if (message.epoch != impacts_epoch_ || message.first_index != next_impact_) {
+    impacts_.clear();
+    contact_before_ = false;
+  }
+  impacts_epoch_ = message.epoch;
+  next_impact_ = message.first_index + message.impacts.size();
+  impacts_.insert(impacts_.end(), message.impacts.begin(), message.impacts.end());
+  forget_old();
+}
+
+void RunView::forget_old() {
+  if (!configuration_ || !applied_ || samples_.empty()) return;
+  const double kept = kPathTau / applied_->sample_period_tau + 4.0 * static_cast<double>(applied_->samples_per_batch) +
+                      kKeptWallTime * applied_->sample_rate_hz * configuration_->time_scale;
+  while (samples_.size() > std::min(kMostSamples, static_cast<std::size_t>(kept))) samples_.pop_front();
+  const auto is_old = [&] {
+    return impacts_.size() > kMostImpacts ||
+           (impacts_epoch_ == samples_epoch_ && from_message(impacts_.front().time) < samples_.front().time);
+  };
+  for (; !impacts_.empty() && is_old(); impacts_.pop_front()) contact_before_ = begins_contact(impacts_.front());
 }
 
 bool RunView::complete() const {
-  return configuration_ && trace_.has_epoch(configuration_->epoch) && holder_.knows(configuration_->epoch);
+  if (!configuration_ || samples_.empty() || legs_.empty()) return false;
+  const std::uint32_t epoch = configuration_->epoch;
+  return samples_epoch_ == epoch && impacts_epoch_ == epoch && legs_epoch_ == epoch;
+}
+
+const RunView::Leg& RunView::leg(const ModelTime& time) const {
+  const auto found = std::find_if(legs_.rbegin(), legs_.rend(), [&](const Leg& leg) { return leg.begin <= time; });
+  return found == legs_.rend() ? legs_.front() : *found;
+}
+
+double RunView::travelled(const ModelTime& time) const {
+  const Leg& now = leg(time);
+  return now.travelled + now.drag_velocity * (time - now.begin);
+}
+
+double RunView::holder_x(const ModelTime& time) const {
+  return anchor_ / units_->length() + (travelled(time) - travelled(anchor_time_)) / units_->velocity();
+}
+double RunView::holder_y(const ModelTime& time) const { return leg(time).height / units_->length(); }
+double RunView::eta(const ModelTime& time) const { return leg(time).drag_velocity / units_->velocity(); }
+
+bool RunView::in_contact(const ModelTime& time) const {
+  const auto next = after(impacts_, time);
+  return next == impacts_.begin() ? contact_before_ : begins_contact(*std::prev(next));
+}
+
+// The surface phase is exact; the cell is that of the sample before.
+Place RunView::place(const afm_emulator::Impact& impact) const {
+  const ModelTime time = from_message(impact.time);
+  const auto next = after(samples_, time);
+  const double X = next == samples_.begin() ? 0.0 : std::prev(next)->X;
+  const double cells = std::round(holder_x(time) + X - impact.surface_phase);
+  return {time,
+          cells + impact.surface_phase,
+          surface_jet(model_.H, impact.surface_phase).h,
+          begins_contact(impact),
+          impact.energy_loss,
+          static_cast<ImpactKind>(impact.kind)};
+}
+
+std::vector<Place> RunView::samples_since(const ModelTime& from, std::size_t most) const {
+  std::vector<Place> places;
+  take_evenly(after(samples_, from), samples_.end(), most, [&](const Sample& s) {
+    places.push_back({s.time, holder_x(s.time) + s.X, holder_y(s.time) + s.Y, in_contact(s.time)});
+  });
+  return places;
+}
+
+std::vector<Place> RunView::impacts_since(const ModelTime& from, std::size_t most) const {
+  std::vector<Place> places;
+  const auto begin = after(impacts_, from), end = std::max(begin, after(impacts_, now()));
+  take_evenly(begin, end, most, [&](const afm_emulator::Impact& impact) { places.push_back(place(impact)); });
+  return places;
 }
 
 }  // namespace afm::view

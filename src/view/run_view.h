@@ -1,16 +1,35 @@
-// What is known of a run, live or replayed. The topics come in any order: each message is taken by itself, and a picture is
-// drawn when all that it needs is of one epoch.
+// What is known of a run, live or replayed. Topics come in any order: each message is kept by itself, and a picture is
+// drawn when all that it needs is of one epoch. Lengths in a, times in tau.
 #pragma once
 
 #include <afm_emulator/Applied.h>
 #include <afm_emulator/Configuration.h>
+#include <afm_emulator/Deflection.h>
 #include <afm_emulator/Friction.h>
+#include <afm_emulator/ImpactArray.h>
 
+#include <cstdint>
+#include <deque>
 #include <optional>
+#include <vector>
 
-#include "trace.h"
+#include "afm/model.h"
+#include "afm/state.h"
+#include "afm/units.h"
 
 namespace afm::view {
+
+constexpr double kPictureRate = 30.0;  // [1/s] of wall time
+constexpr double kPathTau = 8.0;       // how far back a path is drawn, at most [tau]
+
+// Where the tip was, in the lab; for an impact also what happened there.
+struct Place {
+  ModelTime time;
+  double x = 0.0, y = 0.0;
+  bool contact = false;  // from here on
+  double energy_loss = 0.0;
+  ImpactKind kind = ImpactKind::impact;
+};
 
 class RunView {
  public:
@@ -20,7 +39,7 @@ class RunView {
   void take(const afm_emulator::ImpactArray& message);
   void take(const afm_emulator::Friction& message) { friction_ = message; }
 
-  // False as long as something is missing. The accessors below need it.
+  // False as long as something is missing. The functions below need it.
   bool complete() const;
 
   const afm_emulator::Configuration& configuration() const { return *configuration_; }
@@ -28,24 +47,45 @@ class RunView {
   const std::optional<afm_emulator::Friction>& friction() const { return friction_; }
   const Units& units() const { return *units_; }
   const Model& model() const { return model_; }
-  const Trace& trace() const { return trace_; }
-  const Holder& holder() const { return holder_; }
-  ModelTime now() const { return trace_.samples().back().time; }
+
+  ModelTime now() const { return samples_.back().time; }
+  double holder_x(const ModelTime& time) const;  // along the surface, a crest at every whole number
+  double holder_y(const ModelTime& time) const;  // over mid-surface
+  double eta(const ModelTime& time) const;
+  // Samples and impacts in (from, now()], in order of time. At most so many, evenly.
+  std::vector<Place> samples_since(const ModelTime& from, std::size_t most) const;
+  std::vector<Place> impacts_since(const ModelTime& from, std::size_t most) const;
 
  private:
-  void keep_enough();
+  struct Sample {
+    ModelTime time;
+    double X, Y;  // tip minus holder
+  };
+  // Of even motion of the holder, in SI but for the time: messages may come before the units.
+  struct Leg {
+    ModelTime begin;
+    double travelled = 0.0;  // since the first of them [m tau/s]
+    double drag_velocity = 0.0, height = 0.0;
+  };
+  const Leg& leg(const ModelTime& time) const;
+  double travelled(const ModelTime& time) const;
+  bool in_contact(const ModelTime& time) const;
+  Place place(const afm_emulator::Impact& impact) const;
+  void forget_old();
 
   std::optional<afm_emulator::Configuration> configuration_;
   std::optional<afm_emulator::Applied> applied_;
   std::optional<afm_emulator::Friction> friction_;
   std::optional<Units> units_;
   Model model_;
-  Trace trace_;
-  Holder holder_;
+  std::deque<Leg> legs_;
+  std::deque<Sample> samples_;
+  std::deque<afm_emulator::Impact> impacts_;
+  std::uint32_t legs_epoch_ = 0, samples_epoch_ = 0, impacts_epoch_ = 0;
+  std::uint64_t next_sample_ = 0, next_impact_ = 0;
+  bool contact_before_ = false;  // the first impact kept
+  ModelTime anchor_time_;        // the holder's position was told for this time
+  double anchor_ = 0.0;          // [m]
 };
-
-constexpr double kPictureRate = 30.0;  // [1/s] of wall time
-// How far back a path is drawn, at most [tau].
-constexpr double kPathTau = 8.0;
 
 }  // namespace afm::view

@@ -1,10 +1,10 @@
 #include "scenery.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "afm/surface.h"
-#include "palette.h"
-#include "text.h"
 
 namespace afm::view {
 namespace {
@@ -16,6 +16,14 @@ constexpr double kThickness = 0.25;    // of the block under the surface
 constexpr double kEdgeDepth = -0.005;  // before the block, which would hide half of it
 constexpr double kKeyLeft = -1.7, kKeyRight = 1.7, kKeyTop = -1.4, kKeyBottom = -1.52;
 constexpr int kKeySteps = 64;
+
+// printf into a string; what does not fit is cut off.
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  char buffer[200] = {};
+  std::snprintf(buffer, sizeof buffer, format, values...);
+  return buffer;
+}
 
 void add_quad(Marker& marker, const geometry_msgs::Point (&corners)[4], const std_msgs::ColorRGBA& colour) {
   for (const int i : {0, 1, 2, 0, 2, 3}) {
@@ -33,8 +41,6 @@ std::vector<geometry_msgs::Point> profile(const Canvas& canvas, const Model& mod
   }
   return corners;
 }
-
-}  // namespace
 
 void draw_surface(Canvas& canvas, const Model& model) {
   const auto corners = profile(canvas, model);
@@ -79,6 +85,49 @@ void draw_key(Canvas& canvas, const Units& units) {
   canvas.add_text("key_flight", "flight", point(right, 0.0, kKeyTop), height).color = flight_colour();
   canvas.add_text("key_contact", "contact", point(right, 0.0, kKeyTop - row), height).color = contact_colour();
   canvas.add_text("key_holder", "+ holder", point(right, 0.0, kKeyTop - 2.0 * row), height).color = spring_colour();
+}
+
+// From the work of the drag, which defines friction with and without a heat bath.
+std::string friction_text(const afm_emulator::Friction& friction, const Units& units) {
+  const double K_f = friction.k_f_work_natural, error = friction.k_f_work_std_error / units.friction();
+  if (std::isnan(K_f)) return "K_f: none at rest";
+  if (std::isnan(error)) return text("K_f %.4f m_tip/tau", K_f);
+  // two digits of the error
+  const int decimals = static_cast<int>(std::clamp(1.0 - std::floor(std::log10(error)), 2.0, 6.0));
+  return text("K_f %.*f +- %.*f m_tip/tau", decimals, K_f, decimals, error);
+}
+
+std::string bath_text(const afm_emulator::Applied& in_force) {
+  const bool has_bath = in_force.quality_factor > 0.0 || in_force.lateral_quality_factor > 0.0;
+  return has_bath ? text("%.4g K, Q = %.4g; ", in_force.temperature_k, in_force.quality_factor) : "";
+}
+
+std::string speed_text(double scale, bool is_cloud) {
+  const std::string speed = scale == 1.0  ? "real time"
+                            : scale < 1.0 ? text("%.6g times slower than real time", 1.0 / scale)
+                                          : text("%.6g times faster than real time", scale);
+  return is_cloud ? speed + "; dots: the last second" : speed;
+}
+
+void draw_figures(Canvas& canvas, const RunView& run, bool is_cloud) {
+  const double row = -0.72, height = 0.21, eta = run.eta(run.now());
+  canvas.add_text("drag", text("drag %.3f um/s", eta * run.units().velocity() * 1e6), point(-2.45, 0.0, row), height);
+  canvas.add_text("eta", text("eta %.3f", eta), point(-0.78, 0.0, row), height);
+  const auto& friction = run.friction();
+  canvas.add_text("friction", friction ? friction_text(*friction, run.units()) : "", point(1.75, 0.0, row), height);
+  canvas.add_text("time",
+                  text("%lld tau; %s%s", static_cast<long long>(run.now().tau), bath_text(run.applied()).c_str(),
+                       speed_text(run.configuration().time_scale, is_cloud).c_str()),
+                  point(0.0, 0.0, row - 0.35), 0.16);
+}
+
+}  // namespace
+
+void draw_scenery(Canvas& canvas, const RunView& run, bool is_cloud) {
+  draw_surface(canvas, run.model());
+  draw_length_scale(canvas, run.units());
+  draw_key(canvas, run.units());
+  draw_figures(canvas, run, is_cloud);
 }
 
 }  // namespace afm::view

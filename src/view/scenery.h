@@ -3,13 +3,9 @@
 
 #include "canvas.h"
 #include "run_view.h"
-#include "strobe.h"
 
 namespace afm::view {
 
-void draw_surface(Canvas& canvas, const Model& model);
-void draw_length_scale(Canvas& canvas, const Units& units);
-void draw_key(Canvas& canvas, const Units& units);
-void draw_figures(Canvas& canvas, const RunView& run, const Strobe& strobe);
+void draw_scenery(Canvas& canvas, const RunView& run, bool is_cloud);
 
 }  // namespace afm::view

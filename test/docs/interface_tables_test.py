@@ -14,8 +14,8 @@ tables = importlib.util.module_from_spec(importlib.util.spec_from_loader('interf
 loader.exec_module(tables)
 
 # the end of a name and the unit it stands for; the first that fits counts
-ENDS = (('_rad_per_s', 'rad/s'), ('_per_tau', '1/tau'), ('_tau', 'tau'), ('_kg', 'kg'), ('_hz', '1/s'), ('_mb', 'MB'), ('_k', 'K'),
-        ('_m', 'm'), ('_s', 's'))
+ENDS = (('resonance_hz', 'Hz'), ('_rad_per_s', 'rad/s'), ('_n_per_m', 'N/m'), ('_per_tau', '1/tau'), ('_tau', 'tau'), ('_kg', 'kg'),
+        ('_hz', '1/s'), ('_mb', 'MB'), ('_k', 'K'), ('_m', 'm'), ('_s', 's'), ('_n', 'N'))
 NATURAL = ('a', 'a/tau', 'a, a/tau')
 
 
