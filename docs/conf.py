@@ -17,7 +17,7 @@ exclude_patterns = ['data', 'images', 'site']
 extensions = ['myst_parser', 'breathe', 'sphinx.ext.autodoc', 'sphinx_copybutton',
               'site_mathematics', 'site_pages', 'site_python']  # in docs/site
 
-myst_enable_extensions = ['dollarmath']
+myst_enable_extensions = ['dollarmath', 'html_image']
 myst_heading_anchors = 4  # of headings up to this level, as a code host makes them
 html_math_renderer = 'mathml'  # site_mathematics
 highlight_language = 'none'  # formulas are indented blocks

@@ -191,6 +191,10 @@ def commands(quick):
     add("scene_levels_run", "scripts/scene_levels", choose("--duration 500", ""), "--output {out}/scene_levels.csv",
         sides=["scene_levels"])
     add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
+    add("topic_rates_run", "benchmark/topic_rates.py --output {out}/topic_rates.csv --seconds", choose(2, 10),
+        sides=["topic_rates"])
+    add("durations_run", "benchmark/durations.py --output {out}/durations.csv", choose("--only import", "--builds"),
+        sides=["durations"])
     add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000),
         sides=["loop_delay"])
 

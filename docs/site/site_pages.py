@@ -5,10 +5,12 @@ The lists of links in index.md are the sidebar: each of its headings with such a
 import re
 from pathlib import Path
 
+from docutils import nodes
 from sphinx.errors import ExtensionError
 
 OUTSIDE = ('history',)  # pages that are linked, and stand in no part
 LINK = re.compile(r'\[([^\]]+)\]\((\.\./[^)#\s]+)\)')
+LONG_NAME = re.compile(r'(\b\w{6,})/(?=\w{4})')
 FILE_NAME = re.compile(r'\[(\w+)\.md\]\(\1\.md((?:#[\w-]*)?)\)')
 PAGE = re.compile(r'^- \[([^\]]+)\]\(([\w./-]+)\.(?:md|rst)\)', re.M)
 
@@ -58,6 +60,15 @@ def prepare(app, page, source):
     source[0] = text
 
 
+def let_types_break(app, tree, page):
+    """In a table diagnostic_msgs/DiagnosticArray and the like may break: they leave the last column no room."""
+    for entry in tree.findall(nodes.entry):
+        for text in list(entry.findall(nodes.Text)):
+            if not isinstance(text.parent, nodes.literal):
+                text.parent.replace(text, nodes.Text(LONG_NAME.sub('\\1/\u200b', text)))
+
+
 def setup(app):
     app.connect('source-read', prepare)
+    app.connect('doctree-resolved', let_types_break)
     return {'parallel_read_safe': True}

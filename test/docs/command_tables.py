@@ -5,7 +5,8 @@ SUBSTITUTIONS = [
     # the build directory belongs to the tree itself, not to the copy in which commands run
     (r'^scripts/(run|build)\b', r'"$AFM_ROOT/scripts/\1"'),
     (r'(scripts/run")(?: --duration \S+)?', r'\1 --duration 3'),
-    (r'^cmake -S \.(.* --parallel 2)', r'cmake -S "$AFM_ROOT"\1 --target afm_emulator_core'),
+    # the test without_ros builds it
+    (r'^cmake -S \.(.* -DAFM_ROS=OFF) && cmake --build build/without_ros --parallel 2', r'cmake -S "$AFM_ROOT"\1'),
     (r'^cmake --install build/without_ros', r'cmake --install "${AFM_BUILD_DIR:-$AFM_ROOT/build}"'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
@@ -37,6 +38,7 @@ SUBSTITUTIONS = [
     (r'(friction_peaks|bifurcations)\.py', r'\1.py 5'),
     (r'(many_machines\.py \S+)', r'\1 --points 3 --duration 100'),
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
+    (r'(durations\.py)(?! --)', r'\1 --only import'),
     (r'--tau 400000', '--tau 200'),
     (r'--mutated 1000000', '--mutated 100'),
 ]
@@ -49,6 +51,8 @@ NOT_RUN = [
     (r'^snakemake (?!fig1_friction)', 'measures for minutes to hours; the test laboratory runs every rule dry, and some'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
     (r'^scripts/platforms(?! --list)', 'builds with every compiler, or makes roots of other systems and tests in them'),
+    (r'durations\.py --builds', 'builds everything for minutes'),
+    (r'^dask-|--scheduler HEAD', 'needs a second machine'),
     (r'^podman', 'needs a container engine'),
     (r'right_address:=', 'needs a second machine'),
     (r'^(rqt_plot|rosrun rqt_\w+) ', 'opens a window'),

@@ -63,6 +63,9 @@ def main(root):
     for path in sorted((root / 'docs').glob('*.md')) + sorted((root / 'docs/api').glob('*.rst')):
         if str(path.relative_to(root / 'docs')) not in sidebar | {'index.md', 'history.md'}:
             faults.append('docs/index.md: no line of its lists leads to %s' % path.relative_to(root))
+    version = re.search(r'<version>(.*)</version>', (root / 'package.xml').read_text()).group(1)
+    if 'version: %s\n' % version not in (root / 'CITATION.cff').read_text():
+        faults.append('CITATION.cff: not version %s' % version)
     assert len(documents) > 10 and len(reached) > 40, 'hardly any link was found in %s' % root
     for fault in faults:
         print('FAULT: ' + fault)

@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""How long things take on this machine, in processor seconds. What other programs do meanwhile changes them less than
+the time on the clock. With --builds the builds too, each in a directory of its own, without ccache (minutes). Rows that
+are not measured stay in the table. Writes the table of docs/durations.md.
+
+usage: durations.py [--builds] [--only WORD] [--output FILE]     (default: docs/data/durations.csv)"""
+import argparse
+import csv
+import os
+import resource
+import subprocess
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PYTHON = 'python3 -c "import afm; %s"'
+BUILD = 'AFM_BUILD_DIR=$SCRATCH/%s CCACHE_DISABLE=1 scripts/build%s'
+# (what, its command)
+SHORT = (
+    ('`import afm`', PYTHON % 'pass'),
+    ('one tip, 100,000 tau at eta = 3.4', PYTHON % 'tip = afm.Tip(eta=3.4); tip.advance(100000)'),
+    ('the same at 300 K, 10,000 tau',
+     PYTHON % 'bath = afm.Units().bath(temperature_k=300.0, quality_factor=100.0); afm.Tip(bath=bath).advance(10000)'),
+    ('FIG. 1 in Python, 179 points', '(cd $SCRATCH && python3 %s/examples/python/friction_peaks.py)' % ROOT),
+    ('`friction_curve`, 11 points from eta = 2 to 3', 'rosrun afm_emulator friction_curve --eta 2:3:0.1'),
+    ('`attractors` of 10,000 starts at eta = 3.75', PYTHON % 'afm.attractors(3.75, starts=10000)'),
+    ('`periodic_orbits` of up to 6 impacts at eta = 3.4', 'rosrun afm_emulator periodic_orbits --eta 3.4 --gamma 0.7'),
+    ('`afm.lyapunov(3.4)`, 2000 tau', PYTHON % 'afm.lyapunov(3.4)'),
+)
+BUILDS = (
+    ('the first `scripts/run`: the emulator', BUILD % ('emulator', ' --emulator')),
+    ('`scripts/build`: everything', BUILD % ('all', '')),
+    ('without ROS', 'CCACHE_DISABLE=1 cmake -S . -B $SCRATCH/without_ros -DAFM_ROS=OFF && '
+     'CCACHE_DISABLE=1 cmake --build $SCRATCH/without_ros --parallel 2'),
+    ('`scripts/docs`: this site', 'scripts/docs --built $CMAKE_PREFIX_PATH --output $SCRATCH/docs'),
+)
+
+
+def processor_seconds(command, scratch):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    environment = dict(os.environ, SCRATCH=scratch, CMAKE_PREFIX_PATH=os.environ['CMAKE_PREFIX_PATH'].split(':')[0])
+    subprocess.run(['bash', '-c', command], check=True, cwd=str(ROOT), env=environment, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--builds', action='store_true')
+    parser.add_argument('--only', default='', help='rows whose name holds this word')
+    parser.add_argument('--output', type=Path, default=ROOT / 'docs/data/durations.csv')
+    arguments = parser.parse_args()
+    known = {}
+    if arguments.output.exists():
+        with arguments.output.open() as table:
+            known = dict(list(csv.reader(row for row in table if not row.startswith('#')))[1:])
+    with tempfile.TemporaryDirectory() as scratch:
+        for what, command in (BUILDS if arguments.builds else ()) + SHORT:
+            if arguments.only not in what:
+                continue
+            known[what] = '%.2g' % processor_seconds(command, scratch)
+            print('%s: %s s' % (what, known[what]), flush=True)
+    with arguments.output.open('w') as table:
+        writer = csv.writer(table, lineterminator='\n')
+        writer.writerow(['what', 'processor seconds'])
+        writer.writerows((what, known[what]) for what, _ in BUILDS + SHORT if what in known)
+
+
+if __name__ == '__main__':
+    main()
