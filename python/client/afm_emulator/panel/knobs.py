@@ -36,8 +36,9 @@ class Knob(QtWidgets.QWidget):
         column.setContentsMargins(0, 2, 0, 2)
         column.setSpacing(1)
         row = QtWidgets.QHBoxLayout()
+        row.setSpacing(4)
         label = QtWidgets.QLabel(title)
-        row.addWidget(label, 1)
+        row.addWidget(label, 0)
         for which, spin in enumerate(spins):
             row.addWidget(spin, 2)
             spin.valueChanged.connect(lambda value, which=which: self._turn(which, value))

@@ -34,6 +34,7 @@ def record_type(message):
 
 
 IMPACT = record_type(Impact)
+NumpyDeflection = numpy_msg(Deflection)
 
 
 def read_impacts(raw):
@@ -126,7 +127,7 @@ class Link:
 
     def _keep_batch(self, message, subject):
         if is_of(message, subject[1]):
-            self._batches.append((time.monotonic(), numpy_msg(Deflection)().deserialize(message._buff)))
+            self._batches.append((time.monotonic(), NumpyDeflection().deserialize(message._buff)))
 
     def _keep_impacts(self, message, subject):
         if is_of(message, subject[1]):

@@ -30,7 +30,7 @@ def pen(colour, width=1.0):
 class Plot(pg.PlotWidget):
     """With bounds that we choose, and none of what a mouse could spoil."""
 
-    def __init__(self, title, left, bottom, least_span=(1.0, 1.0), patience=30):
+    def __init__(self, title, left, bottom, least_span=(1.0, 1.0), patience=12):
         super().__init__()
         self.setTitle(title, size='10pt')
         self.setLabel('left', left)
@@ -92,7 +92,7 @@ class Scope:
         self._span = span
         if triggered != self._triggered:
             self._triggered = triggered
-            self.vertical.setTitle('Oscilloscope: ' + ('triggered on the rising flank' if triggered else 'free running'), size='10pt')
+            self.vertical.setTitle('Oscilloscope, ' + ('triggered' if triggered else 'free running'), size='10pt')
 
 
 class Path:
@@ -100,9 +100,9 @@ class Path:
 
     def __init__(self):
         self.plot = Plot('Path of the tip over the surface', 'height [pm]', 'along the surface [nm]', (0.1, 20.0))
-        self.plot.note('impacts, energy lost [zJ]: ' + ' '.join(
-            '<span style="color:%s">&#9679;</span> %s' % (colour, '&ge; %g' % least if least else '&lt; %g' % ENERGIES[1][0])
-            for least, colour in ENERGIES))
+        bounds = ['&lt; %g' % above for above, _ in ENERGIES[1:]] + ['&ge; %g' % ENERGIES[-1][0]]
+        self.plot.note('impacts [zJ]: ' + ' '.join(
+            '<span style="color:%s">&#9679;</span> %s' % (colour, bound) for (_, colour), bound in zip(ENERGIES, bounds)))
         self._surface = self.plot.line('#777777', fillLevel=-1e6, brush=pg.mkBrush('#e4e4e4'))
         self._line = self.plot.line(BLUE)
         self._spots = pg.ScatterPlotItem(size=8, pen=pg.mkPen('w', width=0.5), pxMode=True)
@@ -110,13 +110,14 @@ class Path:
         self._tip = pg.ScatterPlotItem(size=12, symbol='t', pen=None, brush='k')
         self.plot.addItem(self._tip)
         self._brushes = [pg.mkBrush(colour) for _, colour in ENERGIES]
+        self._nm = None
         self._least = np.array([least for least, _ in ENERGIES]) * ZEPTO
 
     def draw(self, x, y, spots, low, settings, shows_tip):
         """x, y: of the tip; spots: (x, energy lost). low: left end of the picture. All in cells, but the energy."""
         nm, pm = 1e9 * settings.lattice_spacing_m, 1e12 * settings.lattice_spacing_m
         amplitude = settings.surface_amplitude_m / settings.lattice_spacing_m
-        ground = np.linspace(0.0, PATH_CELLS, 181)
+        ground = np.linspace(0.0, PATH_CELLS, 97)
         profile = amplitude * np.cos(2 * np.pi * (ground + low))
         y = np.maximum(y, amplitude * np.cos(2 * np.pi * x))  # a chord between two samples in contact cuts the crest
         self._surface.setData(nm * ground, pm * profile)
@@ -125,7 +126,9 @@ class Path:
                             brush=[self._brushes[i] for i in np.searchsorted(self._least, spots[1], 'right') - 1])
         self._tip.setData(nm * (x[-1:] - low), pm * y[-1:])
         self._tip.setVisible(shows_tip)
-        self.plot.setXRange(0.0, nm * PATH_CELLS, padding=0.0)
+        if nm != self._nm:
+            self.plot.setXRange(0.0, nm * PATH_CELLS, padding=0.0)
+            self._nm = nm
         self.plot.fit_y(pm * profile, pm * y, np.array([pm * (y.max() + 0.03)]))  # and the note above it
 
 
@@ -156,10 +159,10 @@ class Curve:
     """The running estimate, on the friction curve of the paper."""
 
     def __init__(self, curve):
-        self.plot = Plot('Friction curve; grey: FIG. 1 of the paper', 'K_f [m_tip/τ]', 'drag speed η [a/τ]', (1.0, 1.0))
+        self.plot = Plot('Friction; grey: FIG. 1', 'K<sub>f</sub> [m<sub>tip</sub>/τ]', 'drag speed η [a/τ]', (1.0, 1.0))
         self.plot.line('#aaaaaa').setData(curve[:, 0], curve[:, 1])
         self._curve = curve
-        self._trail = self.plot.plot([], [], pen=None, symbol='o', symbolSize=3, symbolPen=None, symbolBrush=GREEN)
+        self._trail = self.plot.plot([], [], pen=None, symbol='o', symbolSize=4, symbolPen=None, symbolBrush=GREEN)
         self._error = pg.ErrorBarItem(x=np.zeros(1), y=np.zeros(1), height=np.zeros(1), beam=0.1, pen=pen(ORANGE, 2))
         self._now = self.plot.plot([], [], pen=None, symbol='o', symbolSize=9, symbolPen=pen('w'), symbolBrush=ORANGE)
         self.plot.addItem(self._error)

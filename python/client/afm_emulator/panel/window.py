@@ -69,7 +69,7 @@ class Window(QtWidgets.QWidget):
         column.addLayout(self.lamps_column)
         self.lever = QtWidgets.QLabel(objectName='lever', wordWrap=True)
         column.addWidget(self.lever)
-        self.desk.setFixedWidth(240)
+        self.desk.setFixedWidth(246)
         whole = QtWidgets.QGridLayout(self)
         whole.setContentsMargins(6, 4, 6, 6)
         whole.addLayout(head, 0, 0, 1, 2)
@@ -219,7 +219,7 @@ class Window(QtWidgets.QWidget):
     def _read_out(self, friction, error, status):
         for name, title, value, unit in (
                 ('drag', 'drag speed', '%.3f' % (1e6 * friction.drag_velocity), 'µm/s'), ('eta', 'in cells per τ', 'η = %.3f' % friction.eta, ''),
-                ('friction', 'friction K_f', with_error(friction.k_f_work_natural, error), 'm_tip/τ'),
+                ('friction', 'friction K<sub>f</sub>', with_error(friction.k_f_work_natural, error), 'm<sub>tip</sub>/τ'),
                 ('force', 'mean lateral force', '%.1f' % (friction.mean_lateral_force / PICO), 'pN'),
                 ('impacts', 'impacts', '%.2f' % status.impacts_per_tau, '/τ')):
             self.readouts[name].setText(READOUT % (title, value, unit))
