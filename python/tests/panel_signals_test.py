@@ -49,10 +49,12 @@ class Swing(unittest.TestCase):
     def test_is_exact_on_free_oscillation(self):
         t = np.array([0.0, 0.031, 0.05, 0.081])
         fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(8) / 8).ravel(), t[-1])
-        np.testing.assert_allclose(swing(t, np.cos(OMEGA_H * t + 0.3), OMEGA_H, 8), np.cos(OMEGA_H * fine + 0.3), atol=1e-12)
+        np.testing.assert_allclose(swing(t, np.cos(OMEGA_H * t + 0.3), OMEGA_H, 8, np.ones(3, bool)), np.cos(OMEGA_H * fine + 0.3), atol=1e-12)
 
     def test_is_straight_where_too_little_is_known(self):
-        np.testing.assert_allclose(swing(np.array([0.0, 1.0]), np.array([0.0, 4.0]), OMEGA_H, 4), [0.0, 1.0, 2.0, 3.0, 4.0])
+        for length, is_free in ((1.0, True), (0.03, False)):
+            line = swing(np.array([0.0, length]), np.array([0.0, 4.0]), OMEGA_H, 4, np.array([is_free]))
+            np.testing.assert_allclose(line, [0.0, 1.0, 2.0, 3.0, 4.0])
 
 
 def periodic(eta, duration, period, offset=0.0, rate=200e3):
@@ -61,7 +63,7 @@ def periodic(eta, duration, period, offset=0.0, rate=200e3):
     return np.stack([t, 0.1 * np.cos(2 * np.pi * t / period), 0.01 * np.sin(2 * np.pi * t / period), eta * t + 0.3])
 
 
-NONE = np.empty((3, 0))
+NONE = np.empty((4, 0))
 
 
 class Trigger(unittest.TestCase):
@@ -89,12 +91,22 @@ class Trigger(unittest.TestCase):
 class Impacts(unittest.TestCase):
     def test_lie_on_the_path_and_on_the_surface(self):
         samples = periodic(1.0, 2.0, 1.0)
-        impacts = np.array([[0.5011], [(0.3 + 0.5011 + 0.02) % 1.0], [1e-21]])
+        impacts = np.array([[0.5011], [(0.3 + 0.5011 + 0.02) % 1.0], [1e-21], [0]])
         motion = Motion(samples, impacts, AMPLITUDE, 0.01, OMEGA_H)
         i = np.argmin(np.abs(motion.t - 0.5011))
         self.assertAlmostEqual(motion.t[i], 0.5011, delta=1e-12)
         self.assertAlmostEqual(motion.X[i], 0.02, delta=1e-12)
         self.assertAlmostEqual(motion.Y[i] + 0.01, AMPLITUDE * math.cos(2 * math.pi * impacts[1, 0]), delta=1e-12)
+
+
+class Contact(unittest.TestCase):
+    def test_a_tip_in_contact_does_not_fly_from_sample_to_sample(self):
+        t = np.arange(0.0, 2.0, 0.05)
+        height = -4.0  # a load that would lift a free tip by a tenth of a cell between two samples
+        samples = np.stack([t, AMPLITUDE * np.cos(2 * np.pi * t) - height, 0.0 * t, t])
+        motion = Motion(samples, NONE, AMPLITUDE, height, OMEGA_H)
+        gap = motion.Y + height - AMPLITUDE * np.cos(2 * np.pi * (motion.xc + motion.X))
+        self.assertLess(np.abs(gap).max(), 2e-3)
 
 
 def batch(first, count, epoch=0, velocity=0.0):

@@ -154,7 +154,8 @@ class Knobs(EmulatorTest):
 
     def test_what_is_refused_is_said(self):
         self.panel.type_in('height_pm', '70')  # above the crest: it would hover
-        until(lambda: 'commands' in self.panel.window.lamps and 'refused' in self.panel.window.lamps['commands'].label.text(), 'a lamp')
+        lamps = self.panel.window.lamps
+        until(lambda: 'commands' in lamps and 'refused' in lamps['commands'].label.text(), 'a lamp')
         until(lambda: self.panel.part('height_pm').value() == 0.0, 'the box shows what holds')
 
     def test_pause_step_and_reset(self):
@@ -179,7 +180,7 @@ class Knobs(EmulatorTest):
         self.panel.type_in('eta', '2.0')
         self.applied(lambda m: abs(m.drag_velocity / SPEED_UNIT - 2.0) < 1e-9, 'eta = 2')
         window = self.panel.window
-        until(lambda: 'η = 2.000' in window.readouts['eta'].text() and 'pace' in window.lamps and 'numerics' in window.lamps, 'read-outs')
+        until(lambda: 'η = 2.000' in window.readouts['eta'].text() and {'pace', 'numerics'} <= set(window.lamps), 'read-outs')
         until(lambda: len(window.trail.past) > 0, 'a trail')
         for plot, colour, least in ((window.scope.vertical, BLUE, 300), (window.scope.lateral, ORANGE, 300),
                                     (window.path.plot, BLUE, 200), (window.loop_plot.plot, BLUE, 50), (window.curve.plot, ORANGE, 10)):
@@ -231,7 +232,8 @@ class Coming(NodeTest):
         panel = Panel()
         self.addCleanup(panel.close)
         self.start(Process(['rosbag', 'play', '--quiet', '--loop', bag]))
-        until(lambda: panel.part('banner').isVisible() and 'recording' in panel.part('banner').text(), 'it knows a recording', deadline_s=30.0)
+        banner = panel.part('banner')
+        until(lambda: banner.isVisible() and 'recording' in banner.text(), 'it knows a recording', deadline_s=30.0)
         until(lambda: 'η = 3.400' in panel.window.readouts['eta'].text(), 'its drag speed')
         until(lambda: panel.pixels(panel.window.scope.vertical, BLUE) > 300, 'its signals')
         self.assertFalse(panel.is_ready() or panel.is_grey())

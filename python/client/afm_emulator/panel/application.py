@@ -17,7 +17,7 @@ def run():
     application = QtWidgets.QApplication(sys.argv)
     ending.init_node('panel', anonymous=True)
     name = rosgraph.names.ns_join('/', rospy.resolve_name(rospy.get_param('~emulator', 'afm')))
-    window = Window(Link(name), friction_curve())
+    window = Window(Link(name), friction_curve(), rospy.get_param('~lever', ''))
     window.resize(window.size().boundedTo(application.primaryScreen().availableSize()))
     window.show()
     watch = QtCore.QTimer(interval=WATCH_MS, timeout=lambda: rospy.is_shutdown() and application.quit())

@@ -176,7 +176,8 @@ class Link:
             wanted, self._wanted = self._wanted, {}
         if wanted:
             config = Config(doubles=[DoubleParameter(name, value) for name, value in wanted.items()])
-            got = {value.name: value.value for value in self._call('set_parameters', Reconfigure, config=config).config.doubles}
+            answer = self._call('set_parameters', Reconfigure, config=config)
+            got = {value.name: value.value for value in answer.config.doubles}
             refused = [name for name, value in wanted.items() if got.get(name) != value]
             if refused:
                 self.notes.append('%s was refused, or cut to its range' % ', '.join(refused))

@@ -5,6 +5,8 @@ import numpy as np
 
 TRIGGER_PHASE = 0.75    # middle of the rising flank, for a tip that moves to the right: a crest is at 0, a valley at 0.5
 TRIGGER_SEARCH = 16.0   # tau: a motion with a period up to this stands still
+RESTS = 0.002           # cells above the surface: a sample closer than that is of a tip in contact, or about to be
+BOUNCE = 0              # kind of an impact: the others are of chatter and contact (msg/Impact.msg)
 FINE_SAMPLES = 3000     # up to so many samples a signal is drawn in full
 FINE_STEPS = 3          # points drawn per interval between samples then
 
@@ -50,33 +52,36 @@ def envelope(t, y, buckets):
     return t[index], y[index]
 
 
-def swing(t, y, omega, steps):
+def swing(t, y, omega, steps, is_free):
     """`steps` points per interval on the free oscillation of angular frequency omega through both of its ends; a straight line
-    where the interval is too long to know it."""
+    where the tip is not free, or the interval is too long to know the oscillation."""
     angle = omega * np.diff(t)[:, None]
     part = np.arange(steps) / steps
     with np.errstate(divide='ignore', invalid='ignore'):
         before, after = np.sin(angle * (1.0 - part)) / np.sin(angle), np.sin(angle * part) / np.sin(angle)
-    known = (angle > 1e-6) & (angle < 2.8)  # the sine of pi is 0
+    known = (angle > 1e-6) & (angle < 2.8) & is_free[:, None]  # the sine of pi is 0
     before, after = np.where(known, before, 1.0 - part), np.where(known, after, part)
     return np.append((before * y[:-1, None] + after * y[1:, None]).ravel(), y[-1])
 
 
 class Motion:
-    """The tip's motion over a time, of all that is known: samples, and impacts, which lie on the surface. Between them it flies."""
+    """The tip's motion over a time, of all that is known: samples, and impacts, which lie on the surface. Between them it flies, unless it
+    rests on the surface."""
 
     def __init__(self, samples, impacts, amplitude, rest_height, omega_h, steps=FINE_STEPS):
         t, Y, X, xc = samples
         self.is_fine = len(t) <= FINE_SAMPLES
         if self.is_fine and len(t) > 1:
-            at, phase = impacts[:2, (impacts[0] > t[0]) & (impacts[0] < t[-1])]
+            at, phase, _, kind = impacts[:, (impacts[0] > t[0]) & (impacts[0] < t[-1])]
+            rests = np.concatenate([Y + rest_height - amplitude * np.cos(2 * np.pi * (xc + X)) < RESTS, kind != BOUNCE])
             holder = np.interp(at, t, xc)
             X_at = phase - holder - np.round(phase - holder)  # the lateral extension is far below half a cell
             Y_at = amplitude * np.cos(2 * np.pi * phase) - rest_height
             order = np.argsort(np.concatenate([t, at]), kind='stable')
             t, Y, X, xc = (np.concatenate(pair)[order] for pair in ((t, at), (Y, Y_at), (X, X_at), (xc, holder)))
+            is_free = ~(rests[order][:-1] | rests[order][1:])
             part = np.arange(steps) / steps
-            Y, X = swing(t, Y, 2 * np.pi, steps), swing(t, X, omega_h, steps)
+            Y, X = swing(t, Y, 2 * np.pi, steps, is_free), swing(t, X, omega_h, steps, is_free)
             t, xc = (np.append((v[:-1, None] + part * np.diff(v)[:, None]).ravel(), v[-1]) for v in (t, xc))
         self.t, self.Y, self.X, self.xc = t, Y, X, xc
 
@@ -129,7 +134,7 @@ class Recent:
         return goes_on
 
     def last(self, duration, spacing_m, tau_s):
-        """Samples (t, Y, X, xc) and impacts (t, phase, energy lost) of the last so many tau; t counts from a whole tau near them."""
+        """Samples (t, Y, X, xc) and impacts (t, phase, energy lost, kind) of the last so many tau; t counts from a whole tau near them."""
         origin, tables = self.batches[-1].time.tau, []
         for batch in reversed(self.batches):
             seconds = batch.sample_period * np.arange(len(batch.vertical))
@@ -140,10 +145,10 @@ class Recent:
                 break
         samples = np.concatenate(tables[::-1], axis=1) if len(tables) > 1 else tables[0]
         begin = samples[0, -1] - duration
-        events = [np.empty((3, 0))]
+        events = [np.empty((4, 0))]
         for table in reversed(self.impacts):
             t = (table['time']['tau'] - origin) + table['time']['phase']
-            events.append(np.stack([t, table['surface_phase'], table['energy_loss']]))
+            events.append(np.stack([t, table['surface_phase'], table['energy_loss'], table['kind']]))
             if t[0] < begin:
                 break
         impacts = np.concatenate(events[::-1], axis=1)

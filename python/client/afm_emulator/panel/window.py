@@ -27,9 +27,10 @@ def with_error(value, error):
 
 
 class Window(QtWidgets.QWidget):
-    def __init__(self, link, curve):
+    def __init__(self, link, curve, lever=''):
+        """lever: its name and that of the surface; the emulator publishes numbers alone."""
         super().__init__()
-        self.link = link
+        self.link, self._lever_name = link, lever
         self.recent, self.loop, self.trail = Recent(), FrictionLoop(), Trail()
         self.scope, self.path, self.loop_plot, self.curve = Scope(), Path(), Loop(), Curve(curve)
         self._frame = -1
@@ -83,7 +84,8 @@ class Window(QtWidgets.QWidget):
         """Units in SI; those that depend on the lever and on the surface come with them."""
         self.drag = Knob('Drag', [Spin('drag_um_s', ' µm/s', 3, 0.1, -1000.0, 1000.0), Spin('eta', ' η', 3, 0.01, -99.0, 99.0)],
                          (1e-6, 3.3104e-6), (-10.0, 10.0))
-        self.load = Knob('Load', [Spin('load_pn', ' pN', 1, 1.0, -1e5, 1e6), Spin('height_pm', ' pm', 1, 1.0, -1e5, 1e3)], (-1.5e-12, 1e-12))
+        self.load = Knob('Load', [Spin('load_pn', ' pN', 1, 1.0, -1e5, 1e6), Spin('height_pm', ' pm', 1, 1.0, -1e6, 1e3)],
+                         (-1.5e-12, 1e-12))
         self.gamma = Knob('Restitution γ', [Spin('gamma', '', 3, 0.01, 0.0, 1.0)], (1.0,), (0.0, 1.0))
         self.temperature = Knob('Temperature', [Spin('temperature', ' K', 1, 10.0, 0.0, 400.0)], (1.0,))
         self.quality = Knob('Q of the lever', [Spin('quality', '', 1, 10.0, 0.0, 1000.0)], (1.0,))
@@ -91,7 +93,8 @@ class Window(QtWidgets.QWidget):
         self.load.turned.connect(lambda value: self.link.command('rest_height', value))
         for knob, name in ((self.gamma, 'restitution_gamma'), (self.temperature, 'temperature_k'), (self.quality, 'quality_factor')):
             knob.turned.connect(lambda value, name=name: self.link.set_parameter(name, value))
-        return [self.drag, self._row(self._button('reverse', 'Reverse', self.reverse), self._button('stop', 'Stop', lambda: self.drag.turn_to(0.0))),
+        return [self.drag, self._row(self._button('reverse', 'Reverse', self.reverse),
+                                     self._button('stop', 'Stop', lambda: self.drag.turn_to(0.0))),
                 self.load, self.gamma, self.temperature, self.quality]
 
     def _buttons(self):
@@ -218,7 +221,8 @@ class Window(QtWidgets.QWidget):
 
     def _read_out(self, friction, error, status):
         for name, title, value, unit in (
-                ('drag', 'drag speed', '%.3f' % (1e6 * friction.drag_velocity), 'µm/s'), ('eta', 'in cells per τ', 'η = %.3f' % friction.eta, ''),
+                ('drag', 'drag speed', '%.3f' % (1e6 * friction.drag_velocity), 'µm/s'),
+                ('eta', 'in cells per τ', 'η = %.3f' % friction.eta, ''),
                 ('friction', 'friction K<sub>f</sub>', with_error(friction.k_f_work_natural, error), 'm<sub>tip</sub>/τ'),
                 ('force', 'mean lateral force', '%.1f' % (friction.mean_lateral_force / PICO), 'pN'),
                 ('impacts', 'impacts', '%.2f' % status.impacts_per_tau, '/τ')):
@@ -232,12 +236,12 @@ class Window(QtWidgets.QWidget):
                             (self.quality, applied.quality_factor)):
             knob.follow(value)
         self.lever.setText('%s%.3g N/m, %.4g kHz, lateral %.3g N/m, %s' % (
-            getattr(settings, 'lever', '') and settings.lever + ': ', stiffness, 1e-3 / tau_s,
+            self._lever_name and self._lever_name + ': ', stiffness, 1e-3 / tau_s,
             settings.tip_mass_kg * settings.omega_h_rad_per_s ** 2, applied.model))
 
     def _light(self, status):
-        states = {'pace': (Lamp.GREEN if status.lag < LAG_S else Lamp.YELLOW, 'real-time factor %.3f, lag %.0f ms' % (
-            status.real_time_factor, 1e3 * status.lag))}
+        states = {'pace': (Lamp.GREEN if status.lag < LAG_S else Lamp.YELLOW, 'real-time factor %.3f, lag %.3f s' % (
+            status.real_time_factor, status.lag))}
         if status.paused:
             states['pace'] = (Lamp.GREY, 'paused')
         for name, diagnosis in self.link.diagnostics.items():
