@@ -66,7 +66,7 @@ def process_docstring(app, what, name, obj, options, lines):
         if found and not line.startswith(('Returns', 'Throws', 'Here')):
             if not inside:
                 new.append('')
-            new.append(':param %s: %s' % (found[1], line[found.end():]))
+            new.append(':param %s: %s' % (found[1].replace(' ', ''), line[found.end():]))
             inside = True
         elif inside and line.strip() and not line.startswith((' ', 'Returns', 'Throws', 'An object')):
             new.append('    ' + line)

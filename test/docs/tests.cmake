@@ -23,9 +23,10 @@ add_test(NAME interface_tables
 add_test(NAME links COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/links_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(interface_tables links PROPERTIES TIMEOUT 30)
 
-# the site, where its parts are installed (Debian 12 and later): a warning of Sphinx or Doxygen is an error
+# the site, where its parts are installed as Debian 12 has them: a warning of Sphinx or Doxygen is an error
 find_program(DOXYGEN_PROGRAM doxygen)
-execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import breathe, furo, myst_parser, sphinx_copybutton"
+execute_process(COMMAND ${PYTHON_EXECUTABLE} -c
+  "import breathe, furo, myst_parser, sphinx, sphinx_copybutton; assert sphinx.version_info[0] == 5"
   RESULT_VARIABLE sphinx_result OUTPUT_QUIET ERROR_QUIET)
 if(DOXYGEN_PROGRAM AND sphinx_result EQUAL 0 AND TARGET afm_python)
   add_test(NAME site COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/site_test.py
