@@ -11,7 +11,8 @@ from pathlib import Path
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
 DEADLINE_S = 120 * PATIENCE
 STAYS_S = 10 * PATIENCE  # longer than roslaunch takes to start the nodes, and a Python node to import rospy: it ends unwell before that
-COPIED = ('README.md', 'benchmark', 'config', 'docs', 'examples', 'scripts', 'test/data', 'test/node')  # what commands read, and some write
+# what commands read, and some write
+COPIED = ('README.md', 'Snakefile', 'benchmark', 'config', 'docs', 'examples', 'scripts', 'test/data', 'test/node', 'workflow')
 # until_interrupted: of a command that goes on until Ctrl-C, and fails where it ends earlier
 PRELUDE = '''source "$0/setup.bash" || exit
 until_interrupted() {
