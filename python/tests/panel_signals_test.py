@@ -49,7 +49,8 @@ class Swing(unittest.TestCase):
     def test_is_exact_on_free_oscillation(self):
         t = np.array([0.0, 0.031, 0.05, 0.081])
         fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(8) / 8).ravel(), t[-1])
-        np.testing.assert_allclose(swing(t, np.cos(OMEGA_H * t + 0.3), OMEGA_H, 8, np.ones(3, bool)), np.cos(OMEGA_H * fine + 0.3), atol=1e-12)
+        seen = swing(t, np.cos(OMEGA_H * t + 0.3), OMEGA_H, 8, np.ones(3, bool))
+        np.testing.assert_allclose(seen, np.cos(OMEGA_H * fine + 0.3), atol=1e-12)
 
     def test_is_straight_where_too_little_is_known(self):
         for length, is_free in ((1.0, True), (0.03, False)):
@@ -112,9 +113,10 @@ class Contact(unittest.TestCase):
 def batch(first, count, epoch=0, velocity=0.0):
     period = 5e-6
     t = first * period / TAU_S
-    return SimpleNamespace(epoch=epoch, first_sample=first, sample_period=period, drag_velocity=velocity, holder_position=velocity * first * period,
-                           time=SimpleNamespace(tau=10**9 + int(t), phase=t % 1.0), vertical=SPACING_M * np.arange(first, first + count),
-                           lateral=np.zeros(count))
+    return SimpleNamespace(epoch=epoch, first_sample=first, sample_period=period, drag_velocity=velocity,
+                           holder_position=velocity * first * period, lateral=np.zeros(count),
+                           time=SimpleNamespace(tau=10**9 + int(t), phase=t % 1.0),
+                           vertical=SPACING_M * np.arange(first, first + count))
 
 
 class RecentBatches(unittest.TestCase):

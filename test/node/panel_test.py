@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import roslib.packages
@@ -97,6 +98,8 @@ class Panel:
 class Knobs(EmulatorTest):
     @classmethod
     def setUpClass(cls):
+        cls.directory = tempfile.TemporaryDirectory()
+        cls.parameters = {'bag_directory': cls.directory.name}
         super().setUpClass()
         cls.panel = Panel()
         until(cls.panel.is_ready, 'the panel has found the emulator')
@@ -105,6 +108,7 @@ class Knobs(EmulatorTest):
     def tearDownClass(cls):
         cls.panel.close()
         super().tearDownClass()
+        cls.directory.cleanup()
 
     def applied(self, condition, what):
         until(lambda: self.topics['applied'].messages and condition(self.topics['applied'].messages[-1]), what)
@@ -175,6 +179,14 @@ class Knobs(EmulatorTest):
         until(lambda: self.panel.part('pause').text() == 'Go on', 'the panel knows that it is paused')
         self.panel.press('pause')
         self.status(lambda m: not m.paused and m.time.tau > 10, 'it goes on')
+
+    def test_a_run_is_recorded(self):
+        self.panel.press('record')
+        self.status(lambda m: m.recording, 'it is recorded')
+        until(lambda: 'End' in self.panel.part('record').text(), 'the button says so')
+        self.panel.press('record')
+        self.status(lambda m: not m.recording, 'it is no longer recorded')
+        self.assertEqual([name.rsplit('.', 1)[-1] for name in os.listdir(self.directory.name)], ['bag'])
 
     def test_pictures(self):
         self.panel.type_in('eta', '2.0')
@@ -263,7 +275,8 @@ class Ending(NodeTest):
 
     def test_at_ctrl_c(self):
         panel = self.start(Process([self.NODE, '__name:=panel_to_end']))
-        wait_until(lambda: any('/panel_to_end' in nodes for _, nodes in rospy.get_master().getSystemState()[2][1]), 'it subscribes')
+        subscribed = lambda: rospy.get_master().getSystemState()[2][1]  # noqa: E731
+        wait_until(lambda: any('/panel_to_end' in nodes for _, nodes in subscribed()), 'it subscribes')
         panel.child.send_signal(signal.SIGINT)
         self.ended(panel, time.monotonic())
 

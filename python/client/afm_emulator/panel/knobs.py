@@ -6,7 +6,7 @@ from PyQt5 import QtCore, QtWidgets
 
 OWN_S = 1.0     # for so long after a turn a knob shows what was asked for, and not yet what holds
 SLIDER_STEPS = 1000
-LAMP = 'border-radius: 5px; border: 1px solid #777; background: %s; min-width: 9px; max-width: 9px; min-height: 9px; max-height: 9px;'
+LAMP = 'border-radius: 5px; border: 1px solid #777; background: %s;'
 
 
 class Spin(QtWidgets.QDoubleSpinBox):
@@ -80,12 +80,14 @@ class Knob(QtWidgets.QWidget):
 
 class Lamp(QtWidgets.QWidget):
     GREY, GREEN, YELLOW, RED = '#dddddd', '#009E73', '#F0C000', '#D55E00'
+    BY_LEVEL = GREEN, YELLOW, RED, RED  # of diagnostic_msgs/DiagnosticStatus
 
     def __init__(self, text):
         super().__init__()
         row = QtWidgets.QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         self.bulb, self.label = QtWidgets.QLabel(), QtWidgets.QLabel(text)
+        self.bulb.setFixedSize(11, 11)
         self.label.setWordWrap(True)
         row.addWidget(self.bulb, 0, QtCore.Qt.AlignTop)
         row.addWidget(self.label, 1)

@@ -11,7 +11,7 @@ from .signals import Scale, envelope
 BLUE, ORANGE, GREEN, GREY = '#0072B2', '#D55E00', '#009E73', '#909090'  # Okabe and Ito
 ENERGIES = ((0.0, '#56B4E9'), (0.1, '#009E73'), (1.0, '#E69F00'), (10.0, '#D55E00'))  # from so much on [zJ]: a colour
 ZEPTO, PICO = 1e-21, 1e-12
-BUCKETS = 600         # of a signal across a picture: no peak is lost
+BUCKETS = 250         # of a signal across a picture, each with its least and its greatest value: no peak is lost
 PATH_CELLS = 6.0
 SPANS = (2, 5, 10, 50, 200, 1000)  # tau
 
@@ -20,7 +20,8 @@ pg.setConfigOptions(background='w', foreground='k')
 
 def friction_curve():
     """(eta, K_f) of FIG. 1."""
-    return np.loadtxt(str(FilePath(roslib.packages.get_pkg_dir('afm_emulator')) / 'config' / 'fig1.csv'), delimiter=',', skiprows=2)
+    table = FilePath(roslib.packages.get_pkg_dir('afm_emulator')) / 'config' / 'fig1.csv'
+    return np.loadtxt(str(table), delimiter=',', skiprows=2)
 
 
 def pen(colour, width=1.0):
@@ -129,7 +130,8 @@ class Path:
         if nm != self._nm:
             self.plot.setXRange(0.0, nm * PATH_CELLS, padding=0.0)
             self._nm = nm
-        self.plot.fit_y(pm * profile, pm * y, np.array([pm * (y.max() + 0.03)]))  # and the note above it
+        top, bottom = max(y.max(), amplitude), min(y.min(), -amplitude)
+        self.plot.fit_y(pm * np.array([bottom, top + 0.1 * (top - bottom)]))  # and the note above it
 
 
 class Loop:
@@ -150,7 +152,7 @@ class Loop:
         origin = min(line[0].min() for line in (now, before) if line.shape[1])
         shown = {loop.direction: now, -loop.direction: before}
         for way, (x, force) in shown.items():
-            self._lines[way].setData(*envelope(1e9 * (x - origin), force / PICO, BUCKETS // 3))
+            self._lines[way].setData(*envelope(1e9 * (x - origin), force / PICO, BUCKETS))
         self.plot.fit_x(0.0, 1e9 * max(line[0].max() - origin for line in shown.values() if line.shape[1]))
         self.plot.fit_y(*(line[1] / PICO for line in shown.values()))
 

@@ -88,17 +88,18 @@ class Motion:
     def trigger(self, span, direction):
         """Begin of a picture of that span: where the tip passes the middle of a rising flank; of the last passages the highest, so
         that a periodic motion stands still. None if it passes none."""
-        x = direction * (self.xc + self.X) - TRIGGER_PHASE
+        first, last = np.searchsorted(self.t, (self.t[-1] - span - TRIGGER_SEARCH, self.t[-1] - span))
+        t, Y = self.t[first:last], self.Y[first:last]
+        x = direction * (self.xc + self.X)[first:last] - TRIGGER_PHASE
         flank = np.floor(x)
         i = np.flatnonzero(np.diff(flank) > 0)
-        part = (flank[i + 1] - x[i]) / (x[i + 1] - x[i])
-        begin = self.t[i] + part * (self.t[i + 1] - self.t[i])
-        height = self.Y[i] + part * (self.Y[i + 1] - self.Y[i])
-        height[(begin + span > self.t[-1]) | (begin + span + TRIGGER_SEARCH < self.t[-1])] = -np.inf
-        if not len(height) or height.max() == -np.inf:
+        if not len(i):
             return None
+        part = (flank[i + 1] - x[i]) / (x[i + 1] - x[i])
+        begin = t[i] + part * (t[i + 1] - t[i])
+        height = Y[i] + part * (Y[i + 1] - Y[i])
         # of equal heights the last: rounding and the line between two points make differences of a thousandth
-        return begin[np.flatnonzero(height > height.max() - 1e-3 * np.ptp(self.Y))[-1]]
+        return begin[np.flatnonzero(height > height.max() - 1e-3 * np.ptp(Y))[-1]]
 
     def within(self, begin, end):
         a, b = np.searchsorted(self.t, (begin, end))

@@ -179,7 +179,7 @@ class Window(QtWidgets.QWidget):
         tau_s = 2 * math.pi / settings.omega_v_rad_per_s
         amplitude, height = settings.surface_amplitude_m / spacing, applied.rest_height_m / spacing
         samples, impacts = self.recent.last(span + TRIGGER_SEARCH, spacing, tau_s)
-        motion = Motion(samples, impacts, amplitude, height, 2 * math.pi * settings.omega_h_rad_per_s / settings.omega_v_rad_per_s)
+        motion = Motion(samples, impacts, amplitude, height, settings.omega_h_rad_per_s * tau_s)
         rolls = self._status('paused') or settings.time_scale * FRAME_MS * 1e-3 / tau_s < SLOW_TAU
         begin = None if rolls else motion.trigger(span, direction)
         triggered = begin is not None
@@ -226,7 +226,7 @@ class Window(QtWidgets.QWidget):
                 ('friction', 'friction K<sub>f</sub>', with_error(friction.k_f_work_natural, error), 'm<sub>tip</sub>/τ'),
                 ('force', 'mean lateral force', '%.1f' % (friction.mean_lateral_force / PICO), 'pN'),
                 ('impacts', 'impacts', '%.2f' % status.impacts_per_tau, '/τ')):
-            self.readouts[name].setText(READOUT % (title, value, unit))
+            self.readouts[name].setText(READOUT % (title, value, unit if value != 'undefined' else ''))
 
     def _follow(self, settings, applied):
         tau_s, stiffness = 2 * math.pi / settings.omega_v_rad_per_s, settings.tip_mass_kg * settings.omega_v_rad_per_s ** 2
@@ -245,7 +245,7 @@ class Window(QtWidgets.QWidget):
         if status.paused:
             states['pace'] = (Lamp.GREY, 'paused')
         for name, diagnosis in self.link.diagnostics.items():
-            states[name] = ((Lamp.GREEN, Lamp.YELLOW, Lamp.RED, Lamp.RED)[min(diagnosis.level, 3)], '%s: %s' % (name, diagnosis.message))
+            states[name] = Lamp.BY_LEVEL[min(diagnosis.level, 3)], '%s: %s' % (name, diagnosis.message)
         if self.link.notes:
             states['note'] = (Lamp.GREY, self.link.notes[-1])
         for name, state in states.items():
