@@ -33,8 +33,7 @@ def free_port():
 def clean_environment(home, **more):
     """Nothing of the machine's own, no display among it."""
     return dict({'HOME': str(home), 'PATH': '/usr/bin:/bin:/usr/sbin:/sbin', 'LC_ALL': 'C.UTF-8', 'ROS_HOSTNAME': 'localhost',
-                 'PYTHONUNBUFFERED': '1', 'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
-                 'OMPI_MCA_rmaps_base_oversubscribe': '1'}, **more)
+                 'PYTHONUNBUFFERED': '1'}, **more)
 
 
 class Shell:
