@@ -75,7 +75,7 @@ struct Chaotic {
 class Coverage : public testing::TestWithParam<Chaotic> {};
 
 TEST_P(Coverage, IsNineteenInTwenty) {
-  constexpr int kSeeds = 1000;
+  constexpr int kSeeds = 3000;
   const Chaotic& known = GetParam();
   const SweepPoint point{known.eta, 0.7, 0.1 * known.eta};
   int covered = 0;

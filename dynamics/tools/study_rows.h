@@ -1,6 +1,6 @@
-// The tables of basins and orbits, as tools print them and the Python module returns them: their columns, and the cells of
-// their rows, from left to right. A table takes numbers and text by `<<` and the end of a row by end_row(), as TableWriter
-// does. Natural units.
+// The tables of basins and orbits, for the tools and the Python module: their columns, and the cells of a row from left
+// to right. A table takes numbers and text by `<<` and the end of a row by end_row(), as TableWriter does.
+// Natural units.
 #pragma once
 
 #include <complex>

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A map of friction by many machines: a task for each point, done by the workers of a dask cluster.
+"""A map of friction by many machines: its points are computed by the workers of a dask cluster.
 
 Usage: many_machines.py TABLE [--scheduler HOST:PORT] [--workers N] [--points N] [--duration TAU]
 
@@ -16,10 +16,16 @@ from distributed import Client, LocalCluster
 
 import afm
 
+POINTS_OF_A_TASK = 30  # dask takes some 10 ms of processor time for each task
+
 
 def row(gamma, eta, duration):
     point = afm.friction_curve(eta, gamma=gamma, duration=duration, transient=0.1 * duration, threads=1)[0]
     return '%.17g,%.17g,%.17g,%.17g\n' % (gamma, eta, point['k_f_work'], point['k_f_work_std_error'])
+
+
+def rows(points, duration):
+    return ''.join(row(*point, duration) for point in points)
 
 
 def main():
@@ -37,7 +43,8 @@ def main():
     todo = points[len(done):]
     cluster = options.scheduler or LocalCluster(options.workers, threads_per_worker=1, dashboard_address=None)
     with Client(cluster) as client, options.table.open('a') as table:
-        for future in client.map(row, *zip(*todo), duration=options.duration, pure=False) if todo else []:
+        tasks = [todo[i:i + POINTS_OF_A_TASK] for i in range(0, len(todo), POINTS_OF_A_TASK)]
+        for future in client.map(rows, tasks, duration=options.duration, pure=False):
             table.write(future.result())
             table.flush()
 

@@ -75,7 +75,7 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
 }
 
 // Of rows of (eta, gamma, cutoff, phase, extension, u, w, rest_height, amplitude, frequency_ratio). Returns the eight
-// results of each, one row after the other, NaN where it has none, and what is wrong with the first such row: its number and the fault.
+// results of each, one row after the other, NaN where it has none; and number and fault of the first such row.
 py::tuple next_impact(const Numbers& inputs, const std::string& kind, int threads) {
   constexpr std::size_t kInputs = 10, kResults = 8, kRowsAtATime = 1000;
   const std::size_t n = static_cast<std::size_t>(inputs.size()) / kInputs;

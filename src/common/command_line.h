@@ -1,5 +1,5 @@
-// The command line of a tool: its options, its help and its exit code, by Boost.Program_options. Its headers take longer
-// to compile than a tool, and are included in command_line.cpp alone.
+// The command line of a tool: its options, its help and its exit code, by Boost.Program_options. The headers of that
+// take longer to compile than a tool, and are included in command_line.cpp alone.
 #pragma once
 
 #include <functional>

@@ -19,8 +19,8 @@ struct PointOptions {
 };
 
 void add_options(CommandLine& app, PointOptions& options);
-// --si and --drag-velocity, beside the options of add_options(); and what follows from them, once they are read: eta and
-// cutoff in natural units. Throws std::invalid_argument.
+// --si and --drag-velocity, beside the options of add_options(); and what follows from them: eta and cutoff in natural
+// units. Throws std::invalid_argument.
 void add_si_options(CommandLine& app, PointOptions& options);
 void take_si(const CommandLine& app, PointOptions& options);
 void add_model_option(CommandLine& app, std::string& model);

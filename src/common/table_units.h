@@ -1,4 +1,4 @@
-// The units of a table: SI, or natural units (lattice spacing a, period tau, tip mass m_tip), and how column names show them.
+// The units of a table: SI, or natural ones (lattice spacing a, period tau, tip mass m_tip), and how columns show them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The points of a curve or map, in the order of the rows of its table: frequency ratios, in each the amplitudes, then rest
-// heights, cutoffs, gammas, and in each of those the etas.
+// The points of a curve or map, in the order of the rows of its table: eta changes fastest, then gamma, cutoff, rest
+// height, amplitude and frequency ratio.
 #pragma once
 
 #include <cstddef>

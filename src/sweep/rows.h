@@ -1,5 +1,5 @@
-// The table of a curve, as the tool prints it and the Python module returns it: its columns, and the cells of its rows, from
-// left to right. A table takes numbers and text by `<<` and the end of a row by end_row(), as TableWriter does. Natural units.
+// The table of a curve, for the tool and the Python module: its columns, and the cells of a row from left to right. A
+// table takes numbers and text by `<<` and the end of a row by end_row(), as TableWriter does. Natural units.
 #pragma once
 
 #include <vector>

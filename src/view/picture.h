@@ -1,4 +1,4 @@
-// One picture after another, as markers, of a run. Where the eye can follow, the picture goes with the holder, and shows
+// One picture after another of a run, as markers. Where the eye can follow, the picture goes with the holder and shows
 // the tip's path and impacts. Where a picture is more than half a tau behind the next, the surface stands still with a
 // crest in its middle, and what happened in the last second is a cloud over it.
 #pragma once

@@ -8,7 +8,7 @@ Command = namedtuple('Command', 'place text')  # place: DOCUMENT:LINE, of the fi
 FENCE = re.compile(r'^```(\w*)')
 SPAN = re.compile(r'`([^`]+)`')
 # what a line of a command begins with, if it stands outside a bash block
-BEGINNING = re.compile(r'(scripts/\w|benchmark/\w|build/\w|rosrun |roslaunch |rostopic |rosservice |rosbag |source |mpirun )')
+BEGINNING = re.compile(r'(scripts/\w|benchmark/\w|build/\w|rosrun |roslaunch |rostopic |rosservice |rosbag |source |snakemake )')
 
 
 class Fault(Exception):
