@@ -30,7 +30,8 @@ struct Dwell {
 
 std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
   std::vector<Dwell> found;
-  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  constexpr double kTolerance = 1e-8;  // so that the tip is released at the exact time
+  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, kTolerance);
   for (int i = 0; i < 200000 && found.size() < wanted; ++i) {
     if (tip.advance(kNever) != Outcome::contact) continue;
     const TipState s = tip.tip_state();

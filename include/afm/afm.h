@@ -12,6 +12,7 @@
 #include "afm/reflection.h"
 #include "afm/single_flight.h"
 #include "afm/contact.h"
+#include "afm/contact_step.h"
 #include "afm/chatter.h"
 #include "afm/segment.h"
 #include "afm/bath.h"

@@ -8,6 +8,7 @@
 #include "bath.h"
 #include "chatter.h"
 #include "contact.h"
+#include "contact_step.h"
 #include "flight.h"
 #include "impact_search.h"
 #include "model.h"
@@ -69,7 +70,7 @@ class Tip {
   Outcome advance(const ModelTime& limit);
 
   // The same, one segment of motion at a time. It also stops (Outcome::flying) after a kick, at the horizon of a
-  // search, and at the end of a Taylor series of a slide. `ended`: the records that end with it; they do not depend on
+  // search, and at the end of a step in contact. `ended`: the records that end with it; they do not depend on
   // the limits.
   Outcome advance_segment(const ModelTime& limit, Segments* ended = nullptr);
   ModelTime segment_end();  // deflection() is valid before this time
@@ -140,7 +141,8 @@ class Tip {
   void fly(const TipState& start);
   void begin_flight();
   void slide(const SlideState<double>& start);
-  void slide(const SlideState<double>& start, int bits);
+  void refer_to(const SlideState<double>& start, int bits);
+  SlideState<double> surface_state(double s) const;
   void start_chatter(const SlideState<double>& reference, const Chatter& start);
   void leave_or_press();
   void find_landing();
@@ -190,9 +192,10 @@ class Tip {
   ChatterLaw law_;
   double entry_speed_;  // chatter_entry_speed()
   Flight<double> flight_;
-  SlideSegment<double> slide_;  // of contact, or of the reference slide
+  ContactStep contact_;         // while sliding
+  SlideSegment<double> slide_;  // the reference slide of a chatter sequence
   Mode mode_ = Mode::flying;
-  ModelTime start_, now_;  // start of flight_ or slide_; the present
+  ModelTime start_, now_;  // start of flight_, contact_ or slide_; the present
   Landing<double> landing_{};
   bool landing_known_ = false;
   double slide_end_ = 0.0;  // since start_ [tau]

@@ -16,6 +16,7 @@ set(core_tests
   contact/chatter_end
   contact/contact
   contact/contact_energy
+  contact/contact_step
   contact/slide
   contact/slide_release
   run/batch_means

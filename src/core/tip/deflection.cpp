@@ -9,9 +9,11 @@
 namespace afm {
 namespace {
 
-SlidePath<double> path_of(const SlideSegment<double>& slide) {
+// `displacement` must outlive the path.
+template <class Slide>
+SlidePath<double> path_of(const Slide& slide, const Series<double>& displacement) {
   const Mechanics<double>& m = slide.mechanics();
-  return {slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()};
+  return {slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, displacement};
 }
 
 AFM_MULTIVERSION Deflection at(const Flight<double>& flight, double s) { return flight_deflection(flight, s); }
@@ -36,8 +38,7 @@ lanes::SampleRow row_of(const Flight<double>& flight) {
   return row;
 }
 
-lanes::SampleRow row_of(const SlideSegment<double>& slide) {
-  const SlidePath<double> reference = path_of(slide);
+lanes::SampleRow row_of(const SlidePath<double>& reference) {
   lanes::SampleRow row;
   row.on_slide = true;
   row.phase = reference.phase, row.X = reference.X, row.H = reference.H, row.y0 = reference.y0, row.eta = reference.eta;
@@ -46,7 +47,8 @@ lanes::SampleRow row_of(const SlideSegment<double>& slide) {
 }
 
 Deflection Tip::deflection(const ModelTime& t) const {
-  if (on_slide()) return at(path_of(slide_), t - start_);
+  if (in_contact()) return at(path_of(contact_, contact_.displacement()), t - start_);
+  if (in_chatter()) return at(path_of(slide_, slide_.displacement()), t - start_);
   return at(flight_, t - start_);
 }
 
@@ -58,7 +60,10 @@ double Tip::deflections(const SampleGrid& grid, std::uint64_t first, std::size_t
   const double count = static_cast<double>(first - grid.first);
   const lanes::Sampler in_lanes = n < kMinInLanes ? nullptr : lanes::sampler_in(8);
   if (in_lanes != nullptr && exact(clock, count + static_cast<double>(n))) {
-    lanes::SampleRow row = on_slide() ? row_of(slide_) : row_of(flight_);
+    const Series<double> displacement = in_contact() ? contact_.displacement() : slide_.displacement();
+    lanes::SampleRow row = in_contact()   ? row_of(path_of(contact_, displacement))
+                           : in_chatter() ? row_of(path_of(slide_, displacement))
+                                          : row_of(flight_);
     row.clock = clock;
     row.first = count, row.n = n, row.vertical = vertical, row.lateral = lateral;
     return in_lanes(row);

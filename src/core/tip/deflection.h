@@ -45,6 +45,6 @@ DeflectionOf<T> slide_deflection(const SlidePath<T>& reference, const T& s) {
 
 // The motion as the lanes need it; the caller adds the samples.
 lanes::SampleRow row_of(const Flight<double>& flight);
-lanes::SampleRow row_of(const SlideSegment<double>& slide);
+lanes::SampleRow row_of(const SlidePath<double>& reference);
 
 }  // namespace afm

@@ -31,8 +31,8 @@ int reference_bits(double contact_tolerance) {
   return std::clamp(-std::ilogb(std::max(kPartOfTolerance * contact_tolerance, 1e-15)), kMinReferenceBits, kSlideBits);
 }
 
-// Digits of a slide in contact: the error of the velocity is 1e-14 of itself, or of 1 a/tau if it is slower.
-int contact_bits(double u) { return kSlideBits - std::ilogb(std::fmin(std::fmax(std::fabs(u), 1.0), 0x1p24)); }
+// Error of a step in contact: a small part of the tolerance, as many steps follow each other.
+double step_tolerance(double contact_tolerance) { return std::max(2e-4 * contact_tolerance, kFinestStep); }
 
 }  // namespace
 
@@ -85,23 +85,34 @@ void Tip::begin_flight() {
   landing_known_ = false;
 }
 
+// A step that follows another one begins with its length.
 void Tip::slide(const SlideState<double>& start) {
-  slide(start, contact_bits(start.u));
+  const ContactStep::Hint hint = mode_ == Mode::sliding ? contact_.hint() : ContactStep::Hint{};
+  new (&contact_) ContactStep(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u},
+                              step_tolerance(contact_tolerance_), hint);
+  mode_ = Mode::sliding;
   is_split_ = false;
+  start_ = now_;
+  const double release = contact_.find_release();
+  slide_releases_ = release >= 0.0;
+  slide_end_ = slide_releases_ ? release : contact_.length();
 }
 
-void Tip::slide(const SlideState<double>& start, int bits) {
+void Tip::refer_to(const SlideState<double>& start, int bits) {
   slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits, slide_);
-  mode_ = Mode::sliding;
+  mode_ = Mode::chattering;
   start_ = now_;
   const double release = release_of(slide_);
   slide_releases_ = release >= 0.0;
   slide_end_ = slide_releases_ ? release : slide_.length();
 }
 
+SlideState<double> Tip::surface_state(double s) const {
+  return mode_ == Mode::sliding ? contact_.at(s) : slide_at(slide_, s);
+}
+
 void Tip::start_chatter(const SlideState<double>& reference, const Chatter& start) {
-  slide(reference, reference_bits(kErrorGrowth * slowest_chatter_));
-  mode_ = Mode::chattering;
+  refer_to(reference, reference_bits(kErrorGrowth * slowest_chatter_));
   chatter_ = start;
   chatter_run_ = law_.run(slide_, 0.0, slide_end_, start);
 }
@@ -135,7 +146,7 @@ void Tip::set_tolerance(double contact_tolerance) {
 
 TipState Tip::tip_state() const {
   if (on_slide()) {
-    const SlideState<double> q = slide_at(slide_, now_ - start_);
+    const SlideState<double> q = surface_state(now_ - start_);
     return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
   }
   TipState state = state_of(flight_, now_ - start_);

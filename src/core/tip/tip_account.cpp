@@ -16,17 +16,19 @@ double spring_impulse(const Mechanics<double>& m, double stretch) { return -m.om
 
 // The holder of a hammer balances the reaction along x. Its work is the change of energy. At rest its force is
 // constant.
-double held_impulse(const SlideSegment<double>& slide, double s, double work) {
-  if (slide.eta() != 0.0) return work / slide.eta();
-  return surface_jet(slide.mechanics().H, slide.start().phase).h1 * slide.pressure(0.0) * s;
+double held_impulse(const Mechanics<double>& m, double eta, const SlideState<double>& start, double pressure, double s,
+                    double work) {
+  if (eta != 0.0) return work / eta;
+  return surface_jet(m.H, start.phase).h1 * pressure * s;
 }
 
 }  // namespace
 
 double Tip::slide_impulse(double s) const {
-  if (mechanics_.is_free_along_x > 0.0) return spring_impulse(mechanics_, extension_integral(slide_, s));
-  const double end = slide_energy(mechanics_, slide_at(slide_, s));
-  return held_impulse(slide_, s, end - slide_energy(mechanics_, slide_.start()));
+  if (mechanics_.is_free_along_x > 0.0) return spring_impulse(mechanics_, contact_.extension_integral(s));
+  const SlideState<double>& start = contact_.start();
+  const double work = slide_energy(mechanics_, contact_.at(s)) - slide_energy(mechanics_, start);
+  return held_impulse(mechanics_, eta_, start, contact_.pressure(start), s, work);
 }
 
 // A chatter sequence at the time s of slide_. `gain` is the work of the drag minus the change of the energy stored in
@@ -43,7 +45,8 @@ Tip::SequenceState Tip::sequence_state(double s, const Chatter& chatter) const {
   } else {
     const double along = slide_energy(mechanics_, reference);
     r.gain += chatter.held_work - (after - along);
-    r.impulse = r.impulse + held_impulse(slide_, s, along - start) + held_impulse(slide_, 0.0, chatter.held_work);
+    r.impulse = r.impulse + held_impulse(mechanics_, eta_, slide_.start(), slide_.pressure(0.0), s, along - start) +
+                held_impulse(mechanics_, eta_, slide_.start(), slide_.pressure(0.0), 0.0, chatter.held_work);
   }
   return r;
 }
@@ -57,7 +60,7 @@ double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
 Account Tip::account_at_begin() const {
   if (is_split_) return split_;
   if (mode_ == Mode::chattering) return {sequence_begin_, 0.0, 0.0, sequence_energy_, 0};
-  if (mode_ == Mode::sliding) return {start_, 0.0, 0.0, slide_energy(mechanics_, slide_.start()), 0};
+  if (mode_ == Mode::sliding) return {start_, 0.0, 0.0, slide_energy(mechanics_, contact_.start()), 0};
   return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flight_.start().state), 0};
 }
 
@@ -69,7 +72,7 @@ Account Tip::account_at(double s, const Chatter& chatter) const {
     return {now_, r.impulse + bounce, chatter_loss(chatter.v, r.gain), energy, static_cast<std::uint64_t>(chatter.n)};
   }
   if (mode_ == Mode::sliding) {
-    return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, slide_at(slide_, s)), 0};
+    return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, contact_.at(s)), 0};
   }
   return flight_account(flight_state(flight_, s));
 }

@@ -57,8 +57,7 @@ void Tip::set_parameters(const Model& model) {
     const Chatter chatter = chatter_now();
     reference = leave_reference(now_ - start_, chatter);
     set_laws(model);
-    slide(reference);
-    mode_ = Mode::chattering;
+    refer_to(reference, kSlideBits);
     chatter_ = {chatter.v, chatter.n};
     chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
     return split_account();

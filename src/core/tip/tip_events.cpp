@@ -63,10 +63,11 @@ Outcome Tip::touch() {
 }
 
 Outcome Tip::end_slide() {
-  const SlideState<double> q = slide_at(slide_, slide_end_);
+  const SlideState<double> q = contact_.at(slide_end_);
   if (!slide_releases_) {
+    const bool failed = !contact_.is_accurate();
     slide(q);
-    return Outcome::flying;
+    return failed ? Outcome::search_failed : Outcome::flying;
   }
   const TipState state{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
   last_impact_ = {

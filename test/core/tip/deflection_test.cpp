@@ -115,11 +115,9 @@ TEST(Deflection, AnyNumberOfLanesGivesTheSame) {
       };
       check(row_of(flight), 0.003, [&](double s) { return flight_deflection(flight, s); });
       check(row_of(flight), 0.31, [&](double s) { return flight_deflection(flight, s); });
-      check(row_of(slide), 0.001, [&](double s) {
-        const Mechanics<double>& m = slide.mechanics();
-        return slide_deflection(
-            SlidePath<double>{slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()}, s);
-      });
+      const Mechanics<double>& m = slide.mechanics();
+      const SlidePath<double> path{slide.start().phase, slide.start().X, slide.eta(), m.H, m.y0, slide.displacement()};
+      check(row_of(path), 0.001, [&](double s) { return slide_deflection(path, s); });
     }
   }
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "afm/tip.h"
-#include "trials/random_launches.h"
 #include "support/slides.h"
+#include "trials/random_launches.h"
 
 namespace afm {
 namespace {
@@ -58,7 +58,8 @@ TEST_P(Split, InAFlightMovesTheTipByTwoUlp) {
   EXPECT_GT(within_two, 0.95 * all);
 }
 
-TEST_P(Split, InASlideMovesTheTipByTheErrorOfItsSeries) {
+TEST_P(Split, InASlideMovesTheTipByTheErrorOfItsSteps) {
+  constexpr double kErrorOfASlide = 1e-2 * kDefaultContactTolerance;
   int all = 0;
   for (int i = 0; i < 2000; ++i) {
     const SlideState<double> q = random_piece(eta(), random_).start();
@@ -67,10 +68,20 @@ TEST_P(Split, InASlideMovesTheTipByTheErrorOfItsSeries) {
     const ModelTime command = between(kZero, whole.segment_end());
     Tip split = split_at(whole, command, barely_slower());
     const ModelTime later = between(command, whole.segment_end());
-    while (split.segment_end() < later) ASSERT_EQ(split.advance_segment(later), Outcome::flying);
+    Outcome outcome = Outcome::flying;
+    while (split.segment_end() < later && outcome == Outcome::flying) outcome = split.advance_segment(later);
+    if (outcome == Outcome::released) {  // earlier, where the reaction is zero within the error of h'' u^2
+      const double k = kTwoPi, u_error = kErrorOfASlide * k * std::max(1.0, std::abs(eta()));
+      whole.advance_segment(split.now());
+      const TipState there = whole.tip_state();
+      ASSERT_LE(pressure_of(Model(), SlideState<double>{there.phase, there.X, there.u}),
+                2.0 * k * k * Model().H * std::max(1.0, std::abs(there.u)) * u_error);
+      continue;
+    }
+    ASSERT_EQ(outcome, Outcome::flying);
     const Deflection a = whole.deflection(later), b = split.deflection(later);
-    ASSERT_NEAR(a.vertical, b.vertical, 1e-15);
-    ASSERT_NEAR(a.lateral, b.lateral, 2e-15);
+    ASSERT_NEAR(a.vertical, b.vertical, kErrorOfASlide);
+    ASSERT_NEAR(a.lateral, b.lateral, kErrorOfASlide);
     ++all;
   }
   EXPECT_GT(all, 1000);

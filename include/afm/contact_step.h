@@ -1,0 +1,65 @@
+// One step of a tip in frictionless contact, by Gauss collocation (docs/algorithm.md, "Contact"). On the surface the
+// tip has one degree of freedom, and nothing in its motion is fast but a nearly harmonic swing. A step is up to one
+// turn of that swing. The Taylor series of contact.h is the same motion to the last digits, for chatter and derivatives.
+#pragma once
+
+#include "afm/contact.h"
+#include "afm/detail/gauss.h"
+
+namespace afm {
+
+// At a state on the surface: h, h', 1 + h'^2, x'' [a/tau^2], the reaction along y [a/tau^2], and -dx''/dx [1/tau^2].
+struct ContactForces {
+  double h, h1, N2, force, reaction, stiffness;
+};
+
+constexpr double kFinestStep = 2e-15;  // the smallest tolerance of a step [a]: rounding allows no finer one
+
+class ContactStep {
+ public:
+  // Where the search for the length of a step begins. It changes the steps, but no error beyond the tolerance.
+  struct Hint {
+    int level = 2;           // number of the length, the longest is 0
+    double stiffness = 0.0;  // of the swing [1/tau^2]; 0: that at the start
+  };
+
+  ContactStep() = default;
+  // tolerance: error allowed at the end of the step in x [a], and in u over the rate of the swing. Precondition:
+  // `start` is on the surface.
+  ContactStep(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, double tolerance,
+              const Hint& hint);
+
+  // Guarantee: with extension_integral() the energy balances to rounding at every s in [0, length()].
+  SlideState<double> at(double s) const;
+  double extension_integral(double s) const;           // of x - xc over the first s [a tau]
+  double pressure(const SlideState<double>& q) const;  // the reaction along y [a/tau^2]
+  Series<double> displacement() const;                 // x - x(start) in powers of the time
+
+  // The first time in [0, length()] at which the reaction has fallen to -release_noise(), within a thousandth of that.
+  // Negative if it does not fall so far.
+  double find_release() const;
+
+  double length() const { return length_; }          // [tau]
+  bool is_accurate() const { return is_accurate_; }  // false: no length meets the tolerance, as of a corrupted state
+  Hint hint() const { return hint_; }                // for the next step
+  const SlideState<double>& start() const { return start_; }
+  const Mechanics<double>& mechanics() const { return m_; }
+  double eta() const { return eta_; }
+
+ private:
+  friend class ContactSolver;  // contact_step.cpp
+
+  Mechanics<double> m_;
+  double eta_ = 0.0;
+  SlideState<double> start_{};
+  ContactForces first_{};  // at the start
+  double length_ = 0.0;
+  AtGaussNodes force_{}, reaction_{};
+  SlideState<double> end_{};
+  double end_integral_ = 0.0;
+  double stiffness_ = 0.0;  // of the swing
+  Hint hint_;
+  bool is_accurate_ = false;
+};
+
+}  // namespace afm

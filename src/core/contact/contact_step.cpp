@@ -1,0 +1,368 @@
+// Gauss collocation of a slide in contact (docs/algorithm.md, "Contact"). The compiler makes vector operations of the
+// loops over the nodes. No sum runs over the nodes in such a loop, so the bits do not depend on it.
+#include "afm/contact_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm/detail/multiversion.h"
+#include "afm/surface.h"
+
+namespace afm {
+namespace {
+
+constexpr std::size_t kN = kGaussNodes;
+
+// In a step of level n the swing turns by 2 pi (3/4)^n. From kLevels on, steps are so short that it is not split off.
+constexpr int kLevels = 8, kLastLevel = 60;
+constexpr double kLevelRatio = 0.75;
+
+struct Angles {
+  double of[kLastLevel + 1];
+};
+constexpr Angles make_angles() {
+  Angles angles{};
+  angles.of[0] = kTwoPi;
+  for (int i = 1; i <= kLastLevel; ++i) angles.of[i] = kLevelRatio * angles.of[i - 1];
+  return angles;
+}
+constexpr Angles kAngle = make_angles();
+
+struct SwingTables {
+  SwingTable of[kLevels + 1];
+};
+constexpr SwingTables make_swing_tables() {
+  SwingTables tables{};
+  for (int i = 0; i < kLevels; ++i) tables.of[i] = make_swing_table(kAngle.of[i]);
+  tables.of[kLevels] = make_swing_table(0.0);
+  return tables;
+}
+constexpr SwingTables kSwing = make_swing_tables();
+
+// Weight of node j in the coefficient of the last Legendre polynomial but one.
+struct LastButOne {
+  AtGaussNodes weight;
+};
+constexpr LastButOne make_last_but_one() {
+  LastButOne last{};
+  for (std::size_t j = 0; j < kN; ++j) {
+    const double degree = static_cast<double>(kN - 2);
+    last.weight[j] = (2.0 * degree + 1.0) * kGauss.weight[j] * gauss_detail::legendre(kN - 2, kGauss.node[j]);
+  }
+  return last;
+}
+constexpr LastButOne kLastButOne = make_last_but_one();
+
+constexpr double kMaxReach = 0.25;    // [a] from the middle of a step: the series of sine and cosine hold up to there
+constexpr double kMaxLength = 8.0;    // [tau] a choice: as far as a flight is searched at once
+constexpr double kMinLength = 1e-12;  // [tau] only a corrupted state is so fast
+
+AFM_INLINED double sum_of_products(const AtGaussNodes& a, const AtGaussNodes& b) {
+  double sum[4];
+  for (std::size_t i = 0; i < 4; ++i) sum[i] = a[i] * b[i] + a[i + 4] * b[i + 4];
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+AFM_INLINED double least_of(const AtGaussNodes& a) {
+  double least = a[0];
+  for (std::size_t i = 1; i < kN; ++i) least = a[i] < least ? a[i] : least;
+  return least;
+}
+
+// With y = h(x), Newton's equations in x and y leave x'' = -(omega_h^2 X + h' push) / (1 + h'^2), where
+// push = omega_v^2 (h - y0) + h'' x'^2; the reaction along y is (push - h' omega_h^2 X) / (1 + h'^2).
+AFM_INLINED ContactForces forces(const Mechanics<double>& m, const SinCos<double>& turn, double X, double u) {
+  const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
+  const double h = m.H * turn.cos, h1 = -k * m.H * turn.sin, h2 = -k2 * h, h3 = -k2 * h1, u2 = u * u;
+  const double push = k2 * (h - m.y0) + h2 * u2, pull = wh2 * X, N2 = 1.0 + free * h1 * h1;
+  const double force = -free * (pull + h1 * push) / N2;
+  const double slope = wh2 + h2 * push + h1 * (h3 * u2 + k2 * h1);
+  return {h, h1, N2, force, (push - h1 * pull) / N2, free * (slope + 2.0 * h1 * h2 * force) / N2};
+}
+
+// Sine and cosine of the turn from which `turn` is r away, |r| <= kMaxReach: within 1e-12.
+AFM_INLINED SinCos<double> turned_by(const SinCos<double>& turn, double r) {
+  using namespace turns_detail;
+  const double z = r * r, z2 = z * z, z4 = z2 * z2;
+  const double s_low = (kSine[0] + z * kSine[1]) + z2 * (kSine[2] + z * kSine[3]);
+  const double s_high = (kSine[4] + z * kSine[5]) + z2 * (kSine[6] + z * kSine[7]) + z4 * kSine[8];
+  const double c_low = (kCosine[0] + z * kCosine[1]) + z2 * (kCosine[2] + z * kCosine[3]);
+  const double c_high = (kCosine[4] + z * kCosine[5]) + z2 * (kCosine[6] + z * kCosine[7]) + z4 * kCosine[8];
+  const double sine = r * (s_low + z4 * s_high), cosine = c_low + z4 * c_high;
+  return {turn.sin * cosine + turn.cos * sine, turn.cos * cosine - turn.sin * sine};
+}
+
+// The first zero of a polynomial in Bernstein's basis over [low, low + width]; negative if there is none. The interval
+// is halved until the first change of sign is near the zero.
+__attribute__((noinline)) double first_fall(const AtGaussNodes& b, double low, double width, int halvings) {
+  std::size_t first = 0;
+  while (first < kN && b[first] > 0.0) ++first;
+  if (first == kN) return -1.0;
+  if (first == 0) return low;
+  if (halvings == 0) {
+    const double part = static_cast<double>(first - 1) + b[first - 1] / (b[first - 1] - b[first]);
+    return low + width * part / static_cast<double>(kN - 1);
+  }
+  AtGaussNodes head, tail;
+  for (std::size_t i = 0; i < kN; ++i) tail[i] = b[i];
+  for (std::size_t i = 0; i < kN; ++i) {  // de Casteljau's scheme
+    head[i] = tail[0];
+    for (std::size_t j = 0; j + i + 1 < kN; ++j) tail[j] = 0.5 * (tail[j] + tail[j + 1]);
+  }
+  const double fall = first_fall(head, low, 0.5 * width, halvings - 1);
+  return fall >= 0.0 ? fall : first_fall(tail, low + 0.5 * width, 0.5 * width, halvings - 1);
+}
+
+}  // namespace
+
+class ContactSolver {
+ public:
+  AFM_INLINED static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
+  AFM_INLINED static SlideState<double> balanced(const ContactStep& s, double time, double d, double u,
+                                                 double integral);
+  AFM_INLINED static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
+
+ private:
+  AFM_INLINED static void rest(ContactStep& s);
+  AFM_INLINED static int try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint);
+  AFM_INLINED static bool attempt(ContactStep& s, int level, double stiffness, double tolerance);
+  AFM_INLINED static bool is_close_call(const ContactStep& s, double tolerance);
+};
+
+// The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
+// into the velocity, or where the swing turns back, into the place.
+SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
+  constexpr double kMaxPart = 0.25;  // of the energy of the swing: beyond it the swing is as small as rounding
+  constexpr int kMaxTries = 8;       // two are enough, as the convergence is quadratic
+  SlideState<double> q{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
+  if (s.m_.is_free_along_x == 0.0) return q;
+  const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
+  const double work = 2.0 * s.eta_ * wh2 * integral, kinetic = s.first_.N2 * (s.start_.u * s.start_.u);
+  for (int i = 0; i < kMaxTries; ++i) {
+    const ContactForces to = forces(s.m_, sin_cos_turns(q.phase), q.X, u);
+    const double springs = wh2 * (q.X - s.start_.X) * (q.X + s.start_.X) +
+                           k * k * (to.h - s.first_.h) * (to.h + s.first_.h - 2.0 * s.m_.y0);
+    const double surplus = (to.N2 * (u * u) - kinetic + springs + work) / to.N2;  // of twice the energy, over N2
+    const double u2 = u * u, swing = to.force * to.force / s.stiffness_;
+    if (!(std::fabs(surplus) < kMaxPart * (u2 > swing ? u2 : swing))) return q;
+    if (u2 >= 0.25 * swing) {
+      q.u = std::copysign(std::sqrt(u2 - surplus), u);
+      return q;
+    }
+    if (std::fabs(surplus) < 1e-15 * swing) return q;
+    const double dx = 0.5 * surplus / to.force;
+    q.phase += dx, q.X += dx;
+  }
+  return q;
+}
+
+// One step of the given level; false if it does not meet the tolerance.
+bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double tolerance) {
+  // Squares: an evaluation multiplies the error by the contraction now / before. The estimate of what is left is taken
+  // four times larger. Beyond a contraction of a third, a shorter step is faster.
+  constexpr double kFirst = 1e-4, kSafety = 16.0, kMaxContraction = 0.1;
+  constexpr int kMaxEvaluations = 12;
+  const Mechanics<double>& m = s.m_;
+  const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
+  const double u0 = s.start_.u, X0 = s.start_.X, eta = s.eta_, H = m.H, y0 = m.y0;
+  const SwingTable& table = kSwing.of[free == 0.0 ? kLevels : std::min(level, kLevels)];
+  const double least = 0.25 * (wh2 * free + k2 * u0 * u0);
+  const double longest = std::min(kMaxLength, kAngle.of[level] / std::sqrt(std::max(stiffness, least)));
+  const double h = std::max(kMinLength, longest);
+  const double h2 = h * h, inverse_h = 1.0 / h, kappa = table.angle * table.angle / h2;
+  const double drag = wh2 * eta * free / s.first_.N2, n0 = h2 * s.first_.force, n1 = h2 * h * drag, n_u = h * u0;
+  const double middle = n_u * table.mean_per_u + (n0 * table.mean_per_one + n1 * table.mean_per_c);
+  const SinCos<double> turn = sin_cos_turns(s.start_.phase + middle);
+  s.length_ = h;
+
+  // the harmonic motion under a force that grows evenly with the drag
+  AtGaussNodes d, u, rest, change, reaction;
+  for (std::size_t i = 0; i < kN; ++i) {
+    d[i] = n_u * table.x_per_u[i] + (n0 * table.x_per_one[i] + n1 * table.x_per_c[i]);
+    u[i] = (n_u * table.u_per_u[i] + (n0 * table.u_per_one[i] + n1 * table.u_per_c[i])) * inverse_h;
+  }
+  const double limit = static_cast<double>(kN) * tolerance * tolerance;
+  double before = 0.0, reach = 0.0;
+  int evaluations = 0;
+  for (;;) {
+    reach = 0.0;
+    for (std::size_t i = 0; i < kN; ++i) {
+      const double r = std::fabs(d[i] - middle);
+      reach = r > reach ? r : reach;
+    }
+    if (!(reach <= kMaxReach)) return false;
+    ++evaluations;
+    for (std::size_t i = 0; i < kN; ++i) {
+      const SinCos<double> there = turned_by(turn, d[i] - middle);
+      const double h1 = -k * H * there.sin, push = k2 * (H * there.cos * (1.0 - u[i] * u[i]) - y0);
+      const double pull = wh2 * (X0 + (d[i] - eta * h * kGauss.node[i])), inverse_N2 = 1.0 / (1.0 + free * h1 * h1);
+      reaction[i] = (push - h1 * pull) * inverse_N2;
+      rest[i] = h2 * (kappa * d[i] - free * (pull + h1 * push) * inverse_N2);
+    }
+    for (std::size_t i = 0; i < kN; ++i) {
+      double x = n_u * table.x_per_u[i], w = n_u * table.u_per_u[i];
+#pragma GCC unroll 8
+      for (std::size_t j = 0; j < kN; ++j) {
+        x += table.x_per_rest[j][i] * rest[j];
+        w += table.u_per_rest[j][i] * rest[j];
+      }
+      change[i] = x - d[i];
+      d[i] = x, u[i] = w * inverse_h;
+    }
+    const double now = sum_of_products(change, change);
+    if (evaluations == 1 ? now <= kFirst * limit : now <= limit || kSafety * now * now <= limit * before) break;
+    if (evaluations > 1 && (!(now < kMaxContraction * before) || evaluations == kMaxEvaluations)) return false;
+    before = now;
+  }
+  for (std::size_t i = 0; i < kN; ++i) {
+    s.force_[i] = rest[i] * (inverse_h * inverse_h) - kappa * d[i];
+    s.reaction_[i] = reaction[i];
+  }
+  // A coefficient may vanish by chance, so we take two. The integrals of the first one left out are 1e-3 of it.
+  constexpr double kTail = 1e-4, kFall = 0.3;
+  const double last = std::fabs(sum_of_products(kGauss.last, s.force_));
+  const double before_last = kFall * std::fabs(sum_of_products(kLastButOne.weight, s.force_));
+  const double tail = kTail * h2 * (last > before_last ? last : before_last);
+  if (!(tail <= tolerance)) return false;
+  const bool may_be_longer = tail * 20.0 < tolerance && reach < 0.7 * kMaxReach && evaluations <= 4;
+  const ContactForces there = forces(m, turn, X0 + middle, 0.0);
+  s.stiffness_ = std::max(there.stiffness, least);
+  s.hint_ = {may_be_longer ? std::max(0, level - 1) : level, s.stiffness_};
+  s.end_integral_ = h * ((X0 - 0.5 * eta * h) + sum_of_products(kGauss.weight, d));
+  s.end_ = balanced(s, h, n_u + h2 * sum_of_products(kGauss.weight2, s.force_),
+                    u0 + h * sum_of_products(kGauss.weight, s.force_), s.end_integral_);
+  return true;
+}
+
+int ContactSolver::try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint) {
+  int level = hint.level;
+  double stiffness = hint.stiffness > 0.0 ? hint.stiffness : std::fabs(s.first_.stiffness);
+  s.is_accurate_ = attempt(s, level, stiffness, tolerance);
+  while (!s.is_accurate_ && level < kLastLevel) {
+    stiffness = std::fabs(s.first_.stiffness);
+    s.is_accurate_ = attempt(s, ++level, stiffness, tolerance);
+  }
+  return level;
+}
+
+// At rest for good.
+void ContactSolver::rest(ContactStep& s) {
+  s.length_ = kMaxLength, s.end_ = s.start_, s.end_integral_ = kMaxLength * s.start_.X;
+  s.stiffness_ = 1.0, s.is_accurate_ = true;
+  for (std::size_t i = 0; i < kN; ++i) s.force_[i] = 0.0, s.reaction_[i] = s.first_.reaction;
+}
+
+// The step in which the tip may leave is made to the last digits if it is a close call: the reaction is zero for ever
+// on the glide at eta = 1.
+void ContactSolver::solve(ContactStep& s, double tolerance, ContactStep::Hint hint) {
+  constexpr int kFinerLevels = 4;
+  s.first_ = forces(s.m_, sin_cos_turns(s.start_.phase), s.start_.X, s.start_.u);
+  if (s.eta_ == 0.0 && s.start_.u == 0.0 && s.first_.force == 0.0) return rest(s);
+  const int level = try_levels(s, tolerance, hint);
+  if (tolerance <= kFinestStep || !is_close_call(s, tolerance)) return;
+  const ContactStep::Hint next = s.hint_;
+  try_levels(s, kFinestStep, {std::min(level + kFinerLevels, kLastLevel), s.stiffness_});
+  s.hint_ = next;
+}
+
+// The reaction in Bernstein's basis, which encloses it.
+void ContactSolver::enclose_reaction(const ContactStep& s, AtGaussNodes& b) {
+  for (std::size_t i = 0; i < kN; ++i) {
+    b[i] = 0.0;
+#pragma GCC unroll 8
+    for (std::size_t j = 0; j < kN; ++j) b[i] += kGauss.bernstein.at[j][i] * s.reaction_[j];
+  }
+}
+
+// True if the reaction neither stays above zero for certain, nor clearly falls through it.
+bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
+  constexpr int kHalvings = 4;  // of the step: enough to enclose a swing
+  const double k = two_pi<double>(), wh2 = s.m_.omega_h * s.m_.omega_h, u = std::fabs(s.start_.u);
+  const double by_x = wh2 + k * k * (1.0 + u * u) + k * wh2 * std::fabs(s.start_.X);
+  const double error = kReleaseNoise + 10.0 * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
+  AtGaussNodes b;
+  enclose_reaction(s, b);
+  if (least_of(b) > error) return false;
+  if (s.first_.reaction > error && least_of(s.reaction_) < -error) return false;
+  for (double& x : b) x -= error;
+  return !(first_fall(b, 0.0, 1.0, kHalvings) < 0.0);
+}
+
+namespace {
+
+AFM_MULTIVERSION void solve(ContactStep& step, double tolerance, const ContactStep::Hint& hint) {
+  ContactSolver::solve(step, tolerance, hint);
+}
+AFM_MULTIVERSION SlideState<double> balanced(const ContactStep& step, double s, double d, double u, double integral) {
+  return ContactSolver::balanced(step, s, d, u, integral);
+}
+AFM_MULTIVERSION double reaction_at(const Mechanics<double>& m, const SlideState<double>& q) {
+  return forces(m, sin_cos_turns(q.phase), q.X, q.u).reaction;
+}
+
+}  // namespace
+
+ContactStep::ContactStep(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
+                         double tolerance, const Hint& hint)
+    : m_(mechanics), eta_(eta), start_(start) {
+  solve(*this, tolerance, hint);
+}
+
+Series<double> ContactStep::displacement() const {
+  Series<double> d{};
+  d[1] = start_.u;
+  double scale = 1.0;
+  for (std::size_t m = 0; m < kN; ++m) {
+    double a = 0.0;
+    for (std::size_t j = 0; j < kN; ++j) a += kGauss.power.at[m][j] * force_[j];
+    d[m + 2] = a * scale / static_cast<double>((m + 1) * (m + 2));
+    scale /= length_;
+  }
+  return d;
+}
+
+SlideState<double> ContactStep::at(double s) const {
+  if (s == length_) return end_;
+  const Series<double> c = displacement();
+  double d = 0.0, u = 0.0, integral = 0.0;
+  for (std::size_t m = kN + 1; m >= 1; --m) {
+    d = s * (d + c[m]), u = u * s + c[m] * static_cast<double>(m);
+    integral = s * (integral + c[m] / static_cast<double>(m + 1));
+  }
+  return balanced(*this, s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
+}
+
+double ContactStep::extension_integral(double s) const {
+  if (s == length_) return end_integral_;
+  const Series<double> c = displacement();
+  double integral = 0.0;
+  for (std::size_t m = kN + 1; m >= 1; --m) integral = s * (integral + c[m] / static_cast<double>(m + 1));
+  return s * ((start_.X - 0.5 * eta_ * s) + integral);
+}
+
+double ContactStep::pressure(const SlideState<double>& q) const { return reaction_at(m_, q); }
+
+double ContactStep::find_release() const {
+  constexpr int kHalvings = 12;               // to 1/4000 of the step; the rest is done on the reaction itself
+  constexpr int kMaxTries = 60;               // bisection alone needs 50
+  constexpr double kAccuracy = 1.0 / 1024.0;  // of the noise: finer would be rounding of the reaction
+  const double noise = release_noise(m_, start_.u, start_.X);
+  if (first_.reaction + noise <= kAccuracy * noise) return 0.0;
+  AtGaussNodes b;
+  ContactSolver::enclose_reaction(*this, b);
+  for (double& x : b) x += noise;
+  double s = first_fall(b, 0.0, length_, kHalvings);
+  if (s < 0.0) return -1.0;
+  // the interpolation has the error of the method: secants and bisection on the reaction itself
+  const auto pressed = [&](double t) { return pressure(at(t)) + noise; };
+  double low = 0.0, high = length_, p = pressed(s), other = 0.0, other_p = first_.reaction + noise;
+  for (int i = 0; i < kMaxTries && std::fabs(p) > kAccuracy * noise; ++i) {
+    (p > 0.0 ? low : high) = s;
+    const double next = s - p * (s - other) / (p - other_p);
+    other = s, other_p = p;
+    s = low < next && next < high ? next : 0.5 * (low + high);
+    p = pressed(s);
+  }
+  return p <= kAccuracy * noise ? s : -1.0;
+}
+
+}  // namespace afm

@@ -1,0 +1,144 @@
+// Steps in contact against the equation of motion integrated by Taylor series in quad precision, and against energy.
+#include "afm/contact_step.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "support/slides.h"
+#include "trials/quad.h"
+
+namespace afm {
+namespace {
+
+// Levers on mica by their frequency ratio and load: the paper's, a stiff one, one that is laterally soft.
+struct Lever {
+  double frequency_ratio, y0, eta;
+};
+Model model_of(const Lever& lever) {
+  Model model;
+  model.frequency_ratio = lever.frequency_ratio;
+  model.y0 = lever.y0;
+  return model;
+}
+
+// Near the end of a step the tip may have left, but the equation of motion goes on.
+SlideState<Quad> exact(const Model& model, double eta, const SlideState<double>& start, double s) {
+  const Mechanics<Quad> mechanics(model);
+  SlideState<Quad> q{start.phase, start.X, start.u};
+  for (Quad left = s; left > 0;) {
+    const SlideSegment<Quad> piece(mechanics, Quad(eta), q);
+    const Quad step = left < piece.length() ? left : piece.length();
+    q = piece.at(step), left -= step;
+  }
+  return q;
+}
+
+// A pressed tip that swings with an amplitude of up to 0.05 a about its equilibrium.
+SlideState<double> pressed_start(const Lever& lever, RandomLaunches& random) {
+  const Model model = model_of(lever);
+  const double rate = kTwoPi * lever.frequency_ratio;
+  for (;;) {
+    const SlideState<double> q{random.within(0.0, 1.0), random.within(-0.05, 0.05),
+                               lever.eta + rate * random.within(-0.05, 0.05)};
+    if (pressure_of(model, q) > 0.5) return q;
+  }
+}
+
+double error_of(const SlideState<double>& q, const SlideState<Quad>& truth, double rate) {
+  const auto off = [](double a, const Quad& b) { return std::abs(static_cast<double>(Quad(a) - b)); };
+  return std::max(off(q.X, truth.X), off(q.u, truth.u) / rate);
+}
+
+class ContactStepOf : public testing::TestWithParam<Lever> {};
+
+// The error is estimated, so one step in twenty may exceed ten times the tolerance.
+TEST_P(ContactStepOf, MeetsItsToleranceAtItsEndAndTenfoldWithin) {
+  const Model model = model_of(GetParam());
+  for (const double tolerance : {1e-5, 1e-6, 1e-9}) {
+    RandomLaunches random(1);
+    int missed = 0;
+    constexpr int kSteps = 20;
+    for (int i = 0; i < kSteps; ++i) {
+      const SlideState<double> start = pressed_start(GetParam(), random);
+      const ContactStep step(Mechanics<double>(model), GetParam().eta, start, tolerance, {});
+      ASSERT_TRUE(step.is_accurate());
+      const double rate = kTwoPi / step.length();  // at most that of the swing
+      const double end = error_of(step.at(step.length()), exact(model, GetParam().eta, start, step.length()), rate);
+      const double middle = 0.37 * step.length();
+      const double within = error_of(step.at(middle), exact(model, GetParam().eta, start, middle), rate);
+      ASSERT_LE(end, 100.0 * tolerance);
+      ASSERT_LE(within, 1000.0 * tolerance);
+      missed += end > 10.0 * tolerance || within > 100.0 * tolerance ? 1 : 0;
+    }
+    EXPECT_LE(missed, 1) << tolerance;
+  }
+}
+
+double energy_of(const Mechanics<double>& m, const SlideState<double>& s) {
+  const SurfaceJet<double> h = surface_jet(m.H, s.phase);
+  const double Y = m.omega_v * (h.h - m.y0), X = m.omega_h * s.X;
+  return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
+}
+
+TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
+  const Mechanics<double> m(model_of(GetParam()));
+  const double eta = GetParam().eta;
+  RandomLaunches random(2);
+  for (int i = 0; i < 200; ++i) {
+    const SlideState<double> start = pressed_start(GetParam(), random);
+    const ContactStep step(m, eta, start, 1e-6, {});
+    const double s = i % 4 == 0 ? step.length() : random.within(0.0, 1.0) * step.length();
+    const double before = energy_of(m, start), work = -m.omega_h * m.omega_h * eta * step.extension_integral(s);
+    ASSERT_NEAR(energy_of(m, step.at(s)) - work, before, 1e-13 * std::max(1.0, before)) << i;
+  }
+}
+
+TEST_P(ContactStepOf, IsReleasedWhereTheReactionFirstVanishesAndNotBefore) {
+  const Model model = model_of(GetParam());
+  const Mechanics<double> m(model);
+  RandomLaunches random(3);
+  int releases = 0;
+  for (int i = 0; i < 300; ++i) {
+    const SlideState<double> start = pressed_start(GetParam(), random);
+    const ContactStep step(m, GetParam().eta, start, 1e-6, {});
+    const double release = step.find_release(), end = release < 0.0 ? step.length() : release;
+    releases += release < 0.0 ? 0 : 1;
+    for (int k = 1; k < 100; ++k) ASSERT_GT(pressure_of(model, step.at(end * k / 100.0)), -1e-6) << i << ": " << k;
+    if (release >= 0.0) {
+      ASSERT_NEAR(pressure_of(model, step.at(release)), -release_noise(m, start.u, start.X), 1e-10) << i;
+    }
+  }
+  RecordProperty("releases", releases);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levers, ContactStepOf,
+                         testing::Values(Lever{6.25, 0.0, 3.0}, Lever{6.25, -0.5, 0.3}, Lever{21.0, -10.0, 3.0},
+                                         Lever{14.0, -90.0, 0.03}, Lever{2.0, -5.0, 1.0}, Lever{6.25, -2.0, 9.0}),
+                         [](const auto& lever) { return "Number" + std::to_string(lever.index); });
+
+TEST(ContactStep, OfASmallSwingIsAWholeTurn) {
+  const Lever lever{21.0, -10.0, 0.2};
+  const Mechanics<double> m(model_of(lever));
+  SlideState<double> q{0.5, 0.0, 0.2};
+  ContactStep step(m, lever.eta, q, 1e-6, {});
+  for (int i = 0; i < 20; ++i) step = ContactStep(m, lever.eta, step.at(step.length()), 1e-6, step.hint());
+  EXPECT_GT(step.length(), 0.9 / lever.frequency_ratio / std::sqrt(1.15));  // the load stiffens it by a seventh
+}
+
+TEST(ContactStep, EndsWhateverTheNumbers) {
+  using Limits = std::numeric_limits<double>;
+  for (const double odd : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), 1e300, -1e300}) {
+    for (int part = 0; part < 3; ++part) {
+      const SlideState<double> start{part == 0 ? odd : 0.3, part == 1 ? odd : 0.0, part == 2 ? odd : 1.0};
+      const ContactStep step(Mechanics<double>(Model()), 1.0, start, 1e-6, {});
+      EXPECT_GT(step.length(), 0.0);
+      EXPECT_FALSE(step.find_release() > step.length());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace afm
