@@ -73,8 +73,7 @@ def thermal_even_odd(tables):
         memory = quality / (2.0 * math.pi)  # in which a free spring forgets its energy [tau]: no mean is shorter
         rows.append([kelvin, quality or "no bath"] + ["%.3f" % row["k_f_work"] for row in at_even + troughs]
                     + [("%.2g" % needed if needed > memory else "below %.2g" % memory) if kelvin else ""])
-    return ("T / K", "Q", "eta = 2", "eta = 4", "eta = 6", "eta = 3", "eta = 5", "eta = 7", "averaging time / tau"),
-    rows
+    return ("T / K", "Q", *("eta = %d" % eta for eta in (2, 4, 6, 3, 5, 7)), "averaging time / tau"), rows
 
 
 def maximum(rows):
@@ -148,8 +147,8 @@ def thermal_kicks(tables):
             noise = (row["k_f_work_std_error"] ** 2 + truth["k_f_work_std_error"] ** 2) ** 0.5
             rows.append((*case, kicks, truth["k_f_work"], error / truth["k_f_work"], noise / truth["k_f_work"],
                          tables.seconds(name) / duration * 1e6))
-    return ("eta", "quality_factor", "temperature", "kicks_per_tau", "k_f_work", "error", "std_error", "us_per_tau"),
-    rows
+    columns = ("eta", "quality_factor", "temperature", "kicks_per_tau", "k_f_work", "error", "std_error", "us_per_tau")
+    return columns, rows
 
 
 def draw_kicks(axes, rows):
