@@ -125,6 +125,8 @@ void visit_sums(Archive& archive, Sums& f) {
   visit_sum(archive, "estimate_energy", f.energy);
   visit_sum(archive, "estimate_impulse", f.impulse);
   visit_sum(archive, "estimate_heat", f.heat);
+  visit_sum(archive, "estimate_vertical", f.vertical);
+  archive("estimate_samples", f.samples);
   archive("energy_bin_width", f.energy_bins.width);
   archive("energy_bins", f.energy_bins.amount);
   archive("impulse_bin_width", f.impulse_bins.width);
