@@ -128,6 +128,13 @@ def pid_of_node(name=NAMESPACE):
         return None
 
 
+def connected_to(topic):
+    """Names of the nodes that the emulator is connected to and sends this topic."""
+    _, _, uri = rospy.get_master().lookupNode(NAMESPACE)
+    connections = xmlrpc.client.ServerProxy(uri).getBusInfo('test')[2]
+    return {peer for _, peer, direction, _, name, *_ in connections if direction == 'o' and name == topic}
+
+
 class NodeTest(unittest.TestCase):
     """Leaves nothing behind."""
 

@@ -14,7 +14,7 @@ from afm_emulator.srv import StartRecording, Step
 from std_srvs.srv import SetBool, Trigger
 
 import checks
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, run
 from topics import NAMESPACE, Topic, wait_until
 
 ETAS = [0.0, 1.0, 1.0, 2.0, -3.0, 3.4, 5.0, 5.0, 7.5, -1.0]  # contact, chatter, chaos, both directions
@@ -133,13 +133,12 @@ class Repeats(NodeTest):
         return recorder
 
     def wait_for_subscribers(self, count):
-        """Beside this test: rosbag looks for topics once a second, and subscribes to each by itself."""
+        """Beside this test: rosbag looks for topics once a second, and subscribes to each by itself. The master knows of a
+        subscriber before it is connected."""
         def number(topic):
-            subscribers = rospy.get_master().getSystemState()[2][1]
-            return sum(len(names) for name, names in subscribers if name == NAMESPACE + '/' + topic)
+            return len(connected_to(NAMESPACE + '/' + topic) - {rospy.get_name()})
         wait_until(lambda: all(number(topic) >= count for topic in ('snapshot', 'applied', 'deflection', 'impacts', 'friction')),
-                   'rosbag has found the topics')
-        self.deflection.wait_for_more(20)
+                   'rosbag listens to the topics')
 
     def test_recorded_by_rosbag(self):
         """From before the node starts, and begun in its midst: the latched topics tell how each epoch began."""
