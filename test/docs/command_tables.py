@@ -32,7 +32,6 @@ SUBSTITUTIONS = [
     (r'--eta 0\.05:9:0\.05', '--eta 2:2.5:0.5'),
     (r'(scripts/scene_levels)', r'\1 --duration 500'),
     (r'(record_throughput\.py \S+) 600', r'\1 3'),
-    (r'(loop_delay\.py)', r'\1 --commands 30 --output loop_delay.csv'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
     (r'(friction_peaks|bifurcations)\.py', r'\1.py 5'),
