@@ -11,6 +11,7 @@
 #include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "afm/number_text.h"
 #include "node/publisher/topics.h"
@@ -27,6 +28,7 @@ constexpr double kSafePace = 1.2;  // of the trial run over what is needed: publ
 constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
+constexpr std::chrono::microseconds kSpin{300};  // an idle processor takes 50 to 100 us to wake a thread
 constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
 
 std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
@@ -125,7 +127,7 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
   }
   ROS_INFO("tip: %g N/m at %g Hz, %g N/m laterally, effective mass %g kg; load %g N; tau = %g s", spring_constant(parameters.si),
            parameters.si.omega_v_rad_per_s / kTwoPi, parameters.si.tip_mass_kg * std::pow(parameters.si.omega_h_rad_per_s, 2),
-           parameters.si.tip_mass_kg, -spring_constant(parameters.si) * parameters.si.rest_height_m,
+           parameters.si.tip_mass_kg, 0.0 - spring_constant(parameters.si) * parameters.si.rest_height_m,
            Units(parameters.si).time());
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
            to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
@@ -197,7 +199,11 @@ EmulatorNode::Outcome EmulatorNode::ask(Request request) {
   request.reply = std::make_shared<std::promise<Answer>>();
   std::future<Answer> answer = request.reply->get_future();
   if (!runner_.submit(request)) return {"too many requests are waiting", {}};
-  const auto give_up = std::chrono::steady_clock::now() + kAnswerDeadline;
+  const auto begin = std::chrono::steady_clock::now(), give_up = begin + kAnswerDeadline;
+  while (answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
+         std::chrono::steady_clock::now() - begin < kSpin) {
+    std::this_thread::yield();
+  }
   while (answer.wait_for(kClosingPoll) != std::future_status::ready) {
     if (closing_) return {"the emulator is shutting down", {}};
     if (std::chrono::steady_clock::now() > give_up) {
