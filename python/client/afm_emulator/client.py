@@ -45,13 +45,14 @@ class Client:
                             for topic in ('drag_velocity', 'rest_height')}
         for topic, kind in (('configuration', Configuration), ('applied', Applied)):
             rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._keep, topic, tcp_nodelay=True)
-        for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray)):
-            rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
         self._control = None
         for topic in ('configuration', 'applied'):
             self._wait_for(lambda: getattr(self, topic) is not None, '%s/%s' % (self.name, topic))
         if self.is_lockstep:
             self._control = rospy.ServiceProxy(self.name + '/control', Control, persistent=True)
+            return  # the answers of the service hold what is measured
+        for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray)):
+            rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
 
     @property
     def is_lockstep(self):
