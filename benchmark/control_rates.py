@@ -15,8 +15,9 @@ from pathlib import Path
 from loop_delay import binary, wait_for
 from record_throughput import free_port
 
-SCENES = {'paper, cold': {}, 'room, 300 K': {'temperature_k': 300.0, 'quality_factor': 100.0}}
-DURATIONS_S = (0.0001, 0.001, 0.01)
+# at eta = 3.4
+SCENES = {'cold': {}, '300 K and Q = 100': {'temperature_k': 300.0, 'quality_factor': 100.0}}
+DURATIONS_S = (0.0001, 0.001, 0.01, 0.1)
 
 
 def measure_python(duration, periods):
@@ -39,22 +40,23 @@ def main():
     arguments = parser.parse_args()
     os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
     master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])
-    lines = ['scene,period_s,periods_per_s_cpp,times_real_time_cpp,periods_per_s_python,times_real_time_python']
+    lines = ['tip,period / ms,C++: periods a second,C++: times real time,Python: periods a second,Python: times real time']
     try:
         server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
         wait_for(server)
         for scene, parameters in SCENES.items():
             for duration in DURATIONS_S:
+                periods = min(arguments.periods, int(30.0 / duration))  # 30 s of model time are enough
                 server.setParam('control_rates', '/afm', dict(parameters, pace='lockstep', drag_velocity=1.1255437575458838e-05))
                 emulator = subprocess.Popen([binary('emulator_node'), '__name:=afm'])
                 try:
                     cpp = float(subprocess.check_output([binary('control_rate'), '_duration:=%g' % duration,
-                                                         '_periods:=%d' % arguments.periods], text=True).split()[-1])
-                    python = measure_python(duration, arguments.periods)
+                                                         '_periods:=%d' % periods], text=True).split()[-1])
+                    python = measure_python(duration, periods)
                 finally:
                     emulator.send_signal(signal.SIGINT)
                     emulator.wait()
-                lines.append('"%s",%g,%.0f,%.3g,%.0f,%.3g' % (scene, duration, cpp, cpp * duration, python, python * duration))
+                lines.append('%s,%g,%.0f,%.2g,%.0f,%.2g' % (scene, 1e3 * duration, cpp, cpp * duration, python, python * duration))
                 print(lines[-1], file=sys.stderr)
     finally:
         master.kill()

@@ -198,6 +198,9 @@ def commands(quick):
     add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000),
         sides=["loop_delay"])
 
+    add("control_rates_run", "benchmark/control_rates.py --output {out}/control_rates.csv --periods", choose(200, 4000),
+        sides=["control_rates"])
+
     # reliability
     add("soak", "scripts/soak --seed 23 --duration", choose(60, 3600), may_fail=True)
     if quick:
