@@ -26,10 +26,11 @@ LANGUAGES = {".cpp": "cpp", ".py": "python", ".txt": "cmake"}  # of CMakeLists.t
 
 
 def publish(run):
+    documents = "".join(path.read_text() for path in [ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
     for folder, kinds in (("tables", "*.csv"), ("data", "*.csv"), ("images", "*.*")):
         for path in sorted((run / folder).glob(kinds)):
             target = ROOT / "docs" / ("images" if folder == "images" else "data") / path.name
-            if target.exists():
+            if target.exists() or "data/%s -->" % path.name in documents:
                 shutil.copy(str(path), str(target))
                 print("copied", path.name)
 
