@@ -6,6 +6,7 @@ import base64
 import hashlib
 import os
 import re
+import shlex
 import subprocess
 import sys
 import sysconfig
@@ -45,7 +46,8 @@ def configure(build, *options):
     try:
         subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DAFM_DYNAMICS=ON', '-DBUILD_TESTING=OFF',
                                '-DCMAKE_BUILD_TYPE=Release', '-DAFM_PYTHON_DESTINATION=.',
-                               '-DPYTHON_EXECUTABLE=' + sys.executable, '-DPython3_EXECUTABLE=' + sys.executable, *options])
+                               '-DPYTHON_EXECUTABLE=' + sys.executable, '-DPython3_EXECUTABLE=' + sys.executable,
+                               *shlex.split(os.environ.get('CMAKE_ARGS', '')), *options])
     except FileNotFoundError:
         sys.exit(NEEDED % 'cmake was not found')
     except subprocess.CalledProcessError:

@@ -38,7 +38,7 @@ SUBSTITUTIONS = [
     (r'(many_machines\.py \S+)', r'\1 --points 3 --duration 100'),
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
     (r'(durations\.py)(?! --)', r'\1 --only import'),
-    (r'--tau 400000', '--tau 200'),
+    (r'--tau (400000|300000|5000)\b', '--tau 200'),
     (r'--mutated 1000000', '--mutated 100'),
 ]
 
@@ -48,6 +48,7 @@ NOT_RUN = [
     (r'^scripts/run --(view|panel)', 'opens a window'),
     (r'^rosrun afm_emulator panel', 'opens a window'),
     (r'^snakemake (?!fig1_friction)', 'measures for minutes to hours; the test laboratory runs every rule dry, and some'),
+    (r'run_tests_my_controller', 'the test my_controller does it'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
     (r'^scripts/platforms(?! --list)', 'builds with every compiler, or makes roots of other systems and tests in them'),
     (r'durations\.py --builds', 'builds everything for minutes'),
