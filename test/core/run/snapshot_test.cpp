@@ -191,6 +191,8 @@ TEST_P(Snapshots, ChangeTheNextEventLittle) {
     afm::Run whole = run;
     const double slowest = snapshot.tip.phase == Phase::chatter ? 0.1 * std::min(1.0, std::abs(GetParam().eta)) : 0.0;
     const Impact expected = next_event(slowest, whole), found = next_event(0.99 * slowest, split);
+    // later events are a hundred kicks, bounces and sequences away, and chaos has enlarged what the split changed
+    if (snapshot.tip.phase == Phase::chatter && expected.time - snapshot.tip.time > 1.0) continue;
     off[snapshot.tip.phase].push_back(expected.kind == found.kind ? event_distance(expected, found) : 1.0);
   }
   for (auto& phase : off) {
@@ -222,8 +224,11 @@ TEST_P(Snapshots, LeaveTheEnergyBalanceClosed) {
     if (run.can_split()) run.split();
   }
   // in a chatter sequence the state is that of the reference slide
-  while (run.split().tip.phase == Phase::chatter) advance_impacts(1, run, batch);
   advance_to(run.now(), run, batch);
+  while (run.split().tip.phase == Phase::chatter) {
+    advance_impacts(1, run, batch);
+    advance_to(run.now(), run, batch);
+  }
   const double work = run.eta() * batch.friction.mean_lateral_force * (run.now() - ModelTime{});
   const double change = stored_energy(run.settings().model, run.state()) - stored;
   const double spent = batch.friction.energy_loss + batch.friction.heat_to_bath + change;
