@@ -42,6 +42,7 @@ using ChatterRun = ChatterRunOf<double>;
 struct ChatterConstants {
   double threshold;       // normal speeds up to it are contact [a/tau]
   bool constant_loss;     // no cutoff above the threshold: every bounce loses the same part w of v
+  double fastest;         // normal speed at which a sequence may begin [a/tau]: w is small, and v below the cutoff
   double w_per_v;         // w/v: (1 - gamma)/v_c [tau/a]; 0 with a constant loss
   double w, M;            // with a constant loss: w, and M = -w/ln(1 - w)
   double fineness;        // factor of all limits: 1 at the default tolerance, less at a smaller one

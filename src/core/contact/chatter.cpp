@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "afm/detail/multiversion.h"
 #include "chatter_law.h"
@@ -23,12 +24,15 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold) : constants_{} {
   const bool constant = !(model.v_c > threshold);
   const double w = 1.0 - model.gamma, least = std::max(threshold, 1e-300);
   const double end_speed = ChatterLimits::kEndSpeed * least;
+  const double fineness = std::sqrt(std::sqrt(std::min(1.0, threshold / ChatterLimits::kUsualThreshold)));
+  const double fastest = model.v_c * std::min(1.0, w > 0.0 ? ChatterLimits::kMaxLoss * fineness / w : 1.0);
   constants_ = {least,
                 constant,
+                constant ? std::numeric_limits<double>::infinity() : fastest,
                 constant ? 0.0 : w / model.v_c,
                 constant ? w : 0.0,
                 w_over_log(w),
-                std::sqrt(std::sqrt(std::min(1.0, threshold / ChatterLimits::kUsualThreshold))),
+                fineness,
                 constant ? 0.99 * least : portable_log(end_speed)};
 }
 
@@ -37,7 +41,7 @@ AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const GapJet<double>& start = bounce.start();
   const double v = start.g1;
   if (v <= constants_.threshold) return true;
-  if (!(start.g2 < 0.0) || constants_.w_per_v * v > ChatterLimits::kMaxLoss * constants_.fineness) return false;
+  if (!(start.g2 < 0.0) || v > constants_.fastest) return false;
   const Mechanics<double>& m = bounce.mechanics();
   const double limit = ChatterLimits::kMaxBounce * constants_.fineness;
   // most bounces are refused here

@@ -24,7 +24,7 @@ struct ChatterLimits {
 
   static constexpr double kAccepted = 1.05;        // of that limit, where a sequence exits
   static constexpr double kFall = 2.0;             // of ln v in a step
-  static constexpr double kStep = 0.7;             // over the time in which P changes, or v falls to zero
+  static constexpr double kStep = 0.5;             // over the time in which P changes, or v falls to zero
   static constexpr double kMaxChange = 1.6;        // the same at the end of a step, or the step is halved
   static constexpr double kEndSpeed = 0.9;         // v over the threshold, where the last step of a sequence aims
   static constexpr double kNearlyWhole = 1e-3;     // bounces, from where the rates count as constant
@@ -63,21 +63,30 @@ struct ChatterPoint {
   ChatterOf<T> chatter;
 };
 
+// e: the reaction at the displaced place over that on the reference slide, less 1.
 template <class T>
-AFM_INLINED T chatter_speed(const ChatterConstants& c, const T& x) {
-  return c.constant_loss ? x : portable_exp(x);
+AFM_INLINED T disturbance(const ReferenceForces<T>& f, const T& sigma, const T& p) {
+  return (2.0 * f.turn * p - f.c_height * sigma) / f.P;
+}
+
+// The bounces keep v^3/P, so v = v_0 (1 + e/3), where v_0 is that on the reference slide.
+template <class T>
+AFM_INLINED T chatter_speed(const ChatterConstants& c, const T& x, const T& e) {
+  return (c.constant_loss ? x : portable_exp(x)) * (1.0 + e * (1.0 / 3));
 }
 
 template <class T>
-AFM_INLINED ChatterOf<T> to_chatter(const ChatterConstants& c, const ChatterVariables<T>& y) {
-  return {chatter_speed(c, y.x), y.n, y.sigma, y.p, y.drift, y.loss};
+AFM_INLINED ChatterOf<T> to_chatter(const ChatterConstants& c, const ReferenceForces<T>& f,
+                                    const ChatterVariables<T>& y) {
+  return {chatter_speed(c, y.x, disturbance(f, y.sigma, y.p)), y.n, y.sigma, y.p, y.drift, y.loss};
 }
 
 // The law: the time derivatives.
 template <class T>
 AFM_INLINED ChatterVariables<T> chatter_rates(const ChatterConstants& c, const ReferenceForces<T>& f,
                                               const ChatterVariables<T>& y) {
-  const T v = chatter_speed(c, y.x), half_P = 0.5 * f.P, per_3P = 1.0 / (3.0 * f.P), squeeze = f.P1 * per_3P;
+  const T e = disturbance(f, y.sigma, y.p), v = chatter_speed(c, y.x, e), half_P = 0.5 * f.P * (1.0 + e);
+  const T per_3P = 1.0 / (3.0 * f.P), squeeze = f.P1 * per_3P;
   const T per_P = 3.0 * per_3P, p1 = f.P1 * per_P, p2 = f.P2 * per_P;
   const T d = (3.0 * p2 - 4.0 * p1 * p1 - 9.0 * f.K) * (per_P * per_P) * (1.0 / 27);
   const auto [w, R, G, M, C] = loss_coefficients(c, v);
@@ -116,8 +125,9 @@ class ChatterIntegration {
       : c_(constants), reference_(reference) {}
 
   AFM_INLINED Point begin(const T& s, const ChatterOf<T>& start) const {
-    const T x = c_.constant_loss ? start.v : portable_log(start.v);
-    Point at{s, forces_at(s), {x, start.n, start.sigma, start.p, start.drift, start.loss}, {}, start};
+    const ReferenceForces<T> f = forces_at(s);
+    const T v = start.v * (1.0 - disturbance(f, start.sigma, start.p) * (1.0 / 3));
+    Point at{s, f, {c_.constant_loss ? v : portable_log(v), start.n, start.sigma, start.p, start.drift, start.loss}, {}, start};
     at.rates = chatter_rates(c_, at.forces, at.y);
     return at;
   }
@@ -151,7 +161,7 @@ class ChatterIntegration {
     for (int i = 0; i < kMaxTries; ++i) {
       const T rest = (N - at.y.n) * bounce_duration(at);
       if (std::abs(N - value(at.y.n)) <= ChatterLimits::kNearlyWhole) {
-        ChatterOf<T> end = to_chatter(c_, along(at, rest));
+        ChatterOf<T> end = to_chatter(c_, at.forces, along(at, rest));
         end.n = T(N);
         return {ChatterEnd::exits, at.s + rest, end};
       }
@@ -244,7 +254,7 @@ class ChatterIntegration {
       }
     }
     const ChatterVariables<T> y = integral(from, dt, rates, kNodeCount - 1);
-    return {from.s + dt, forces.back(), y, rates.back(), to_chatter(c_, y)};
+    return {from.s + dt, forces.back(), y, rates.back(), to_chatter(c_, forces.back(), y)};
   }
 
   const ChatterConstants& c_;

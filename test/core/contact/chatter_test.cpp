@@ -176,7 +176,8 @@ TEST(ChatterLaw, ABounceThatLosesMoreThanATenthIsFlown) {
     EXPECT_LE(below.v, most);
     RandomChatter above = below;
     above.v = 1.01 * most;
-    EXPECT_FALSE(law.holds(Flight<double>(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state())));
+    const Flight<double> bounce(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state());
+    EXPECT_FALSE(law.holds(bounce));
   }
 }
 
