@@ -3,10 +3,12 @@
 strictly, whatever happens."""
 import math
 import sys
+import threading
 
 import rospy
-from afm_emulator.msg import Configuration
-from afm_emulator.srv import Control
+from afm_emulator import Client, EmulatorError
+from afm_emulator.msg import Applied, Configuration
+from afm_emulator.srv import Control, ControlResponse
 from rosgraph_msgs.msg import Clock
 
 from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, run
@@ -154,6 +156,26 @@ class RealTime(NodeTest):
         self.assertLess(rate, 1.1 * 50.0 * configuration.time_scale)
 
 
+class Starting(NodeTest):
+    """The emulator advertises its topics before its services: a client that meets it between waits."""
+    def topics_of(self, name):
+        for topic, kind, message in (('configuration', Configuration, Configuration(pace='lockstep')), ('applied', Applied, Applied())):
+            publisher = rospy.Publisher('%s/%s' % (name, topic), kind, queue_size=1, latch=True)
+            publisher.publish(message)
+            self.addCleanup(publisher.unregister)
+
+    def test_a_client_waits_for_the_service(self):
+        self.topics_of('/late')
+        begin = threading.Timer(0.5, lambda: rospy.Service('/late/control', Control, lambda _: ControlResponse(success=True, epoch=7)))
+        begin.start()
+        self.assertEqual(Client('/late').control(0.01).epoch, 7)
+
+    def test_a_service_that_never_comes_is_named(self):
+        self.topics_of('/never')
+        with self.assertRaisesRegex(EmulatorError, '/never/control'):
+            Client('/never', timeout=0.5)
+
+
 if __name__ == '__main__':
     rospy.set_param('/use_sim_time', False)
-    run(Lockstep, Waiting, RealTime)
+    run(Lockstep, Waiting, RealTime, Starting)

@@ -50,6 +50,12 @@ class Client:
             self._wait_for(lambda: getattr(self, topic) is not None, '%s/%s' % (self.name, topic))
         if self.is_lockstep:
             self._control = rospy.ServiceProxy(self.name + '/control', Control, persistent=True)
+            try:
+                self._control.wait_for_service(timeout)  # it is advertised after the topics
+            except rospy.ROSInterruptException:
+                raise
+            except rospy.ROSException as fault:
+                raise EmulatorError('%s/control: was not there within %g s' % (self.name, timeout)) from fault
             return  # the answers of the service hold what is measured
         for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray)):
             rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
