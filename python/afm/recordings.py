@@ -128,6 +128,14 @@ class Recording:
         run = self._run_from(self._snapshots[0])
         marks = [(m.number, 0, m) for m in self._applied]
         marks += [(m.applied.number, 1 + i, m) for i, m in enumerate(self._snapshots[1:])]
+        last = self._last
+
+        def comes_after(m: Any) -> bool:
+            """It took effect when the last batch had ended. A batch of no length may also begin with it."""
+            in_force = getattr(m, 'applied', m)
+            return m.time == last.time and (last.begin != last.time or in_force.drag_velocity != last.drag_velocity)
+
+        marks = [mark for mark in marks if not comes_after(mark[2])]
         for _, is_snapshot, m in sorted(marks, key=lambda mark: mark[:2]):
             yield from run_to(m.time, m.next_impact if is_snapshot else m.first_impact)
             if is_snapshot:
@@ -135,7 +143,7 @@ class Recording:
                 run.snapshot()
             else:
                 run.apply(**self._settings(m))
-        yield from run_to(self._last.time, self._last.first_impact + self._last.impact_limit)
+        yield from run_to(last.time, last.first_impact + last.impact_limit)
 
     def simulate(self) -> Batch:
         """The whole run simulated again, in natural units: times a factor of `units`, the bits of the recording."""
