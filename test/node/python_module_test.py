@@ -68,7 +68,7 @@ class PythonModule(NodeTest):
         np.testing.assert_array_equal(mine['phase'], [impact.time.phase for _, impact in impacts])
         if run.friction['k_f'] == run.friction['k_f']:  # NaN: a command at the very end has begun the estimate again
             self.assertEqual(run.friction['k_f'] * units.friction, messages['friction'][-1].k_f)
-        self.assertEqual(run.friction['heat_to_bath'] * units.energy, messages['friction'][-1].heat_to_bath)
+            self.assertEqual(run.friction['heat_to_bath'] * units.energy, messages['friction'][-1].heat_to_bath)
         return recording, samples, len(impacts)
 
     def test_commands_steps_and_resets(self):
