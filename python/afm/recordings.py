@@ -42,6 +42,11 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int,
     return {kind: dict(sorted(found[namespace][kind].items())) for kind in _KINDS}
 
 
+def _model_time(message: Any) -> ModelTime:
+    """Comparable: rosbag makes a class of its own for the ModelTime of every type of message, and unlike classes are unequal."""
+    return ModelTime(message.tau, message.phase)
+
+
 def _of_epoch(kind: str, messages: Dict[int, Any], epoch: int) -> List[Any]:
     """Without a gap, up to the next epoch."""
     numbers = [seq for seq, m in messages.items() if m.epoch == epoch]
@@ -80,12 +85,12 @@ class Recording:
         self.units = self._units(start.configuration)
         self.model: Model = self.units.model
         self.eta: float = start.applied.drag_velocity / self.units.velocity
-        self.begin = ModelTime(start.time.tau, start.time.phase)
+        self.begin = _model_time(start.time)
         if not frictions:
             raise ValueError('the bag holds no message of Friction in epoch %d: the end of the run is not known' % self.epoch)
         self._last = frictions[-1]
-        self.end = ModelTime(self._last.time.tau, self._last.time.phase)
-        if (frictions[0].begin.tau, frictions[0].begin.phase) < self.begin and self.begin > (0, 0.0):
+        self.end = _model_time(self._last.time)
+        if _model_time(frictions[0].begin) < self.begin and self.begin > (0, 0.0):
             raise ValueError('the bag begins before its first snapshot: the state there is not known')
         self._applied = [m for m in read['Applied'].values() if m.epoch == self.epoch and m.number > start.applied.number]
         numbers = [start.applied.number] + [m.number for m in self._applied]
@@ -112,15 +117,14 @@ class Recording:
         model = Model(*(live.pop(name) for name in ('gamma', 'cutoff', 'rest_height')), m.amplitude, m.frequency_ratio, live.pop('kind'))
         state = {name: getattr(snapshot, name) for name in snapshot.__slots__
                  if name not in ('header', 'epoch', 'configuration', 'applied')}
-        state = {name: ModelTime(v.tau, v.phase) if hasattr(v, 'tau') else v for name, v in state.items()}
+        state = {name: _model_time(v) if hasattr(v, 'tau') else v for name, v in state.items()}
         return Run.from_snapshot(dict(
             state, model=model, initial_phase=c.initial_phase, initial_extension=c.initial_extension, initial_y=c.initial_height,
             initial_u=c.initial_u, initial_w=c.initial_w, impact_budget=c.impact_budget, **live))
 
     def _parts(self) -> Iterator[Batch]:
         """The run from one command or snapshot to the next."""
-        def run_to(time: Any, impacts: int) -> Iterator[Batch]:
-            end = ModelTime(time.tau, time.phase)
+        def run_to(end: ModelTime, impacts: int) -> Iterator[Batch]:
             yield run.advance(end)
             while run.now == end and run.impacts < impacts:  # of those at this very time
                 yield run.advance(impacts=impacts - run.impacts)
@@ -129,21 +133,18 @@ class Recording:
         marks = [(m.number, 0, m) for m in self._applied]
         marks += [(m.applied.number, 1 + i, m) for i, m in enumerate(self._snapshots[1:])]
         last = self._last
-
-        def comes_after(m: Any) -> bool:
-            """It took effect when the last batch had ended. A batch of no length may also begin with it."""
-            in_force = getattr(m, 'applied', m)
-            return m.time == last.time and (last.begin != last.time or in_force.drag_velocity != last.drag_velocity)
-
-        marks = [mark for mark in marks if not comes_after(mark[2])]
+        begin = _model_time(last.begin), last.first_impact
         for _, is_snapshot, m in sorted(marks, key=lambda mark: mark[:2]):
-            yield from run_to(m.time, m.next_impact if is_snapshot else m.first_impact)
+            place = _model_time(m.time), m.next_impact if is_snapshot else m.first_impact
+            if place > begin:  # it comes after the last batch
+                break
+            yield from run_to(*place)
             if is_snapshot:
                 yield run.advance(run.now)  # an event that is due comes first
                 run.snapshot()
             else:
                 run.apply(**self._settings(m))
-        yield from run_to(last.time, last.first_impact + last.impact_limit)
+        yield from run_to(_model_time(last.time), last.first_impact + last.impact_limit)
 
     def simulate(self) -> Batch:
         """The whole run simulated again, in natural units: times a factor of `units`, the bits of the recording."""

@@ -66,9 +66,8 @@ class PythonModule(NodeTest):
             np.testing.assert_array_equal(mine[name] * unit, [getattr(impact, name) for _, impact in impacts], name)
         np.testing.assert_array_equal(mine['tau'], [impact.time.tau for _, impact in impacts])
         np.testing.assert_array_equal(mine['phase'], [impact.time.phase for _, impact in impacts])
-        if run.friction['k_f'] == run.friction['k_f']:  # NaN: a command at the very end has begun the estimate again
-            self.assertEqual(run.friction['k_f'] * units.friction, messages['friction'][-1].k_f)
-            self.assertEqual(run.friction['heat_to_bath'] * units.energy, messages['friction'][-1].heat_to_bath)
+        self.assertEqual(run.friction['k_f'] * units.friction, messages['friction'][-1].k_f)
+        self.assertEqual(run.friction['heat_to_bath'] * units.energy, messages['friction'][-1].heat_to_bath)
         return recording, samples, len(impacts)
 
     def test_commands_steps_and_resets(self):
@@ -97,6 +96,17 @@ class PythonModule(NodeTest):
                                              env=dict(os.environ, MPLBACKEND='Agg', MPLCONFIGDIR=folder))
             self.assertIn('um/s', output)
             self.assertTrue((Path(folder) / 'read_bag.png').exists())
+
+    def test_a_command_after_the_last_batch(self):
+        """It takes effect, but no batch shows it: the run ends with the batch before."""
+        self.run_emulator(record=True)
+        self.command(2.0)
+        self.deflection.wait_for_more(20)
+        self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
+        self.command(5.0)
+        path, = self.end()
+        recording, _, _ = self.assert_repeats([path], 0)
+        self.assertEqual(len(recording.commands), 1 + 2)
 
     def test_a_split_recording(self):
         self.run_emulator(record=True, split_duration_s=0.4)
