@@ -188,13 +188,14 @@ class EmulatorTest(NodeTest):
         self.emulator.assert_alive()
 
     def begin(self, paused=False):
-        """A new epoch, of which the topics hold the messages."""
+        """A new epoch, of which the topics hold the messages: those that an epoch begins with have come."""
         self.pause(paused)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         type(self).epoch += 1
         for topic in self.topics.values():
             topic.forget_before(self.epoch)
-        self.topics['status'].wait_for(lambda m: m.epoch == self.epoch, 'a new epoch')
+        for name in ('status', 'applied', 'snapshot'):
+            self.topics[name].wait_for(lambda m: m.epoch == self.epoch, 'a new epoch')
         for topic in self.topics.values():
             topic.forget_before(self.epoch)
 
