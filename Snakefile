@@ -26,8 +26,8 @@ TOOLS = Path(os.environ.get("AFM_TOOLS", DEVEL / "lib/afm_emulator"))
 OUT = str(BUILD / "laboratory" / MODE)
 COMMANDS = commands(QUICK)
 MADE = {name: table for name, table in TABLES.items() if not (QUICK and table.full_only)}
+EXAMPLES = ("friction_peaks", "bifurcations", "thermal_histogram")  # of Python, which draw a picture
 SCENES = ("paper", "resonance", "splash", "glide", "rest", "sweep", "slow_motion", "room", "loop")
-CHARTS = ("pace", "speed_accuracy", "stability", "work_cost")  # as SVG too
 SHELL = ('source scripts/environment.bash; ! [[ -f "%s/setup.bash" ]] || source_setup "%s/setup.bash"; '
          'export PATH="%s:$PATH"; ')
 
@@ -66,6 +66,7 @@ for name in list(COMMANDS) + list(MADE):
     TARGETS.setdefault(name, []).append(table(name))
 for name in PICTURES:
     TARGETS.setdefault(name, []).append(image(name))
+TARGETS.update({name: [image(name)] for name in EXAMPLES})
 TARGETS.update({"view": [image("view")], "scene_pictures": [image("scene_" + scene) for scene in SCENES],
                 "chart": TARGETS["speed_accuracy"] + TARGETS["pace"], "levels": [table("levels")]})
 TARGETS["scenes"] = TARGETS["scene_pictures"] + TARGETS["scene_levels"]
@@ -73,6 +74,7 @@ TARGETS["paper"] = [file for name in PICTURES if re.match("fig|model", name) for
     [table(name) for name in ("mica_in_si", "friction_attractors", "friction_orbits", "friction_averages")]
 TARGETS["hammer"] = [file for name in PICTURES if name.startswith("hammer") for file in TARGETS[name]]
 HEATED = [name for name in list(MADE) + list(PICTURES) if re.match("thermal|load", name)]
+TARGETS["lever_pictures"] = TARGETS["lever_map"] + TARGETS["lever_friction"]
 TARGETS["temperature"] = [file for name in HEATED for file in TARGETS[name]] + [table("thermal_real_time")]
 LISTED = [name for name in TARGETS if name not in COMMANDS or name in TABLES or
           (ROOT / "docs/data" / (name + ".csv")).exists()]
@@ -115,13 +117,7 @@ rule table:
 rule picture:
     output: OUT + "/images/{name}.png"
     input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)]
-    wildcard_constraints: name=any_of(name for name in PICTURES if name not in CHARTS)
-    shell: "workflow/make.py {MODE} picture {wildcards.name} {OUT}/tables {OUT}/data {output}"
-
-rule chart_picture:
-    output: OUT + "/images/{name}.png", OUT + "/images/{name}.svg"
-    input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)]
-    wildcard_constraints: name=any_of(CHARTS)
+    wildcard_constraints: name=any_of(PICTURES)
     shell: "workflow/make.py {MODE} picture {wildcards.name} {OUT}/tables {OUT}/data {output}"
 
 rule scene_picture:
@@ -129,6 +125,12 @@ rule scene_picture:
     wildcard_constraints: scene=any_of(SCENES)
     threads: workflow.cores  # plays it in real time
     shell: "workflow/plotting/scenes.py --output {OUT}/images {wildcards.scene}"
+
+rule example_picture:
+    output: OUT + "/images/{name}.png"
+    input: "examples/python/{name}.py"
+    wildcard_constraints: name=any_of(EXAMPLES)
+    shell: "cd {OUT}/images && {ROOT}/{input}"
 
 rule view_picture:
     output: image("view")

@@ -1,12 +1,17 @@
 """Every command that is measured: the name of its table, what runs, and the tables that it writes besides."""
+import math
+import re
 from collections import namedtuple
+from pathlib import Path
 
 # may_fail: a failure is a result too
+ROOT = Path(__file__).resolve().parent.parent
 Command = namedtuple("Command", "words sides may_fail")
 
 KELVIN = 0.926 / 300.0  # kT of mica's tip [m a^2/tau^2] for each kelvin; docs/temperature.md
 TEMPERATURES = (0, 4, 77, 300)  # [K]
 QUALITIES = (500, 100, 20)
+THERMAL_FINE = (2, 4, 6, 8)  # eta of the peaks
 BATHS = [(0, 0)] + [(kelvin, quality) for quality in QUALITIES for kelvin in TEMPERATURES]  # (0, 0): none
 GOLDEN = (2.618, 4.236, 6.854, 11.09, 17.944, 29.034, 46.979, 76.013)  # kicks per tau: powers of the golden ratio
 REFERENCE_KICKS = 122.99
@@ -17,6 +22,9 @@ HOPS_QUALITY, TRACES = 500, (0.025, 0.08, 0.2377, 0.926)
 MERGE_ETAS, MERGE_QUALITIES = (2, 3.75, 6.5), (500, 100)
 WINDOWS = ((1.9, 2.15), (3.6, 3.9), (6.2, 6.7))  # of eta, where attractors coexist
 LOAD_ETAS = (0.5, 2, 3.4)
+LEVERS, CRYSTALS = ("paper", "ppp_cont", "csc37_b"), ("mica", "nacl", "hopg")  # of the picture friction against load
+LEVER_SPEED, MOST_LOAD = 5e-6, 0.2e-9  # [m/s], [N]
+CUTOFF_SPEED = 1.66e-7  # [m/s]
 HAMMER_ETA, HAMMER_ETAS = 3.2, (1.5, 2.0, 3.4)
 # no even numbers, at which the horizontal spring is in resonance with the orbit of even eta
 RATIOS = (2.25, 3.25, 4.25, 6.25, 8.25, 12.25, 17.25, 24.25, 34.25, 48.25, 68.25, 98.25, 140.25, 198.25)
@@ -28,6 +36,23 @@ BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--gamma", 0.7), ("--eta 2 --vary eta 
                         ("--eta 3.4 --vary gamma --to 0.2", "--eta 3.4 --vary gamma --to 0.97",
                          "--eta 3.4 --vary gamma --to 0.97 --length 4"))}
 FUZZED = ("csv_filter", "parameters", "bag_messages", "tip")
+
+
+def values(path):
+    """The numbers of a file of config/."""
+    return {name: float(value) for name, value in re.findall(r"^(\w+): ([-+.\deE]+)", (ROOT / path).read_text(), re.M)}
+
+
+def lever_scene(lever, crystal):
+    """Options of friction_curve, in natural units, and the most load [a] that its rest heights reach."""
+    spring, surface = values("config/levers/%s.yaml" % lever), values("config/surfaces/%s.yaml" % crystal)
+    k, f0, a = spring["spring_constant_n_per_m"], spring["resonance_hz"], surface["lattice_spacing_m"]
+    ratio = math.sqrt(spring["lateral_spring_constant_n_per_m"] / k)
+    theta = 1.380649e-23 * 300.0 * (2.0 * math.pi) ** 2 / (k * a * a)  # kT in m a^2/tau^2, with m = k / (2 pi f0)^2
+    most = MOST_LOAD / (k * a)
+    words = ("--eta %.9g --cutoff %.9g --amplitude %.9g --frequency-ratio %.9g --temperature %.9g --quality-factor 100"
+             % (LEVER_SPEED / (a * f0), CUTOFF_SPEED / (a * f0), surface["surface_amplitude_m"] / a, ratio, theta))
+    return words, most
 
 
 def bath_name(kelvin, quality):
@@ -131,6 +156,10 @@ def commands(quick):
             curve("thermal_peak_%s_%g" % (bath_name(kelvin, quality), eta), "--eta",
                   "%g:%g:%g" % (eta - 0.5, eta + 0.5, choose(0.05, 0.01)),
                   "--duration", choose(500, 20000), *bath(kelvin, quality))
+        for eta in THERMAL_FINE:  # between the points of the whole curve
+            curve("thermal_fine_%s_%g" % (bath_name(kelvin, quality), eta), "--eta",
+                  "%g:%g:0.05" % (eta - 0.225, eta + 0.225),
+                  "--duration", choose(500, 3000), *bath(kelvin, quality))
     for eta, quality, theta in kicks_cases(quick):
         for kicks in (GOLDEN[::3] if quick else GOLDEN) + (REFERENCE_KICKS,):
             curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature",
@@ -157,6 +186,13 @@ def commands(quick):
         for name, heat in (("cold", ()), ("warm", bath(300, 100))):
             curve("load_%g_%s" % (eta, name), "--eta", eta, "--rest-height",
                   choose("-1.1:0.09:0.1 --duration 500", "-1.1:0.09:0.01 --duration 10000"), *heat)
+
+    for lever in LEVERS:
+        for crystal in CRYSTALS:
+            words, most = lever_scene(lever, crystal)
+            curve("lever_%s_%s" % (lever, crystal), words, "--rest-height",
+                  "%.9g:0:%.9g --duration %d" % (-most, most / choose(5, 20), choose(300, 4000)))
+    add("levers", "levers", choose("--tau 30 --transient 20", ""))
 
     # accuracy, speed, stability
     files = "--output {out}/speed_accuracy.csv --pace {out}/pace.csv"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes one table or picture of the laboratory from the tables that it reads.
 
-Usage: make.py MODE table|picture NAME TABLES DATA OUTPUT...
+Usage: make.py MODE table|picture NAME TABLES DATA OUTPUT
 TABLES, DATA: the folders of what was measured and of what is made.
 """
 import importlib
@@ -13,22 +13,20 @@ import results  # noqa: E402,F401  (registers its tables)
 from measure import stamp  # noqa: E402
 from registry import PICTURES, TABLES, Tables, text_of  # noqa: E402
 
-PLOTTING = ("atlas", "bifurcations", "bounce", "friction", "hammer", "load", "model", "orbits", "pace", "scaling",
-            "speed_accuracy",
-            "stability", "temperature", "thermal_hops", "work_cost")
+PLOTTING = ("atlas", "bifurcations", "bounce", "chatter", "drawings", "friction", "hammer", "levers", "load",
+            "model", "orbits", "pace", "scaling", "speed_accuracy", "stability", "temperature", "thermal_hops",
+            "work_cost")
 for module in PLOTTING:
     importlib.import_module("plotting." + module)
 
 
 def main():
-    mode, kind, name, measured, data, *outputs = sys.argv[1:]
+    mode, kind, name, measured, data, output = sys.argv[1:]
     tables = Tables(measured, data, quick=mode == "quick")
     if kind == "table":
-        Path(outputs[0]).write_text("%s\n%s" % (stamp(mode, "`snakemake %s`" % name), text_of(TABLES[name], tables)))
+        Path(output).write_text("%s\n%s" % (stamp(mode, "`snakemake %s`" % name), text_of(TABLES[name], tables)))
         return
-    figure = PICTURES[name].make(tables)
-    for output in outputs:  # the same bytes for the same data
-        figure.savefig(output, metadata={"Date": None} if output.endswith("svg") else None)
+    PICTURES[name].make(tables).savefig(output)
 
 
 if __name__ == "__main__":

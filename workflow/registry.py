@@ -68,7 +68,7 @@ class Tables:
     def strings(self, name):
         """The rows of a table, without the summary that some programs print below."""
         lines = [line for line in self.text(name).splitlines() if line]
-        width = lines[0].count(",") if lines else 0
+        width = len(next(csv.reader(lines[:1]))) - 1 if lines else 0
         return list(csv.DictReader(line for line in lines if line.count(",") >= max(1, width)))
 
     def rows(self, name):

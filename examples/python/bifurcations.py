@@ -15,6 +15,6 @@ for eta in np.linspace(2.9, 1.7, points):  # the tip keeps to its attractor whil
     events = tip.advance(float(tip.now) + 100)
     bounces = events[events['kind'] == afm.Kind.IMPACT]
     plt.plot(np.full(len(bounces), eta), bounces['surface_phase'], ',', color='black', alpha=0.5)
-plt.xlabel('drag speed [a/tau]')
+plt.xlabel(r'drag speed $\eta$ [a/$\tau$]')
 plt.ylabel('surface phase of impacts [a]')
 plt.savefig('bifurcations.png', dpi=120)

@@ -1,14 +1,14 @@
 """Which attractor a random start finds, over drag velocity and restitution."""
 from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patches import Patch
 
 from registry import picture
 
 from . import style
 
-KINDS = [("period 1", "#004D80"), ("period 2", "#0072B2"), ("period 3-4", "#56B4E9"),
-         ("longer periods", "#B5DDF5"),
-         ("quasi-periodic", style.GREEN), ("chaotic", style.ORANGE), ("contact", style.YELLOW),
-         ("undecided", "#000000")]
+KINDS = [("period 1", "#004D80"), ("period 2", style.BLUE), ("period 3 or 4", style.SKY),
+         ("longer period", "#B5DDF5"), ("quasi-periodic", style.GREEN), ("chaotic", style.ORANGE),
+         ("contact", style.YELLOW), ("undecided", "#000000")]
 
 
 def kind(row):
@@ -32,19 +32,24 @@ def image_of(rows, value):
 @picture("atlas")
 def fig7_atlas(tables):
     rows = tables.rows("atlas")
-    figure, axes = style.new(11.0, 8.0, 2, 1, sharex=True)
+    figure, axes = style.new(7.4, 2, 1, sharex=True)
     image, extent = image_of(rows, kind)
     colours = ListedColormap([colour for _, colour in KINDS])
-    drawn = axes[0].imshow(image, extent=extent, origin="lower", aspect="auto", cmap=colours, interpolation="nearest",
-                           norm=BoundaryNorm([i - 0.5 for i in range(len(KINDS) + 1)], len(KINDS)))
-    bar = figure.colorbar(drawn, ax=axes[0], ticks=range(len(KINDS)))
-    bar.ax.set_yticklabels([name for name, _ in KINDS])
-    axes[0].set_title("What one random start ends on")
+    axes[0].imshow(image, extent=extent, origin="lower", aspect="auto", cmap=colours, interpolation="nearest",
+                   norm=BoundaryNorm([i - 0.5 for i in range(len(KINDS) + 1)], len(KINDS)))
+    axes[0].set_title("attractor that a random start finds", loc="left")
+    handles = [Patch(facecolor=colour, label=name) for name, colour in KINDS]
+    figure.legend(handles=handles, loc="upper center", ncol=8, columnspacing=1.0,
+                  handlelength=1.1)
     image, extent = image_of(rows, lambda row: row["k_f"] / style.closed_form(row["gamma"]))
-    drawn = axes[1].imshow(image, extent=extent, origin="lower", aspect="auto", cmap="magma", interpolation="nearest",
+    drawn = axes[1].imshow(image, extent=extent, origin="lower", aspect="auto", cmap="cividis", interpolation="nearest",
                            vmin=0, vmax=1)
-    figure.colorbar(drawn, ax=axes[1], label=r"$K_f$ / closed form at even $\eta$")
+    figure.colorbar(drawn, ax=axes[1], orientation="horizontal", aspect=50, pad=0.02, extend="max",
+                    label=r"$K_f$ over the closed form at even $\eta$ for the same $\gamma$")
     axes[1].set_xlabel(style.ETA_LABEL)
     for ax in axes:
         ax.set_ylabel(r"restitution $\gamma$")
+        ax.grid(False)
+    axes[0].tick_params(labelbottom=True)
+    figure.suptitle(" ")  # room for the legend
     return figure

@@ -4,7 +4,7 @@ from registry import picture
 
 from . import style
 
-EVENTS = {"period doubling": (style.ORANGE, "--"), "torus": (style.GREEN, "-."), "saddle-node": (style.PINK, ":"),
+EVENTS = {"period doubling": (style.PINK, "--"), "torus": (style.GREEN, "-."), "saddle-node": (style.AMBER, ":"),
           "grazing": ("black", "-"), "corner": (style.GREY, (0, (1, 3)))}
 
 
@@ -29,43 +29,75 @@ def mark(axes, events, seen):
 def fig6_even_orbit(tables):
     points, events = branch(tables, "even_orbit_gamma")
     rows = tables.rows("even_basins")
-    figure, axes = style.new(9.0, 7.5, 3, 1, sharex=True)
-    axes[0].plot([p["value"] for p in points], [p["k_f"] for p in points], color=style.BLUE,
-                 label="the orbit, continued")
-    colours = {"periodic": style.SKY, "quasi-periodic": style.GREEN, "chaotic": style.ORANGE}
-    for kind, colour in colours.items():
-        some = [r for r in rows if r["attractor"].startswith("period-" if kind == "periodic" else kind)]
-        axes[0].scatter([r["gamma"] for r in some], [r["k_f"] for r in some], s=[4 + 30 * r["basin"] for r in some],
-                        color=colour, label="attractors: " + kind, zorder=0)
+    grazing = next(row["value"] for row in events if row["event"] == "grazing")
+    figure, axes = style.new(5.6, 2, 1, sharex=True)
+    others = [r for r in rows if not same_orbit(r)]
+    axes[0].plot([r["gamma"] for r in others], [r["k_f"] for r in others], "s", color=style.ORANGE, markersize=4,
+                 label="other attractors", **style.OPEN)
+    own = [r for r in rows if same_orbit(r)]
+    axes[0].plot([r["gamma"] for r in own], [r["k_f"] for r in own], "o", color=style.BLUE, markersize=4,
+                 label="starts that end on the orbit")
+    axes[0].plot([p["value"] for p in points], [p["k_f"] for p in points], color="black", linewidth=1.1,
+                 label="the orbit, followed from $\\gamma$ = 0.7 down")
     axes[0].set_ylabel(style.K_F_LABEL)
-    axes[1].plot([p["value"] for p in points], [p["clearance"] for p in points], color=style.BLUE)
-    axes[1].set_ylabel("smallest gap\non the way / a")
-    axes[1].axhline(0.0, color=style.GREY, linewidth=0.8)
-    axes[1].set_ylim(-0.002, 0.035)
-    own = [r for r in rows if r["attractor"] == "period-1" and abs(r["k_f"] / style.closed_form(r["gamma"]) - 1) < 1e-6]
-    axes[2].errorbar([r["gamma"] for r in own], [r["basin"] for r in own], [1.96 * r["basin_std_error"] for r in own],
-                     color=style.BLUE, marker="o", markersize=3, linewidth=0.8)
-    axes[2].set_ylabel("share of starts that\nend on this orbit")
-    axes[2].set_xlabel(r"restitution $\gamma$")
+    style.legend_above(axes[0])
+    axes[1].errorbar([r["gamma"] for r in own], [r["basin"] for r in own], [1.96 * r["basin_std_error"] for r in own],
+                     color=style.BLUE, marker="o", markersize=4, linewidth=0.8)
+    axes[1].set_ylabel("share of 200 random starts\nthat end on the orbit")
+    axes[1].set_xlabel(r"restitution $\gamma$")
+    axes[1].set_ylim(-0.03, 1.05)
     for ax in axes:
-        mark(ax, events, set())
-    axes[0].legend(fontsize=8)
-    axes[0].set_title(r"The orbit of two impacts per $\tau$ at $\eta$ = 2, down to where it grazes")
+        ax.axvline(grazing, color="black", linestyle=":", linewidth=1.2)
+    axes[0].text(grazing - 0.004, axes[0].get_ylim()[1] * 0.93, "the orbit\ngrazes a crest", ha="right", va="top")
     return figure
 
 
-def diagram(tables, row, name):
-    """A parameter carried up (left) and down (right): where the two differ attractors coexist."""
+def same_orbit(row):
+    return row["attractor"] == "period-1" and abs(row["k_f"] / style.closed_form(row["gamma"]) - 1) < 1e-6
+
+
+FEW, NEAR = 12, 0.02  # values of a periodic orbit at most; [a/tau] between two that are the same
+
+
+def distinct(values):
+    """The values without those that lie near another."""
+    found = []
+    for value in sorted(values):
+        if not found or value - found[-1] > NEAR:
+            found.append(value)
+    return found
+
+
+def alike(one, other):
+    """Whether two sweeps are on one attractor: two periodic orbits by their values; all chaos counts as one."""
+    a, b = distinct(one), distinct(other)
+    if len(a) > FEW and len(b) > FEW:
+        return True
+    return len(a) == len(b) and all(abs(x - y) < 2 * NEAR for x, y in zip(a, b))
+
+
+def diagram(tables, axes, name):
+    """A parameter carried up and down: where the two sweeps differ attractors coexist."""
     vary, bounds, _, branches = BRANCHES[name]
     events = [event for index in range(len(branches)) for event in branch(tables, "%s_branch_%d" % (name, index))[1]
               if bounds[0] <= event["value"] <= bounds[1]]
-    for axes, sweep, colour in zip(row, ("up", "down"), (style.BLUE, style.ORANGE)):
-        rows = tables.rows("%s_%s" % (name, sweep))
-        axes.plot([r[vary] for r in rows], [r["normal_speed"] for r in rows], ",", color=colour, alpha=0.6)
-        mark(axes, events, set())
-        axes.set_xlim(*bounds)
-        axes.set_ylim(0, None)
-    row[0].set_ylabel(r"normal speed [a/$\tau$]")
+    speeds = {"up": {}, "down": {}}
+    for sweep, found in speeds.items():
+        for row in tables.rows("%s_%s" % (name, sweep)):
+            found.setdefault(round(row[vary], 6), []).append(row["normal_speed"])
+    same = {at for at, speed in speeds["up"].items() if at in speeds["down"] and alike(speed, speeds["down"][at])}
+    dot = dict(linestyle="none", marker="o", markersize=0.9, markeredgewidth=0)
+    for sweep, colour in (("down", style.ORANGE), ("up", style.BLUE)):
+        rows = [(at, speed) for at, some in speeds[sweep].items() for speed in some if at not in same]
+        if rows:
+            axes.plot(*zip(*rows), color=colour, zorder=3, **dot)
+    both = [(at, speed) for at in same for speed in speeds["up"][at]]
+    axes.plot(*zip(*both), color="#777777", **dot)
+    mark(axes, events, set())
+    axes.set_xlim(*bounds)
+    axes.set_ylim(0, None)
+    axes.set_ylabel(r"normal speed of impacts [$a/\tau$]")
+    axes.grid(False)
 
 
 DIAGRAMS = tuple(name + ending for name, (_, _, _, branches) in BRANCHES.items()
@@ -74,15 +106,14 @@ DIAGRAMS = tuple(name + ending for name, (_, _, _, branches) in BRANCHES.items()
 
 @picture(*DIAGRAMS)
 def fig8_bifurcations(tables):
-    figure, axes = style.new(11.0, 9.5, 3, 2, sharey="row")
-    for row, name in zip(axes, BRANCHES):
-        diagram(tables, row, name)
-    for row, label in zip(axes, (style.ETA_LABEL, style.ETA_LABEL, r"restitution $\gamma$ at $\eta$ = 3.4")):
-        for ax in row:
-            ax.set_xlabel(label)
-    for ax, direction in zip(axes[0], ("raised", "lowered")):
-        ax.set_title("parameter slowly " + direction)
+    figure, axes = style.new(8.4, 3, 1)
+    for ax, name in zip(axes, BRANCHES):
+        diagram(tables, ax, name)
+    for ax, label in zip(axes, (style.ETA_LABEL, style.ETA_LABEL, r"restitution $\gamma$, at $\eta$ = 3.4")):
+        ax.set_xlabel(label)
     lines = {line.get_label(): line for ax in axes.flat for line in ax.lines if line.get_label() in EVENTS}
-    figure.suptitle(" \n")  # room for the legend
-    figure.legend(lines.values(), lines.keys(), loc="upper center", ncol=len(lines), frameon=False)
+    for label, colour in (("both sweeps", "#777777"), ("rising only", style.BLUE), ("falling only", style.ORANGE)):
+        lines[label] = axes[0].plot([], [], "o", color=colour, markersize=4)[0]
+    figure.suptitle(" ")  # room for the legend
+    figure.legend(lines.values(), lines.keys(), loc="upper center", ncol=len(lines))
     return figure

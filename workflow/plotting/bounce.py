@@ -85,7 +85,7 @@ def check(flight):
 def draw_surface(axes, low, high, bottom):
     xs = [low + (high - low) * i / 600 for i in range(601)]
     ys = [surface(x) for x in xs]
-    axes.fill_between(xs, ys, bottom, color="#e6e6e6")
+    axes.fill_between(xs, ys, bottom, color=style.SOLID)
     axes.plot(xs, ys, **SURFACE)
     axes.set_xlim(low, high)
 
@@ -100,9 +100,10 @@ def draw_flights(axes, before, after):
     axes.plot([before.x, after.x, end[0]], [surface(before.x), surface(after.x), end[1]], "o", color="black")
     axes.set_ylim(bottom, max(before.path()[1] + after.path()[1]) + 0.13)
     axes.set_aspect(stretch)
-    axes.set_title(r"Three impacts at $\eta$ = %g (heights drawn $\times$ %d)" % (before.row["eta"], stretch))
-    axes.set_xlabel("x / a")
-    axes.set_ylabel("y / a")
+    axes.set_title(r"Two flights between three impacts, $\eta$ = %g (heights drawn %d times larger)" % (before.row["eta"], stretch),
+                   loc="left")
+    axes.set_xlabel("position x [a]")
+    axes.set_ylabel("height y [a]")
     for flight, look in ((before, BEFORE), (after, AFTER)):
         x, y = max(zip(*flight.path()), key=lambda point: point[1])
         axes.annotate(DT + r" = %.4f $\tau$" % flight.row["dt"], (x, y), xytext=(0, 7), textcoords="offset points",
@@ -142,8 +143,9 @@ def draw_velocities(axes, before, after):
     arrow(axes, (x - v[0], y - v[1]), v, r"$\mathbf{v}$", BEFORE["color"], "tail", (0, 12))
     arrow(axes, (x, y), v_after, r"$\mathbf{v}'$", AFTER["color"], "head", (11, 0))
     axes.plot([x], [y], "o", color="black", zorder=5)
-    axes.set_title("The impact, true proportions")
-    axes.set_xlabel(r"$|\mathbf{n}\cdot\mathbf{v}|$ = %.3f a/$\tau$,  lost: %.3f m a$^2$/$\tau^2$"
+    axes.set_title("The impact in true proportions", loc="left")
+    axes.grid(False)
+    axes.set_xlabel(r"normal speed $|\mathbf{n}\cdot\mathbf{v}|$ = %.3f $a/\tau$, energy lost %.3f $m_{tip}\,a^2/\tau^2$"
                     % (row["normal_speed"], row["energy_loss"]))
     axes.set_xticks([])
     axes.set_yticks([])
@@ -155,9 +157,9 @@ def draw_gap(axes, before, after):
     axes.plot(after.times(), after.gaps(), **AFTER)
     axes.plot([-before.row["dt"], 0.0, after.row["dt"]], [0.0] * 3, "o", color="black")
     axes.set_ylim(bottom=-0.03)
-    axes.set_title("The gap")
-    axes.set_xlabel(r"time since the impact / $\tau$")
-    axes.set_ylabel("gap / a")
+    axes.set_title("The gap between tip and surface", loc="left")
+    axes.set_xlabel(r"time since the impact [$\tau$]")
+    axes.set_ylabel("gap [a]")
 
 
 @picture()
@@ -166,7 +168,7 @@ def bounce(_):
     after = before.next()
     for flight in (before, after):
         check(flight)
-    figure = style.figure(8.0, 6.8)
+    figure = style.figure(7.2)
     grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.0), height_ratios=(1.0, 1.05))
     draw_flights(figure.add_subplot(grid[0, :]), before, after)
     draw_velocities(figure.add_subplot(grid[1, 0]), before, after)

@@ -15,7 +15,8 @@ def swept(tables, direction):
 
 @picture(*SWEPT)
 def fig1_friction(tables):
-    figure, (linear, logarithmic) = style.new(9.0, 8.0, 2, 1, sharex=True)
+    figure, (linear, logarithmic) = style.new(7.4, 2, 1, sharex=True, constrained_layout=False)
+    figure.subplots_adjust(left=0.075, right=0.905, top=0.955, bottom=0.07, hspace=0.06)
     peak = style.closed_form(0.7)
     for axes in (linear, logarithmic):
         for direction, line in style.SWEEPS.items():
@@ -27,17 +28,15 @@ def fig1_friction(tables):
         axes.plot([2, 4, 6, 8], [peak] * 4, "o", color="black", fillstyle="none", markersize=9,
                   label=r"closed form at even $\eta$: %.4f" % peak)
         axes.set_ylabel(style.K_F_LABEL)
-        axes.grid(color="#dddddd", linewidth=0.6)
         right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4,
                                                          lambda k: k / style.PAPER / 1e4))
-        if axes is linear:  # both scales have it
-            right.set_ylabel(r"in the paper's unit $\times 10^4$")
+        right.set_ylabel(r"$K_f$ [$10^{-4}$ of the paper's unit]")
     linear.set_xlim(0, 9)
     linear.set_ylim(0, 1.08 * peak)
     logarithmic.set_yscale("log")
     logarithmic.set_ylim(1e-4, 10)
     logarithmic.set_xlabel(style.ETA_LABEL)
-    linear.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, frameon=False, fontsize=10)
+    style.legend_above(linear)
     return figure
 
 
@@ -46,17 +45,18 @@ MOST_ERROR = 0.2
 
 
 def draw_attractors(axes, rows):
-    """Each attractor a dot, the larger the more starts it draws."""
-    kinds = (("period-1", "period 1", style.BLUE), ("period-", "longer periods", style.SKY),
-             ("quasi-periodic", "quasi-periodic", style.GREEN), ("chaotic", "chaotic", style.ORANGE),
-             ("contact", "contact", style.YELLOW))
+    """Each attractor a sign, the larger the more starts it draws."""
+    kinds = (("period-1", "period 1", style.BLUE, "o", True), ("period-", "longer periods", style.BLUE, "o", False),
+             ("quasi-periodic", "quasi-periodic", style.GREEN, "^", True), ("chaotic", "chaotic", style.ORANGE, "s", False),
+             ("contact", "contact", style.PINK, "D", True))
     left = [row for row in rows if row["k_f_std_error"] <= MOST_ERROR * row["k_f"]]
-    for name, label, colour in kinds:
+    for name, label, colour, marker, filled in kinds:
         some = [r for r in left if r["attractor"] == name or (name == "period-" and r["attractor"].startswith(name))]
         left = [r for r in left if r not in some]
-        axes.scatter([r["eta"] for r in some], [r["k_f"] for r in some], s=[3 + 25 * r["basin"] for r in some],
-                     color=colour,
-                     label=label, linewidths=0)
+        if some:
+            axes.scatter([r["eta"] for r in some], [r["k_f"] for r in some], s=[4 + 26 * r["basin"] for r in some],
+                         marker=marker, facecolor=colour if filled else "none", edgecolor=colour, linewidths=0.7,
+                         label=label)
 
 
 COEXISTING = (2, 2.5, 3.75, 6.5)
@@ -76,17 +76,16 @@ def friction_attractors(tables):
 
 @picture(*(name % low for low, _ in WINDOWS for name in ("coexistence_%g", "sweep_up_%g", "sweep_down_%g")))
 def fig1_coexistence(tables):
-    figure, axes = style.new(11.0, 4.5, 1, 3)
+    figure, axes = style.new(4.6, 1, 3)
     for ax, (low, _) in zip(axes, WINDOWS):
         draw_attractors(ax, tables.rows("coexistence_%g" % low))
         for direction, line in (("up", "-"), ("down", ":")):
             rows = tables.rows("sweep_%s_%g" % (direction, low))
             ax.plot([row["eta"] for row in rows], [row["k_f"] for row in rows], color="black", linestyle=line,
-                    linewidth=0.8,
-                    label="one tip, drag velocity %s" % ("raised" if direction == "up" else "lowered"))
+                    linewidth=0.9, label=r"one tip, $\eta$ %s slowly" % ("rising" if direction == "up" else "falling"))
         ax.set_xlabel(style.ETA_LABEL)
     axes[0].set_ylabel(style.K_F_LABEL)
-    axes[1].legend(fontsize=8)
-    figure.suptitle(r"Where attractors coexist friction depends on history "
-                    r"($\gamma$ = 0.7; the area of a dot: its basin)")
+    entries = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels())}
+    figure.suptitle(" \n")  # room for the legend
+    figure.legend(entries.values(), entries.keys(), loc="upper center", ncol=4)
     return figure

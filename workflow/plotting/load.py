@@ -7,7 +7,7 @@ from . import style
 # one a of the spring is so much force: k_v a and k_h a, k = m omega^2 (mica)
 NEWTON_V = 4.08e-10 * 4e4 ** 2 * 5.2e-10
 TAU = style.TWO_PI / 4e4
-CASES = (("no bath", style.BLUE, "-", "cold"), ("300 K, Q = 100", style.ORANGE, "--", "warm"))
+CASES = (("no bath", style.BLUE, "o", "cold"), ("300 K, Q = 100", style.ORANGE, "s", "warm"))
 READ = tuple("load_%g_%s" % (eta, end) for eta in LOAD_ETAS for end in ("cold", "warm"))
 
 
@@ -28,22 +28,25 @@ def load(tables):
              for name, _, _, end in CASES for row in tables.rows("load_%g_%s" % (eta, end))])
 
 
-@picture(*READ, name="load")
+@picture("load", name="load")
 def draw_load(tables):
-    figure, axes = style.new(9.0, 9.0, len(LOAD_ETAS), 1, sharex=True)
+    """A dot for each height of the holder: between two of them the attractor may change."""
+    rows = tables.rows("load")
+    figure, axes = style.new(8.2, len(LOAD_ETAS), 1, sharex=True)
     for ax, eta in zip(axes, LOAD_ETAS):
-        for name, colour, line, end in CASES:
-            rows = tables.rows("load_%g_%s" % (eta, end))
-            force = [1e9 * newtons(row["k_f_work"], eta) for row in rows]
-            error = [1.96e9 * newtons(row["k_f_work_std_error"], eta) for row in rows]
-            load_n = [-1e9 * NEWTON_V * row["rest_height"] for row in rows]
-            ax.plot(load_n, force, color=colour, linestyle=line, linewidth=1.2, label=name)
-            ax.fill_between(load_n, [f - e for f, e in zip(force, error)], [f + e for f, e in zip(force, error)],
-                            color=colour, alpha=0.3, linewidth=0)
+        for name, colour, marker, _ in CASES:
+            some = [row for row in rows if row["eta"] == eta and row["bath"] == name]
+            look = dict(markersize=3.2) if marker == "o" else dict(markersize=3.8, markerfacecolor="white",
+                                                                    markeredgewidth=0.9)
+            ax.errorbar([-1e9 * NEWTON_V * row["rest_height"] for row in some],
+                        [1e12 * newtons(row["k_f_work"], eta) for row in some],
+                        [1.96e12 * newtons(row["k_f_work_std_error"], eta) for row in some], fmt=marker, color=colour,
+                        elinewidth=0.7, label=name, **look)
         if eta > 1:
             ax.axvline(liftoff(eta), color="black", linestyle=":", linewidth=1.2, label=r"$k_v H (\eta^2 - 1)$")
-        ax.set_ylabel(r"$\eta$ = %g:  lateral force / nN" % eta)
-        ax.grid(color="#dddddd", linewidth=0.6)
-    axes[1].legend(loc="upper right", frameon=False)
-    axes[-1].set_xlabel(r"load $-k_v y_0$ / nN")
+        ax.set_ylabel("mean lateral force [pN]")
+        ax.set_title(r"$\eta$ = %g (%.3g $\mu$m/s)" % (eta, eta * 1e6 * 5.2e-10 / TAU), loc="left")
+    handles, labels = axes[1].get_legend_handles_labels()
+    axes[0].legend(handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3, borderaxespad=0.1)
+    axes[-1].set_xlabel(r"load $-k_v y_0$ [nN];  left of 0 the holder is above mid-surface")
     return figure

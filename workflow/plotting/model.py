@@ -9,7 +9,7 @@ from .friction import SWEPT, swept
 OMEGA_V, OMEGA_H, TIP_MASS, LATTICE, AMPLITUDE = 40e3, 250e3, 408e-12, 0.52e-9, 0.05e-9  # SI, the paper's section V
 TAU = style.TWO_PI / OMEGA_V
 BOLTZMANN = 1.380649e-23  # [J/K]
-HOLDER, TIP, HIT = (0.28, 0.0), (0.66, 0.52), 1.80  # [a] where the drawing has the holder, the tip, and an impact
+HOLDER, TIP, HIT = (0.28, 0.13), (0.72, 0.58), 1.80  # [a] where the drawing has the holder, the tip, and an impact
 HEIGHT = 0.22  # [a] of the drawn surface, more than twice mica's
 
 
@@ -37,28 +37,29 @@ def arrow(axes, begin, end, text="", at=None, colour="black", both=False):
 
 
 def draw_lengths(axes):
-    arrow(axes, (0, -0.47), (1, -0.47), "a, the lattice spacing", (0.5, -0.53), both=True)
+    arrow(axes, (0, -0.42), (1, -0.42), "lattice spacing $a$", (0.5, -0.48), both=True)
     for x in (0, 1):
-        axes.plot([x, x], [surface(x), -0.5], ":", color=style.GREY, linewidth=0.8)
-    arrow(axes, (2.0, 0), (2.0, HEIGHT), "H", (2.05, 0.5 * HEIGHT), both=True)
+        axes.plot([x, x], [surface(x), -0.46], ":", color=style.GREY, linewidth=0.8)
+    arrow(axes, (2.0, 0), (2.0, HEIGHT), "amplitude\n$H$", (2.17, 0.5 * HEIGHT), both=True)
     axes.plot([-0.35, 2.12], [0, 0], "--", color=style.GREY, linewidth=0.8)
-    axes.text(2.14, 0, "mid-surface,\n$y = 0$", va="center", fontsize=9)
+    axes.text(2.14, -0.03, "mid-surface, $y = 0$", va="center")
     x, y = TIP
-    arrow(axes, (x + 0.07, surface(x + 0.07)), (x + 0.07, y), "gap $g = y - h(x)$", (x + 0.35, 0.3), both=True)
+    arrow(axes, (x + 0.07, surface(x + 0.07)), (x + 0.07, y), "gap $g = y - h(x)$", (x + 0.35, 0.36), both=True)
 
 
 def draw_holder(axes):
     (xc, y0), (x, y) = HOLDER, TIP
     spring(axes, (xc, y), (x, y))
     spring(axes, (x, y0), (x, y), turns=6, width=0.03)
-    axes.plot([xc, xc], [y0, y + 0.08], color=style.GREY, linewidth=0.9)
-    axes.plot(xc, y0, "+", color=style.ORANGE, markersize=16, markeredgewidth=3)
-    axes.text(xc - 0.08, y0 - 0.14, "holder\n$(x_c, y_0)$", color=style.ORANGE, ha="center", va="center")
-    arrow(axes, (xc, y0), (xc + 0.26, y0), "$v_0$", (xc + 0.17, y0 + 0.06), style.ORANGE)
-    axes.text(0.5 * (xc + x), y + 0.075, r"$k_h = m\,\omega_h^2$", ha="center")
-    axes.text(x - 0.05, 0.19, r"$k_v = m\,\omega_v^2$", ha="right", va="center")
+    axes.plot([xc, xc, x + 0.04], [y + 0.1, y0, y0], color=style.ORANGE, linewidth=2.2)
+    axes.plot(xc, y0, "o", color=style.ORANGE, markersize=8)
+    axes.text(xc - 0.04, y0 + 0.16, "holder,\nat $(x_c, y_0)$", color=style.ORANGE, ha="right", va="bottom")
+    arrow(axes, (xc, y + 0.1), (xc + 0.26, y + 0.1), "$v_0$", (xc + 0.31, y + 0.1), style.ORANGE)
+    arrow(axes, (xc + 0.08, 0), (xc + 0.08, y0), "$y_0$", (xc + 0.14, 0.5 * y0), both=True)
+    axes.text(0.5 * (xc + x) + 0.02, y - 0.06, r"$k_h = m\,\omega_h^2$", ha="center", va="top")
+    axes.text(x - 0.05, 0.24, r"$k_v = m\,\omega_v^2$", ha="right", va="center")
     axes.plot(x, y, "o", color=style.BLUE, markersize=13)
-    axes.text(x + 0.05, y + 0.06, "tip, mass $m$, at $(x, y)$", color=style.BLUE)
+    axes.text(x + 0.05, y + 0.05, "tip of mass $m$, at $(x, y)$", color=style.BLUE)
 
 
 def draw_impact(axes):
@@ -72,43 +73,42 @@ def draw_impact(axes):
 
 @picture()
 def model_setup(_):
-    figure, axes = style.new(9.0, 4.6)
+    figure, axes = style.new(4.7)
     xs = [-0.35 + 2.47 * i / 600 for i in range(601)]
     ys = [surface(x) for x in xs]
-    axes.fill_between(xs, ys, -0.62, color="#e6e6e6")
+    axes.fill_between(xs, ys, -0.55, color=style.SOLID)
     axes.plot(xs, ys, color=style.GREY, linewidth=1.5)
-    axes.text(1.22, -0.36, r"surface  $h(x) = H\,\cos(2\pi x/a)$,  rigid", ha="left")
+    axes.text(1.2, -0.4, r"rigid surface  $h(x) = H\,\cos(2\pi x/a)$", ha="left")
     draw_lengths(axes)
     draw_holder(axes)
     draw_impact(axes)
-    for end, name, at in (((1.92, 0.58), "x, along the drag\n(rviz: x)", (2.17, 0.57)),
-                          ((1.7, 0.8), "y, away from the surface (rviz: z)", (1.7, 0.85))):
-        arrow(axes, (1.7, 0.58), end, name, at)
-    axes.set_xlim(-0.37, 2.45)
-    axes.set_ylim(-0.62, 0.9)
-    axes.set_aspect(1)
-    axes.axis("off")
+    for end, name, at in (((1.92, 0.56), "$x$, along the drag", (2.15, 0.56)),
+                          ((1.7, 0.78), "$y$, away from the surface", (1.72, 0.83))):
+        arrow(axes, (1.7, 0.56), end, name, at)
+    axes.set_xlim(-0.37, 2.5)
+    axes.set_ylim(-0.55, 0.88)
+    style.bare(axes)
     return figure
 
 
 @picture()
 def model_restitution(_):
-    figure, axes = style.new(7.0, 3.8)
-    for gamma, colour in ((0.7, style.BLUE), (0.5, style.ORANGE)):
-        axes.plot([0, 1, 2.5], [1, gamma, gamma], color=colour, linewidth=2, label=r"$\gamma$ = %g" % gamma)
+    figure, axes = style.new(3.4)
+    for gamma, colour, line in ((0.7, style.BLUE, "-"), (0.5, style.ORANGE, "--")):
+        axes.plot([0, 1, 2.5], [1, gamma, gamma], line, color=colour, linewidth=2)
+        axes.text(2.2, gamma + 0.03, r"$\gamma$ = %g" % gamma, color=colour)
     axes.axvline(1, color=style.GREY, linewidth=0.8, linestyle=":")
-    axes.set_xlabel(r"normal speed before the impact, $|\mathbf{n}\cdot\mathbf{v}| / v_c$")
-    axes.set_ylabel(r"restitution $\gamma_{eff}$")
+    axes.set_xlabel(r"normal speed before the impact, $|\mathbf{n}\cdot\mathbf{v}|$ [$v_c$]")
+    axes.set_ylabel(r"effective restitution $\gamma_{eff}$")
     axes.set_xlim(0, 2.5)
-    axes.set_ylim(0, 1.05)
-    axes.legend(loc="lower right", frameon=False)
+    axes.set_ylim(0, 1.08)
     return figure
 
 
 @picture(*SWEPT)
 def model_force(tables):
     """The tables of FIG. 1, as a force in nN against a speed in um/s."""
-    figure, axes = style.new(9.0, 4.6)
+    figure, axes = style.new(4.6)
     speed, unit = LATTICE / TAU, TIP_MASS * LATTICE / TAU ** 2  # of eta [m/s], of a force [N]
     for direction, line in style.SWEEPS.items():
         rows = swept(tables, direction)
@@ -123,8 +123,7 @@ def model_force(tables):
     axes.set_ylim(bottom=0)
     top = axes.secondary_xaxis("top", functions=(lambda v: v * 1e-6 / speed, lambda eta: eta * speed * 1e6))
     top.set_xlabel(style.ETA_LABEL)
-    axes.legend(loc="upper left", frameon=False)
-    axes.grid(color="#dddddd", linewidth=0.6)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 1.0), framealpha=1.0, frameon=True, edgecolor="white")
     return figure
 
 

@@ -1,6 +1,8 @@
 """FIG. 2-4: the attractor at eta = 3.4, its orbits, and what they tell of its friction."""
 import math
 
+from matplotlib.colors import LogNorm
+
 from registry import picture, table
 
 from . import paths, style
@@ -22,11 +24,14 @@ def friction_orbits(tables):
              for row in tables.rows("periodic_orbits") if row["length"] <= 6])
 
 
+AVERAGES = ["impacts in the longest orbit", "K_f, zeta function", "K_f, determinant", "1/zeta(1), should be 0",
+            "determinant at 1, should be 0"]
+
+
 @table("cycle_averages")
 def friction_averages(tables):
     at = {(row["method"], int(row["order"])): row for row in tables.rows("cycle_averages")}
-    return (["impacts in the longest orbit", "K_f, zeta function", "K_f, determinant", "1/zeta(1), should be 0",
-             "determinant at 1, should be 0"],
+    return (AVERAGES,
             [(n, at["zeta", n]["k_f"], at["determinant", n]["k_f"], at["zeta", n]["conservation"],
               at["determinant", n]["conservation"])
              for n in sorted(order for method, order in at if method == "zeta")])
@@ -37,14 +42,13 @@ def fig2_attractor(_):
     """Every flight is moved by whole cells to begin in the first."""
     _, start = paths.flights([0.53, 0.0, 3.2, 2.1], ETA, GAMMA, CUTOFF, 30)
     drawn, _ = paths.flights(start, ETA, GAMMA, CUTOFF, 250)
-    figure, axes = style.new(9.0, 4.5)
+    figure, axes = style.new(3.9)
     for xs, ys in drawn:
         axes.plot(xs, ys, color=style.BLUE, linewidth=0.4, alpha=0.6)
     paths.draw_surface(axes, 0.0, 4.0)
     axes.set_ylim(-0.15, None)
-    axes.set_xlabel("x / a, flights begun in the first cell")
-    axes.set_ylabel("y / a")
-    axes.set_title(r"FIG. 2: 250 flights on the chaotic attractor, $\eta$ = 3.4, $\gamma$ = 0.7")
+    axes.set_xlabel("position x [a]; every flight is moved by whole cells, so that it begins in the first")
+    axes.set_ylabel("height y [a]")
     return figure
 
 
@@ -57,59 +61,61 @@ def draw_orbit(axes, row, colour):
         offset += math.floor(xs[-1])
     paths.draw_surface(axes, 0.0, max(2.0, row["cells"]) + 1.0)
     multiplier = complex(row["multiplier_1_re"], row["multiplier_1_im"])
-    axes.set_title(r"%d impact%s, $K_f$ = %.6f $m_{tip}/\tau$, largest multiplier %.3g in size"
-                   % (row["length"], "s" if row["length"] > 1 else "", row["k_f"], abs(multiplier)), fontsize=10)
-    axes.set_ylabel("y / a")
+    axes.set_title(r"%d impact%s in %d cells, $K_f$ = %.4f $m_{tip}/\tau$, $|\Lambda_1|$ = %.3g"
+                   % (row["length"], "s" if row["length"] > 1 else "", row["cells"], row["k_f"], abs(multiplier)),
+                   loc="left")
+    axes.set_ylabel("y [a]")
 
 
 @picture("periodic_orbits")
 def fig3_orbit(tables):
     rows = [row for row in tables.rows("periodic_orbits") if row["length"] <= 6 and row["cells"] > 1]
-    figure, axes = style.new(9.0, 1.9 * len(rows), len(rows), 1)
+    figure, axes = style.new(1.75 * len(rows), len(rows), 1)
     for ax, row in zip(axes, rows):
         draw_orbit(ax, row, style.ORANGE if row["length"] == 1 else style.BLUE)
-    axes[-1].set_xlabel("x / a")
-    figure.suptitle(r"FIG. 3: the paper's orbit, and all others up to six impacts on its attractor")
+    axes[-1].set_xlabel("position x [a]")
     return figure
 
 
 @picture("return_scan", "periodic_orbits")
 def fig4_scan(tables):
     rows = tables.rows("return_scan")
-    points = 30 if tables.quick else 120
-    figure, axes = style.new(8.0, 5.5)
-    finite = [min(row["distance"], 1.0) for row in rows]
-    image = axes.scatter([row["phase"] for row in rows], [row["w"] for row in rows], c=[math.log10(d) for d in finite],
-                         cmap="viridis", s=1000.0 / points * 2.2, marker="s", linewidths=0, vmax=0)
-    figure.colorbar(image, label=r"$\log_{10}$ of the distance after two impacts, in parts of the box")
+    figure, axes = style.new(5.4)
+    image = axes.scatter([row["phase"] for row in rows], [row["w"] for row in rows],
+                         c=[min(row["distance"], 1.0) for row in rows], cmap="viridis", norm=LogNorm(0.02, 1.0),
+                         s=(350.0 / (30 if tables.quick else 120)) ** 2 * 1.6, marker="s", linewidths=0)
+    bar = figure.colorbar(image, ticks=[0.02, 0.05, 0.1, 0.2, 0.5, 1.0],
+                          label="distance from a state to the state two impacts later\n"
+                                "[ranges of the coordinates on the attractor]")
+    bar.ax.set_yticklabels(["0.02", "0.05", "0.1", "0.2", "0.5", "1"])
     point = [row for row in tables.rows("periodic_orbits") if row["length"] == 1 and row["cells"] == 2][0]
-    axes.plot([point["phase"]], [point["w"]], "o", markerfacecolor="none", markeredgecolor=style.ORANGE, markersize=14,
-              markeredgewidth=2, label="the orbit of one impact, twice")
-    axes.legend(loc="lower right")
-    axes.set_xlabel("surface phase of the impact")
-    axes.set_ylabel(r"w after it / (a/$\tau$)")
-    axes.set_title(r"FIG. 4: nearest returns after two impacts, $\eta$ = 3.4, $\gamma$ = 0.7")
+    axes.plot([point["phase"]], [point["w"]], "o", markerfacecolor="none", markeredgecolor=style.ORANGE, markersize=15,
+              markeredgewidth=2)
+    axes.annotate("the orbit of one impact,\ntaken twice", (point["phase"], point["w"]), xytext=(0.33, 4.6),
+                  color=style.ORANGE, ha="left", va="bottom",
+                  arrowprops=dict(arrowstyle="-", color=style.ORANGE, shrinkB=9))
+    axes.set_xlabel("surface phase of the impact [a]")
+    axes.set_ylabel(r"vertical velocity w after the impact [$a/\tau$]")
     return figure
 
 
-@picture("cycle_averages", "direct")
+@picture("friction_averages", "direct")
 def fig5_averages(tables):
-    rows, direct = tables.rows("cycle_averages"), tables.rows("direct")[0]
-    figure, axes = style.new(10.0, 4.2, 1, 2)
-    for method, colour, marker in (("zeta", style.BLUE, "o"), ("determinant", style.GREEN, "s")):
-        some = [row for row in rows if row["method"] == method]
-        axes[0].plot([row["order"] for row in some], [row["k_f"] for row in some], marker=marker, color=colour,
-                     label=method)
-        axes[1].plot([row["order"] for row in some], [abs(row["conservation"]) for row in some], marker=marker,
-                     color=colour,
-                     label=method)
+    rows, direct = tables.rows("friction_averages"), tables.rows("direct")[0]
+    figure, axes = style.new(4.3, 1, 2)
+    order = [row[AVERAGES[0]] for row in rows]
+    for k_f, conserved, colour, marker, fill, label in (
+            (AVERAGES[1], AVERAGES[3], style.BLUE, "o", {}, "zeta function"),
+            (AVERAGES[2], AVERAGES[4], style.GREEN, "s", style.OPEN, "determinant")):
+        axes[0].plot(order, [row[k_f] for row in rows], marker + "-", color=colour, label=label, **fill)
+        axes[1].plot(order, [abs(row[conserved]) for row in rows], marker + "-", color=colour, label=label, **fill)
     axes[0].axhspan(direct["k_f"] - 1.96 * direct["k_f_std_error"], direct["k_f"] + 1.96 * direct["k_f_std_error"],
                     color=style.ORANGE, label="direct simulation, 95 %")
     axes[0].set_ylabel(style.K_F_LABEL)
-    axes[1].set_ylabel("what flow conservation is missed by")
+    axes[1].set_ylabel(r"lack of conservation, 0 if exact: $|1/\zeta(1)|$, $|\det|$")
     axes[1].set_yscale("log")
     for ax in axes:
         ax.set_xlabel("impacts in the longest orbit used")
-        ax.legend(fontsize=9)
-    figure.suptitle(r"$K_f$ from periodic orbits, $\eta$ = 3.4, $\gamma$ = 0.7")
+        ax.set_xticks(range(1, 11))
+        style.legend_above(ax)
     return figure

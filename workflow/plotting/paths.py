@@ -41,6 +41,6 @@ def flights(start, eta, gamma, cutoff, count):
 def draw_surface(axes, low, high):
     xs = [low + (high - low) * i / 800 for i in range(801)]
     ys = [surface(x) for x in xs]
-    axes.fill_between(xs, ys, -0.15, color="#e0e0e0")
+    axes.fill_between(xs, ys, -0.15, color=style.SOLID)
     axes.plot(xs, ys, color=style.GREY, linewidth=1.2)
     axes.set_xlim(low, high)

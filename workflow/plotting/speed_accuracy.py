@@ -1,7 +1,5 @@
-"""Speed against accuracy: time per impact against the error of impact time and state.
-
-A point for each setting of a method, a line for each method. Dashed lines: with the gap rate as a second event
-(minima). An open point has missed impacts, or found some that are none.
+"""Speed against accuracy: time per impact against the error of impact time and state. A point for each setting of a
+method, a line for each method, with its name beside it. An open point has missed impacts, or found some that are none.
 """
 import math
 
@@ -10,6 +8,14 @@ from registry import picture
 from . import style
 from .methods import METHODS, method_style
 
+# where the name of a method stands: which of its points, and the offset from it [points]
+NAMES = {"exact": (0, (0, -20), "center"), "certified_plain": (0, (0, -15), "center"),
+         "sampled_toms748": (2, (-14, 11), "center"), "heyoka": (0, (-4, 11), "center"),
+         "odeint_dopri5": (-1, (-8, -2), "right"), "odeint_bulirsch_stoer": (-1, (6, -11), "left"),
+         "cvode_adams": (-1, (2, -13), "center"), "cvode_bdf": (-1, (9, -2), "left"), "siconos": (-1, (8, -2), "left"),
+         "rk4": (-1, (8, -4), "left"), "moreau_jean": (-1, (8, 4), "left"), "semi_implicit_euler": (-1, (8, -9), "left"),
+         "penalty": (1, (4, 11), "center")}
+SUFFIX = "_minima"  # the same method, with the gap rate as a second event: beside it, dashed
 
 
 def points(rows, method, scene, error):
@@ -21,21 +27,21 @@ def points(rows, method, scene, error):
 def draw_method(axes, name, data):
     label, colour, marker = method_style(name)
     ours = name == "exact"
-    dashed = name in ("cvode_bdf", "certified_plain") or name.endswith("_minima")
-    axes.plot([d[0] for d in data], [d[1] for d in data], color=colour, linewidth=1.6, zorder=2,
-              linestyle="--" if dashed else "-",
-              marker=marker, markersize=24 if ours else 8, label="ours" if ours else label.replace("\n", " "))
+    axes.plot([d[0] for d in data], [d[1] for d in data], color=colour, linewidth=1.4, zorder=2,
+              linestyle="--" if name.endswith(SUFFIX) else "-", marker=marker, markersize=18 if ours else 7)
     for nanoseconds, error, wrong in data:
         if wrong:
-            axes.plot([nanoseconds], [error], marker, color=colour, markersize=8, zorder=3, markerfacecolor="white",
-                      markeredgewidth=1.6)
+            axes.plot([nanoseconds], [error], marker, color=colour, markersize=7, zorder=3, **style.OPEN)
+    if name in NAMES:
+        at, offset, align = NAMES[name]
+        axes.annotate(label.replace("\n", " "), data[at][:2], xytext=offset, textcoords="offset points", color=colour,
+                      ha=align, va="center", fontweight="bold" if ours else None)
 
 
 @picture("speed_accuracy", name="speed_accuracy")
 def draw(tables):
     rows, scene, error = tables.strings("speed_accuracy"), "all", "error_median"
-    figure, axes = style.new(10.2, 8.2, constrained_layout=False)
-    figure.subplots_adjust(left=0.1, right=0.96, top=0.95, bottom=0.29)
+    figure, axes = style.new(6.4)
     names = [name for name in METHODS if points(rows, name, scene, error)]
     names += sorted({row["method"] for row in rows} - set(METHODS))
     for name in names:
@@ -48,12 +54,11 @@ def draw(tables):
     axes.set_ylim(3e-17, 20)
     axes.set_xticks([1e2, 1e3, 1e4, 1e5, 1e6, 1e7])
     axes.set_xticklabels(["100 ns", "1 µs", "10 µs", "100 µs", "1 ms", "10 ms"])
-    axes.grid(which="major", color="#dddddd", linewidth=0.8)
-    axes.set_axisbelow(True)
-    axes.set_ylabel("error of one flight, median  (a, τ)")
+    axes.set_ylabel(r"error of one flight, median [a, $\tau$, a/$\tau$]")
     axes.set_xlabel("processor time per impact")
-    axes.set_title("The same flights, truth in 113 bits", fontsize=14)
-    axes.plot([], [], "o", color="#444444", markerfacecolor="white", markeredgewidth=1.6,
-              label="open: missed or phantom impacts")
-    figure.legend(loc="lower center", ncol=3, fontsize=11, frameon=False, markerscale=0.75, handlelength=2.6)
+    axes.annotate("better", (1.3e2, 1e-8), xytext=(4.5e2, 1e-6), color=style.GREY, ha="left", va="bottom",
+                  arrowprops=dict(arrowstyle="-|>", color=style.GREY))
+    figure.suptitle("Error against 113-bit arithmetic, on the same flights for every method.  "
+                    "Open: impacts missed, or found where there are none.\nDashed: the same method with the gap rate "
+                    "as a second event.", fontsize=10)
     return figure

@@ -3,13 +3,14 @@ import math
 
 import numpy as np
 
-from commands import BATHS, GOLDEN, QUALITIES, REFERENCE_KICKS, bath_name, kicks_cases, kicks_name
+from commands import BATHS, GOLDEN, QUALITIES, REFERENCE_KICKS, THERMAL_FINE, bath_name, kicks_cases, kicks_name
 from registry import picture, table
 
 from . import style
 
-TEMPERATURES = {0: "#000000", 4: style.BLUE, 77: style.GREEN, 300: style.ORANGE}  # [K]
+LOOKS = {0: ("black", "-"), 4: (style.GREEN, "--"), 77: (style.BLUE, "-"), 300: (style.ORANGE, "-")}  # [K]
 CURVES = tuple("thermal_" + bath_name(*bath) for bath in BATHS)
+FINE = tuple("thermal_fine_%s_%g" % (bath_name(*bath), eta) for bath in BATHS for eta in THERMAL_FINE)
 
 
 def all_curves(tables):
@@ -17,32 +18,39 @@ def all_curves(tables):
     return {bath: tables.rows("thermal_" + bath_name(*bath)) for bath in BATHS}
 
 
-def draw_curve(axes, rows, colour, label):
+def draw_curve(axes, rows, label, **look):
     eta = [row["eta"] for row in rows]
-    axes.plot(eta, [row["k_f_work"] for row in rows], color=colour, linewidth=1.1, label=label)
+    axes.plot(eta, [row["k_f_work"] for row in rows], linewidth=1.1, label=label, **look)
     low, high = ([row["k_f_work"] + sign * 1.96 * row["k_f_work_std_error"] for row in rows] for sign in (-1, 1))
-    axes.fill_between(eta, low, high, color=colour, alpha=0.3, linewidth=0)
+    axes.fill_between(eta, low, high, color=look["color"], alpha=0.25, linewidth=0)
 
 
-@table(*CURVES)
+@table(*CURVES, *FINE)
 def thermal_friction(tables):
-    return (("temperature_k", "quality_factor", "eta", "k_f_work", "k_f_work_std_error", "k_f"),
-            [(kelvin, quality, row["eta"], row["k_f_work"], row["k_f_work_std_error"], row["k_f"])
-             for (kelvin, quality), rows in all_curves(tables).items() for row in rows])
+    """The whole curve, with points between its own near the peaks."""
+    table_rows = []
+    for (kelvin, quality), rows in all_curves(tables).items():
+        for eta in THERMAL_FINE:
+            rows += tables.rows("thermal_fine_%s_%g" % (bath_name(kelvin, quality), eta))
+        table_rows += [(kelvin, quality, row["eta"], row["k_f_work"], row["k_f_work_std_error"], row["k_f"])
+                       for row in sorted(rows, key=lambda row: row["eta"])]
+    return ("temperature_k", "quality_factor", "eta", "k_f_work", "k_f_work_std_error", "k_f"), table_rows
 
 
-@picture(*CURVES, name="thermal_friction")
+@picture("thermal_friction", name="thermal_friction")
 def draw_thermal_friction(tables):
-    curves = all_curves(tables)
-    figure, axes = style.new(9.0, 10.0, len(QUALITIES), 1, sharex=True, sharey=True)
+    curves = {}
+    for row in tables.rows("thermal_friction"):
+        curves.setdefault((row["temperature_k"], row["quality_factor"]), []).append(row)
+    figure, axes = style.new(8.4, len(QUALITIES), 1, sharex=True, sharey=True)
     for ax, quality in zip(axes, QUALITIES):
-        draw_curve(ax, curves[0, 0], "#bbbbbb", "no bath")
-        for kelvin, colour in TEMPERATURES.items():
-            draw_curve(ax, curves[kelvin, quality], colour, "%g K" % kelvin)
-        ax.set_ylabel("Q = %g:  " % quality + style.K_F_LABEL)
-        ax.grid(color="#dddddd", linewidth=0.6)
+        draw_curve(ax, curves[0, 0], "no bath", color="#aaaaaa")
+        for kelvin, (colour, line) in LOOKS.items():
+            draw_curve(ax, curves[kelvin, quality], "%g K" % kelvin, color=colour, linestyle=line)
+        ax.set_ylabel(style.K_F_LABEL)
+        ax.set_title("quality factor Q = %g" % quality, loc="left")
         ax.set_ylim(0, 6.6)
-    axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=5, frameon=False)
+    style.legend_above(axes[0], columns=5)
     axes[-1].set_xlabel(style.ETA_LABEL)
     axes[-1].set_xlim(0, 9)
     return figure
@@ -152,51 +160,51 @@ def thermal_kicks(tables):
 
 
 def draw_kicks(axes, rows):
-    marks = {500: "^", 100: "o", 20: "s"}
-    colours = {1: style.PINK, 2: style.ORANGE, 3.4: style.BLUE, 5: style.GREEN, 6: style.YELLOW}
-    for eta, quality in sorted({(row[0], row[1]) for row in rows}):
-        for theta, fill in ((0, "none"), (0.926, "full")):
-            some = [row for row in rows if row[:3] == (eta, quality, theta)]
-            axes.plot([row[7] for row in some], [max(abs(row[5]), 1e-5) for row in some], marker=marks[quality],
-                      color=colours[eta], fillstyle=fill, linewidth=0.5, markersize=5)
-    for eta, colour in colours.items():
-        axes.plot([], [], color=colour, label=r"$\eta$ = %g" % eta)
-    for quality, mark in marks.items():
-        axes.plot([], [], mark, color="black", label="Q = %g" % quality)
-    axes.plot([], [], "o", color="black", fillstyle="none", label="0 K (full: 300 K)")
+    """Of all speeds and quality factors the median and the worst error, at each rate of kicks."""
+    rates = sorted({row["kicks_per_tau"] for row in rows})
+    for kelvin, colour, marker, fill in ((0, style.BLUE, "o", {}), (300, style.ORANGE, "s", style.OPEN)):
+        errors = [sorted(abs(row["error"]) for row in rows if row["kicks_per_tau"] == rate
+                         and (row["temperature"] > 0) == (kelvin > 0)) for rate in rates]
+        axes.plot(rates, [max(e) for e in errors], marker + "--", color=colour, label="worst, %d K" % kelvin, **fill)
+        axes.plot(rates, [e[len(e) // 2] for e in errors], marker + "-", color=colour, label="median, %d K" % kelvin,
+                  **fill)
+    axes.axvline(GOLDEN[5], color="black", linestyle=":", linewidth=1.2)
+    axes.text(GOLDEN[5] * 1.05, 0.5, "default", va="top")
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.axhline(0.005, color="black", linestyle=":", linewidth=1)
-    axes.set_xlabel(r"time per $\tau$ / $\mu$s")
-    axes.set_ylabel(r"error of $K_f$, relative to 123 kicks per $\tau$")
-    axes.legend(fontsize=8, ncol=2, loc="upper right")
+    axes.set_xticks([3, 10, 30, 100])
+    axes.set_xticklabels(["3", "10", "30", "100"])
+    axes.minorticks_off()
+    axes.set_ylim(1e-4, 0.9)
+    axes.set_xlabel(r"kicks of the bath per $\tau$")
+    axes.set_ylabel(r"relative error of $K_f$ against %.0f kicks per $\tau$" % REFERENCE_KICKS)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2, borderaxespad=0.1)
 
 
 def draw_thermostats(axes, rows):
-    looks = {("exact", float("inf")): ("exact motion between kicks", style.ORANGE, "*", "-"),
-             ("baoab_penalty", 1.0): (r"BAOAB, penalty spring, $\omega_p h$ = 1", style.BLUE, "o", "-"),
-             ("baoab_penalty", 0.25): (r"BAOAB, penalty spring, $\omega_p h$ = 1/4", style.BLUE, "o", ":"),
-             ("euler_maruyama_penalty", 1.0): (r"Euler-Maruyama, $\omega_p h$ = 1", style.GREEN, "s", "-"),
-             ("euler_maruyama_penalty", 0.25): (r"Euler-Maruyama, $\omega_p h$ = 1/4", style.GREEN, "s", ":")}
-    for (method, stiffness), (label, colour, mark, line) in looks.items():
+    looks = {("exact", float("inf")): ("exact motion between kicks", style.ORANGE, "*", "-", {}),
+             ("baoab_penalty", 1.0): (r"BAOAB, penalty spring, $\omega_p h$ = 1", style.BLUE, "o", "-", {}),
+             ("baoab_penalty", 0.25): (r"BAOAB, $\omega_p h$ = 1/4", style.BLUE, "o", ":", style.OPEN),
+             ("euler_maruyama_penalty", 1.0): (r"Euler-Maruyama, $\omega_p h$ = 1", style.GREEN, "s", "-", {}),
+             ("euler_maruyama_penalty", 0.25): (r"Euler-Maruyama, $\omega_p h$ = 1/4", style.GREEN, "s", ":", style.OPEN)}
+    for (method, stiffness), (label, colour, mark, line, fill) in looks.items():
         some = [row for row in rows if (row["method"], row["stiffness"]) == (method, stiffness)]
         axes.errorbar([row["us_per_tau"] for row in some], [abs(row["bias"]) for row in some],
-                      [1.96 * row["std_error"] for row in some], color=colour, marker=mark, label=label, linewidth=0.8,
-                      linestyle=line, markersize=9 if mark == "*" else 5)
-    axes.axvline(157.0, color="black", linestyle=":", linewidth=1)
+                      [1.96 * row["std_error"] for row in some], color=colour, marker=mark, label=label, linewidth=0.9,
+                      linestyle=line, markersize=10 if mark == "*" else 5, **fill)
+    axes.axvline(157.0, color="black", linestyle=":", linewidth=1.2)
     axes.text(150.0, 1.2e-4, "real time", rotation=90, ha="right", va="bottom")
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylim(1e-4, 0.2)
-    axes.set_xlabel(r"time per $\tau$ / $\mu$s")
-    axes.set_ylabel(r"bias of $\langle (y - y_0)^2 \rangle$ at equilibrium, relative")
-    axes.legend(fontsize=9)
+    axes.set_xlabel(r"processor time per $\tau$ [$\mu$s]")
+    axes.set_ylabel(r"relative bias of $\langle (y - y_0)^2 \rangle$ at equilibrium")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2, borderaxespad=0.1)
 
 
 @picture("thermal_kicks", "thermostats")
 def thermal_accuracy(tables):
-    rows, thermostats = [tuple(row.values()) for row in tables.rows("thermal_kicks")], tables.rows("thermostats")
-    figure, (left, right) = style.new(13.0, 5.5, 1, 2)
-    draw_kicks(left, rows)
-    draw_thermostats(right, thermostats)
+    figure, (left, right) = style.new(5.2, 1, 2, gridspec_kw={"width_ratios": [4, 5]})
+    draw_kicks(left, tables.rows("thermal_kicks"))
+    draw_thermostats(right, tables.rows("thermostats"))
     return figure

@@ -67,39 +67,52 @@ def thermal_merge(tables):
 
 
 def draw_rates(axes, rows):
-    looks = {(2, "upper"): (style.ORANGE, "s"), (2, "lower"): (style.ORANGE, "o"), (6.5, "upper"): (style.BLUE, "s"),
-             (6.5, "lower"): (style.BLUE, "o")}
-    for (eta, which), (colour, mark) in looks.items():
-        some = [row for row in rows if row[0] == eta and row[4] == which and row[7] > 0]
+    looks = {(2, "upper"): (style.BLUE, "s", {}), (2, "lower"): (style.BLUE, "o", style.OPEN),
+             (6.5, "upper"): (style.ORANGE, "s", {}), (6.5, "lower"): (style.ORANGE, "o", style.OPEN)}
+    for (eta, which), (colour, mark, fill) in looks.items():
+        some = [row for row in rows if row["eta"] == eta and row["attractor"] == which and row["times_left"] > 0]
         if not some:
             continue
-        axes.errorbar([row[3] for row in some], [row[7] / row[6] for row in some],
-                      [1.96 * row[7] ** 0.5 / row[6] for row in some], marker=mark, color=colour, linewidth=0.8,
-                      label=r"$\eta$ = %g, from $K_f$ = %.3g" % (eta, some[0][5]))
+        rates = [row["times_left"] / row["time_spent"] for row in some]
+        errors = [1.96 * row["times_left"] ** 0.5 / row["time_spent"] for row in some]
+        low = [min(error, 0.9 * rate) for rate, error in zip(rates, errors)]  # a logarithm of a positive number
+        axes.errorbar([row["temperature_k"] for row in some], rates, [low, errors], marker=mark, color=colour,
+                      linewidth=0.9, label=r"$\eta$ = %g, from $K_f$ = %.3g" % (eta, some[0]["k_f_work"]), **fill)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel("temperature / K")
-    axes.set_ylabel(r"rate of leaving an attractor for the other / $\tau^{-1}$")
-    axes.legend(fontsize=9)
+    axes.set_xlim(0.1, 60)
+    axes.set_ylim(5e-7, 2e-2)
+    axes.set_xlabel("temperature [K]")
+    axes.set_ylabel(r"rate of leaving an attractor for the other [1/$\tau$]")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=1, borderaxespad=0.1)
 
 
-def draw_traces(axes, tables):
-    for i, theta in enumerate(TRACES):
-        tips = windows(tables, 6.5, theta, window=50)
-        values = tips[0.0][:400]
-        axes[i].plot([50 * k for k in range(len(values))], values, color=style.BLUE, linewidth=0.8)
-        axes[i].set_ylabel("%.3g K" % (theta / KELVIN))
+@table(*TRACED)
+def thermal_traces(tables):
+    """K_f of one tip, window by window."""
+    return (("temperature_k", "time", "k_f_work"),
+            [(theta / KELVIN, 50 * i, value) for theta in TRACES
+             for i, value in enumerate(windows(tables, 6.5, theta, window=50)[0.0][:400])])
+
+
+def draw_traces(axes, rows):
+    for ax, theta in zip(axes, TRACES):
+        some = [row for row in rows if abs(row["temperature_k"] / (theta / KELVIN) - 1.0) < 1e-3]
+        ax.plot([row["time"] for row in some], [row["k_f_work"] for row in some], color=style.BLUE, linewidth=0.8)
+        ax.set_title("%.3g K" % (theta / KELVIN), loc="left")
         for level in HOPS[6.5][0]:
-            axes[i].axhline(level, color="black", linewidth=0.6, linestyle=":")
-        axes[i].set_ylim(0.37, 0.60)
-    axes[0].set_title(r"$K_f$ / (m/$\tau$) in windows of 50 $\tau$, $\eta$ = 6.5, Q = 500")
-    axes[-1].set_xlabel(r"time / $\tau$")
+            ax.axhline(level, color="black", linewidth=0.9, linestyle=":")
+        ax.set_ylim(0.37, 0.60)
+        ax.set_xlim(0, 20000)
+        ax.set_ylabel(style.K_F_LABEL)
+        ax.tick_params(labelbottom=ax is axes[-1])
+    axes[-1].set_xlabel(r"time [$\tau$]")
 
 
-@picture("thermal_hops", *TRACED, name="thermal_hops")
+@picture("thermal_hops", "thermal_traces", name="thermal_hops")
 def draw_hops(tables):
-    figure = style.figure(13.0, 6.0)
-    grid = figure.add_gridspec(4, 2)
-    draw_rates(figure.add_subplot(grid[:, 0]), [tuple(row.values()) for row in tables.rows("thermal_hops")])
-    draw_traces([figure.add_subplot(grid[i, 1]) for i in range(4)], tables)
+    figure = style.figure(7.0)
+    grid = figure.add_gridspec(4, 2, width_ratios=[4, 5])
+    draw_rates(figure.add_subplot(grid[:, 0]), tables.rows("thermal_hops"))
+    draw_traces([figure.add_subplot(grid[i, 1]) for i in range(4)], tables.rows("thermal_traces"))
     return figure
