@@ -16,10 +16,11 @@
 #include "afm/number_text.h"
 #include "node/publisher/topics.h"
 #include "node/recorder/paths.h"
-#include "node/runner/trial.h"
 
 namespace afm::node {
 namespace {
+
+using Kind = Request::Kind;
 
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
@@ -44,22 +45,6 @@ Recorder::Settings recorder_settings(const Parameters& p) {
           p.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed};
 }
 
-std::string fault_of(const Answer& answer) {
-  switch (answer.result) {
-    case Answer::Result::done:
-      return {};
-    case Answer::Result::not_paused:
-      return "the emulator is running: pause it first";
-    case Answer::Result::not_lockstep:
-      return "the emulator keeps time by itself: start it with pace = lockstep";
-    case Answer::Result::shutting_down:
-      return "the emulator is shutting down";
-    case Answer::Result::time_ran_out:
-      break;
-  }
-  return "time ran out after " + std::to_string(answer.impacts) + " impacts, at the time given";
-}
-
 std::string find_step_fault(double tau, std::uint32_t impacts) {
   std::ostringstream text;
   if (!std::isfinite(tau) || tau < 0.0 || tau > kMaxStepTau) {
@@ -80,13 +65,13 @@ std::string find_clock_publisher() {
   XmlRpc::XmlRpcValue& publishers = state[0];
   for (int i = 0; i < publishers.size(); ++i) {
     const std::string topic = publishers[i][0];
-    if (topic == kClockTopic && publishers[i][1].size() > 0) return publishers[i][1][0];
+    if (topic == "/clock" && publishers[i][1].size() > 0) return publishers[i][1][0];
   }
   return {};
 }
 
 // A run that cannot keep real time says so before it falls behind.
-void foretell_pace(const Parameters& p) {
+void report_pace(const Parameters& p) {
   const double pace = measure_pace(p);
   ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
@@ -95,13 +80,31 @@ void foretell_pace(const Parameters& p) {
            p.time_scale, pace, 0.7 * pace);
 }
 
+void report_run(const Parameters& p, const std::string& scheduler) {
+  if (p.bath.temperature_k > 0.0 && !run_settings(p).bath.is_on()) {
+    ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip", p.bath.temperature_k);
+  }
+  ROS_INFO("tip: %g N/m at %g Hz, %g N/m laterally, effective mass %g kg; load %g N; tau = %g s", spring_constant(p.si),
+           p.si.omega_v_rad_per_s / kTwoPi, p.si.tip_mass_kg * std::pow(p.si.omega_h_rad_per_s, 2), p.si.tip_mass_kg,
+           0.0 - spring_constant(p.si) * p.si.rest_height_m, Units(p.si).time());
+  ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s", to_eta(p.drag_velocity, p.si),
+           p.sample_rate_hz, static_cast<unsigned long>(samples_per_batch(p)), scheduler.c_str());
+}
+
+template <class Response>
+bool respond(Response& response, const std::string& fault, const char* if_done) {
+  response.success = fault.empty();
+  response.message = fault.empty() ? if_done : fault;
+  return true;
+}
+
 }  // namespace
 
 EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     : parameters_(parameters),
       queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
       runner_(parameters, queue_),
-      recorder_(recorder_settings(parameters), [this] { runner_.submit({Request::Kind::snapshot, 0.0, 0, {}, {}}); }) {
+      recorder_(recorder_settings(parameters), [this] { runner_.submit(Request(Kind::snapshot)); }) {
   if (parameters.publish_clock) {
     const std::string other = find_clock_publisher();
     if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
@@ -111,27 +114,20 @@ EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
     if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
   }
   free_bytes_ = free_bytes(parameters.bag_directory);
-  foretell_pace(parameters);
+  report_pace(parameters);
   live_server_.emplace(node, parameters, refusals_, [this](const Live& live) {
-    return ask({Request::Kind::change, 0.0, 0, live, {}}).fault;
+    Request change(Kind::change);
+    change.live = live;
+    Answer unused;
+    return ask(change, unused);
   });
   publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, free_bytes_, [this](const Live& live) {
                                                             live_server_->applied(live);
                                                           }});
   runner_.start();
   publisher_->start(runner_.scheduler());
-  accept_commands(node);
-  if (parameters.bath.temperature_k > 0.0 && !run_settings(parameters).bath.is_on()) {
-    ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip",
-             parameters.bath.temperature_k);
-  }
-  ROS_INFO("tip: %g N/m at %g Hz, %g N/m laterally, effective mass %g kg; load %g N; tau = %g s", spring_constant(parameters.si),
-           parameters.si.omega_v_rad_per_s / kTwoPi, parameters.si.tip_mass_kg * std::pow(parameters.si.omega_h_rad_per_s, 2),
-           parameters.si.tip_mass_kg, 0.0 - spring_constant(parameters.si) * parameters.si.rest_height_m,
-           Units(parameters.si).time());
-  ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s",
-           to_eta(parameters.drag_velocity, parameters.si), parameters.sample_rate_hz,
-           static_cast<unsigned long>(samples_per_batch(parameters)), runner_.scheduler().c_str());
+  advertise(node);
+  report_run(parameters, runner_.scheduler());
 }
 
 EmulatorNode::~EmulatorNode() {
@@ -144,18 +140,17 @@ EmulatorNode::~EmulatorNode() {
   publisher_->stop();
 }
 
-void EmulatorNode::accept_commands(ros::NodeHandle& node) {
+void EmulatorNode::advertise(ros::NodeHandle& node) {
   const auto hints = ros::TransportHints().tcpNoDelay();
-  commands_ = {
-      node.subscribe(kDragVelocityTopic, kCommandQueueSize, &EmulatorNode::on_drag_velocity, this, hints),
-      node.subscribe(kRestHeightTopic, kCommandQueueSize, &EmulatorNode::on_rest_height, this, hints),
-      node.subscribe(kLoadTopic, kCommandQueueSize, &EmulatorNode::on_load, this, hints)};
-  services_ = {node.advertiseService(kPauseService, &EmulatorNode::on_pause, this),
-               node.advertiseService(kResetService, &EmulatorNode::on_reset, this),
-               node.advertiseService(kControlService, &EmulatorNode::on_control, this),
-               node.advertiseService(kStepService, &EmulatorNode::on_step, this),
-               node.advertiseService(kStartRecordingService, &EmulatorNode::on_start_recording, this),
-               node.advertiseService(kStopRecordingService, &EmulatorNode::on_stop_recording, this)};
+  commands_ = {node.subscribe("drag_velocity", kCommandQueueSize, &EmulatorNode::on_drag_velocity, this, hints),
+               node.subscribe("rest_height", kCommandQueueSize, &EmulatorNode::on_rest_height, this, hints),
+               node.subscribe("load", kCommandQueueSize, &EmulatorNode::on_load, this, hints)};
+  services_ = {node.advertiseService("pause", &EmulatorNode::on_pause, this),
+               node.advertiseService("reset", &EmulatorNode::on_reset, this),
+               node.advertiseService("control", &EmulatorNode::on_control, this),
+               node.advertiseService("step", &EmulatorNode::on_step, this),
+               node.advertiseService("start_recording", &EmulatorNode::on_start_recording, this),
+               node.advertiseService("stop_recording", &EmulatorNode::on_stop_recording, this)};
   disk_timer_ = node.createWallTimer(ros::WallDuration(kDiskPeriod), [this](const auto&) {
     free_bytes_ = free_bytes(parameters_.bag_directory);  // may wait for the disk
   });
@@ -163,135 +158,138 @@ void EmulatorNode::accept_commands(ros::NodeHandle& node) {
                                         [this](const auto&) { live_server_->update_clients(); });
 }
 
-void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
-  const bool possible = std::abs(command.data) <= parameters_.max_drag_velocity;  // false for NaN
-  submit_or_refuse({Request::Kind::drag, command.data, 0, {}, {}}, "drag_velocity", "m/s", command.data,
-                   possible ? "" : "must be finite and within max_drag_velocity");
+std::string EmulatorNode::find_drag_fault(double drag_velocity) const {
+  const bool possible = std::abs(drag_velocity) <= parameters_.max_drag_velocity;  // false for NaN
+  return possible ? "" : "must be finite and within max_drag_velocity";
 }
 
-void EmulatorNode::on_rest_height(const std_msgs::Float64& command) {
-  set_rest_height(Request::Kind::rest_height, "rest_height", "m", command.data, command.data);
-}
-
-void EmulatorNode::on_load(const std_msgs::Float64& command) {
-  set_rest_height(Request::Kind::load, "load", "N", command.data, -command.data / spring_constant(parameters_.si));
-}
-
-void EmulatorNode::set_rest_height(Request::Kind kind, const char* name, const char* unit, double given,
-                                   double rest_height) {
+std::string EmulatorNode::find_height_fault(double rest_height) const {
   SiModel si = parameters_.si;
   si.rest_height_m = rest_height;
   const auto faults = find_faults(si);
-  submit_or_refuse({kind, rest_height, 0, {}, {}}, name, unit, given, faults.empty() ? "" : faults.front().reason);
+  return faults.empty() ? "" : faults.front().reason;
 }
 
-// `fault`: why not, or empty.
-void EmulatorNode::submit_or_refuse(const Request& request, const char* name, const char* unit, double given,
-                                    const std::string& fault) {
+void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
+  Request request(Kind::command);
+  request.cause = "drag_velocity";
+  request.drag_velocity = command.data;
+  submit_or_refuse(request, command.data, "m/s", find_drag_fault(command.data));
+}
+
+void EmulatorNode::on_rest_height(const std_msgs::Float64& command) {
+  Request request(Kind::command);
+  request.cause = "rest_height";
+  request.rest_height = command.data;
+  submit_or_refuse(request, command.data, "m", find_height_fault(request.rest_height));
+}
+
+void EmulatorNode::on_load(const std_msgs::Float64& command) {
+  Request request(Kind::command);
+  request.cause = "load";
+  request.rest_height = -command.data / spring_constant(parameters_.si);
+  submit_or_refuse(request, command.data, "N", find_height_fault(request.rest_height));
+}
+
+void EmulatorNode::submit_or_refuse(const Request& request, double given, const char* unit, const std::string& fault) {
   if (fault.empty() && runner_.submit(request)) return;
   std::ostringstream text;
-  text << name << " = " << given << ' ' << unit << ": " << (fault.empty() ? "too many commands are waiting" : fault);
+  text << request.cause << " = " << given << ' ' << unit << ": "
+       << (fault.empty() ? "too many commands are waiting" : fault);
   refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
   ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
 }
 
-EmulatorNode::Outcome EmulatorNode::ask(Request request) {
+std::string EmulatorNode::ask(Request request, Answer& answer) {
   request.reply = std::make_shared<std::promise<Answer>>();
-  std::future<Answer> answer = request.reply->get_future();
-  if (!runner_.submit(request)) return {"too many requests are waiting", {}};
+  std::future<Answer> future = request.reply->get_future();
+  if (!runner_.submit(request)) return "too many requests are waiting";
   const auto begin = std::chrono::steady_clock::now(), give_up = begin + kAnswerDeadline;
-  while (answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
+  while (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
          std::chrono::steady_clock::now() - begin < kSpin) {
     std::this_thread::yield();
   }
-  while (answer.wait_for(kClosingPoll) != std::future_status::ready) {
-    if (closing_) return {"the emulator is shutting down", {}};
+  while (future.wait_for(kClosingPoll) != std::future_status::ready) {
+    if (closing_) return "the emulator is shutting down";
     if (std::chrono::steady_clock::now() > give_up) {
-      return {"no answer from the running thread in time; it may still come to it", {}};
+      return "no answer from the running thread in time; it may still come to it";
     }
   }
-  const Answer given = answer.get();
-  return {fault_of(given), given};
+  answer = future.get();
+  const std::string fault = answer.fault;
+  if (fault != kTimeRanOut) return fault;
+  return fault + " after " + std::to_string(answer.impacts) + " impacts, at the time given";
+}
+
+std::string EmulatorNode::ask(Kind kind) {
+  Answer unused;
+  return ask(Request(kind), unused);
 }
 
 bool EmulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
   const bool paused = request.data != 0;
-  const Outcome outcome = ask({paused ? Request::Kind::pause : Request::Kind::resume, 0.0, 0, {}, {}});
-  response.success = outcome.fault.empty();
-  response.message = response.success ? (paused ? "paused" : "running") : outcome.fault;
-  return true;
+  return respond(response, ask(paused ? Kind::pause : Kind::resume), paused ? "paused" : "running");
 }
 
 bool EmulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  const Outcome outcome = ask({Request::Kind::reset, 0.0, 0, {}, {}});
-  response.success = outcome.fault.empty();
-  response.message = response.success ? "model time 0, initial state, start parameters, new epoch" : outcome.fault;
-  return true;
+  return respond(response, ask(Kind::reset), "model time 0, initial state, start parameters, new epoch");
 }
 
 bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response) {
-  Outcome outcome{find_step_fault(request.tau, request.impacts), {}};
-  if (outcome.fault.empty()) {
-    const auto kind = request.impacts > 0 ? Request::Kind::step_impacts : Request::Kind::step_time;
-    outcome = ask({kind, request.tau, request.impacts, {}, {}});
+  std::string fault = find_step_fault(request.tau, request.impacts);
+  Answer answer;
+  if (fault.empty()) {
+    Request step(Kind::step);
+    step.tau = request.tau;
+    step.impacts = request.impacts;
+    fault = ask(step, answer);
   }
-  response.success = outcome.fault.empty();
-  response.message = response.success ? (request.impacts > 0 ? "impact reached" : "time reached") : outcome.fault;
-  response.time = to_message(outcome.answer.time);
-  return true;
+  response.time = to_message(answer.time);
+  return respond(response, fault, request.impacts > 0 ? "impact reached" : "time reached");
 }
 
-// Why a control period cannot be, or nothing.
-std::string EmulatorNode::find_fault(const afm_emulator::Control::Request& request) const {
+std::string EmulatorNode::find_control_fault(const afm_emulator::Control::Request& request) const {
+  const double v = request.drag_velocity, y = request.rest_height;
   const double most = kMaxStepTau * Units(parameters_.si).time();
-  SiModel si = parameters_.si;
-  if (!std::isnan(request.rest_height)) si.rest_height_m = request.rest_height;
-  if (!std::isnan(request.drag_velocity) && !(std::abs(request.drag_velocity) <= parameters_.max_drag_velocity)) {
-    return "drag_velocity = " + number_text(request.drag_velocity) + " m/s: must be within max_drag_velocity";
-  }
-  if (const auto faults = find_faults(si); !faults.empty()) {
-    return "rest_height = " + number_text(request.rest_height) + " m: " + faults.front().reason;
-  }
+  std::string fault = std::isnan(v) ? "" : find_drag_fault(v);
+  if (!fault.empty()) return "drag_velocity = " + number_text(v) + " m/s: " + fault;
+  fault = std::isnan(y) ? "" : find_height_fault(y);
+  if (!fault.empty()) return "rest_height = " + number_text(y) + " m: " + fault;
   if (request.duration >= 0.0 && request.duration <= most) return {};
   return "duration = " + number_text(request.duration) + " s: must be between 0 and " + number_text(most);
 }
 
 bool EmulatorNode::on_control(afm_emulator::Control::Request& request, afm_emulator::Control::Response& response) {
-  const Units units(parameters_.si);
-  Outcome outcome{find_fault(request), {}};
-  if (outcome.fault.empty()) {
-    Request period{Request::Kind::control, request.duration / units.time(), 0, {}, {}};
-    period.live.drag_velocity = request.drag_velocity;
-    period.live.rest_height_m = request.rest_height;
-    outcome = ask(period);
+  std::string fault = find_control_fault(request);
+  Answer answer;
+  if (fault.empty()) {
+    Request period(Kind::control);
+    period.cause = !std::isnan(request.drag_velocity) ? "drag_velocity" : !std::isnan(request.rest_height) ? "rest_height" : "";
+    period.drag_velocity = request.drag_velocity;
+    period.rest_height = request.rest_height;
+    period.tau = request.duration / Units(parameters_.si).time();
+    fault = ask(period, answer);
   } else {
-    refusals_.add(Refusal::faulty_command, outcome.fault);
+    refusals_.add(Refusal::faulty_command, fault);
   }
-  response = to_control(outcome.answer, parameters_.si);
-  response.success = outcome.fault.empty();
-  response.message = response.success ? "time reached" : outcome.fault;
-  return true;
+  response = to_control(answer, parameters_.si);
+  return respond(response, fault, "time reached");
 }
 
 // The recording begins with a snapshot that is taken for it.
 bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& request,
                                       afm_emulator::StartRecording::Response& response) {
   const Recorder::Reply reply = recorder_.start(request.name);
-  response.success = reply.success;
-  response.message = reply.message;
   response.path = reply.path;
-  if (!reply.success) return true;
-  const Outcome begun = ask({Request::Kind::snapshot, 0.0, 0, {}, {}});
-  if (begun.fault.empty()) return true;
-  recorder_.stop();
-  response.success = false;
-  response.message = begun.fault;
-  return true;
+  if (!reply.success) return respond(response, reply.message, "");
+  const std::string fault = ask(Kind::snapshot);
+  if (!fault.empty()) recorder_.stop();
+  return respond(response, fault, reply.message.c_str());
 }
 
 // All that was emulated until now belongs to it.
 bool EmulatorNode::on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  ask({Request::Kind::flush, 0.0, 0, {}, {}});
+  ask(Kind::flush);
   const Recorder::Reply reply = recorder_.stop();
   response.success = reply.success;
   response.message = reply.message;

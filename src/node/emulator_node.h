@@ -32,20 +32,10 @@ class EmulatorNode {
   ~EmulatorNode();  // in order: no more commands, the last batch, all published, the bag closed
 
  private:
-  struct Outcome {
-    std::string fault;  // why not, or empty
-    Answer answer;
-  };
-
-  void accept_commands(ros::NodeHandle& node);
+  void advertise(ros::NodeHandle& node);
   void on_drag_velocity(const std_msgs::Float64& command);
   void on_rest_height(const std_msgs::Float64& command);
   void on_load(const std_msgs::Float64& command);
-  void set_rest_height(Request::Kind kind, const char* name, const char* unit, double given, double rest_height);
-  void submit_or_refuse(const Request& request, const char* name, const char* unit, double given,
-                        const std::string& fault);
-  std::string find_fault(const afm_emulator::Control::Request& request) const;
-  Outcome ask(Request request);  // waits until it was done and published
   bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response);
@@ -53,6 +43,14 @@ class EmulatorNode {
   bool on_start_recording(afm_emulator::StartRecording::Request& request,
                           afm_emulator::StartRecording::Response& response);
   bool on_stop_recording(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+
+  // Each returns what is wrong, or nothing.
+  std::string find_drag_fault(double drag_velocity) const;
+  std::string find_height_fault(double rest_height) const;
+  std::string find_control_fault(const afm_emulator::Control::Request& request) const;
+  void submit_or_refuse(const Request& request, double given, const char* unit, const std::string& fault);
+  std::string ask(Request request, Answer& answer);  // waits until it was done and published
+  std::string ask(Request::Kind kind);
 
   const Parameters parameters_;
   Refusals refusals_;

@@ -22,22 +22,20 @@ class LiveServer {
   LiveServer(const ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply);
 
   void applied(const Live& live);  // by whatever
-  void update_clients();           // of what was applied. Not from the publisher, on which a change waits
+  void update_clients();           // with what was applied. Not from the publisher, on which a change waits
 
  private:
   using Config = afm_emulator::EmulatorConfig;
 
   void change(Config& config);
-  void show(Config& config);  // mutex_ is held
-  std::string find_fault(const Live& live) const;
+  Live in_force() const;
 
   const Parameters start_;
   Refusals& refusals_;
   const Apply apply_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;  // of in_force_
   Live in_force_;
-  Config shown_;          // to the clients
-  bool is_news_ = false;  // in_force_, to the clients
+  Config shown_;  // to the clients; guarded by server_mutex_
   boost::recursive_mutex server_mutex_;
   dynamic_reconfigure::Server<Config> server_;
 };

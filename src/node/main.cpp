@@ -9,7 +9,7 @@
 #include <exception>
 
 #include "emulator_node.h"
-#include "node/runner/semaphore.h"
+#include "node/runner/threads.h"
 
 namespace {
 

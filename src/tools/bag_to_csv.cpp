@@ -16,6 +16,7 @@
 
 #include "common/command_line.h"
 #include "common/table_writer.h"
+#include "node/params/table.h"
 #include "node/publisher/messages.h"
 #include "tools/bags/recording.h"
 
@@ -136,26 +137,32 @@ std::uint64_t write_friction(const Recording& recording, const Target& to) {
   });
 }
 
+// Of a parameter. Its name ends in its unit, which the table gives its own way.
+Column column_of(std::string name) {
+  const auto take_end = [&](const std::string& end) {
+    const bool found = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+    if (found) name.resize(name.size() - end.size());
+    return found;
+  };
+  const bool is_speed = name.find("_speed") != std::string::npos;
+  const Q quantity = is_speed          ? Q::velocity
+                     : take_end("_m")  ? Q::length
+                     : take_end("_hz") ? Q::rate
+                     : take_end("_k")  ? Q::temperature
+                                       : Q::number;
+  return {name, quantity};
+}
+
 std::uint64_t write_commands(const Recording& recording, const Target& to) {
-  TableWriter table = to.begin({{"drag_velocity", Q::velocity},
-                                {"restitution_gamma"},
-                                {"cutoff_speed", Q::velocity},
-                                {"rest_height", Q::length},
-                                {"sample_rate", Q::rate},
-                                {"friction_window_tau"},
-                                {"temperature", Q::temperature},
-                                {"quality_factor"},
-                                {"lateral_quality_factor"},
-                                {"kicks_per_tau"},
-                                {"model"},
-                                {"contact_tolerance"},
-                                {"first_impact"},
-                                {"number"},
-                                {"cause"}});
+  std::vector<Column> columns{{"drag_velocity", Q::velocity}};
+  for (const char* name : afm::node::kLiveNames) columns.push_back(column_of(name));
+  columns.insert(columns.end(), {{"model"}, {"contact_tolerance"}, {"first_impact"}, {"number"}, {"cause"}});
+  TableWriter table = to.begin(columns);
+  afm::node::Live unused;
   return for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
     to.begin_row(table, applied.epoch, applied.time);
     table << applied.drag_velocity;
-    for (const afm::node::LiveField& field : afm::node::kLiveFields) table << applied.*field.applied;
+    afm::node::for_each_live(applied, unused, [&](double value, double) { table << value; });
     table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
     table.end_row();
   });

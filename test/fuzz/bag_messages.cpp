@@ -1,5 +1,6 @@
 // A small recording, with messages altered, lost, doubled, moved and cut: replay_check ends in words, and what is not as
 // it was published is never called identical.
+#include <afm_emulator/EmulatorStatus.h>
 #include <topic_tools/shape_shifter.h>
 #include <unistd.h>
 
@@ -47,11 +48,11 @@ class Recorded {
   Recorded() : run_(node::run_settings(parameters_)) {
     configuration_ = node::to_configuration(parameters_, AFM_EMULATOR_VERSION, arithmetic_fingerprint(), {});
     out_.put("configuration", configuration_);
-    apply(parameters_.drag_velocity, node::Cause::epoch);
+    apply(parameters_.drag_velocity, "epoch");
     put_snapshot();
     for (int i = 0; i < 3; ++i) {
       put_batch();
-      apply(1e-6 * (i + 2), node::Cause::drag_velocity);
+      apply(1e-6 * (i + 2), "drag_velocity");
       if (i == 1) put_snapshot();
     }
     put_batch();
@@ -67,13 +68,13 @@ class Recorded {
     parameters.batch_rate_hz = 1000.0;
     return parameters;
   }
-  void apply(double drag_velocity, node::Cause cause) {
+  void apply(double drag_velocity, const char* cause) {
     node::Report report;
     parameters_.drag_velocity = drag_velocity;
     report.number = number_++;
     report.cause = cause;
-    report.live = node::live_of(parameters_);
-    report.level.level = node::full_level(parameters_);
+    report.live = parameters_;
+    report.level.level.contact_tolerance = parameters_.contact_tolerance;
     LiveSettings live = live_settings(node::run_settings(parameters_));
     live.level = report.level.level;
     run_.apply(live);
@@ -88,12 +89,11 @@ class Recorded {
     out_.put("snapshot", node::to_snapshot(run_.split(), configuration_, applied_, {}));
   }
   void put_batch() {
-    const node::Live live = node::live_of(parameters_);
     const Units units(parameters_.si);
     run_.advance(batch_);
-    out_.put("deflection", node::to_deflection(batch_, live, units, {}));
+    out_.put("deflection", node::to_deflection(batch_, parameters_, units, {}));
     out_.put("impacts", node::to_impacts(batch_, units, {}));
-    out_.put("friction", node::to_friction(batch_, live, units, {}));
+    out_.put("friction", node::to_friction(batch_, parameters_, units, {}));
   }
 
   node::Parameters parameters_ = small_batches();

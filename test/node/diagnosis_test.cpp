@@ -1,5 +1,5 @@
 // Every level of every diagnosis, with its reason, from the state that leads to it.
-#include "node/publisher/diagnosis.h"
+#include "node/publisher/status.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ void expect(void (*diagnose)(const Health&, Diagnosis&), const Health& health, s
   EXPECT_NE(reported.message.find(reason), std::string::npos) << reported.message;
 }
 
-TEST(DiagnosePace, TellsLagLateBatchesAndLosses) {
+TEST(DiagnosePace, TellsLagAndLateBatches) {
   Health health = healthy();
   expect(diagnose_pace, health, kOk, "running");
   health.status.paused = true;
@@ -39,8 +39,6 @@ TEST(DiagnosePace, TellsLagLateBatchesAndLosses) {
   expect(diagnose_pace, health, kWarn, "0.7 s behind");
   health.status.lag = 3.0;
   expect(diagnose_pace, health, kError, "3.0 s behind");
-  health.lost_batch = true;
-  expect(diagnose_pace, health, kError, "lost");
 }
 
 TEST(DiagnoseCommands, TellsRefusalsAndSilence) {
@@ -85,48 +83,47 @@ TEST(DiagnoseRecording, TellsOfTheDisk) {
 
 class HealthTracking : public testing::Test {
  protected:
-  Health update(std::chrono::seconds at) {
-    return tracker_.update({status_, runner_, recorder_, refusals_, 5000000}, start_ + at);
+  const Health& check(int seconds) {
+    tracker_.observe(report_);
+    tracker_.check({}, refusals_.summary(), 5000000, start_ + std::chrono::seconds(seconds));
+    return tracker_.health();
   }
 
-  HealthTracker tracker_{1.0, 0.0, 16.0};
-  afm_emulator::EmulatorStatus status_;
-  RunnerState runner_;
-  Recorder::Status recorder_;
+  StatusTracker tracker_{Parameters()};
+  Report report_;
+  RunnerState& runner_ = report_.state;
   Refusals refusals_;
-  const RecentRise::Time start_ = std::chrono::steady_clock::now();
+  const StatusTracker::Time start_ = std::chrono::steady_clock::now();
 };
 
 TEST_F(HealthTracking, CountsLateBatchesFromCheckToCheck) {
   runner_.batches = 100;
   runner_.late_batches = 50;
-  EXPECT_EQ(update(std::chrono::seconds(1)).late_share, 0.5);
+  EXPECT_EQ(check(1).late_share, 0.5);
   runner_.batches = 200;
-  EXPECT_EQ(update(std::chrono::seconds(2)).late_share, 0.0);
-  EXPECT_EQ(update(std::chrono::seconds(3)).late_share, 0.0);  // paused
+  EXPECT_EQ(check(2).late_share, 0.0);
+  EXPECT_EQ(check(3).late_share, 0.0);  // paused
 }
 
 TEST_F(HealthTracking, ForgetsWhatIsLongPast) {
   runner_.counters.budget_exhausted = 3;
-  runner_.dropped_batches = 1;
-  EXPECT_TRUE(update(std::chrono::seconds(1)).budget_spent);
-  EXPECT_TRUE(update(std::chrono::seconds(10)).lost_batch);
-  EXPECT_FALSE(update(std::chrono::seconds(12)).budget_spent);
-  EXPECT_FALSE(update(std::chrono::seconds(12)).lost_batch);
+  EXPECT_TRUE(check(1).budget_spent);
+  EXPECT_TRUE(check(10).budget_spent);
+  EXPECT_FALSE(check(12).budget_spent);
   runner_.counters.budget_exhausted = 0;  // after a reset
-  EXPECT_FALSE(update(std::chrono::seconds(13)).budget_spent);
+  EXPECT_FALSE(check(13).budget_spent);
   runner_.counters.budget_exhausted = 1;
-  EXPECT_TRUE(update(std::chrono::seconds(14)).budget_spent);
+  EXPECT_TRUE(check(14).budget_spent);
 }
 
 TEST_F(HealthTracking, KeepsTheLatestRefusal) {
   refusals_.add(Refusal::faulty_command, "a");
   refusals_.add(Refusal::overload, "b");
-  Health health = update(std::chrono::seconds(1));
+  Health health = check(1);
   EXPECT_EQ(health.refusal, "b");
   EXPECT_TRUE(health.overload);
-  EXPECT_EQ(refusals_.commands(), 2u);
-  health = update(std::chrono::seconds(60));
+  EXPECT_EQ(refusals_.summary().commands, 2u);
+  health = check(60);
   EXPECT_EQ(health.refusal, "");
   EXPECT_FALSE(health.overload);
   EXPECT_EQ(health.free_mb, 5.0);

@@ -1,13 +1,18 @@
 #include "parameters.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <utility>
 #include <variant>
 
 #include "afm/number_text.h"
+#include "table.h"
 
 namespace afm::node {
 namespace {
@@ -18,54 +23,9 @@ using Field = std::variant<double*, std::uint64_t*, bool*, std::string*, std::ve
 constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn"};
 
 std::map<std::string, Field> fields_of(Parameters& p) {
-  return {{"omega_v_rad_per_s", &p.si.omega_v_rad_per_s},
-          {"omega_h_rad_per_s", &p.si.omega_h_rad_per_s},
-          {"tip_mass_kg", &p.si.tip_mass_kg},
-          {"lattice_spacing_m", &p.si.lattice_spacing_m},
-          {"surface_amplitude_m", &p.si.surface_amplitude_m},
-          {"rest_height_m", &p.si.rest_height_m},
-          {"restitution_gamma", &p.si.restitution_gamma},
-          {"cutoff_speed", &p.si.cutoff_speed},
-          {"spring_constant_n_per_m", &p.lever.spring_constant_n_per_m},
-          {"resonance_hz", &p.lever.resonance_hz},
-          {"lateral_spring_constant_n_per_m", &p.lever.lateral_spring_constant_n_per_m},
-          {"load_n", &p.load_n},
-          {"temperature_k", &p.bath.temperature_k},
-          {"quality_factor", &p.bath.quality_factor},
-          {"lateral_quality_factor", &p.bath.lateral_quality_factor},
-          {"kicks_per_tau", &p.bath.kicks_per_tau},
-          {"seed", &p.bath.seed},
-          {"model", &p.model},
-          {"tolerance", &p.tolerance},
-          {"tolerance_of", &p.tolerance_of},
-          {"level_table", &p.level_table},
-          {"drag_velocity", &p.drag_velocity},
-          {"max_drag_velocity", &p.max_drag_velocity},
-          {"initial_phase", &p.initial.phase},
-          {"initial_extension", &p.initial.X},
-          {"initial_height", &p.initial.y},
-          {"initial_u", &p.initial.u},
-          {"initial_w", &p.initial.w},
-          {"time_scale", &p.time_scale},
-          {"pace", &p.pace},
-          {"wait_for", &p.wait_for},
-          {"command_wait_s", &p.command_wait_s},
-          {"publish_clock", &p.publish_clock},
-          {"batch_rate_hz", &p.batch_rate_hz},
-          {"sample_rate_hz", &p.sample_rate_hz},
-          {"friction_window_tau", &p.friction_window_tau},
-          {"commands_eta", &p.commands_eta},
-          {"commands_hold_s", &p.commands_hold_s},
-          {"command_timeout_s", &p.command_timeout_s},
-          {"impact_budget", &p.impact_budget},
-          {"contact_tolerance", &p.contact_tolerance},
-          {"paused", &p.paused},
-          {"record", &p.record},
-          {"bag_directory", &p.bag_directory},
-          {"disk_reserve_mb", &p.disk_reserve_mb},
-          {"compression", &p.compression},
-          {"split_size_mb", &p.split_size_mb},
-          {"split_duration_s", &p.split_duration_s}};
+  std::map<std::string, Field> fields;
+  for_each_parameter(p, [&](const char* name, auto& value) { fields.emplace(name, &value); });
+  return fields;
 }
 
 std::string known_names(const std::map<std::string, Field>& fields) {
@@ -133,48 +93,58 @@ std::string read(Value& value, std::vector<double>* out) {
 }
 
 // A lever and a load are given in the terms of their owner, or in those of the model.
-void apply_lever(Parameters& p, Faults& faults) {
+void set_lever_and_load(Parameters& p, Faults& faults) {
   const SiModel usual;
-  const auto forbid = [&](const char* name, double value, double default_value, const char* instead) {
-    if (value != default_value) faults.push_back({name, number_text(value), std::string("is given beside ") + instead + ": give one of them"});
+  const auto forbid = [&](const char* name, double value, double usual_value, const std::string& instead) {
+    if (value == usual_value) return;
+    faults.push_back({name, number_text(value), "is given beside " + instead + ": give one of them"});
   };
   if (p.lever.is_given()) {
-    const char* const kLever = "the spring constants and the resonance of a lever";
-    forbid("omega_v_rad_per_s", p.si.omega_v_rad_per_s, usual.omega_v_rad_per_s, kLever);
-    forbid("omega_h_rad_per_s", p.si.omega_h_rad_per_s, usual.omega_h_rad_per_s, kLever);
-    forbid("tip_mass_kg", p.si.tip_mass_kg, usual.tip_mass_kg, kLever);
+    const char* const lever = "the spring constants and the resonance of a lever";
+    forbid("omega_v_rad_per_s", p.si.omega_v_rad_per_s, usual.omega_v_rad_per_s, lever);
+    forbid("omega_h_rad_per_s", p.si.omega_h_rad_per_s, usual.omega_h_rad_per_s, lever);
+    forbid("tip_mass_kg", p.si.tip_mass_kg, usual.tip_mass_kg, lever);
     const auto wrong = find_faults(p.lever);
-    for (const ParameterError& fault : wrong) faults.push_back({fault.name, number_text(fault.value), fault.reason});
+    add(wrong, faults);
     if (wrong.empty()) set_lever(p.lever, p.si);
   }
-  if (p.load_n != 0.0) {
-    forbid("rest_height_m", p.si.rest_height_m, usual.rest_height_m, "load_n");
-    if (!std::isfinite(p.load_n)) return faults.push_back({"load_n", number_text(p.load_n), "must be finite"});
-    p.si.rest_height_m = -p.load_n / spring_constant(p.si);
-  }
-}
-
-bool is_foreign(const std::string& name) {
-  for (const char* foreign : kForeignNames) {
-    if (name == foreign) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-std::string describe(const Faults& faults) {
-  std::string text;
-  for (const Fault& fault : faults) {
-    text += (text.empty() ? "" : "\n") + fault.name + " = " + fault.value + ": " + fault.reason;
-  }
-  return text;
+  if (p.load_n == 0.0) return;
+  forbid("rest_height_m", p.si.rest_height_m, usual.rest_height_m, "load_n");
+  if (!std::isfinite(p.load_n)) return faults.push_back({"load_n", number_text(p.load_n), "must be finite"});
+  p.si.rest_height_m = -p.load_n / spring_constant(p.si);
 }
 
 std::string expand_home(const std::string& path) {
   const char* home = std::getenv("HOME");
   return home != nullptr && path.compare(0, 2, "~/") == 0 ? home + path.substr(1) : path;
 }
+
+// The levels of model auto, from their file.
+void load_levels(Parameters& p, Faults& faults) {
+  const auto fault = [&](const std::string& reason) {
+    faults.push_back({"level_table", '"' + p.level_table + '"', reason});
+  };
+  if (p.level_table.empty()) {
+    return fault(
+        "model auto takes its levels from this file: give config/levels.csv, as emulator.launch does, or one that the "
+        "program level_table made");
+  }
+  std::ifstream file(p.level_table);
+  std::stringstream text;
+  if (file) text << file.rdbuf();
+  if (!file) return fault(std::string("cannot be read: ") + std::strerror(errno));
+  try {
+    p.levels = std::make_shared<const LevelTable>(text);
+  } catch (const std::exception& error) {
+    fault(error.what());
+  }
+}
+
+bool is_foreign(const std::string& name) {
+  return std::find(std::begin(kForeignNames), std::end(kForeignNames), name) != std::end(kForeignNames);
+}
+
+}  // namespace
 
 Parameters read_parameters(Value tree, Faults& faults) {
   Parameters parameters;
@@ -190,7 +160,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
       }
     }
   }
-  apply_lever(parameters, faults);
+  set_lever_and_load(parameters, faults);
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
   // what could not be read stands at its default here and adds no fault of its own

@@ -10,14 +10,60 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "node/recorder/recorder.h"
-#include "outstanding.h"
 
 namespace afm::node {
+
+// The messages of a topic that roscpp still holds for its subscribers. It says neither how full the queue of a subscriber is
+// nor what it drops from one; but it lets go of the bytes of a message when the last subscriber has them, or has lost them.
+class Outstanding {
+ public:
+  // The same message, whose bytes report when they are let go.
+  ros::SerializedMessage track(ros::SerializedMessage message) {
+    const std::uint64_t number = next_++;
+    {
+      const std::lock_guard<std::mutex> lock(state_->mutex);
+      state_->held.insert(number);
+    }
+    message.buf = boost::shared_array<std::uint8_t>(
+        message.buf.get(), [bytes = message.buf, state = state_, number](std::uint8_t*) { state->let_go(number); });
+    return message;
+  }
+
+  // How many, and the number of the oldest, or that of the next message.
+  std::pair<std::size_t, std::uint64_t> held() const {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    return {state_->held.size(), state_->held.empty() ? next_ : *state_->held.begin()};
+  }
+  // Since this was last asked.
+  std::uint64_t take_lost() {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    return std::exchange(state_->lost, 0);
+  }
+
+ private:
+  struct State {
+    // Each subscriber gets its messages in order, and the one that is being sent is held: what is let go before an older
+    // one was dropped.
+    void let_go(std::uint64_t number) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (*held.begin() < number) ++lost;
+      held.erase(number);
+    }
+    std::mutex mutex;
+    std::set<std::uint64_t> held;
+    std::uint64_t lost = 0;
+  };
+
+  std::uint64_t next_ = 0;
+  const std::shared_ptr<State> state_ = std::make_shared<State>();
+};
 
 template <class Message>
 class Channel {
@@ -31,14 +77,17 @@ class Channel {
         recorder_(recorder) {}
 
   // unhurried: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all.
-  void send(Message&& message, bool unhurried = false) {
+  void send(Message message, bool unhurried = false) {
     message.header.seq = sequence_++;
     const MessageBytes bytes = to_bytes(message);
     if (latched_) {
       publisher_.publish(bytes);
     } else {
       if (unhurried) wait_for_subscribers();
-      publish(bytes);
+      ros::SerializedMessage unused;
+      ros::TopicManager::instance()->publish(
+          bag_topic_->name, [tracked = outstanding_.track(bytes.message)] { return tracked; }, unused);
+      lost();
     }
     recorder_.record(bag_topic_, bytes, role_);
   }
@@ -74,21 +123,15 @@ class Channel {
     return std::make_shared<BagTopic>(BagTopic{resolved_name, header});
   }
 
-  void publish(const MessageBytes& bytes) {
-    const ros::SerializedMessage tracked = outstanding_.track(bytes.message);
-    ros::SerializedMessage message;
-    ros::TopicManager::instance()->publish(bag_topic_->name, [&tracked] { return tracked; }, message);
-    lost();
-  }
-
   void wait_for_subscribers() {
     constexpr std::chrono::milliseconds kPoll{1};
     constexpr int kPatience = 1000;  // [polls]
-    for (int i = 0; i < kPatience && outstanding_.count() > queue_size_ / 2; ++i) {
-      if (outstanding_.oldest() == stuck_at_) return;  // it has taken nothing since we last waited in vain
+    for (int i = 0; i < kPatience; ++i) {
+      const auto [count, oldest] = outstanding_.held();
+      if (count <= queue_size_ / 2 || oldest == stuck_at_) return;
       std::this_thread::sleep_for(kPoll);
-      if (i == kPatience - 1) stuck_at_ = outstanding_.oldest();
     }
+    stuck_at_ = outstanding_.held().second;
   }
 
   const bool latched_;
@@ -101,7 +144,8 @@ class Channel {
   std::uint64_t lost_ = 0;
   std::uint32_t subscribers_ = 0;
   Outstanding outstanding_;
-  std::uint64_t stuck_at_ = std::numeric_limits<std::uint64_t>::max();  // the message that a subscriber does not take
+  // the message that a subscriber did not take in a whole wait: until it does, we do not wait for it again
+  std::uint64_t stuck_at_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 }  // namespace afm::node

@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "node/params/table.h"
+
 namespace afm::node {
 namespace {
 
@@ -32,17 +34,44 @@ afm_emulator::Impact impact_message(const Impact& impact, const Units& units) {
   return message;
 }
 
-const char* to_text(Cause cause) {
-  switch (cause) {
-    case Cause::epoch: return "epoch";
-    case Cause::drag_velocity: return "drag_velocity";
-    case Cause::rest_height: return "rest_height";
-    case Cause::load: return "load";
-    case Cause::parameters: return "parameters";
-    case Cause::scene: return "scene";
-    case Cause::timeout: break;
-  }
-  return "timeout";
+// One list of fields serves both ways. In natural units, so that no digit changes.
+template <class Message, class State, class Copy>
+void for_each_number(Message& m, State& s, Copy copy) {
+  copy(m.next_sample, s.next_sample);
+  copy(m.next_impact, s.next_impact);
+  copy(m.sample_first, s.samples.first);
+  copy(m.kicks, s.kick_count);
+  copy(m.kick_first, s.kicks.first);
+  copy(m.holder_from, s.holder.from);
+  copy(m.surface_phase, s.tip.state.phase);
+  copy(m.extension, s.tip.state.X);
+  copy(m.u, s.tip.state.u);
+  copy(m.gap, s.tip.state.g);
+  copy(m.gap_rate, s.tip.state.g1);
+  copy(m.sequence_normal_speed, s.tip.sequence_normal_speed);
+  copy(m.sequence_gain, s.tip.sequence_gain);
+  copy(m.chatter_speed, s.tip.chatter_speed);
+  copy(m.chatter_count, s.tip.chatter_count);
+}
+
+template <class Message, class Sums, class Copy>
+void for_each_sum(Message& m, Sums& s, Copy copy) {
+  copy(m.estimate_impacts, s.impact_count);
+  copy(m.estimate_energy[0], s.energy.value);
+  copy(m.estimate_energy[1], s.energy.rest);
+  copy(m.estimate_impulse[0], s.impulse.value);
+  copy(m.estimate_impulse[1], s.impulse.rest);
+  copy(m.estimate_heat[0], s.heat.value);
+  copy(m.estimate_heat[1], s.heat.rest);
+  copy(m.estimate_vertical[0], s.vertical.value);
+  copy(m.estimate_vertical[1], s.vertical.rest);
+  copy(m.estimate_samples, s.samples);
+  copy(m.energy_bin_width, s.energy_bins.width);
+  copy(m.impulse_bin_width, s.impulse_bins.width);
+  copy(m.window_bin, s.window.current);
+  for (std::size_t i = 0; i < s.energy_bins.amount.size(); ++i) copy(m.energy_bins[i], s.energy_bins.amount[i]);
+  for (std::size_t i = 0; i < s.impulse_bins.amount.size(); ++i) copy(m.impulse_bins[i], s.impulse_bins.amount[i]);
+  for (std::size_t i = 0; i < s.window.energy.size(); ++i) copy(m.window_bins[i], s.window.energy[i]);
 }
 
 }  // namespace
@@ -110,12 +139,12 @@ afm_emulator::Applied to_applied(const Report& report, const Parameters& in_forc
   const RunSettings settings = run_settings(in_force);
   auto message = labelled<afm_emulator::Applied>(label);
   message.number = report.number;
-  message.cause = to_text(report.cause);
+  message.cause = report.cause;
   message.time = to_message(report.state.time);
   message.first_impact = report.state.impacts;
   message.first_sample = report.state.samples;
   message.drag_velocity = report.live.drag_velocity;
-  for (const LiveField& field : kLiveFields) message.*field.applied = report.live.*field.value;
+  for_each_live(message, report.live, kToMessage);
   message.samples_per_batch = settings.samples_per_batch;
   message.sample_period_tau = settings.sample_period;
   message.model = name(report.level.level.kind);
@@ -125,24 +154,74 @@ afm_emulator::Applied to_applied(const Report& report, const Parameters& in_forc
   return message;
 }
 
-Live live_of(const afm_emulator::Applied& applied) {
-  Live live;
-  live.drag_velocity = applied.drag_velocity;
-  for (const LiveField& field : kLiveFields) live.*field.value = applied.*field.applied;
-  return live;
-}
-
-Level level_of(const afm_emulator::Applied& applied) {
-  Level level{ModelKind::oscillator, applied.contact_tolerance};
-  if (!parse(applied.model, level.kind)) throw std::invalid_argument("unknown model: " + applied.model);
-  return level;
-}
-
 LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied) {
-  set_live(live_of(applied), in_force);
+  in_force.drag_velocity = applied.drag_velocity;
+  for_each_live(applied, in_force, kFromMessage);
   LiveSettings live = live_settings(run_settings(in_force));
-  live.level = level_of(applied);
+  live.level.contact_tolerance = applied.contact_tolerance;
+  if (!parse(applied.model, live.level.kind)) throw std::invalid_argument("unknown model: " + applied.model);
   return live;
+}
+
+afm_emulator::Configuration to_configuration(const Parameters& p, const std::string& version, const std::string& digest,
+                                             const Label& label) {
+  const RunSettings settings = run_settings(p);
+  auto message = labelled<afm_emulator::Configuration>(label);
+  message.version = version;
+  message.arithmetic_digest = digest;
+  for_each_of_run(message, p, kToMessage);
+  message.samples_per_batch = settings.samples_per_batch;
+  message.sample_period = 1.0 / p.sample_rate_hz;
+  message.sample_period_tau = settings.sample_period;
+  return message;
+}
+
+Parameters to_parameters(const afm_emulator::Configuration& configuration) {
+  Parameters p;
+  for_each_of_run(configuration, p, kFromMessage);
+  return p;
+}
+
+afm_emulator::Snapshot to_snapshot(const Snapshot& s, const afm_emulator::Configuration& configuration,
+                                   const afm_emulator::Applied& applied, const Label& label) {
+  auto m = labelled<afm_emulator::Snapshot>(label);
+  m.time = to_message(s.tip.time);
+  m.configuration = configuration;
+  m.applied = applied;
+  m.configuration.header = m.applied.header = std_msgs::Header();
+  m.sample_origin = to_message(s.samples.origin);
+  m.kick_origin = to_message(s.kicks.origin);
+  m.holder_since = to_message(s.holder.since);
+  m.phase = static_cast<std::uint8_t>(s.tip.phase);
+  for_each_number(m, s, kToMessage);
+  const FrictionSums& sums = s.friction.sums();
+  m.estimate_start = to_message(sums.start);
+  m.window_start = to_message(sums.window_start);
+  for_each_sum(m, sums, kToMessage);
+  return m;
+}
+
+Snapshot from_message(const afm_emulator::Snapshot& m) {
+  Parameters in_force = to_parameters(m.configuration);
+  const LiveSettings live = apply_to(in_force, m.applied);
+  Snapshot s;
+  s.settings = run_settings(in_force);
+  set_live(live, s.settings);
+  s.tip.time = from_message(m.time);
+  s.tip.phase = static_cast<TipSnapshot::Phase>(m.phase);
+  s.samples.period = s.settings.sample_period;
+  s.samples.origin = from_message(m.sample_origin);
+  s.kicks.period = 1.0 / s.settings.bath.kicks_per_tau;
+  s.kicks.origin = from_message(m.kick_origin);
+  s.holder.since = from_message(m.holder_since);
+  for_each_number(m, s, kFromMessage);
+  FrictionSums sums(s.settings.friction_window);
+  sums.eta = s.settings.eta;
+  sums.start = from_message(m.estimate_start);
+  sums.window_start = from_message(m.window_start);
+  for_each_sum(m, sums, kFromMessage);
+  s.friction = Friction(sums);
+  return s;
 }
 
 afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& si) {
@@ -168,20 +247,6 @@ afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& 
   r.k_f = r.energy_loss / (v0 * v0 * seconds);
   r.k_f_work = r.mean_lateral_force / v0;
   return r;
-}
-
-afm_emulator::EmulatorStatus to_status(const RunnerState& state, const Units& units, const Label& label) {
-  auto message = labelled<afm_emulator::EmulatorStatus>(label);
-  message.time = to_message(state.time);
-  message.real_time_factor = state.real_time_factor;
-  message.lag = state.lag;
-  message.worst_lag = state.worst_lag;
-  message.late_batches = state.late_batches;
-  message.budget_exhausted = state.counters.budget_exhausted;
-  message.search_failures = state.counters.search_failures;
-  message.worst_penetration = state.counters.worst_penetration * units.length();
-  message.paused = state.paused;
-  return message;
 }
 
 }  // namespace afm::node

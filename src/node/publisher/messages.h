@@ -6,7 +6,6 @@
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Control.h>
 #include <afm_emulator/Deflection.h>
-#include <afm_emulator/EmulatorStatus.h>
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/Snapshot.h>
@@ -38,10 +37,6 @@ afm_emulator::Friction to_friction(const Batch& batch, const Live& live, const U
 
 // The state at which it takes effect is that of the report.
 afm_emulator::Applied to_applied(const Report& report, const Parameters& in_force, const Label& label);
-Live live_of(const afm_emulator::Applied& applied);
-// Throws std::invalid_argument if there is no such model.
-Level level_of(const afm_emulator::Applied& applied);
-
 // version and digest are of the program that runs.
 afm_emulator::Configuration to_configuration(const Parameters& parameters, const std::string& version,
                                              const std::string& digest, const Label& label);
@@ -52,13 +47,11 @@ afm_emulator::Snapshot to_snapshot(const Snapshot& snapshot, const afm_emulator:
                                    const afm_emulator::Applied& applied, const Label& label);
 Snapshot from_message(const afm_emulator::Snapshot& message);
 
-// What a run obeys when this is applied to parameters that are in force; they change with it.
+// Applies it to the parameters in force. Returns what a run obeys then. Throws std::invalid_argument if there is no such
+// model.
 LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied);
 
 // What was measured over a control period.
 afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& si);
-
-// Those fields of the status that the running thread knows.
-afm_emulator::EmulatorStatus to_status(const RunnerState& state, const Units& units, const Label& label);
 
 }  // namespace afm::node

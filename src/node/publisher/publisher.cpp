@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "diagnosis.h"
 #include "afm/fingerprint.h"
-#include "node/runner/scheduling.h"
+#include "node/runner/threads.h"
 #include "topics.h"
 
 namespace afm::node {
@@ -34,22 +33,21 @@ Publisher::Publisher(ros::NodeHandle& node, const Parameters& parameters, Source
       deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize),
       impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
       friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize),
-      status_(node, sources_.recorder, kStatusTopic, kStatusQueueSize),
+      status_(node, sources_.recorder, "status", kStatusQueueSize),
       configuration_(node, sources_.recorder, kConfigurationTopic, kLatchedQueueSize, Role::configuration),
       applied_(node, sources_.recorder, kAppliedTopic, kCommandQueueSize, Role::applied),
-      snapshot_(node, sources_.recorder, kSnapshotTopic, kLatchedQueueSize, Role::snapshot),
-      tracker_(units_),
-      health_tracker_(parameters.si.lattice_spacing_m, parameters.command_timeout_s, parameters.disk_reserve_mb) {
-  if (parameters.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>(kClockTopic, kBatchQueueSize);
+      snapshot_(node, sources_.recorder, "snapshot", kLatchedQueueSize, Role::snapshot),
+      status_tracker_(parameters) {
+  if (parameters.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kBatchQueueSize);
   diagnostics_.setHardwareID("none");
-  diagnostics_.add("emulation", [this](Diagnosis& out) { diagnose_pace(health_, out); });
-  diagnostics_.add("commands", [this](Diagnosis& out) { diagnose_commands(health_, out); });
-  diagnostics_.add("numerics", [this](Diagnosis& out) { diagnose_numerics(health_, out); });
-  diagnostics_.add("recording", [this](Diagnosis& out) { diagnose_recording(health_, out); });
+  diagnostics_.add("emulation", [this](Diagnosis& out) { diagnose_pace(status_tracker_.health(), out); });
+  diagnostics_.add("commands", [this](Diagnosis& out) { diagnose_commands(status_tracker_.health(), out); });
+  diagnostics_.add("numerics", [this](Diagnosis& out) { diagnose_numerics(status_tracker_.health(), out); });
+  diagnostics_.add("recording", [this](Diagnosis& out) { diagnose_recording(status_tracker_.health(), out); });
 }
 
 void Publisher::start(const std::string& scheduler) {
-  tracker_.set_scheduler(scheduler);
+  status_tracker_.set_scheduler(scheduler);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -76,30 +74,32 @@ void Publisher::run() {
 void Publisher::publish(Report& report) {
   if (report.kind == Report::Kind::epoch && !latest_clock_.isZero()) epoch_begin_ = latest_clock_ + ros::Duration(0, 1);
   const Label label{stamp_of(report), report.state.epoch};
-  tracker_.observe(report);
-  set_live(report.live, parameters_);
+  status_tracker_.observe(report);
+  live_of(parameters_) = report.live;
   switch (report.kind) {
     case Report::Kind::epoch:
       latest_configuration_ = to_configuration(parameters_, AFM_EMULATOR_VERSION, fingerprint_, label);
-      configuration_.send(afm_emulator::Configuration(latest_configuration_));
+      configuration_.send(latest_configuration_);
       break;
     case Report::Kind::applied:
       latest_applied_ = to_applied(report, parameters_, label);
-      applied_.send(afm_emulator::Applied(latest_applied_));
-      sources_.applied(report.live);
+      applied_.send(latest_applied_);
+      sources_.on_applied(report.live);
       break;
     case Report::Kind::snapshot:
       snapshot_.send(to_snapshot(report.snapshot, latest_configuration_, latest_applied_, label));
       break;
     case Report::Kind::batch:
-      publish_batch(report, label);
+      deflection_.send(to_deflection(*report.batch, report.live, units_, label), report.unhurried);
+      impacts_.send(to_impacts(*report.batch, units_, label), report.unhurried);
+      friction_.send(to_friction(*report.batch, report.live, units_, label), report.unhurried);
       sources_.queue.release(report.batch);
       break;
     case Report::Kind::answer:
-      report.reply->set_value(report.answer);
-      break;
+      return report.reply->set_value(report.answer);
   }
-  publish_clock(report);
+  // after what belongs to this time: whoever wakes by the clock finds it there
+  if (clock_ && label.stamp > latest_clock_) publish_clock(label.stamp);
 }
 
 // Of wall time, or where the emulator publishes the clock, of the clock: model time.
@@ -111,14 +111,8 @@ ros::Time Publisher::stamp_of(const Report& report) const {
   return stamp.fromNSec(epoch_begin_.toNSec() + static_cast<std::uint64_t>(std::llround(seconds * 1e9)));
 }
 
-// After what belongs to this time: whoever wakes by the clock finds it there. Strictly rising, and never 0.
-void Publisher::publish_clock(const Report& report) {
-  if (!clock_ || report.kind == Report::Kind::answer) return;
-  const ros::Time now = stamp_of(report);
-  if (now > latest_clock_) send_clock(now);
-}
-
-void Publisher::send_clock(const ros::Time& now) {
+// Strictly rising, and never 0.
+void Publisher::publish_clock(const ros::Time& now) {
   rosgraph_msgs::Clock message;
   message.clock = latest_clock_ = now;
   clock_.publish(message);
@@ -126,33 +120,23 @@ void Publisher::send_clock(const ros::Time& now) {
 
 // While time stands still, whoever is new gets the time too. Not latched: roscpp sends what is latched at once, and then
 // what it published before, so that the clock of a new subscriber could go back.
-void Publisher::show_clock_to_new_subscribers() {
+void Publisher::publish_clock_to_new_subscribers() {
   const std::uint32_t subscribers = clock_ ? clock_.getNumSubscribers() : 0;
-  if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) send_clock(latest_clock_ + ros::Duration(0, 1));
+  if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) publish_clock(latest_clock_ + ros::Duration(0, 1));
   clock_subscribers_ = subscribers;
 }
 
-void Publisher::publish_batch(const Report& report, const Label& label) {
-  deflection_.send(to_deflection(*report.batch, report.live, units_, label), report.unhurried);
-  impacts_.send(to_impacts(*report.batch, units_, label), report.unhurried);
-  friction_.send(to_friction(*report.batch, report.live, units_, label), report.unhurried);
-}
-
 void Publisher::publish_status() {
-  show_clock_to_new_subscribers();
+  publish_clock_to_new_subscribers();
   if (is_due(status_due_, kStatusPeriod)) {
-    latest_status_ = tracker_.make(sources_.recorder.status(), sources_.refusals.commands(),
-                                   deflection_.lost() + impacts_.lost() + friction_.lost());
-    status_.send(afm_emulator::EmulatorStatus(latest_status_));
+    status_.send(status_tracker_.update_status(sources_.recorder.status(), sources_.refusals.summary(),
+                                               deflection_.lost() + impacts_.lost() + friction_.lost()));
   }
-  if (is_due(diagnostics_due_, kDiagnosticsPeriod)) update_diagnostics();
-}
-
-void Publisher::update_diagnostics() {
-  health_ = health_tracker_.update(
-      {latest_status_, tracker_.state(), sources_.recorder.status(), sources_.refusals, sources_.free_bytes},
-      std::chrono::steady_clock::now());
-  diagnostics_.force_update();
+  if (is_due(diagnostics_due_, kDiagnosticsPeriod)) {
+    status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), sources_.free_bytes,
+                          std::chrono::steady_clock::now());
+    diagnostics_.force_update();
+  }
 }
 
 }  // namespace afm::node

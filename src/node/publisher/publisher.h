@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "channel.h"
-#include "health.h"
 #include "messages.h"
 #include "node/recorder/recorder.h"
 #include "node/runner/batch_queue.h"
@@ -28,7 +27,7 @@ class Publisher {
     Recorder& recorder;
     const Refusals& refusals;
     const std::atomic<std::int64_t>& free_bytes;
-    std::function<void(const Live&)> applied;  // told of what has taken effect
+    std::function<void(const Live&)> on_applied;  // called with what has taken effect
   };
 
   Publisher(ros::NodeHandle& node, const Parameters& parameters, Sources sources);
@@ -41,12 +40,10 @@ class Publisher {
   void run();
   void publish(Report& report);
   void publish_batch(const Report& report, const Label& label);
-  void publish_clock(const Report& report);
-  void send_clock(const ros::Time& now);
-  void show_clock_to_new_subscribers();
+  void publish_clock(const ros::Time& now);
+  void publish_clock_to_new_subscribers();
   ros::Time stamp_of(const Report& report) const;
   void publish_status();
-  void update_diagnostics();
 
   Parameters parameters_;  // as they are at the report that is published
   const Units units_;
@@ -66,10 +63,7 @@ class Publisher {
   ros::Time epoch_begin_{1, 0}, latest_clock_;
   std::uint32_t clock_subscribers_ = 0;
   diagnostic_updater::Updater diagnostics_;
-  StatusTracker tracker_;
-  afm_emulator::EmulatorStatus latest_status_;
-  HealthTracker health_tracker_;
-  Health health_;
+  StatusTracker status_tracker_;
   std::chrono::steady_clock::time_point status_due_, diagnostics_due_;
   std::atomic<bool> stopping_{false};
   std::thread thread_;

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <string>
 
 namespace afm::node {
@@ -13,34 +12,29 @@ enum class Refusal { faulty_command, overload, faulty_change };
 
 class Refusals {
  public:
-  struct Latest {
-    Refusal kind;
-    std::string text;
+  struct Summary {
+    std::uint64_t commands = 0, changes = 0;
+    // the latest
+    Refusal kind = Refusal::faulty_command;
+    std::string reason;  // empty: nothing was refused
     std::chrono::steady_clock::time_point when;
   };
 
-  void add(Refusal kind, std::string text) {
+  void add(Refusal kind, const std::string& reason) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++(kind == Refusal::faulty_change ? changes_ : commands_);
-    latest_ = Latest{kind, std::move(text), std::chrono::steady_clock::now()};
+    ++(kind == Refusal::faulty_change ? summary_.changes : summary_.commands);
+    summary_.kind = kind;
+    summary_.reason = reason;
+    summary_.when = std::chrono::steady_clock::now();
   }
-  std::uint64_t commands() const {
+  Summary summary() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return commands_;
-  }
-  std::uint64_t changes() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return changes_;
-  }
-  std::optional<Latest> latest() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return latest_;
+    return summary_;
   }
 
  private:
   mutable std::mutex mutex_;
-  std::uint64_t commands_ = 0, changes_ = 0;
-  std::optional<Latest> latest_;
+  Summary summary_;
 };
 
 }  // namespace afm::node

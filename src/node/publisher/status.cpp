@@ -1,56 +1,155 @@
 #include "status.h"
 
-#include "node/runner/scheduling.h"
+#include "messages.h"
+#include "node/runner/threads.h"
 
 namespace afm::node {
 namespace {
 
 constexpr double kMarkTau = 100.0;              // impacts are counted over so long: some hundreds of them
-constexpr std::uint64_t kMessagesPerBatch = 3;  // deflection, impacts, friction
+constexpr std::chrono::seconds kRecently{10};   // troubles that come and go are reported for so long
+
+constexpr double kTroublingLag = 0.5;        // [s]: what a person notices
+constexpr double kHopelessLag = 2.0;         // [s]
+constexpr double kTroublingLateShare = 0.1;  // of the batches since the last check
+constexpr double kPenetration = 1e-10;       // [a]: more is not rounding
+constexpr double kScarceReserves = 2.0;      // a recording comes near its end with less than so many reserves free
+
+using Severity = diagnostic_msgs::DiagnosticStatus;
 
 }  // namespace
 
+StatusTracker::StatusTracker(const Parameters& parameters) : units_(parameters.si) {
+  health_.lattice_spacing_m = parameters.si.lattice_spacing_m;
+  health_.command_timeout_s = parameters.command_timeout_s;
+  health_.reserve_mb = parameters.disk_reserve_mb;
+}
+
 void StatusTracker::observe(const Report& report) {
   state_ = report.state;
-  level_ = report.level;
-  if (report.kind == Report::Kind::epoch) {
-    mark_impacts_ = 0;
-    mark_time_ = {};
-    impacts_per_tau_ = 0.0;
+  if (report.kind == Report::Kind::epoch) mark_ = state_;
+  afm_emulator::EmulatorStatus& status = health_.status;
+  status.model = name(report.level.level.kind);
+  status.contact_tolerance = report.level.level.contact_tolerance;
+  status.expected_error = report.level.expected_error;
+}
+
+// Over a hundred tau or more, or since the start of the epoch.
+void StatusTracker::count_impacts() {
+  const double span = state_.time - mark_.time;
+  const bool first = mark_.time == ModelTime{}, full = span >= kMarkTau;
+  if (!first && !full) return;
+  health_.status.impacts_per_tau = span > 0.0 ? static_cast<double>(state_.impacts - mark_.impacts) / span : 0.0;
+  if (full) mark_ = state_;
+}
+
+afm_emulator::EmulatorStatus StatusTracker::update_status(const Recorder::Status& recorder,
+                                                          const Refusals::Summary& refusals,
+                                                          std::uint64_t lost_messages) {
+  count_impacts();
+  afm_emulator::EmulatorStatus& status = health_.status;
+  status.header.stamp.fromNSec(static_cast<std::uint64_t>(wall_now_ns()));
+  status.epoch = state_.epoch;
+  status.time = to_message(state_.time);
+  status.real_time_factor = state_.real_time_factor;
+  status.lag = state_.lag;
+  status.worst_lag = state_.worst_lag;
+  status.late_batches = state_.late_batches;
+  status.budget_exhausted = state_.counters.budget_exhausted;
+  status.search_failures = state_.counters.search_failures;
+  status.worst_penetration = state_.counters.worst_penetration * units_.length();
+  status.paused = state_.paused;
+  status.refused_commands = refusals.commands;
+  status.dropped_messages = lost_messages + recorder.dropped_messages;
+  status.recording = recorder.recording;
+  status.recorder_error = recorder.error;
+  return status;
+}
+
+void StatusTracker::check(const Recorder::Status& recorder, const Refusals::Summary& refusals, std::int64_t free_bytes,
+                          Time now) {
+  const std::uint64_t batches = state_.batches - checked_.batches, late = state_.late_batches - checked_.late_batches;
+  health_.late_share = batches > 0 ? static_cast<double>(late) / static_cast<double>(batches) : 0.0;
+  if (state_.counters.budget_exhausted > checked_.counters.budget_exhausted) budget_spent_ = now;
+  health_.budget_spent = budget_spent_ != Time::min() && now - budget_spent_ < kRecently;
+  checked_ = state_;
+  health_.timed_out = state_.timed_out;
+  health_.refused_changes = refusals.changes;
+  const bool is_recent = now - refusals.when < kRecently;
+  health_.refusal = is_recent ? refusals.reason : "";
+  health_.overload = is_recent && refusals.kind == Refusal::overload;
+  health_.free_mb = free_bytes < 0 ? -1.0 : static_cast<double>(free_bytes) / 1e6;
+  health_.dropped_from_recording = recorder.dropped_from_recording;
+}
+
+void diagnose_pace(const Health& health, Diagnosis& out) {
+  const afm_emulator::EmulatorStatus& status = health.status;
+  out.summary(Severity::OK, status.paused ? "paused" : "running");
+  if (status.lag > kHopelessLag) {
+    out.mergeSummaryf(Severity::ERROR, "%.1f s behind the wall clock: the machine is too slow for this run", status.lag);
+  } else if (status.lag > kTroublingLag) {
+    out.mergeSummaryf(Severity::WARN, "%.1f s behind the wall clock", status.lag);
   }
+  if (health.late_share > kTroublingLateShare) {
+    out.mergeSummaryf(Severity::WARN, "%.0f %% of the batches are late (scheduler: %s)", 100.0 * health.late_share,
+                      status.scheduler.c_str());
+  }
+  out.add("real-time factor", status.real_time_factor);
+  out.add("lag [s]", status.lag);
+  out.add("worst lag [s]", status.worst_lag);
+  out.add("late batches", status.late_batches);
+  out.addf("late batches since the last check", "%.1f %%", 100.0 * health.late_share);
+  out.add("scheduler", status.scheduler);
+  out.add("dropped messages", status.dropped_messages);
 }
 
-double StatusTracker::impacts_per_tau() const {
-  const double span = state_.time - mark_time_;
-  return span > 0.0 ? static_cast<double>(state_.impacts - mark_impacts_) / span : 0.0;
+void diagnose_commands(const Health& health, Diagnosis& out) {
+  out.summary(Severity::OK, "nothing was refused of late");
+  if (!health.refusal.empty()) {
+    out.mergeSummary(health.overload ? Severity::ERROR : Severity::WARN, "refused: " + health.refusal);
+  }
+  if (health.timed_out) {
+    out.mergeSummaryf(Severity::WARN, "the drag was stopped: no command for %g s (command_timeout_s)",
+                      health.command_timeout_s);
+  }
+  out.add("refused drag commands", health.status.refused_commands);
+  out.add("refused changes of parameters", health.refused_changes);
+  out.add("drag stopped as no command came", health.timed_out);
 }
 
-// Until the mark has first moved, the rate is counted from the start of the epoch.
-void StatusTracker::move_mark() {
-  const bool first = mark_time_ == ModelTime{};
-  const bool full = state_.time - mark_time_ >= kMarkTau;
-  if (first || full) impacts_per_tau_ = impacts_per_tau();
-  if (!full) return;
-  mark_time_ = state_.time;
-  mark_impacts_ = state_.impacts;
+void diagnose_numerics(const Health& health, Diagnosis& out) {
+  const afm_emulator::EmulatorStatus& status = health.status;
+  out.summary(Severity::OK, "exact");
+  if (status.search_failures > 0) {
+    out.mergeSummary(Severity::ERROR, "searches for the next impact have given up: this epoch is not exact");
+  }
+  if (status.worst_penetration > kPenetration * health.lattice_spacing_m) {
+    out.mergeSummary(Severity::ERROR, "the tip was below the surface: this epoch is not exact");
+  }
+  if (health.budget_spent) {
+    out.mergeSummary(Severity::WARN, "batches are cut short by the impact budget: too many impacts for real time");
+  }
+  out.add("failed impact searches", status.search_failures);
+  out.add("worst penetration [m]", status.worst_penetration);
+  out.add("batches cut short by the impact budget", status.budget_exhausted);
+  out.add("impacts per tau", status.impacts_per_tau);
 }
 
-afm_emulator::EmulatorStatus StatusTracker::make(const Recorder::Status& recorder, std::uint64_t refused_commands,
-                                                 std::uint64_t lost_messages) {
-  move_mark();
-  ros::Time stamp;
-  const Label label{stamp.fromNSec(static_cast<std::uint64_t>(wall_now_ns())), state_.epoch};
-  auto message = to_status(state_, units_, label);
-  message.impacts_per_tau = impacts_per_tau_;
-  message.refused_commands = refused_commands;
-  message.dropped_messages = state_.dropped_batches * kMessagesPerBatch + lost_messages + recorder.dropped_messages;
-  message.model = name(level_.level.kind);
-  message.contact_tolerance = level_.level.contact_tolerance;
-  message.expected_error = level_.expected_error;
-  message.scheduler = scheduler_;
-  message.recording = recorder.recording;
-  message.recorder_error = recorder.error;
-  return message;
+void diagnose_recording(const Health& health, Diagnosis& out) {
+  const afm_emulator::EmulatorStatus& status = health.status;
+  const bool recording = !status.recording.empty();
+  out.summary(Severity::OK, recording ? "recording" : "not recording");
+  if (!status.recorder_error.empty()) out.mergeSummary(Severity::ERROR, "ended early: " + status.recorder_error);
+  if (recording && health.dropped_from_recording > 0) {
+    out.mergeSummary(Severity::ERROR, "messages are missing in the recording: the disk is too slow");
+  }
+  if (health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb) {
+    out.mergeSummaryf(Severity::WARN, "%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)",
+                      health.free_mb, health.reserve_mb);
+  }
+  out.add("bag", status.recording);
+  if (health.free_mb >= 0.0) out.addf("free [MB]", "%.0f", health.free_mb);
+  out.add("messages missing in the recording", health.dropped_from_recording);
 }
 
 }  // namespace afm::node

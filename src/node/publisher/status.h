@@ -1,40 +1,67 @@
-// The status message.
+// How the emulator is doing: the message on ~status, and what /diagnostics report. docs/interface.md has their levels.
 #pragma once
 
 #include <afm_emulator/EmulatorStatus.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
-#include "afm/units.h"
-#include "messages.h"
+#include "node/params/parameters.h"
 #include "node/recorder/recorder.h"
+#include "node/runner/report.h"
+#include "refusals.h"
 
 namespace afm::node {
 
-// Gathers the status from those who know a part of it. Used by the publisher alone.
+// What diagnostics judge.
+struct Health {
+  afm_emulator::EmulatorStatus status;
+  double late_share = 0.0;    // of the batches since the last check
+  bool budget_spent = false;  // recently
+  bool timed_out = false;     // the drag was stopped as no command came
+  double command_timeout_s = 0.0;
+  std::string refusal;        // the latest, if recent
+  bool overload = false;      // it was refused as too many were waiting
+  std::uint64_t refused_changes = 0;
+  double lattice_spacing_m = 0.0;
+  double free_mb = -1.0;      // on the disk recorded to; negative: unknown
+  double reserve_mb = 0.0;
+  std::uint64_t dropped_from_recording = 0;
+};
+
+// Each reports OK, or what is wrong and why, and the figures.
+using Diagnosis = diagnostic_updater::DiagnosticStatusWrapper;
+void diagnose_pace(const Health& health, Diagnosis& out);
+void diagnose_commands(const Health& health, Diagnosis& out);
+void diagnose_numerics(const Health& health, Diagnosis& out);
+void diagnose_recording(const Health& health, Diagnosis& out);
+
+// Gathers it from those who know a part of it. Used by the publisher's thread alone.
 class StatusTracker {
  public:
-  explicit StatusTracker(const Units& units) : units_(units) {}
-  void set_scheduler(const std::string& scheduler) { scheduler_ = scheduler; }
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit StatusTracker(const Parameters& parameters);
+  void set_scheduler(const std::string& scheduler) { health_.status.scheduler = scheduler; }
 
   void observe(const Report& report);
-  const RunnerState& state() const { return state_; }
-  afm_emulator::EmulatorStatus make(const Recorder::Status& recorder, std::uint64_t refused_commands,
-                                    std::uint64_t lost_messages);
+  afm_emulator::EmulatorStatus update_status(const Recorder::Status& recorder, const Refusals::Summary& refusals,
+                                             std::uint64_t lost_messages);
+  // With the latest status. free_bytes: negative: unknown.
+  void check(const Recorder::Status& recorder, const Refusals::Summary& refusals, std::int64_t free_bytes, Time now);
+  const Health& health() const { return health_; }
 
  private:
-  double impacts_per_tau() const;
-  void move_mark();
+  void count_impacts();
 
   const Units units_;
-  std::string scheduler_;
+  Health health_;
   RunnerState state_;
-  AppliedLevel level_;
-  // impacts per tau are counted from a mark that follows behind
-  ModelTime mark_time_;
-  std::uint64_t mark_impacts_ = 0;
-  double impacts_per_tau_ = 0.0;
+  RunnerState mark_;     // follows behind: impacts per tau are counted from it
+  RunnerState checked_;  // at the last check
+  Time budget_spent_ = Time::min();
 };
 
 }  // namespace afm::node

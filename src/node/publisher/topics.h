@@ -1,27 +1,13 @@
-// Names below the node's private namespace, and how many messages wait for a slow subscriber.
+// Topics below the node's private namespace, and how many messages wait for a slow subscriber.
 #pragma once
 
 namespace afm::node {
 
-constexpr char kDragVelocityTopic[] = "drag_velocity";
-constexpr char kRestHeightTopic[] = "rest_height";
-constexpr char kLoadTopic[] = "load";
 constexpr char kDeflectionTopic[] = "deflection";
 constexpr char kImpactsTopic[] = "impacts";
 constexpr char kFrictionTopic[] = "friction";
 constexpr char kAppliedTopic[] = "applied";
-constexpr char kStatusTopic[] = "status";
 constexpr char kConfigurationTopic[] = "configuration";
-constexpr char kSnapshotTopic[] = "snapshot";
-
-constexpr char kClockTopic[] = "/clock";
-
-constexpr char kControlService[] = "control";
-constexpr char kResetService[] = "reset";
-constexpr char kPauseService[] = "pause";
-constexpr char kStepService[] = "step";
-constexpr char kStartRecordingService[] = "start_recording";
-constexpr char kStopRecordingService[] = "stop_recording";
 
 // A message every batch: 0.1 s at the fastest batch rate; a queue of 10 lost nothing, one of 1 lost 2 %.
 constexpr unsigned kBatchQueueSize = 100;

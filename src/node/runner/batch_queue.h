@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "report.h"
-#include "semaphore.h"
+#include "threads.h"
 
 namespace afm::node {
 

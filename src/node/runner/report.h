@@ -8,9 +8,11 @@
 #include <memory>
 
 #include "afm/run.h"
-#include "node/params/live.h"
+#include "node/params/parameters.h"
 
 namespace afm::node {
+
+constexpr double kAsItIs = std::numeric_limits<double>::quiet_NaN();
 
 // Sums over a control period, in natural units.
 struct Measured {
@@ -30,30 +32,29 @@ struct Measured {
 };
 
 struct Answer {
-  enum class Result : std::uint8_t { done, not_paused, not_lockstep, time_ran_out, shutting_down };
-  Result result = Result::done;
+  const char* fault = "";     // why the request was not done, or empty
   ModelTime time;             // reached
   std::uint64_t impacts = 0;  // taken by a step
-  Measured measured;          // over a control period, like the next three
+  // of a control period
+  Measured measured;
   std::uint32_t epoch = 0;
-  std::uint64_t number = 0;     // of the last `applied`
+  std::uint64_t number = 0;    // of the last `applied`
   double drag_velocity = 0.0;  // in force [m/s]
 };
 using Reply = std::shared_ptr<std::promise<Answer>>;
 
 struct Request {
-  enum class Kind : std::uint8_t {
-    drag, rest_height, load, change, pause, resume, reset, step_time, step_impacts, control, snapshot, flush
-  };
-  Kind kind = Kind::flush;
-  double value = 0.0;         // drag velocity [m/s], height [m] or time to advance [tau]
-  std::uint64_t impacts = 0;  // to step
-  Live live;                  // of kind change, all but the drag velocity; of kind control that and the rest height
-  Reply reply;                // empty: nobody waits
-};
+  enum class Kind : std::uint8_t { command, change, pause, resume, reset, step, control, snapshot, flush };
+  explicit Request(Kind of_kind = Kind::flush) : kind(of_kind) {}
 
-// Why something took effect.
-enum class Cause : std::uint8_t { epoch, drag_velocity, rest_height, load, parameters, scene, timeout };
+  Kind kind;
+  const char* cause = "";                                // of a command, as `applied` reports it
+  double drag_velocity = kAsItIs, rest_height = kAsItIs;  // [m/s], [m]; of a command and a control period
+  double tau = 0.0;                                       // to advance, by a step or in a control period
+  std::uint64_t impacts = 0;                              // of a step, if tau is 0
+  Live live;                                              // of a change: all but the drag velocity
+  Reply reply;                                            // empty: nobody waits
+};
 
 // How the running thread is doing.
 struct RunnerState {
@@ -63,10 +64,8 @@ struct RunnerState {
   double real_time_factor = 1.0;
   double lag = 0.0, worst_lag = 0.0;  // [s]
   std::uint64_t batches = 0, late_batches = 0;
-  std::uint64_t dropped_batches = 0;  // emulated, but the publisher had no room for them
   Counters counters;
   bool paused = false;
-  std::uint64_t unanswered_batches = 0;  // in lockstep: they went on without the command that they waited for
   bool timed_out = false;  // the drag was stopped as no command came
 };
 
@@ -83,8 +82,8 @@ struct Report {
   std::int64_t wall_ns = 0;  // wall clock [ns since 1970]
   Live live;                 // in force, to the bit as it was commanded
   AppliedLevel level;        // likewise
-  Cause cause = Cause::epoch;
-  std::uint64_t number = 0;  // of the last `applied` in its epoch
+  const char* cause = "";    // of the last `applied`: epoch, drag_velocity, ...
+  std::uint64_t number = 0;  // of it in its epoch
   RunnerState state;
   Batch* batch = nullptr;    // of kind batch; it belongs to the receiver, who gives it back
   bool unhurried = false;    // made while stepping: it may wait for slow subscribers

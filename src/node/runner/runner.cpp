@@ -3,23 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scheduling.h"
-
 namespace afm::node {
 namespace {
 
 using Kind = Request::Kind;
-using Result = Answer::Result;
 
 // More commands than anyone sends within a batch; beyond them a command is refused rather than delayed further.
 constexpr std::size_t kMaxWaitingRequests = 1024;
 // How soon a stop is noticed while paused without a request, and room for another batch while there is none.
 constexpr std::chrono::milliseconds kPausedPoll{100}, kLockstepPoll{10}, kRoomPoll{1};
-// A publisher that takes nothing up for so long is stuck.
-constexpr std::chrono::seconds kPublishingPatience{1};
 // A step that cannot end (an impact that never comes, a chattering tip) ends after this. Whoever asked for it waits
 // longer (emulator_node.cpp), and so hears how far it came.
 constexpr std::chrono::seconds kStepPatience{8};
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
 
@@ -28,7 +25,6 @@ Runner::Runner(const Parameters& parameters, BatchQueue& queue)
       parameters_(parameters),
       run_(run_settings(parameters)),
       queue_(queue),
-      spare_(preallocated_batch(parameters)),
       pacer_(batch_period(parameters), monotonic_now()),
       paused_(parameters.paused),
       lockstep_(parameters.pace == kLockstep),
@@ -41,14 +37,14 @@ void Runner::start() {
 
 void Runner::stop() {
   stopping_ = true;
-  asked_.post();
+  submitted_.post();
   if (thread_.joinable()) thread_.join();
 }
 
 bool Runner::submit(const Request& request) {
   const std::lock_guard<std::mutex> lock(submitting_);
   if (!requests_.push(request)) return false;
-  asked_.post();
+  submitted_.post();
   return true;
 }
 
@@ -61,7 +57,7 @@ void Runner::loop() {
     wait_for_work();
     serve_requests();
     if (paused_ || stopping_ || (lockstep_ && !may_advance())) continue;
-    check_timeout();
+    stop_drag_without_commands();
     play_commands();
     const Outcome outcome = run_batch(lockstep_, [this](Batch& batch) { return run_.advance(batch); });
     // A batch cut short by its budget is reported, but its period is not over: the rest follows at once, and lag grows.
@@ -71,81 +67,68 @@ void Runner::loop() {
 
 void Runner::wait_for_work() {
   if (paused_ || lockstep_) {
-    asked_.wait_for(lockstep_ ? kLockstepPoll : kPausedPoll);
+    submitted_.wait_for(lockstep_ ? kLockstepPoll : kPausedPoll);
   } else {
     sleep_until(pacer_.deadline());  // at once if that is past: behind, we run as fast as we can
   }
 }
 
+// In lockstep: a batch for every command, or after the time in which none came.
 bool Runner::may_advance() {
-  if (parameters_.wait_for != kCommand) return false;
-  const auto now = monotonic_now();
-  if (!command_heard_ && now < command_deadline_) return false;
-  if (!command_heard_) ++unanswered_batches_;
-  command_heard_ = false;
-  command_deadline_ = now + std::chrono::nanoseconds(std::llround(parameters_.command_wait_s * 1e9));
+  const Time now = monotonic_now();
+  if (parameters_.wait_for != kCommand || (!command_came_ && now < command_deadline_)) return false;
+  command_came_ = false;
+  command_deadline_ = now + Time(std::llround(parameters_.command_wait_s * 1e9));
   return true;
 }
 
-// Behind, as after the process was stopped, we may be faster than the publisher: then lag grows rather than that a batch
-// is lost.
-Batch* Runner::acquire(bool unhurried) {
-  const auto give_up = monotonic_now() + kPublishingPatience;
-  for (;;) {
-    Batch* batch = queue_.acquire();
-    if (batch != nullptr || stopping_ || (!unhurried && monotonic_now() > give_up)) return batch;
-    sleep_until(monotonic_now() + kRoomPoll);
-  }
+// A stop is a command like any other, applied and reported at a batch boundary: a replay needs no clock.
+void Runner::stop_drag_without_commands() {
+  if (parameters_.command_timeout_s == 0.0 || parameters_.drag_velocity == 0.0) return;
+  const double silence = std::chrono::duration<double>(monotonic_now() - last_command_).count();
+  if (silence < parameters_.command_timeout_s || !queue_.has_room_for_request()) return;
+  timed_out_ = true;
+  Live live = parameters_;
+  live.drag_velocity = 0.0;
+  apply(live, "timeout");
 }
 
-template <class Advance>
-Outcome Runner::run_batch(bool unhurried, Advance advance) {
-  Batch* const reported = acquire(unhurried);
-  Batch& batch = reported != nullptr ? *reported : spare_;
-  const Outcome outcome = advance(batch);
-  last_batch_impacts_ = batch.impacts.size();
-  measured_.add(batch);
-  if (reported == nullptr) ++dropped_batches_;
-  Report report = make_report(Report::Kind::batch);
-  report.batch = reported;
-  report.unhurried = unhurried;
-  if (reported != nullptr) queue_.offer(report);  // there is room: requests leave it for all batches
-  return outcome;
+// The scene's list of commands, in model time: so a scene repeats to the last bit.
+void Runner::play_commands() {
+  const auto& eta = parameters_.commands_eta;
+  if (eta.empty() || !queue_.has_room_for_request()) return;
+  const Units units(parameters_.si);
+  if (run_.now() < multiply(commands_played_, parameters_.commands_hold_s / units.time())) return;
+  Live live = parameters_;
+  live.drag_velocity = eta[commands_played_ % eta.size()] * units.velocity();
+  ++commands_played_;
+  apply(live, "scene");
 }
 
 // A request stays in its queue until there is room to report it, so that no accepted command goes unpublished.
 void Runner::serve_requests() {
   Request request;
   while (!stopping_ && queue_.has_room_for_request() && requests_.pop(request)) {
-    Report report;
-    const Answer reply = serve(request);
+    const Answer answer = serve(request);
     if (!request.reply) continue;
-    report = make_report(Report::Kind::answer);
-    report.answer = reply;
+    Report report = make_report(Report::Kind::answer);
+    report.answer = answer;
     report.reply = request.reply;
     queue_.offer(report);
   }
 }
 
 Answer Runner::serve(const Request& request) {
-  Live live = live_of(parameters_);
   switch (request.kind) {
-    case Kind::drag:
-      timed_out_ = false;
-      last_command_ = monotonic_now();
-      live.drag_velocity = request.value;
-      apply(live, Cause::drag_velocity);
+    case Kind::command:
+      command(request);
       break;
-    case Kind::rest_height:
-    case Kind::load:
-      live.rest_height_m = request.value;
-      apply(live, request.kind == Kind::load ? Cause::load : Cause::rest_height);
-      break;
-    case Kind::change:
-      live = request.live;
+    case Kind::change: {
+      Live live = request.live;
       live.drag_velocity = parameters_.drag_velocity;
-      apply(live, Cause::parameters);
+      apply(live, "parameters");
       break;
+    }
     case Kind::pause:
     case Kind::resume:
       pause(request.kind == Kind::pause);
@@ -157,72 +140,57 @@ Answer Runner::serve(const Request& request) {
     case Kind::snapshot:
       take_snapshot();
       break;
-    case Kind::step_time:
-      return step_time(request.value);
-    case Kind::step_impacts:
-      return step_impacts(request.impacts);
+    case Kind::step:
+      if (!is_held()) return answer("the emulator is running: pause it first");
+      return request.tau > 0.0 ? step(run_.now() + request.tau, kNoLimit) : step(run_.now() + kMaxStepTau, request.impacts);
     case Kind::control:
       return control(request);
     case Kind::flush:
       break;
   }
-  return answer(Result::done);
+  return answer();
 }
 
 void Runner::begin_epoch() {
-  set_live(live_of(start_), parameters_);
+  live_of(parameters_) = start_;
   run_ = Run(run_settings(parameters_));
   last_command_ = monotonic_now();
   timed_out_ = false;
-  commands_played_ = 0;
-  number_ = 0;
+  commands_played_ = applied_ = 0;
   queue_.offer(make_report(Report::Kind::epoch));
-  apply(live_of(parameters_), Cause::epoch);
+  apply(parameters_, "epoch");
   take_snapshot();
 }
 
-void Runner::apply(const Live& live, Cause cause) {
-  set_live(live, parameters_);
+void Runner::command(const Request& request) {
+  Live live = parameters_;
+  if (!std::isnan(request.drag_velocity)) {
+    live.drag_velocity = request.drag_velocity;
+    last_command_ = monotonic_now();
+    timed_out_ = false;
+  }
+  if (!std::isnan(request.rest_height)) live.si.rest_height_m = request.rest_height;
+  apply(live, request.cause);
+}
+
+void Runner::apply(const Live& live, const char* cause) {
+  live_of(parameters_) = live;
   const RunSettings settings = run_settings(parameters_);
-  const LevelChoice choice = choose_level(parameters_, settings.model, settings.eta);
+  const LevelChoice choice = choose_level(parameters_, settings);
   LiveSettings next = live_settings(settings);
   next.level = choice.level;
   level_ = {choice.level, choice.expected_error, run_.apply(next)};
   pacer_.set_period(batch_period(parameters_));
+  command_came_ = true;
   cause_ = cause;
-  command_heard_ = true;
-  if (cause != Cause::epoch) ++number_;
+  ++applied_;
   queue_.offer(make_report(Report::Kind::applied));
-}
-
-// The scene's list of commands, in model time: so a scene repeats to the last bit.
-void Runner::play_commands() {
-  const auto& eta = parameters_.commands_eta;
-  if (eta.empty() || !queue_.has_room_for_request()) return;
-  const double hold = parameters_.commands_hold_s / Units(parameters_.si).time();
-  if (run_.now() < multiply(commands_played_, hold)) return;
-  Live live = live_of(parameters_);
-  live.drag_velocity = eta[commands_played_ % eta.size()] * Units(parameters_.si).velocity();
-  ++commands_played_;
-  apply(live, Cause::scene);
-}
-
-// A stop is a command like any other, applied and reported at a batch boundary: a replay needs no clock.
-void Runner::check_timeout() {
-  if (parameters_.command_timeout_s == 0.0 || parameters_.drag_velocity == 0.0) return;
-  const double silence = std::chrono::duration<double>(monotonic_now() - last_command_).count();
-  if (silence < parameters_.command_timeout_s || !queue_.has_room_for_request()) return;
-  timed_out_ = true;
-  Live live = live_of(parameters_);
-  live.drag_velocity = 0.0;
-  apply(live, Cause::timeout);
 }
 
 // An event that is due now is reported first, in a batch of no length.
 void Runner::take_snapshot() {
-  while (!run_.can_split() && !stopping_) {
-    run_batch(true, [this](Batch& batch) { return run_.advance(run_.now(), parameters_.impact_budget, batch); });
-  }
+  while (!run_.can_split() && !stopping_) run_batch_to(run_.now(), parameters_.impact_budget);
+  if (stopping_) return;
   const Snapshot snapshot = run_.split();
   Report report = make_report(Report::Kind::snapshot);
   report.snapshot = snapshot;
@@ -237,93 +205,95 @@ void Runner::pause(bool paused) {
   paused_ = paused;
 }
 
-Answer Runner::answer(Result result, std::uint64_t impacts) const {
-  Answer answer;
-  answer.result = result;
-  answer.time = run_.now();
-  answer.impacts = impacts;
-  return answer;
-}
-
-Answer Runner::step_time(double tau) { return is_held() ? advance_by(tau) : answer(Result::not_paused); }
-
-Answer Runner::advance_by(double tau) {
-  const ModelTime target = run_.now() + tau;
-  const auto give_up = monotonic_now() + kStepPatience;
-  std::uint64_t impacts = 0;
-  while (run_.now() < target) {
-    if (stopping_) return answer(Result::shutting_down, impacts);
-    if (monotonic_now() > give_up) return answer(Result::time_ran_out, impacts);
+// To the limit, or until so many impacts are taken, of which there must then be as many before the limit.
+Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
+  const Time give_up = monotonic_now() + kStepPatience;
+  std::uint64_t taken = 0;
+  const char* fault = "";
+  while (run_.now() < limit && taken < impacts && fault[0] == '\0') {
     play_commands();
-    run_batch(true, [&](Batch& batch) { return run_.advance(target, parameters_.impact_budget, batch); });
-    impacts += last_batch_impacts_;
+    run_batch_to(limit, std::min(impacts - taken, parameters_.impact_budget));
+    taken += last_batch_impacts_;
+    if (monotonic_now() > give_up) fault = kTimeRanOut;
+    if (stopping_) fault = "the emulator is shutting down";
   }
-  return answer(Result::done, impacts);
-}
-
-Answer Runner::step_impacts(std::uint64_t wanted) {
-  if (!is_held()) return answer(Result::not_paused);
-  const ModelTime limit = run_.now() + kMaxStepTau;
-  const auto give_up = monotonic_now() + kStepPatience;
-  std::uint64_t impacts = 0;
-  while (impacts < wanted) {
-    if (stopping_) return answer(Result::shutting_down, impacts);
-    if (monotonic_now() > give_up || !(run_.now() < limit)) return answer(Result::time_ran_out, impacts);
-    play_commands();
-    const std::uint64_t most = std::min(wanted - impacts, parameters_.impact_budget);
-    run_batch(true, [&](Batch& batch) { return run_.advance(limit, most, batch); });
-    impacts += last_batch_impacts_;
-  }
-  return answer(Result::done, impacts);
+  const bool is_done = impacts == kNoLimit ? !(run_.now() < limit) : taken >= impacts;
+  Answer reached = answer(is_done ? "" : fault[0] != '\0' ? fault : kTimeRanOut);
+  reached.impacts = taken;
+  return reached;
 }
 
 Answer Runner::control(const Request& request) {
-  if (!lockstep_) return answer(Result::not_lockstep);
-  Live live = live_of(parameters_);
-  const bool drags = !std::isnan(request.live.drag_velocity), lifts = !std::isnan(request.live.rest_height_m);
-  if (drags) live.drag_velocity = request.live.drag_velocity;
-  if (lifts) live.rest_height_m = request.live.rest_height_m;
-  if (drags || lifts) apply(live, drags ? Cause::drag_velocity : Cause::rest_height);
+  if (!lockstep_) return answer("the emulator keeps time by itself: start it with pace = lockstep");
+  if (request.cause[0] != '\0') command(request);
   measured_ = {};
   measured_.begin = run_.now();
-  Answer reply = advance_by(request.value);
-  reply.measured = measured_;
-  reply.epoch = epoch_;
-  reply.number = number_;
-  reply.drag_velocity = parameters_.drag_velocity;
-  return reply;
+  Answer reached = step(run_.now() + request.tau, kNoLimit);
+  reached.measured = measured_;
+  reached.epoch = epoch_;
+  reached.number = applied_ - 1;
+  reached.drag_velocity = parameters_.drag_velocity;
+  return reached;
+}
+
+Answer Runner::answer(const char* fault) const {
+  Answer answer;
+  answer.fault = fault;
+  answer.time = run_.now();
+  return answer;
+}
+
+void Runner::run_batch_to(const ModelTime& limit, std::uint64_t impacts) {
+  run_batch(true, [&](Batch& batch) { return run_.advance(limit, impacts, batch); });
+}
+
+// Behind, as after the process was stopped, we may be faster than the publisher: then lag grows rather than that a batch
+// is lost.
+template <class Advance>
+Outcome Runner::run_batch(bool unhurried, Advance advance) {
+  Batch* batch = queue_.acquire();
+  for (; batch == nullptr && !stopping_; batch = queue_.acquire()) sleep_until(monotonic_now() + kRoomPoll);
+  if (batch == nullptr) return Outcome::time_limit;
+  const Outcome outcome = advance(*batch);
+  last_batch_impacts_ = batch->impacts.size();
+  measured_.add(*batch);
+  Report report = make_report(Report::Kind::batch);
+  report.batch = batch;
+  report.unhurried = unhurried;
+  queue_.offer(report);  // there is room: requests leave it for all batches
+  return outcome;
 }
 
 Report Runner::make_report(Report::Kind kind) {
   Report report;
   report.kind = kind;
   report.wall_ns = wall_now_ns();
-  report.live = live_of(parameters_);
+  report.live = parameters_;
   report.level = level_;
   report.cause = cause_;
-  report.number = number_;
+  report.number = applied_ - 1;
   report.state = state();
   return report;
 }
 
 RunnerState Runner::state() {
-  // an unfinished batch is late already when its deadline is past
-  const double overdue = is_held() ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
   RunnerState state;
   state.epoch = epoch_;
   state.time = run_.now();
   state.impacts = run_.impacts();
   state.samples = run_.samples();
   state.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
-  state.lag = lockstep_ ? 0.0 : std::max(pacer_.lag(), overdue);
-  worst_lag_ = std::max({worst_lag_, state.lag, lockstep_ ? 0.0 : pacer_.worst_lag()});
+  if (!lockstep_) {
+    // an unfinished batch is late already when its deadline is past
+    const double overdue = paused_ ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
+    state.lag = std::max(pacer_.lag(), overdue);
+    worst_lag_ = std::max({worst_lag_, state.lag, pacer_.worst_lag()});
+  }
   state.worst_lag = worst_lag_;
   state.batches = pacer_.batches();
   state.late_batches = pacer_.late_batches();
-  state.dropped_batches = dropped_batches_;
   state.counters = run_.counters();
   state.paused = paused_;
-  state.unanswered_batches = unanswered_batches_;
   state.timed_out = timed_out_;
   return state;
 }

@@ -1,4 +1,4 @@
-// The running thread: advances the run batch by batch at absolute deadlines, obeys requests between batches, and reports
+// The running thread: advances the run batch by batch at absolute deadlines, serves requests between batches, and reports
 // everything. It blocks to wait for the next deadline, or for room to report, and neither locks nor allocates.
 #pragma once
 
@@ -14,12 +14,16 @@
 #include "afm/run.h"
 #include "batch_queue.h"
 #include "node/params/parameters.h"
-#include "semaphore.h"
+#include "threads.h"
 
 namespace afm::node {
 
 constexpr double kMaxStepTau = 1e4;  // of one step: 1.6 s of model time at the paper's frequency
 constexpr std::uint64_t kMaxStepImpacts = 100000;
+constexpr char kTimeRanOut[] = "time ran out";  // a fault of an answer: the step went as far as it says
+
+// Model time per wall time of the run alone, without what it costs to publish, from a trial run of some milliseconds.
+double measure_pace(const Parameters& parameters);
 
 class Runner {
  public:
@@ -35,29 +39,31 @@ class Runner {
   const std::string& scheduler() const { return scheduler_; }  // after start(): "fifo", or "normal" with the reason
 
  private:
+  using Time = std::chrono::nanoseconds;  // on the monotonic clock
+
   void loop();
   void wait_for_work();
+  bool may_advance();
+  void stop_drag_without_commands();
+  void play_commands();
+
   void serve_requests();
   Answer serve(const Request& request);
   void begin_epoch();
-  void apply(const Live& live, Cause cause);
-  void play_commands();
-  void check_timeout();
-  bool may_advance();  // in lockstep; false: not before something asks for it
+  void command(const Request& request);
+  void apply(const Live& live, const char* cause);
   void take_snapshot();
   void pause(bool paused);
-  bool is_held() const { return paused_ || lockstep_; }  // it may be stepped
-  Answer step_time(double tau);
-  Answer advance_by(double tau);
-  Answer step_impacts(std::uint64_t impacts);
+  Answer step(const ModelTime& limit, std::uint64_t impacts);
   Answer control(const Request& request);
-  Answer answer(Answer::Result result, std::uint64_t impacts = 0) const;
+  Answer answer(const char* fault = "") const;
 
-  // One batch: advanced by what is given, and reported. An unhurried one waits for room as long as it takes.
+  // One batch: advanced by what is given, and reported. An unhurried one may wait for slow subscribers.
   template <class Advance>
   Outcome run_batch(bool unhurried, Advance advance);
-  Batch* acquire(bool unhurried);
+  void run_batch_to(const ModelTime& limit, std::uint64_t impacts);  // unhurried; it ends at the next boundary at the latest
 
+  bool is_held() const { return paused_ || lockstep_; }  // it may be stepped
   Report make_report(Report::Kind kind);
   RunnerState state();
 
@@ -65,29 +71,26 @@ class Runner {
   Parameters parameters_;   // in force
   Run run_;
   BatchQueue& queue_;
-  Batch spare_;  // what is run without room to report it
   Pacer pacer_;
   AppliedLevel level_;
-  Cause cause_ = Cause::epoch;
-  std::uint64_t number_ = 0;                  // of the last report of kind `applied` in this epoch
-  std::uint64_t commands_played_ = 0;         // of the scene
-  std::chrono::nanoseconds last_command_{0};  // when one was last obeyed, on the monotonic clock
-  bool timed_out_ = false;                    // and none since the drag was stopped for that
   std::uint32_t epoch_ = 0;
-  Measured measured_;  // since it was cleared
+  const char* cause_ = "";
+  std::uint64_t applied_ = 0;          // reports of kind `applied` in this epoch
+  std::uint64_t commands_played_ = 0;  // of the scene
+  Time last_command_{0};               // of a drag velocity
+  bool timed_out_ = false;             // and none since the drag was stopped for that
+  Measured measured_;                  // since it was cleared
   std::uint64_t last_batch_impacts_ = 0;
-  std::uint64_t dropped_batches_ = 0;
   double worst_lag_ = 0.0;
   bool paused_;
   const bool lockstep_;
   // in lockstep that waits for commands
-  bool command_heard_ = true;  // the first batch needs none
-  std::chrono::nanoseconds command_deadline_{0};
-  std::uint64_t unanswered_batches_ = 0;
+  bool command_came_ = true;  // the first batch needs none
+  Time command_deadline_{0};
 
-  std::mutex submitting_;  // between those who ask; the running thread does not take it
+  std::mutex submitting_;  // between those who submit; the running thread does not take it
   boost::lockfree::spsc_queue<Request> requests_;
-  Semaphore asked_;
+  Semaphore submitted_;
   std::atomic<bool> stopping_{false};
   std::promise<std::string> running_;
   std::string scheduler_;

@@ -1,7 +1,5 @@
-#include "trial.h"
-
-#include "afm/run.h"
-#include "scheduling.h"
+// What pace a run will reach, before it begins.
+#include "runner.h"
 
 namespace afm::node {
 namespace {
@@ -23,7 +21,7 @@ double advance_for(std::chrono::nanoseconds wall, Run& run, Batch& batch, std::u
 double measure_pace(const Parameters& p) {
   RunSettings settings = run_settings(p);
   LiveSettings live = live_settings(settings);
-  live.level = choose_level(p, settings.model, settings.eta).level;
+  live.level = choose_level(p, settings).level;
   Run run(settings);
   run.apply(live);
   constexpr std::uint64_t kImpacts = 1000;  // at once, so that the clock is read often enough

@@ -241,11 +241,10 @@ void RunCheck::check_batch() {
   if (!follows || unpublished) run_to(recorded->begin, recorded->first_impact);
   advance(*recorded);
   const Units units(in_force_.si);
-  const node::Live live = node::live_of(in_force_);
-  const node::Label label{{}, applied_.epoch};
-  if (deflection) compare(*deflection, node::to_deflection(batch_, live, units, label));
+    const node::Label label{{}, applied_.epoch};
+  if (deflection) compare(*deflection, node::to_deflection(batch_, in_force_, units, label));
   if (impacts) compare(*impacts, node::to_impacts(batch_, units, label));
-  compare(*recorded, node::to_friction(batch_, live, units, label));
+  compare(*recorded, node::to_friction(batch_, in_force_, units, label));
   if (difference_) {
     ++extent_.batches_unknown;
     return;

@@ -1,4 +1,4 @@
-#include "scheduling.h"
+#include "threads.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -41,6 +41,13 @@ std::string become_fifo(int priority) {
   return error == 0 ? "" : std::string("normal: SCHED_FIFO: ") + std::strerror(error);
 }
 
+timespec to_timespec(std::chrono::nanoseconds time) {
+  timespec spec{};
+  spec.tv_sec = time.count() / 1000000000;
+  spec.tv_nsec = time.count() % 1000000000;
+  return spec;
+}
+
 }  // namespace
 
 std::string claim_real_time() {
@@ -66,10 +73,17 @@ std::chrono::nanoseconds monotonic_now() {
 }
 
 void sleep_until(std::chrono::nanoseconds deadline) {
-  timespec end{};
-  end.tv_sec = deadline.count() / 1000000000;
-  end.tv_nsec = deadline.count() % 1000000000;
+  const timespec end = to_timespec(deadline);
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &end, nullptr) == EINTR) {
+  }
+}
+
+// Never by the wall clock: set back by an hour, it would hold a wait up for an hour.
+void Semaphore::wait_for(std::chrono::milliseconds timeout) {
+  const timespec end = to_timespec(monotonic_now() + timeout);
+  while (sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &end) != 0 && errno == EINTR) {
+  }
+  while (sem_trywait(&semaphore_) == 0) {
   }
 }
 
