@@ -16,7 +16,9 @@ except ImportError as missing:
 NAN = float('nan')
 MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is drawn
 ZOOM_TAU = 6.0  # the end of the run, sample by sample
-KINDS = {0: ('impact', 'C0', 2), 1: ('burst', 'C1', 12), 2: ('contact begins', 'C3', 12), 3: ('contact ends', 'C2', 12)}
+# Okabe and Ito's colours, which the colour-blind can tell apart
+BLUE, ORANGE, GREEN, PINK = '#0072B2', '#D55E00', '#009E73', '#CC79A7'
+KINDS = {0: ('impact', BLUE, 3), 1: ('chatter sequence', ORANGE, 14), 2: ('contact begins', GREEN, 12), 3: ('contact ends', PINK, 12)}
 
 
 class Run:
@@ -117,7 +119,7 @@ def put_legend(axes, **options):
 
 def draw_deflection(axes, run):
     times, *ranges = np.hstack(run.samples)
-    for name, low, high, colour in (('vertical', ranges[0], ranges[2], 'C0'), ('lateral', ranges[1], ranges[3], 'C1')):
+    for name, low, high, colour in (('vertical', ranges[0], ranges[2], BLUE), ('lateral', ranges[1], ranges[3], ORANGE)):
         axes.fill_between(times, low, high, lw=0.8, color=colour, alpha=0.6, label=name + ', range')
     axes.set_ylabel('deflection [nm]')
     put_legend(axes)
@@ -129,7 +131,7 @@ def draw_zoom(axes, run):
     times, vertical, lateral = np.hstack(run.close)
     times = (times - times[-1]) / run.unit
     shown = times >= -ZOOM_TAU
-    for name, values, colour in (('vertical', vertical, 'C0'), ('lateral', lateral, 'C1')):
+    for name, values, colour in (('vertical', vertical, BLUE), ('lateral', lateral, ORANGE)):
         axes.plot(times[shown], values[shown], lw=0.8, marker='.', ms=3, c=colour, label=name)
     axes.set_ylabel('deflection [nm]')
     axes.set_xlabel('model time before the end [$\\tau$]')
@@ -150,16 +152,16 @@ def draw_impacts(axes, run):
             axes.scatter(chosen, np.full(len(chosen), height), s=30, c=colour, marker='|', label=name,
                          transform=axes.get_xaxis_transform(), rasterized=True)
     axes.set_yscale('log')
-    axes.set_ylabel('normal speed\nof impacts [$\\mu$m/s]')
+    axes.set_ylabel('normal speed of\nimpacts [$\\mu$m/s]')
     put_legend(axes, markerscale=2)
 
 
 def draw_friction(axes, run):
     friction = np.array(run.friction).reshape(-1, 4)
     times, mean, error, window = friction.T
-    axes.plot(times, window, lw=0.7, c='0.6', label='of impacts, sliding window')
-    axes.plot(times, mean, lw=1.2, c='C0', label='of the work of the drag, since the last command')
-    axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color='C0')
+    axes.plot(times, window, lw=0.7, c='0.6', label='by impacts, in a sliding window')
+    axes.plot(times, mean, lw=1.2, c=BLUE, label='by the work of the drag, since the last command')
+    axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color=BLUE)
     positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
     if len(positive) and positive.max() > 10 * positive.min():
         axes.set_yscale('log')
@@ -169,16 +171,17 @@ def draw_friction(axes, run):
 
 def draw_drag(axes, run):
     drag = np.array(run.drag + [(run.last, run.drag[-1][1])]) if run.drag else np.zeros((0, 2))
-    axes.step(drag[:, 0], drag[:, 1], where='post')
+    axes.step(drag[:, 0], drag[:, 1], where='post', color=BLUE)
     axes.set_ylabel('drag speed [$\\mu$m/s]')
     axes.set_xlabel('model time [s]')
     eta = axes.secondary_yaxis('right', functions=(lambda v: v * 1e-6 / run.speed, lambda e: e * run.speed * 1e6))
-    eta.set_ylabel('$\\eta$')
+    eta.set_ylabel('$\\eta$ [a/$\\tau$]')
 
 
 def draw(run, paths, begin, end):
     from matplotlib import pyplot
-    figure = pyplot.figure(figsize=(10, 11), constrained_layout=True)
+    pyplot.rcParams.update({'font.size': 10, 'legend.fontsize': 9, 'xtick.labelsize': 9, 'ytick.labelsize': 9})
+    figure = pyplot.figure(figsize=(9.375, 10.4), constrained_layout=True)  # 900 pixels of a page, at 96 an inch
     grid = figure.add_gridspec(5, 1)
     rows = [figure.add_subplot(grid[0])]
     rows += [figure.add_subplot(grid[i], sharex=rows[0]) for i in (1, 2, 3)]
@@ -220,7 +223,7 @@ def main():
         pyplot.show()
         return
     output = arguments.output or os.path.splitext(arguments.bags[0])[0] + '.png'
-    figure.savefig(output, dpi=110)
+    figure.savefig(output, dpi=144)
     print(output)
 
 
