@@ -41,12 +41,12 @@ def ratio(row):
 
 @short_table("speed_accuracy", "stability")
 def accuracy_methods(tables):
-    usual = dict(usual_settings(tables), exact="0")  # a flight of ours has no setting
+    usual = dict(usual_settings(tables), exact="0")  # one flight of this emulator has no setting
     rows = [row for row in tables.strings("speed_accuracy") if row["scene"] == "all"
             and usual.get(row["method"]) == row["setting"]]
     return [OrderedDict([("method", bold(r["method"])), ("setting", "" if float(r["setting"]) == 0 else r["setting"]),
                          ("time per impact", short_time(float(r["ns_per_impact"]))),
-                         ("times ours", ratio(r)),
+                         ("time ratio", ratio(r)),
                          ("error, median", short(r["error_median"])), ("error, 99 %", short(r["error_p99"])),
                          ("missed", r["missed"]),
                          ("phantom", r["phantom"]), ("of", r["impacts"])]) for r in rows]
@@ -91,9 +91,9 @@ def rival_wins(tables):
         faster = float(r["ns_per_tau"]) < float(own["ns_per_tau"])
         if nearer or faster:
             table.append(OrderedDict([("scene", r["scene"]), ("method", r["method"]),
-                                      ("error", short(r["number"])), ("ours: error", short(own["number"])),
+                                      ("error", short(r["number"])), ("this emulator: error", short(own["number"])),
                                       ("time of a tau", short_time(float(r["ns_per_tau"]))),
-                                      ("ours: time", short_time(float(own["ns_per_tau"])))]))
+                                      ("this emulator: time", short_time(float(own["ns_per_tau"])))]))
     return table or [OrderedDict([("scene", "none"), ("method", "")])]
 
 
@@ -114,6 +114,23 @@ def real_time_points(tables):
                          ("median", "%.3g" % times[len(times) // 2]),
                          ("slowest", "%.3g" % times[0]), ("failed searches",
                                                           str(sum(int(row["search_failures"]) for row in rows)))])]
+
+
+@short_table("levers")
+def lever_points(tables):
+    """Of all levers, crystals, loads and speeds: how many keep real time."""
+    rows, table = tables.rows("levers"), []
+    for bath, column in (("none", "times_real_time"), ("300 K, Q = 100", "heated_times_real_time")):
+        times = sorted(row[column] for row in rows)
+        unloaded = sorted(row[column] for row in rows if row["load_nn"] == 0)
+        table.append(OrderedDict([("bath", bath), ("points", str(len(times))),
+                                  ("below 1 x", str(sum(t < 1 for t in times))),
+                                  ("1 to 3 x", str(sum(1 <= t < 3 for t in times))),
+                                  ("3 to 10 x", str(sum(3 <= t < 10 for t in times))),
+                                  ("above 10 x", str(sum(t >= 10 for t in times))),
+                                  ("median", "%.2g" % times[len(times) // 2]),
+                                  ("median without load", "%.2g" % unloaded[len(unloaded) // 2])]))
+    return table
 
 
 @short_table("verbs")

@@ -8,6 +8,7 @@ from . import style
 
 NAMES = {"paper": "the paper's", "ppp_cont": "PPP-CONT", "csc37_b": "CSC37-B", "soft": "soft",
          "fm": "force modulation", "laterally_soft": "laterally soft"}
+BATHS = (("times_real_time", "no bath"), ("heated_times_real_time", "300 K"))
 SURFACES = {"mica": "mica", "nacl": "NaCl(001)", "hopg": "HOPG"}
 STEPS = ((0.0, style.ORANGE, "white", "below 1: falls behind"), (1.0, style.YELLOW, "black", "1 to 3"),
          (3.0, style.SKY, "black", "3 to 10"), (10.0, style.BLUE, "white", "above 10"))
@@ -18,11 +19,11 @@ def step_of(times):
     return [step for step in STEPS if times >= step[0]][-1]
 
 
-def draw_lever(axes, rows):
+def draw_lever(axes, rows, bath):
     loads, speeds = (sorted({row[name] for row in rows}) for name in ("load_nn", "speed_um_per_s"))
     for i, load in enumerate(loads):
         for j, speed in enumerate(speeds):
-            least = min(row["heated_times_real_time"] for row in rows
+            least = min(row[bath] for row in rows
                         if row["load_nn"] == load and row["speed_um_per_s"] == speed)
             _, colour, ink, _ = step_of(least)
             axes.add_patch(Rectangle((j, i), 0.96, 0.95, facecolor=colour, linewidth=0))
@@ -44,18 +45,20 @@ def draw_lever(axes, rows):
 def lever_map(tables):
     """Of the three crystals the slowest."""
     rows = tables.rows("levers")
-    figure, axes = style.new(5.6, 2, 3, sharex=True, sharey=True)
-    for ax, (lever, name) in zip(axes.flat, NAMES.items()):
+    figure, axes = style.new(9.8, 4, 3, sharex=True, sharey=True)
+    panels = [(bath, text, lever) for bath, text in BATHS for lever in NAMES]
+    for ax, (bath, text, lever) in zip(axes.flat, panels):
         mine = [row for row in rows if row["lever"] == lever]
-        draw_lever(ax, mine)
-        ax.set_title(r"%s, $\tau$ = %.0f $\mu$s" % (name, mine[0]["tau_us"]), loc="left")
-    for ax in axes[1]:
+        draw_lever(ax, mine, bath)
+        ax.set_title(r"%s, $\tau$ = %.0f $\mu$s, %s" % (NAMES[lever], mine[0]["tau_us"], text), loc="left",
+                     fontsize=style.SMALL)
+    for ax in axes[-1]:
         ax.set_xlabel(r"drag speed [$\mu$m/s]")
     for ax in axes[:, 0]:
         ax.set_ylabel("load [nN]")
     figure.suptitle(" ")  # room for the legend
     figure.legend(handles=[Patch(facecolor=colour, label=text) for _, colour, _, text in STEPS], ncol=4,
-                  loc="upper center", title=None)
+                  loc="upper center")
     return figure
 
 

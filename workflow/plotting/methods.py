@@ -3,8 +3,8 @@ from collections import OrderedDict
 
 # name in the tables: (name on charts, colour, marker)
 METHODS = OrderedDict([
-    ("exact", ("ours", "#D55E00", "*")),
-    ("exact_one_by_one", ("ours, bounces\none by one", "#D55E00", "*")),
+    ("exact", ("this emulator", "#D55E00", "*")),
+    ("exact_one_by_one", ("this emulator,\nevery bounce", "#D55E00", "*")),
     ("certified_plain", ("plain certified loop", "#D55E00", "h")),
     ("sampled_toms748", ("exact flow, sampled", "#000000", "s")),
     ("sampled_minima", ("exact flow, sampled,\nwith minima", "#000000", "d")),

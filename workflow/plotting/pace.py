@@ -24,7 +24,7 @@ def draw_scene(axes, rows, scene, title):
         data = [(x, min(MOST, max(LEAST, y)) if math.isfinite(y) else MOST) for x, y in data]
         axes.plot(*zip(*data), color=colour, marker=marker, markersize=13 if name == "exact" else 6, linewidth=1.1,
                   linestyle="--" if name.endswith("_minima") else "-",
-                  label="ours" if name == "exact" else label.replace("\n", " "))
+                  label=label.replace("\n", " "))
     axes.axvline(1.0, color="#222222", linewidth=1.3)
     axes.text(0.85, 2e-13, "real time", rotation=90, va="bottom", ha="right")
     axes.set_xscale("log")

@@ -9,11 +9,11 @@ from . import style
 from .methods import METHODS, method_style
 
 # where the name of a method stands: which of its points, and the offset from it [points]
-NAMES = {"exact": (0, (0, -20), "center"), "certified_plain": (0, (0, -15), "center"),
+NAMES = {"exact": (0, (0, -20), "center"), "certified_plain": (0, (9, -2), "left"),
          "sampled_toms748": (2, (-14, 11), "center"), "heyoka": (0, (-4, 11), "center"),
          "odeint_dopri5": (-1, (-8, -2), "right"), "odeint_bulirsch_stoer": (-1, (6, -11), "left"),
          "cvode_adams": (-1, (2, -13), "center"), "cvode_bdf": (-1, (9, -2), "left"), "siconos": (-1, (8, -2), "left"),
-         "rk4": (-1, (8, -4), "left"), "moreau_jean": (-1, (8, 4), "left"), "semi_implicit_euler": (-1, (8, -9), "left"),
+         "rk4": (-1, (-7, -7), "right"), "moreau_jean": (-1, (8, 4), "left"), "semi_implicit_euler": (-1, (8, -9), "left"),
          "penalty": (1, (4, 11), "center")}
 SUFFIX = "_minima"  # the same method, with the gap rate as a second event: beside it, dashed
 
