@@ -5,6 +5,7 @@
 # usage: neighbours_test.sh ROOT [CATKIN]     CATKIN: its share directory; none without ROS
 set -euo pipefail
 export PATH=/usr/bin:/bin:$PATH  # another python3 may be first
+export ROS_LANG_DISABLE=genlisp:geneus:gennodejs:genpy  # whatever languages messages are generated for
 root=$1 catkin=${2:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

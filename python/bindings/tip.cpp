@@ -61,7 +61,7 @@ ModelTime next_stop(const Tip& tip, const ModelTime& end) {
   return stop < end ? stop : end;
 }
 
-py::array advance(PyTip& self, const py::object& time, const py::object& most_events) {
+py::array advance_tip(PyTip& self, const py::object& time, const py::object& most_events) {
   const ModelTime end = later(self, time);
   const std::uint64_t most =
       most_events.is_none() ? std::numeric_limits<std::uint64_t>::max() : whole("most_events", most_events);
@@ -140,7 +140,7 @@ void change(PyTip& self, const py::object& gamma, const py::object& cutoff, cons
 }
 
 // As a snapshot of a run that begins here.
-py::tuple pickled(const PyTip& self) {
+py::tuple pickled_tip(const PyTip& self) {
   const Tip& tip = self.tip;
   require_settled(tip.is_settled());
   Snapshot s;
@@ -155,7 +155,7 @@ py::tuple pickled(const PyTip& self) {
   return py::make_tuple(to_dict(s), self.search_failures);
 }
 
-PyTip unpickled(const py::tuple& t) {
+PyTip unpickled_tip(const py::tuple& t) {
   const Snapshot s = to_snapshot(t[0].cast<py::dict>());
   const RunSettings& settings = s.settings;
   const Thermostat kicks(settings.bath, settings.model.frequency_ratio, s.kicks, s.kick_count);
@@ -175,7 +175,7 @@ An object serves one thread at a time. Throws ParameterError.)")
       .def(py::init(&to_tip), "model"_a = Model{}, "eta"_a = 3.4, "phase"_a = start.phase, "extension"_a = start.X,
            "y"_a = start.y, "u"_a = py::none(), "w"_a = start.w, "contact_tolerance"_a = kDefaultContactTolerance,
            "bath"_a = Bath{})
-      .def("advance", &advance, "time"_a, "most_events"_a = py::none(),
+      .def("advance", &advance_tip, "time"_a, "most_events"_a = py::none(),
            R"(To a model time [tau] (a number, or a ModelTime), or until so many events have happened.
 
 Returns the events on the way, shape (n,), with the fields tau and phase (their sum is the model time [tau]),
@@ -198,7 +198,7 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
           "copy", [](const PyTip& self) { return self; }, "Another tip in the same state; copy.copy() does the same.")
       .def("__copy__", [](const PyTip& self) { return self; })
       .def("__deepcopy__", [](const PyTip& self, const py::object&) { return self; })
-      .def(py::pickle(&pickled, &unpickled))
+      .def(py::pickle(&pickled_tip, &unpickled_tip))
       .def_property_readonly(
           "now", [](const PyTip& self) { return to_python(self.tip.now()); }, "ModelTime")
       .def_property_readonly(

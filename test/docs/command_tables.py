@@ -5,9 +5,9 @@ SUBSTITUTIONS = [
     # the build directory belongs to the tree itself, not to the copy in which commands run
     (r'^scripts/(run|build)\b', r'"$AFM_ROOT/scripts/\1"'),
     (r'(scripts/run")(?: --duration \S+)?', r'\1 --duration 3'),
-    # the test without_ros builds it
-    (r'^cmake -S \.(.* -DAFM_ROS=OFF) && cmake --build build/without_ros --parallel 2', r'cmake -S "$AFM_ROOT"\1'),
     (r'^cmake --install build/without_ros', r'cmake --install "${AFM_BUILD_DIR:-$AFM_ROOT/build}"'),
+    # the test consumer builds the others
+    (r'^(cmake --build ~/afm/examples)', r'\1 --target one_tip'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
     (r'^(roslaunch afm_emulator (?:emulator|pair|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),
@@ -47,7 +47,8 @@ NOT_RUN = [
     (r'^scripts/test', 'this test is a part of it'),
     (r'^scripts/run --(view|panel)', 'opens a window'),
     (r'^rosrun afm_emulator panel', 'opens a window'),
-    (r'^snakemake (?!fig1_friction)', 'measures for minutes to hours; the test laboratory runs every rule dry, and some'),
+    (r'^snakemake', 'measures for minutes to hours; the test laboratory runs every rule dry, and some'),
+    (r'^cmake -S \. .*-DAFM_ROS=OFF', 'the test without_ros does it'),
     (r'run_tests_my_controller', 'the test my_controller does it'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
     (r'^scripts/platforms(?! --list)', 'builds with every compiler, or makes roots of other systems and tests in them'),
@@ -56,7 +57,7 @@ NOT_RUN = [
     (r'^podman', 'needs a container engine'),
     (r'right_address:=', 'needs a second machine'),
     (r'^(rqt_plot|rosrun rqt_\w+) ', 'opens a window'),
-    (r'^python3 -m venv', 'builds for minutes; the test python_pip does it in short'),
+    (r'^python3 -m venv', 'builds for minutes; the test without_ros does it in short'),
 ]
 
 # programs that are built only where the machine has what they need

