@@ -10,18 +10,12 @@ from pathlib import Path
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
 DEADLINE_S = 120 * PATIENCE
-STAYS_S = 10 * PATIENCE  # longer than roslaunch takes to start the nodes, and a Python node to import rospy: it ends unwell before that
 # what commands read, and some write
 COPIED = ('README.md', 'Snakefile', 'benchmark', 'config', 'docs', 'examples', 'scripts', 'test/data', 'test/node', 'workflow')
-# until_interrupted: of a command that goes on until Ctrl-C, and fails where it ends earlier
 PRELUDE = '''source "$0/setup.bash" || exit
-until_interrupted() {
-  local code=0
-  timeout --signal=INT --kill-after=30 %d "$@" || code=$?
-  [[ $code -eq 124 ]]
-}
+until_interrupted() { %s/until_interrupted.py "$@"; }
 set -eo pipefail
-''' % STAYS_S
+''' % Path(__file__).resolve().parent
 
 
 def free_port():
