@@ -85,7 +85,8 @@ class Shell:
             pass  # each attempt waits for a message
 
     def is_emulator_alive(self):
-        return self.emulator.poll() is None and self.run('timeout 10 rostopic echo -n 1 /afm/status')[1] == 0
+        return self.emulator.poll() is None and self.run(
+            'timeout 10 rostopic echo -n 1 /afm/status && rosservice type /afm/stop_recording')[1] == 0  # advertised last
 
     def close(self):
         if self.emulator and self.emulator.poll() is None:

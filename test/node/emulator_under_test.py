@@ -85,9 +85,7 @@ class Emulator(Process):
         self.publishers = {}
 
     def call(self, service, kind, **request):
-        name = NAMESPACE + '/' + service
-        rospy.wait_for_service(name, timeout=10.0)
-        return rospy.ServiceProxy(name, kind)(**request)
+        return call_service(NAMESPACE + '/' + service, kind, **request)
 
     def publisher(self, name):
         if name not in self.publishers:
@@ -117,6 +115,12 @@ def set_parameters(parameters):
         rospy.delete_param(NAMESPACE)
     if parameters:
         rospy.set_param(NAMESPACE, parameters)
+
+
+def call_service(name, kind, **request):
+    """The emulator advertises its services after its topics: who has heard of it may still have to wait."""
+    rospy.wait_for_service(name, timeout=15.0 * PATIENCE)
+    return rospy.ServiceProxy(name, kind)(**request)
 
 
 def pid_of_node(name=NAMESPACE):

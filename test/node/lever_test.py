@@ -4,11 +4,10 @@ import math
 from pathlib import Path
 
 import roslib.packages
-import rospy
 import yaml
 from afm_emulator.srv import Control
 
-from emulator_under_test import PACKAGE, Launch, NodeTest, run
+from emulator_under_test import PACKAGE, Launch, NodeTest, call_service, run
 from topics import Topic
 
 CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
@@ -22,9 +21,7 @@ def settings(kind, name):
 
 class LeverTest(NodeTest):
     def advance(self, name, seconds):
-        service = '/%s/control' % name
-        rospy.wait_for_service(service, timeout=20.0)
-        answer = rospy.ServiceProxy(service, Control)(math.nan, math.nan, seconds)
+        answer = call_service('/%s/control' % name, Control, drag_velocity=math.nan, rest_height=math.nan, duration=seconds)
         self.assertTrue(answer.success, answer.message)
         return answer
 

@@ -278,21 +278,19 @@ class Ending(NodeTest):
 
     def test_when_its_window_is_closed(self):
         close_it = '''
-import os, sys, threading, time
+import os, sys
 from afm_emulator import ending
 from afm_emulator.panel import application
-def windows():
-    return [w for w in application.QtWidgets.QApplication.topLevelWidgets() if isinstance(w, application.Window) and w.isVisible()]
-def close():
-    while not windows():
-        time.sleep(0.05)
-    os.write(1, b'closing')
-    application.QtCore.QMetaObject.invokeMethod(windows()[0], 'close', application.QtCore.Qt.QueuedConnection)
-threading.Thread(target=close, daemon=True).start()
+class Closed(application.Window):
+    def showEvent(self, event):
+        super().showEvent(event)
+        os.write(1, b'closing')
+        application.QtCore.QTimer.singleShot(300, self.close)
+application.Window = Closed
 sys.exit(application.run())
 '''
         panel = self.start(Process([sys.executable, '-c', close_it]))
-        wait_until(lambda: 'closing' in panel.output(), 'it is closed')
+        wait_until(lambda: 'closing' in panel.output(), 'it is closed', deadline_s=60.0)
         self.ended(panel, time.monotonic())
 
 

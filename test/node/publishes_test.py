@@ -4,7 +4,7 @@ import time
 import unittest
 from fractions import Fraction
 
-from emulator_under_test import SPEED_UNIT, TAU_S, pid_of_node, run
+from emulator_under_test import TAU_S, pid_of_node, run
 from topics import TOPICS, Topic, tau_between, wait_until
 
 WATCHED_S = 3.0

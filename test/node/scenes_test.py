@@ -12,7 +12,7 @@ from afm_emulator.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
-from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeTest, run
+from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeTest, call_service, run
 from topics import TOPICS, Topic, key, wait_until
 
 SCENES = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes'
@@ -43,7 +43,7 @@ class Scenes(NodeTest):
         self.assertLess(last.worst_penetration, 1e-13 * 0.52e-9)
 
     def call(self, service, kind, **request):
-        answer = rospy.ServiceProxy('/%s/%s' % (self.scene, service), kind)(**request)
+        answer = call_service('/%s/%s' % (self.scene, service), kind, **request)
         self.assertTrue(answer.success, answer.message)
         return answer
 

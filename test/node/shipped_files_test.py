@@ -8,11 +8,10 @@ from pathlib import Path
 import roslaunch.config
 import roslaunch.xmlloader
 import roslib.packages
-import rospy
 import yaml
 from afm_emulator.srv import Step
 
-from emulator_under_test import PACKAGE, Emulator, NodeTest, pid_of_node, run
+from emulator_under_test import PACKAGE, Emulator, NodeTest, call_service, pid_of_node, run
 from topics import Topic, wait_until
 
 SHARE = Path(roslib.packages.get_pkg_dir(PACKAGE))
@@ -54,7 +53,7 @@ class ShippedFiles(NodeTest):
         got = values(configuration.wait_for())
         self.assertEqual({name: got[name] for name in asked}, asked)
         self.assertEqual(got['initial_u'], 0.0)  # of the scene
-        rospy.ServiceProxy('/tip/step', Step)(tau=100.0)
+        self.assertTrue(call_service('/tip/step', Step, tau=100.0).success)
         play.stop()
         bag, = Path(directory).iterdir()
         self.assertEqual(bag.suffix, '.bag')
