@@ -1,21 +1,34 @@
-#include "emulator_node.h"
-
-#include <ros/console.h>
-#include <ros/master.h>
-#include <ros/this_node.h>
-#include <ros/transport_hints.h>
+// emulator_node: the AFM tip on the wire. It connects ROS with the threads that run, publish and record. Exits 1 if its
+// parameters are faulty, 0 when it is ordered to end.
+#include <afm_emulator/Control.h>
+#include <afm_emulator/StartRecording.h>
+#include <afm_emulator/Step.h>
+#include <malloc.h>
+#include <ros/ros.h>
+#include <std_msgs/Float64.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
 
 #include "afm/number_text.h"
+#include "live_server.h"
+#include "node/params/parameters.h"
+#include "node/publisher/publisher.h"
+#include "node/publisher/refusals.h"
 #include "node/publisher/topics.h"
-#include "node/recorder/paths.h"
+#include "node/recorder/recorder.h"
+#include "node/runner/batch_queue.h"
+#include "node/runner/runner.h"
 
 namespace afm::node {
 namespace {
@@ -98,202 +111,283 @@ bool respond(Response& response, const std::string& fault, const char* if_done) 
   return true;
 }
 
-}  // namespace
-
-EmulatorNode::EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
-    : parameters_(parameters),
-      queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
-      runner_(parameters, queue_),
-      recorder_(recorder_settings(parameters), [this] { runner_.submit(Request(Kind::snapshot)); }) {
-  if (parameters.publish_clock) {
-    const std::string other = find_clock_publisher();
-    if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
-  }
-  if (parameters.record) {
-    const Recorder::Reply reply = recorder_.start("");
-    if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
-  }
-  free_bytes_ = free_bytes(parameters.bag_directory);
-  report_pace(parameters);
-  live_server_.emplace(node, parameters, refusals_, [this](const Live& live) {
-    Request change(Kind::change);
-    change.live = live;
-    Answer unused;
-    return ask(change, unused);
-  });
-  publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, free_bytes_, [this](const Live& live) {
-                                                            live_server_->applied(live);
-                                                          }});
-  runner_.start();
-  publisher_->start(runner_.scheduler());
-  advertise(node);
-  report_run(parameters, runner_.scheduler());
-}
-
-EmulatorNode::~EmulatorNode() {
-  closing_ = true;  // services that wait for an answer return, and can then be shut down
-  for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
-  disk_timer_.stop();
-  clients_timer_.stop();
-  for (ros::ServiceServer& service : services_) service.shutdown();
-  runner_.stop();
-  publisher_->stop();
-}
-
-void EmulatorNode::advertise(ros::NodeHandle& node) {
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  commands_ = {node.subscribe("drag_velocity", kCommandQueueSize, &EmulatorNode::on_drag_velocity, this, hints),
-               node.subscribe("rest_height", kCommandQueueSize, &EmulatorNode::on_rest_height, this, hints),
-               node.subscribe("load", kCommandQueueSize, &EmulatorNode::on_load, this, hints)};
-  services_ = {node.advertiseService("pause", &EmulatorNode::on_pause, this),
-               node.advertiseService("reset", &EmulatorNode::on_reset, this),
-               node.advertiseService("control", &EmulatorNode::on_control, this),
-               node.advertiseService("step", &EmulatorNode::on_step, this),
-               node.advertiseService("start_recording", &EmulatorNode::on_start_recording, this),
-               node.advertiseService("stop_recording", &EmulatorNode::on_stop_recording, this)};
-  disk_timer_ = node.createWallTimer(ros::WallDuration(kDiskPeriod), [this](const auto&) {
-    free_bytes_ = free_bytes(parameters_.bag_directory);  // may wait for the disk
-  });
-  clients_timer_ = node.createWallTimer(ros::WallDuration(kClientsPeriod),
-                                        [this](const auto&) { live_server_->update_clients(); });
-}
-
-std::string EmulatorNode::find_drag_fault(double drag_velocity) const {
-  const bool possible = std::abs(drag_velocity) <= parameters_.max_drag_velocity;  // false for NaN
-  return possible ? "" : "must be finite and within max_drag_velocity";
-}
-
-std::string EmulatorNode::find_height_fault(double rest_height) const {
-  SiModel si = parameters_.si;
-  si.rest_height_m = rest_height;
-  const auto faults = find_faults(si);
-  return faults.empty() ? "" : faults.front().reason;
-}
-
-void EmulatorNode::on_drag_velocity(const std_msgs::Float64& command) {
-  Request request(Kind::command);
-  request.cause = "drag_velocity";
-  request.drag_velocity = command.data;
-  submit_or_refuse(request, command.data, "m/s", find_drag_fault(command.data));
-}
-
-void EmulatorNode::on_rest_height(const std_msgs::Float64& command) {
-  Request request(Kind::command);
-  request.cause = "rest_height";
-  request.rest_height = command.data;
-  submit_or_refuse(request, command.data, "m", find_height_fault(request.rest_height));
-}
-
-void EmulatorNode::on_load(const std_msgs::Float64& command) {
-  Request request(Kind::command);
-  request.cause = "load";
-  request.rest_height = -command.data / spring_constant(parameters_.si);
-  submit_or_refuse(request, command.data, "N", find_height_fault(request.rest_height));
-}
-
-void EmulatorNode::submit_or_refuse(const Request& request, double given, const char* unit, const std::string& fault) {
-  if (fault.empty() && runner_.submit(request)) return;
-  std::ostringstream text;
-  text << request.cause << " = " << given << ' ' << unit << ": "
-       << (fault.empty() ? "too many commands are waiting" : fault);
-  refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
-  ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
-}
-
-std::string EmulatorNode::ask(Request request, Answer& answer) {
-  request.reply = std::make_shared<std::promise<Answer>>();
-  std::future<Answer> future = request.reply->get_future();
-  if (!runner_.submit(request)) return "too many requests are waiting";
-  const auto begin = std::chrono::steady_clock::now(), give_up = begin + kAnswerDeadline;
-  while (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
-         std::chrono::steady_clock::now() - begin < kSpin) {
-    std::this_thread::yield();
-  }
-  while (future.wait_for(kClosingPoll) != std::future_status::ready) {
-    if (closing_) return "the emulator is shutting down";
-    if (std::chrono::steady_clock::now() > give_up) {
-      return "no answer from the running thread in time; it may still come to it";
+class EmulatorNode {
+ public:
+  // Starts recording before anything else if that is asked for. Throws std::runtime_error if it cannot.
+  EmulatorNode(ros::NodeHandle node, const Parameters& parameters)
+      : parameters_(parameters),
+        queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
+        runner_(parameters, queue_),
+        recorder_(recorder_settings(parameters), [this] { runner_.submit(Request(Kind::snapshot)); }) {
+    if (parameters.publish_clock) {
+      const std::string other = find_clock_publisher();
+      if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
     }
+    if (parameters.record) {
+      const Recorder::Reply reply = recorder_.start("");
+      if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
+    }
+    free_bytes_ = free_bytes(parameters.bag_directory);
+    report_pace(parameters);
+    live_server_.emplace(node, parameters, refusals_, [this](const Live& live) {
+      Request change(Kind::change);
+      change.live = live;
+      Answer unused;
+      return ask(change, unused);
+    });
+    publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, free_bytes_, [this](const Live& live) {
+                                                              live_server_->applied(live);
+                                                            }});
+    runner_.start();
+    publisher_->start(runner_.scheduler());
+    advertise(node);
+    report_run(parameters, runner_.scheduler());
   }
-  answer = future.get();
-  const std::string fault = answer.fault;
-  if (fault != kTimeRanOut) return fault;
-  return fault + " after " + std::to_string(answer.impacts) + " impacts, at the time given";
-}
 
-std::string EmulatorNode::ask(Kind kind) {
-  Answer unused;
-  return ask(Request(kind), unused);
-}
-
-bool EmulatorNode::on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  const bool paused = request.data != 0;
-  return respond(response, ask(paused ? Kind::pause : Kind::resume), paused ? "paused" : "running");
-}
-
-bool EmulatorNode::on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return respond(response, ask(Kind::reset), "model time 0, initial state, start parameters, new epoch");
-}
-
-bool EmulatorNode::on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response) {
-  std::string fault = find_step_fault(request.tau, request.impacts);
-  Answer answer;
-  if (fault.empty()) {
-    Request step(Kind::step);
-    step.tau = request.tau;
-    step.impacts = request.impacts;
-    fault = ask(step, answer);
+  // In order: no more commands, the last batch, all published, the bag closed.
+  ~EmulatorNode() {
+    closing_ = true;  // services that wait for an answer return, and can then be shut down
+    for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
+    disk_timer_.stop();
+    clients_timer_.stop();
+    for (ros::ServiceServer& service : services_) service.shutdown();
+    runner_.stop();
+    publisher_->stop();
   }
-  response.time = to_message(answer.time);
-  return respond(response, fault, request.impacts > 0 ? "impact reached" : "time reached");
-}
 
-std::string EmulatorNode::find_control_fault(const afm_emulator::Control::Request& request) const {
-  const double v = request.drag_velocity, y = request.rest_height;
-  const double most = kMaxStepTau * Units(parameters_.si).time();
-  std::string fault = std::isnan(v) ? "" : find_drag_fault(v);
-  if (!fault.empty()) return "drag_velocity = " + number_text(v) + " m/s: " + fault;
-  fault = std::isnan(y) ? "" : find_height_fault(y);
-  if (!fault.empty()) return "rest_height = " + number_text(y) + " m: " + fault;
-  if (request.duration >= 0.0 && request.duration <= most) return {};
-  return "duration = " + number_text(request.duration) + " s: must be between 0 and " + number_text(most);
-}
-
-bool EmulatorNode::on_control(afm_emulator::Control::Request& request, afm_emulator::Control::Response& response) {
-  std::string fault = find_control_fault(request);
-  Answer answer;
-  if (fault.empty()) {
-    Request period(Kind::control);
-    period.cause = !std::isnan(request.drag_velocity) ? "drag_velocity" : !std::isnan(request.rest_height) ? "rest_height" : "";
-    period.drag_velocity = request.drag_velocity;
-    period.rest_height = request.rest_height;
-    period.tau = request.duration / Units(parameters_.si).time();
-    fault = ask(period, answer);
-  } else {
-    refusals_.add(Refusal::faulty_command, fault);
+ private:
+  void advertise(ros::NodeHandle& node) {
+    const auto hints = ros::TransportHints().tcpNoDelay();
+    commands_ = {node.subscribe("drag_velocity", kCommandQueueSize, &EmulatorNode::on_drag_velocity, this, hints),
+                 node.subscribe("rest_height", kCommandQueueSize, &EmulatorNode::on_rest_height, this, hints),
+                 node.subscribe("load", kCommandQueueSize, &EmulatorNode::on_load, this, hints)};
+    services_ = {node.advertiseService("pause", &EmulatorNode::on_pause, this),
+                 node.advertiseService("reset", &EmulatorNode::on_reset, this),
+                 node.advertiseService("control", &EmulatorNode::on_control, this),
+                 node.advertiseService("step", &EmulatorNode::on_step, this),
+                 node.advertiseService("start_recording", &EmulatorNode::on_start_recording, this),
+                 node.advertiseService("stop_recording", &EmulatorNode::on_stop_recording, this)};
+    disk_timer_ = node.createWallTimer(ros::WallDuration(kDiskPeriod), [this](const auto&) {
+      free_bytes_ = free_bytes(parameters_.bag_directory);  // may wait for the disk
+    });
+    clients_timer_ = node.createWallTimer(ros::WallDuration(kClientsPeriod),
+                                          [this](const auto&) { live_server_->update_clients(); });
   }
-  response = to_control(answer, parameters_.si);
-  return respond(response, fault, "time reached");
+
+  void on_drag_velocity(const std_msgs::Float64& command) {
+    Request request(Kind::command);
+    request.cause = "drag_velocity";
+    request.drag_velocity = command.data;
+    submit_or_refuse(request, command.data, "m/s", find_drag_fault(command.data));
+  }
+
+  void on_rest_height(const std_msgs::Float64& command) {
+    Request request(Kind::command);
+    request.cause = "rest_height";
+    request.rest_height = command.data;
+    submit_or_refuse(request, command.data, "m", find_height_fault(request.rest_height));
+  }
+
+  void on_load(const std_msgs::Float64& command) {
+    Request request(Kind::command);
+    request.cause = "load";
+    request.rest_height = -command.data / spring_constant(parameters_.si);
+    submit_or_refuse(request, command.data, "N", find_height_fault(request.rest_height));
+  }
+
+  void submit_or_refuse(const Request& request, double given, const char* unit, const std::string& fault) {
+    if (fault.empty() && runner_.submit(request)) return;
+    std::ostringstream text;
+    text << request.cause << " = " << given << ' ' << unit << ": "
+         << (fault.empty() ? "too many commands are waiting" : fault);
+    refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
+    ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
+  }
+
+  // What is wrong, or nothing.
+  std::string find_drag_fault(double drag_velocity) const {
+    const bool possible = std::abs(drag_velocity) <= parameters_.max_drag_velocity;  // false for NaN
+    return possible ? "" : "must be finite and within max_drag_velocity";
+  }
+
+  std::string find_height_fault(double rest_height) const {
+    SiModel si = parameters_.si;
+    si.rest_height_m = rest_height;
+    const auto faults = find_faults(si);
+    return faults.empty() ? "" : faults.front().reason;
+  }
+
+  bool on_pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+    const bool paused = request.data != 0;
+    return respond(response, ask(paused ? Kind::pause : Kind::resume), paused ? "paused" : "running");
+  }
+
+  bool on_reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    return respond(response, ask(Kind::reset), "model time 0, initial state, start parameters, new epoch");
+  }
+
+  bool on_step(afm_emulator::Step::Request& request, afm_emulator::Step::Response& response) {
+    std::string fault = find_step_fault(request.tau, request.impacts);
+    Answer answer;
+    if (fault.empty()) {
+      Request step(Kind::step);
+      step.tau = request.tau;
+      step.impacts = request.impacts;
+      fault = ask(step, answer);
+    }
+    response.time = to_message(answer.time);
+    return respond(response, fault, request.impacts > 0 ? "impact reached" : "time reached");
+  }
+
+  bool on_control(afm_emulator::Control::Request& request, afm_emulator::Control::Response& response) {
+    std::string fault = find_control_fault(request);
+    Answer answer;
+    if (fault.empty()) {
+      Request period(Kind::control);
+      period.cause = !std::isnan(request.drag_velocity) ? "drag_velocity" : !std::isnan(request.rest_height) ? "rest_height" : "";
+      period.drag_velocity = request.drag_velocity;
+      period.rest_height = request.rest_height;
+      period.tau = request.duration / Units(parameters_.si).time();
+      fault = ask(period, answer);
+    } else {
+      refusals_.add(Refusal::faulty_command, fault);
+    }
+    response = to_control(answer, parameters_.si);
+    return respond(response, fault, "time reached");
+  }
+
+  std::string find_control_fault(const afm_emulator::Control::Request& request) const {
+    const double v = request.drag_velocity, y = request.rest_height;
+    const double most = kMaxStepTau * Units(parameters_.si).time();
+    std::string fault = std::isnan(v) ? "" : find_drag_fault(v);
+    if (!fault.empty()) return "drag_velocity = " + number_text(v) + " m/s: " + fault;
+    fault = std::isnan(y) ? "" : find_height_fault(y);
+    if (!fault.empty()) return "rest_height = " + number_text(y) + " m: " + fault;
+    if (request.duration >= 0.0 && request.duration <= most) return {};
+    return "duration = " + number_text(request.duration) + " s: must be between 0 and " + number_text(most);
+  }
+
+  // The recording begins with a snapshot that is taken for it.
+  bool on_start_recording(afm_emulator::StartRecording::Request& request,
+                                        afm_emulator::StartRecording::Response& response) {
+    const Recorder::Reply reply = recorder_.start(request.name);
+    response.path = reply.path;
+    if (!reply.success) return respond(response, reply.message, "");
+    const std::string fault = ask(Kind::snapshot);
+    if (!fault.empty()) recorder_.stop();
+    return respond(response, fault, reply.message.c_str());
+  }
+
+  // All that was emulated until now belongs to it.
+  bool on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    ask(Kind::flush);
+    const Recorder::Reply reply = recorder_.stop();
+    response.success = reply.success;
+    response.message = reply.message;
+    return true;
+  }
+
+  // Waits until it was done and published. Returns why not, or nothing.
+  std::string ask(Request request, Answer& answer) {
+    request.reply = std::make_shared<std::promise<Answer>>();
+    std::future<Answer> future = request.reply->get_future();
+    if (!runner_.submit(request)) return "too many requests are waiting";
+    const auto begin = std::chrono::steady_clock::now(), give_up = begin + kAnswerDeadline;
+    while (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
+           std::chrono::steady_clock::now() - begin < kSpin) {
+      std::this_thread::yield();
+    }
+    while (future.wait_for(kClosingPoll) != std::future_status::ready) {
+      if (closing_) return "the emulator is shutting down";
+      if (std::chrono::steady_clock::now() > give_up) {
+        return "no answer from the running thread in time; it may still come to it";
+      }
+    }
+    answer = future.get();
+    const std::string fault = answer.fault;
+    if (fault != kTimeRanOut) return fault;
+    return fault + " after " + std::to_string(answer.impacts) + " impacts, at the time given";
+  }
+
+  std::string ask(Kind kind) {
+    Answer unused;
+    return ask(Request(kind), unused);
+  }
+
+  const Parameters parameters_;
+  Refusals refusals_;
+  std::atomic<std::int64_t> free_bytes_{-1};  // on the disk that is recorded to; negative: unknown
+  BatchQueue queue_;
+  Runner runner_;
+  Recorder recorder_;
+  std::atomic<bool> closing_{false};
+  std::optional<LiveServer> live_server_;  // these advertise, so they are made after all that can fail
+  std::optional<Publisher> publisher_;
+  std::vector<ros::Subscriber> commands_;
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer disk_timer_, clients_timer_;
+};
+
+// A step may hold one service for seconds: others, and commands, must come through meanwhile.
+constexpr unsigned kSpinnerThreads = 3;
+// How soon a shutdown by ROS (rosnode kill) is noticed.
+constexpr std::chrono::milliseconds kShutdownPoll{100};
+constexpr int kLargeBuffer = 256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
+
+std::atomic<bool> g_running{false}, g_stop{false};
+Semaphore g_signalled;
+
+// roscpp handles SIGINT alone and tears the connections down at once; we end in our own order, on SIGTERM too.
+extern "C" void on_signal(int) {
+  g_stop = true;
+  g_signalled.post();
+  if (!g_running) ros::requestShutdown();  // it may be waiting for a master
 }
 
-// The recording begins with a snapshot that is taken for it.
-bool EmulatorNode::on_start_recording(afm_emulator::StartRecording::Request& request,
-                                      afm_emulator::StartRecording::Response& response) {
-  const Recorder::Reply reply = recorder_.start(request.name);
-  response.path = reply.path;
-  if (!reply.success) return respond(response, reply.message, "");
-  const std::string fault = ask(Kind::snapshot);
-  if (!fault.empty()) recorder_.stop();
-  return respond(response, fault, reply.message.c_str());
+void handle_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
 }
 
-// All that was emulated until now belongs to it.
-bool EmulatorNode::on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  ask(Kind::flush);
-  const Recorder::Reply reply = recorder_.stop();
-  response.success = reply.success;
-  response.message = reply.message;
-  return true;
+// One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
+// running thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts,
+// never come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
+void keep_memory_flat() {
+  mallopt(M_ARENA_MAX, 1);
+  mallopt(M_MMAP_THRESHOLD, kLargeBuffer);
 }
 
+void run(const ros::NodeHandle& handle, const Parameters& parameters) {
+  ros::AsyncSpinner spinner(kSpinnerThreads);  // outlives the node: its services end while they can still be served
+  EmulatorNode node(handle, parameters);
+  spinner.start();
+  g_running = true;
+  while (ros::ok() && !g_stop) g_signalled.wait_for(kShutdownPoll);
+}
+
+}  // namespace
 }  // namespace afm::node
+
+int main(int argc, char** argv) {
+  using namespace afm::node;  // NOLINT: it is the program
+  keep_memory_flat();
+  ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
+  handle_signals();
+  const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle
+  Faults faults;
+  const auto parameters = load_parameters(handle, faults);
+  if (!faults.empty()) {
+    ROS_FATAL_STREAM("faulty parameters:\n" << describe(faults));
+    return 1;
+  }
+  try {
+    run(handle, parameters);
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -4,12 +4,15 @@
 
 #include <afm_emulator/EmulatorConfig.h>
 #include <dynamic_reconfigure/server.h>
+#include <ros/console.h>
 
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "node/params/parameters.h"
+#include "node/params/table.h"
 #include "node/publisher/refusals.h"
 
 namespace afm::node {
@@ -19,24 +22,79 @@ class LiveServer {
   // Returns why the change did not take effect, or nothing when it has.
   using Apply = std::function<std::string(const Live&)>;
 
-  LiveServer(const ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply);
+  // The server begins with the values of the parameter server, cut to the ranges of its sliders: its first call puts those
+  // in force back. It holds its mutex whenever it calls.
+  LiveServer(const ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply)
+      : start_(parameters), refusals_(refusals), apply_(std::move(apply)), in_force_(parameters), server_(server_mutex_, node) {
+    server_.setCallback([this](Config& config, std::uint32_t level) {
+      constexpr std::uint32_t kFirstCall = ~0u;
+      if (level != kFirstCall) change(config);
+      config = shown_ = to_config(in_force());
+    });
+  }
 
-  void applied(const Live& live);  // by whatever
-  void update_clients();           // with what was applied. Not from the publisher, on which a change waits
+  // Called with whatever was applied, by the publisher: a change waits for it, so it may not wait for a change.
+  void applied(const Live& live) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    in_force_ = live;
+  }
+
+  // Shows clients what was applied. Any other thread.
+  void update_clients() {
+    const boost::recursive_mutex::scoped_lock lock(server_mutex_);
+    const Config config = to_config(in_force());
+    if (values_of(config) == values_of(shown_)) return;
+    shown_ = config;
+    server_.updateConfig(config);
+  }
 
  private:
   using Config = afm_emulator::EmulatorConfig;
 
-  void change(Config& config);
-  Live in_force() const;
+  static Config to_config(const Live& live) {
+    Config config;
+    for_each_live(config, live, kToMessage);
+    return config;
+  }
+
+  static std::vector<double> values_of(const Config& config) {
+    Live unused;
+    std::vector<double> values;
+    for_each_live(config, unused, [&](double value, double) { values.push_back(value); });
+    return values;
+  }
+
+  Live in_force() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return in_force_;
+  }
+
+  // What the client did not ask for is as it was shown, cut to the range of its slider; another value may be in force.
+  void change(const Config& config) {
+    Config untouched = shown_;
+    untouched.__clamp__();
+    const std::vector<double> not_asked = values_of(untouched);
+    auto other = not_asked.begin();
+    Parameters changed = start_;
+    live_of(changed) = in_force();
+    for_each_live(config, changed, [&](double asked, double& value) {
+      if (asked != *other++) value = asked;
+    });
+    if (values_of(to_config(changed)) == values_of(to_config(in_force()))) return;
+    std::string fault = describe(find_faults(changed));
+    if (fault.empty()) fault = apply_(changed);
+    if (fault.empty()) return;
+    refusals_.add(Refusal::faulty_change, fault);
+    ROS_WARN_STREAM("change of parameters refused: " << fault);
+  }
 
   const Parameters start_;
   Refusals& refusals_;
   const Apply apply_;
-  mutable std::mutex mutex_;  // of in_force_
+  std::mutex mutex_;  // of in_force_
   Live in_force_;
-  Config shown_;  // to the clients; guarded by server_mutex_
-  boost::recursive_mutex server_mutex_;
+  boost::recursive_mutex server_mutex_;  // also of shown_
+  Config shown_;                         // to the clients
   dynamic_reconfigure::Server<Config> server_;
 };
 

@@ -2,7 +2,6 @@
 // every bag of a split one. A disk that fills up or fails ends the recording, never the node.
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -18,6 +17,9 @@ namespace afm::node {
 
 // Of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
 enum class Role { ordinary, configuration, applied, snapshot };
+
+// Free on the disk on which the directory is, or would be made [bytes]; negative: unknown.
+std::int64_t free_bytes(const std::string& directory);
 
 class Recorder {
  public:
@@ -64,8 +66,8 @@ class Recorder {
 
   void push(Item item);
   void write_loop();
-  void write(const Message& message, const ros::Time& stamp);
   std::string write(const Item& item);  // returns why the recording must end, or nothing
+  void write(const Message& message, const ros::Time& stamp);
   bool is_full(const ros::Time& stamp) const;
   void begin_bag(const Item& snapshot);
   void finish(std::unique_lock<std::mutex>& lock, std::string error);
@@ -84,9 +86,9 @@ class Recorder {
   std::string path_;              // of the bag being written, or of the last one
   ros::Time last_stamp_;
   std::string error_;
-  std::uint64_t messages_ = 0;  // of this recording or the last one
+  std::uint64_t messages_ = 0;                               // of this recording or the last one
   std::uint64_t dropped_messages_ = 0, dropped_before_ = 0;  // before this recording
-  bool begun_ = false;  // its first snapshot has come
+  bool begun_ = false;                                       // its first snapshot has come
   bool stopping_ = false, quitting_ = false;
   // of the thread alone
   std::uint32_t part_ = 0;
