@@ -51,5 +51,5 @@ def fig7_atlas(tables):
         ax.set_ylabel(r"restitution $\gamma$")
         ax.grid(False)
     axes[0].tick_params(labelbottom=True)
-    figure.suptitle(" ")  # room for the legend
+    figure.suptitle(" ", fontsize=14)  # room for the legend
     return figure

@@ -56,7 +56,7 @@ def lever_map(tables):
         ax.set_xlabel(r"drag speed [$\mu$m/s]")
     for ax in axes[:, 0]:
         ax.set_ylabel("load [nN]")
-    figure.suptitle(" ")  # room for the legend
+    figure.suptitle(" ", fontsize=14)  # room for the legend
     figure.legend(handles=[Patch(facecolor=colour, label=text) for _, colour, _, text in STEPS], ncol=4,
                   loc="upper center")
     return figure
@@ -94,6 +94,6 @@ def draw_lever_friction(tables):
         ax.set_title(SURFACES[crystal], loc="left")
         ax.set_xlabel("load [pN]")
     axes[0].set_ylabel("mean lateral force [pN]")
-    figure.suptitle(" ")
+    figure.suptitle(" ", fontsize=14)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncol=3)
     return figure
