@@ -117,10 +117,10 @@ def set_parameters(parameters):
         rospy.set_param(NAMESPACE, parameters)
 
 
-def call_service(name, kind, **request):
+def call_service(service, kind, **request):
     """The emulator advertises its services after its topics: who has heard of it may still have to wait."""
-    rospy.wait_for_service(name, timeout=15.0 * PATIENCE)
-    return rospy.ServiceProxy(name, kind)(**request)
+    rospy.wait_for_service(service, timeout=15.0 * PATIENCE)
+    return rospy.ServiceProxy(service, kind)(**request)
 
 
 def pid_of_node(name=NAMESPACE):
