@@ -21,8 +21,8 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::size_t total, std::size_t before)
-    : terminal_(::isatty(STDERR_FILENO) == 1), total_(total), before_(before), begin_(Clock::now()) {
+ProgressBar::ProgressBar(std::size_t total, std::size_t before, const char* unit)
+    : terminal_(::isatty(STDERR_FILENO) == 1), total_(total), before_(before), unit_(unit), begin_(Clock::now()) {
   show(before);
 }
 
@@ -39,7 +39,7 @@ void ProgressBar::show(std::size_t done) {
   const double spent = std::chrono::duration<double>(now - begin_).count();
   const std::size_t full = total_ > 0 ? kWidth * done / total_ : kWidth;
   std::string line = "\r[" + std::string(full, '#') + std::string(kWidth - full, '.') + "] " + std::to_string(done) +
-                     "/" + std::to_string(total_) + " points, " + time_text(spent);
+                     "/" + std::to_string(total_) + " " + unit_ + ", " + time_text(spent);
   if (done > before_ && done < total_) {
     line += ", left " + time_text(spent * static_cast<double>(total_ - done) / static_cast<double>(done - before_));
   }

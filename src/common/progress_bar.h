@@ -10,7 +10,7 @@ class ProgressBar {
  public:
   // Silent where stderr is no terminal. `before`: done by an earlier run, which says nothing about the speed of this
   // one.
-  ProgressBar(std::size_t total, std::size_t before);
+  ProgressBar(std::size_t total, std::size_t before, const char* unit = "points");
   ~ProgressBar();
 
   void show(std::size_t done);
@@ -19,6 +19,7 @@ class ProgressBar {
   using Clock = std::chrono::steady_clock;
   bool terminal_;
   std::size_t total_, before_;
+  const char* unit_;
   Clock::time_point begin_, shown_;
 };
 

@@ -1,13 +1,13 @@
 // Simulates a recorded run again and compares it with the recording, byte for byte.
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/command_line.h"
+#include "common/progress_bar.h"
 #include "tools/bags/run_check.h"
 
 namespace {
@@ -24,30 +24,6 @@ const char kExitCodes[] =
     "Exit codes: 0 identical; 1 different; 2 wrong arguments; 3 it cannot be checked, or not as a whole.";
 
 constexpr int kIdentical = 0, kDifferent = 1, kCannotBeChecked = 3;
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-// A line on stderr when it is a terminal, a few times a second.
-class ProgressLine {
- public:
-  ~ProgressLine() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  void operator()(double model_seconds, double part) {
-    constexpr double kPause = 0.2;  // [s]
-    if (!terminal_ || seconds_since(last_) < kPause) return;
-    std::fprintf(stderr, "\r%5.1f %%, %.3f s of model time ", 100.0 * part, model_seconds);
-    last_ = std::chrono::steady_clock::now();
-    shown_ = true;
-  }
-
- private:
-  const bool terminal_ = isatty(STDERR_FILENO) == 1;
-  bool shown_ = false;
-  std::chrono::steady_clock::time_point last_;
-};
 
 void print(const Extent& e, double wall_seconds) {
   std::cout << "compared: " << e.batches << " batches (" << e.deflections << " of deflection with " << e.samples
@@ -72,10 +48,15 @@ std::string topics_not_held(const Recording& recording) {
 int check(const Recording& recording) {
   std::cout << recording.name() << std::endl;
   const auto begin = std::chrono::steady_clock::now();
-  RunCheck check(recording, ProgressLine());
+  std::optional<afm::ProgressBar> bar;
+  RunCheck check(recording, [&](std::size_t done, std::size_t all) {
+    if (!bar) bar.emplace(all, 0, "batches");
+    bar->show(done);
+  });
   check.run();
+  bar.reset();
   const Extent& extent = check.extent();
-  print(extent, seconds_since(begin));
+  print(extent, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   for (const std::string& what : check.missing()) std::cout << "missing: " << what << "\n";
   if (check.difference()) {
     print(*check.difference());

@@ -71,12 +71,12 @@ class Recorded {
   void apply(double drag_velocity, const char* cause) {
     node::Report report;
     parameters_.drag_velocity = drag_velocity;
-    report.number = number_++;
-    report.cause = cause;
-    report.live = parameters_;
-    report.level.level.contact_tolerance = parameters_.contact_tolerance;
+    report.in_force.number = number_++;
+    report.in_force.cause = cause;
+    report.in_force.live = parameters_;
+    report.in_force.level.contact_tolerance = parameters_.contact_tolerance;
     LiveSettings live = live_settings(node::run_settings(parameters_));
-    live.level = report.level.level;
+    live.level = report.in_force.level;
     run_.apply(live);
     report.state.time = run_.now();
     report.state.impacts = run_.impacts();
@@ -155,7 +155,7 @@ bool is_identical(const std::string& path) {
   try {
     bool identical = true;
     for (const bags::Recording& recording : bags::open_recordings({path}, "")) {
-      bags::RunCheck check(recording, [](double, double) {}, kMostGap);
+      bags::RunCheck check(recording, [](std::size_t, std::size_t) {}, kMostGap);
       check.run();
       identical = identical && !check.difference() && check.missing().empty() && check.extent().batches_unknown == 0;
     }

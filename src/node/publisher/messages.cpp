@@ -135,22 +135,23 @@ afm_emulator::Friction to_friction(const Batch& batch, const Live& live, const U
   return message;
 }
 
-afm_emulator::Applied to_applied(const Report& report, const Parameters& in_force, const Label& label) {
-  const RunSettings settings = run_settings(in_force);
+afm_emulator::Applied to_applied(const Report& report, const Parameters& parameters, const Label& label) {
+  const InForce& in_force = report.in_force;
+  const RunSettings settings = run_settings(parameters);
   auto message = labelled<afm_emulator::Applied>(label);
-  message.number = report.number;
-  message.cause = report.cause;
+  message.number = in_force.number;
+  message.cause = in_force.cause;
   message.time = to_message(report.state.time);
   message.first_impact = report.state.impacts;
   message.first_sample = report.state.samples;
-  message.drag_velocity = report.live.drag_velocity;
-  for_each_live(message, report.live, kToMessage);
+  message.drag_velocity = in_force.live.drag_velocity;
+  for_each_live(message, in_force.live, kToMessage);
   message.samples_per_batch = settings.samples_per_batch;
   message.sample_period_tau = settings.sample_period;
-  message.model = name(report.level.level.kind);
-  message.contact_tolerance = report.level.level.contact_tolerance;
-  message.expected_error = report.level.expected_error;
-  message.energy_dropped = report.level.energy_dropped * Units(in_force.si).energy();
+  message.model = name(in_force.level.kind);
+  message.contact_tolerance = in_force.level.contact_tolerance;
+  message.expected_error = in_force.expected_error;
+  message.energy_dropped = in_force.energy_dropped * Units(parameters.si).energy();
   return message;
 }
 

@@ -36,7 +36,7 @@ afm_emulator::ImpactArray to_impacts(const Batch& batch, const Units& units, con
 afm_emulator::Friction to_friction(const Batch& batch, const Live& live, const Units& units, const Label& label);
 
 // The state at which it takes effect is that of the report.
-afm_emulator::Applied to_applied(const Report& report, const Parameters& in_force, const Label& label);
+afm_emulator::Applied to_applied(const Report& report, const Parameters& parameters, const Label& label);
 // version and digest are of the program that runs.
 afm_emulator::Configuration to_configuration(const Parameters& parameters, const std::string& version,
                                              const std::string& digest, const Label& label);

@@ -75,7 +75,7 @@ void Publisher::publish(Report& report) {
   if (report.kind == Report::Kind::epoch && !latest_clock_.isZero()) epoch_begin_ = latest_clock_ + ros::Duration(0, 1);
   const Label label{stamp_of(report), report.state.epoch};
   status_tracker_.observe(report);
-  live_of(parameters_) = report.live;
+  live_of(parameters_) = report.in_force.live;
   switch (report.kind) {
     case Report::Kind::epoch:
       latest_configuration_ = to_configuration(parameters_, AFM_EMULATOR_VERSION, fingerprint_, label);
@@ -84,15 +84,15 @@ void Publisher::publish(Report& report) {
     case Report::Kind::applied:
       latest_applied_ = to_applied(report, parameters_, label);
       applied_.send(latest_applied_);
-      sources_.on_applied(report.live);
+      sources_.on_applied(report.in_force.live);
       break;
     case Report::Kind::snapshot:
       snapshot_.send(to_snapshot(report.snapshot, latest_configuration_, latest_applied_, label));
       break;
     case Report::Kind::batch:
-      deflection_.send(to_deflection(*report.batch, report.live, units_, label), report.unhurried);
+      deflection_.send(to_deflection(*report.batch, report.in_force.live, units_, label), report.unhurried);
       impacts_.send(to_impacts(*report.batch, units_, label), report.unhurried);
-      friction_.send(to_friction(*report.batch, report.live, units_, label), report.unhurried);
+      friction_.send(to_friction(*report.batch, report.in_force.live, units_, label), report.unhurried);
       sources_.queue.release(report.batch);
       break;
     case Report::Kind::answer:

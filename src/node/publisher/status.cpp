@@ -29,9 +29,9 @@ void StatusTracker::observe(const Report& report) {
   state_ = report.state;
   if (report.kind == Report::Kind::epoch) mark_ = state_;
   afm_emulator::EmulatorStatus& status = health_.status;
-  status.model = name(report.level.level.kind);
-  status.contact_tolerance = report.level.level.contact_tolerance;
-  status.expected_error = report.level.expected_error;
+  status.model = name(report.in_force.level.kind);
+  status.contact_tolerance = report.in_force.level.contact_tolerance;
+  status.expected_error = report.in_force.expected_error;
 }
 
 // Over a hundred tau or more, or since the start of the epoch.

@@ -69,27 +69,27 @@ struct RunnerState {
   bool timed_out = false;  // the drag was stopped as no command came
 };
 
-// The level of the model in force.
-struct AppliedLevel {
+// What is in force since the last report of kind `applied`.
+struct InForce {
+  Live live;  // to the bit as it was commanded
   Level level;
-  double expected_error = std::numeric_limits<double>::quiet_NaN();  // NaN: not known, or not asked for
-  double energy_dropped = 0.0;                                       // on the way to it [m a^2/tau^2]
+  double expected_error = std::numeric_limits<double>::quiet_NaN();  // of the level; NaN: not known, or not asked for
+  double energy_dropped = 0.0;                                       // on the way to the level [m a^2/tau^2]
+  const char* cause = "";    // epoch, parameters, scene, timeout, or that of a command
+  std::uint64_t number = 0;  // of the report in its epoch
 };
 
 struct Report {
   enum class Kind : std::uint8_t { epoch, applied, snapshot, batch, answer };
   Kind kind = Kind::batch;
   std::int64_t wall_ns = 0;  // wall clock [ns since 1970]
-  Live live;                 // in force, to the bit as it was commanded
-  AppliedLevel level;        // likewise
-  const char* cause = "";    // of the last `applied`: epoch, drag_velocity, ...
-  std::uint64_t number = 0;  // of it in its epoch
+  InForce in_force;
   RunnerState state;
-  Batch* batch = nullptr;    // of kind batch; it belongs to the receiver, who gives it back
-  bool unhurried = false;    // made while stepping: it may wait for slow subscribers
-  Snapshot snapshot;         // of kind snapshot
-  Answer answer;             // of kind answer
-  Reply reply;               // to be fulfilled when this is published
+  Batch* batch = nullptr;  // of kind batch; it belongs to the receiver, who gives it back
+  bool unhurried = false;  // made while stepping: it may wait for slow subscribers
+  Snapshot snapshot;       // of kind snapshot
+  Answer answer;           // of kind answer
+  Reply reply;             // to be fulfilled when this is published
 };
 
 }  // namespace afm::node

@@ -26,9 +26,10 @@ Runner::Runner(const Parameters& parameters, BatchQueue& queue)
       run_(run_settings(parameters)),
       queue_(queue),
       pacer_(batch_period(parameters), monotonic_now()),
-      paused_(parameters.paused),
       lockstep_(parameters.pace == kLockstep),
-      requests_(kMaxWaitingRequests) {}
+      requests_(kMaxWaitingRequests) {
+  state_.paused = parameters.paused;
+}
 
 void Runner::start() {
   thread_ = std::thread([this] { loop(); });
@@ -56,7 +57,7 @@ void Runner::loop() {
   while (!stopping_) {
     wait_for_work();
     serve_requests();
-    if (paused_ || stopping_ || (lockstep_ && !may_advance())) continue;
+    if (state_.paused || stopping_ || (lockstep_ && !may_advance())) continue;
     stop_drag_without_commands();
     play_commands();
     const Outcome outcome = run_batch(lockstep_, [this](Batch& batch) { return run_.advance(batch); });
@@ -66,7 +67,7 @@ void Runner::loop() {
 }
 
 void Runner::wait_for_work() {
-  if (paused_ || lockstep_) {
+  if (is_held()) {
     submitted_.wait_for(lockstep_ ? kLockstepPoll : kPausedPoll);
   } else {
     sleep_until(pacer_.deadline());  // at once if that is past: behind, we run as fast as we can
@@ -87,7 +88,7 @@ void Runner::stop_drag_without_commands() {
   if (parameters_.command_timeout_s == 0.0 || parameters_.drag_velocity == 0.0) return;
   const double silence = std::chrono::duration<double>(monotonic_now() - last_command_).count();
   if (silence < parameters_.command_timeout_s || !queue_.has_room_for_request()) return;
-  timed_out_ = true;
+  state_.timed_out = true;
   Live live = parameters_;
   live.drag_velocity = 0.0;
   apply(live, "timeout");
@@ -134,7 +135,7 @@ Answer Runner::serve(const Request& request) {
       pause(request.kind == Kind::pause);
       break;
     case Kind::reset:
-      ++epoch_;
+      ++state_.epoch;
       begin_epoch();
       break;
     case Kind::snapshot:
@@ -153,9 +154,10 @@ Answer Runner::serve(const Request& request) {
 
 void Runner::begin_epoch() {
   live_of(parameters_) = start_;
+  in_force_.live = start_;
   run_ = Run(run_settings(parameters_));
   last_command_ = monotonic_now();
-  timed_out_ = false;
+  state_.timed_out = false;
   commands_played_ = applied_ = 0;
   queue_.offer(make_report(Report::Kind::epoch));
   apply(parameters_, "epoch");
@@ -167,7 +169,7 @@ void Runner::command(const Request& request) {
   if (!std::isnan(request.drag_velocity)) {
     live.drag_velocity = request.drag_velocity;
     last_command_ = monotonic_now();
-    timed_out_ = false;
+    state_.timed_out = false;
   }
   if (!std::isnan(request.rest_height)) live.si.rest_height_m = request.rest_height;
   apply(live, request.cause);
@@ -179,11 +181,9 @@ void Runner::apply(const Live& live, const char* cause) {
   const LevelChoice choice = choose_level(parameters_, settings);
   LiveSettings next = live_settings(settings);
   next.level = choice.level;
-  level_ = {choice.level, choice.expected_error, run_.apply(next)};
+  in_force_ = {live, choice.level, choice.expected_error, run_.apply(next), cause, applied_++};
   pacer_.set_period(batch_period(parameters_));
   command_came_ = true;
-  cause_ = cause;
-  ++applied_;
   queue_.offer(make_report(Report::Kind::applied));
 }
 
@@ -198,11 +198,11 @@ void Runner::take_snapshot() {
 }
 
 void Runner::pause(bool paused) {
-  if (paused_ && !paused) {
+  if (state_.paused && !paused) {
     last_command_ = monotonic_now();
     pacer_.resume(last_command_);
   }
-  paused_ = paused;
+  state_.paused = paused;
 }
 
 // To the limit, or until so many impacts are taken, of which there must then be as many before the limit.
@@ -230,8 +230,8 @@ Answer Runner::control(const Request& request) {
   measured_.begin = run_.now();
   Answer reached = step(run_.now() + request.tau, kNoLimit);
   reached.measured = measured_;
-  reached.epoch = epoch_;
-  reached.number = applied_ - 1;
+  reached.epoch = state_.epoch;
+  reached.number = in_force_.number;
   reached.drag_velocity = parameters_.drag_velocity;
   return reached;
 }
@@ -265,37 +265,28 @@ Outcome Runner::run_batch(bool unhurried, Advance advance) {
 }
 
 Report Runner::make_report(Report::Kind kind) {
+  update_state();
   Report report;
   report.kind = kind;
   report.wall_ns = wall_now_ns();
-  report.live = parameters_;
-  report.level = level_;
-  report.cause = cause_;
-  report.number = applied_ - 1;
-  report.state = state();
+  report.in_force = in_force_;
+  report.state = state_;
   return report;
 }
 
-RunnerState Runner::state() {
-  RunnerState state;
-  state.epoch = epoch_;
-  state.time = run_.now();
-  state.impacts = run_.impacts();
-  state.samples = run_.samples();
-  state.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
-  if (!lockstep_) {
-    // an unfinished batch is late already when its deadline is past
-    const double overdue = paused_ ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
-    state.lag = std::max(pacer_.lag(), overdue);
-    worst_lag_ = std::max({worst_lag_, state.lag, pacer_.worst_lag()});
-  }
-  state.worst_lag = worst_lag_;
-  state.batches = pacer_.batches();
-  state.late_batches = pacer_.late_batches();
-  state.counters = run_.counters();
-  state.paused = paused_;
-  state.timed_out = timed_out_;
-  return state;
+void Runner::update_state() {
+  state_.time = run_.now();
+  state_.impacts = run_.impacts();
+  state_.samples = run_.samples();
+  state_.counters = run_.counters();
+  state_.batches = pacer_.batches();
+  state_.late_batches = pacer_.late_batches();
+  state_.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
+  if (lockstep_) return;
+  // an unfinished batch is late already when its deadline is past
+  const double overdue = state_.paused ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
+  state_.lag = std::max(pacer_.lag(), overdue);
+  state_.worst_lag = std::max({state_.worst_lag, state_.lag, pacer_.worst_lag()});
 }
 
 }  // namespace afm::node

@@ -63,26 +63,22 @@ class Runner {
   Outcome run_batch(bool unhurried, Advance advance);
   void run_batch_to(const ModelTime& limit, std::uint64_t impacts);  // unhurried; it ends at the next boundary at the latest
 
-  bool is_held() const { return paused_ || lockstep_; }  // it may be stepped
+  bool is_held() const { return state_.paused || lockstep_; }  // it may be stepped
   Report make_report(Report::Kind kind);
-  RunnerState state();
+  void update_state();
 
   const Parameters start_;  // from which every epoch begins
   Parameters parameters_;   // in force
   Run run_;
   BatchQueue& queue_;
   Pacer pacer_;
-  AppliedLevel level_;
-  std::uint32_t epoch_ = 0;
-  const char* cause_ = "";
+  RunnerState state_;
+  InForce in_force_;
   std::uint64_t applied_ = 0;          // reports of kind `applied` in this epoch
   std::uint64_t commands_played_ = 0;  // of the scene
   Time last_command_{0};               // of a drag velocity
-  bool timed_out_ = false;             // and none since the drag was stopped for that
   Measured measured_;                  // since it was cleared
   std::uint64_t last_batch_impacts_ = 0;
-  double worst_lag_ = 0.0;
-  bool paused_;
   const bool lockstep_;
   // in lockstep that waits for commands
   bool command_came_ = true;  // the first batch needs none

@@ -42,8 +42,7 @@ struct Extent {
 
 class RunCheck {
  public:
-  // The run has come to a model time [s], and the check to this part of the recording.
-  using Progress = std::function<void(double model_seconds, double part)>;
+  using Progress = std::function<void(std::size_t done, std::size_t all)>;  // batches
 
   // Throws Problem where nothing can be compared. A time further away than most_gap [tau] is a fault of its message rather
   // than a gap: by default 44 hours at the paper's frequency, a choice.
