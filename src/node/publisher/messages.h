@@ -47,7 +47,7 @@ afm_emulator::Snapshot to_snapshot(const Snapshot& snapshot, const afm_emulator:
                                    const afm_emulator::Applied& applied, const Label& label);
 Snapshot from_message(const afm_emulator::Snapshot& message);
 
-// Applies it to the parameters in force. Returns what a run obeys then. Throws std::invalid_argument if there is no such
+// Applies it to the parameters in force. Returns the settings of the run from there on. Throws std::invalid_argument if there is no such
 // model.
 LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied);
 

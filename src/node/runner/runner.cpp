@@ -13,7 +13,7 @@ constexpr std::size_t kMaxWaitingRequests = 1024;
 // How soon a stop is noticed while paused without a request, and room for another batch while there is none.
 constexpr std::chrono::milliseconds kPausedPoll{100}, kLockstepPoll{10}, kRoomPoll{1};
 // A step that cannot end (an impact that never comes, a chattering tip) ends after this. Whoever asked for it waits
-// longer (emulator_node.cpp), and so hears how far it came.
+// longer (emulator_node.cpp), and learns how far it came.
 constexpr std::chrono::seconds kStepPatience{8};
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();

@@ -56,28 +56,28 @@ RunCheck::RunCheck(const Recording& recording, Progress progress, double most_ga
   if (!recording.holds<afm_emulator::Friction>()) {
     throw Problem("it holds no message of friction, which tells where each batch ends");
   }
-  read_controls();
+  read_marks();
   batches_ = recording.read<afm_emulator::Friction>();
   if (recording.holds<afm_emulator::Deflection>()) deflections_ = recording.read<afm_emulator::Deflection>();
   if (recording.holds<afm_emulator::ImpactArray>()) impacts_ = recording.read<afm_emulator::ImpactArray>();
 }
 
 // In the order of the run: a snapshot stands behind all that was applied before it.
-void RunCheck::read_controls() {
+void RunCheck::read_marks() {
   const auto snapshots = recording_.read<afm_emulator::Snapshot>();
   for (; snapshots->get(); snapshots->next()) {
-    if (!controls_.empty()) controls_.back().lost_snapshots = snapshots->lost();
-    controls_.push_back({snapshots->number(), nullptr, snapshots->get()});
+    if (!marks_.empty()) marks_.back().lost_snapshots = snapshots->lost();
+    marks_.push_back({snapshots->number(), nullptr, snapshots->get()});
   }
   const auto applied = recording_.read<afm_emulator::Applied>();
-  for (; applied->get(); applied->next()) controls_.push_back({applied->number(), applied->get(), nullptr});
-  const auto key = [](const Control& c) {
+  for (; applied->get(); applied->next()) marks_.push_back({applied->number(), applied->get(), nullptr});
+  const auto key = [](const Mark& c) {
     return std::make_tuple(c.number.start, c.epoch(), c.in_force().number, c.snapshot != nullptr, c.number.seq);
   };
-  std::sort(controls_.begin(), controls_.end(), [&](const Control& a, const Control& b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < controls_.size(); ++i) {
-    const Control& next = controls_[i];
-    Control& c = controls_[i - 1];
+  std::sort(marks_.begin(), marks_.end(), [&](const Mark& a, const Mark& b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < marks_.size(); ++i) {
+    const Mark& next = marks_[i];
+    Mark& c = marks_[i - 1];
     if (next.number.start != c.number.start || next.epoch() != c.epoch()) continue;
     const std::uint64_t expected = c.in_force().number + (next.applied ? 1 : 0), number = next.in_force().number;
     if (number > expected) c.lost_commands = number - expected;
@@ -89,19 +89,19 @@ void RunCheck::check_configurations() {
   if (!recording_.holds<afm_emulator::Configuration>()) return;
   const auto messages = recording_.read<afm_emulator::Configuration>();
   for (; messages->get() && !difference_; messages->next()) {
-    const auto same = [&](const Control& c) {
+    const auto same = [&](const Mark& c) {
       return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->get()->epoch;
     };
-    const auto found = std::find_if(controls_.begin(), controls_.end(), same);
-    if (found != controls_.end()) compare(*messages->get(), found->snapshot->configuration);
+    const auto found = std::find_if(marks_.begin(), marks_.end(), same);
+    if (found != marks_.end()) compare(*messages->get(), found->snapshot->configuration);
   }
 }
 
 void RunCheck::run() {
   check_configurations();
-  while ((batches_->get() || next_control_ < controls_.size()) && !difference_) {
-    if (!batches_->get() || (next_control_ < controls_.size() && is_due(controls_[next_control_]))) {
-      take(controls_[next_control_++]);
+  while ((batches_->get() || next_mark_ < marks_.size()) && !difference_) {
+    if (!batches_->get() || (next_mark_ < marks_.size() && is_due(marks_[next_mark_]))) {
+      take(marks_[next_mark_++]);
     } else {
       check_batch();
       progress_(batches_->read_so_far(), batches_->size());
@@ -115,7 +115,7 @@ void RunCheck::run() {
 }
 
 // Whether it comes before the next batch.
-bool RunCheck::is_due(const Control& c) const {
+bool RunCheck::is_due(const Mark& c) const {
   const afm_emulator::Friction& batch = *batches_->get();
   const auto place = [](std::uint32_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {
     return std::make_tuple(start, epoch, time.tau, time.phase, impacts);
@@ -125,40 +125,40 @@ bool RunCheck::is_due(const Control& c) const {
                     : place(c.number.start, c.epoch(), c.snapshot->time, c.snapshot->next_impact)) <= next;
 }
 
-void RunCheck::take(const Control& control) {
-  if (is_doubtful_ || control.number.start != start_ || control.epoch() != applied_.epoch) run_.reset();
-  if (control.snapshot) {
-    take_snapshot(control);
+void RunCheck::take(const Mark& mark) {
+  if (is_doubtful_ || mark.number.start != start_ || mark.epoch() != applied_.epoch) run_.reset();
+  if (mark.snapshot) {
+    take_snapshot(mark);
   } else {
-    if (!run_ && begins_epoch(control)) begin_epoch(control);
-    if (run_) take_applied(*control.applied);
+    if (!run_ && begins_epoch(mark)) begin_epoch(mark);
+    if (run_) take_applied(*mark.applied);
   }
-  lose("commands", control.lost_commands);
-  lose("snapshots", control.lost_snapshots);
-  is_doubtful_ = control.lost_commands + control.lost_snapshots > 0;
+  lose("commands", mark.lost_commands);
+  lose("snapshots", mark.lost_snapshots);
+  is_doubtful_ = mark.lost_commands + mark.lost_snapshots > 0;
 }
 
 // Its first snapshot follows: an epoch is simulated from its configuration, and this snapshot is compared too.
-bool RunCheck::begins_epoch(const Control& control) const {
-  if (control.applied->number > 0 || next_control_ == controls_.size()) return false;
-  const Control& next = controls_[next_control_];
-  return next.snapshot && next.number.start == control.number.start && next.epoch() == control.epoch() &&
+bool RunCheck::begins_epoch(const Mark& mark) const {
+  if (mark.applied->number > 0 || next_mark_ == marks_.size()) return false;
+  const Mark& next = marks_[next_mark_];
+  return next.snapshot && next.number.start == mark.number.start && next.epoch() == mark.epoch() &&
          from_message(next.snapshot->time) == ModelTime{};
 }
 
-void RunCheck::begin_epoch(const Control& control) {
-  configuration_ = controls_[next_control_].snapshot->configuration;
+void RunCheck::begin_epoch(const Mark& mark) {
+  configuration_ = marks_[next_mark_].snapshot->configuration;
   require_same_arithmetic(configuration_);
   in_force_ = node::to_parameters(configuration_);
   const RunSettings settings = node::run_settings(in_force_);
-  require_possible(in_force_, settings, "the configuration of epoch " + std::to_string(control.epoch()));
+  require_possible(in_force_, settings, "the configuration of epoch " + std::to_string(mark.epoch()));
   run_.emplace(settings);
-  note_beginning(control);
-  applied_ = *control.applied;
+  note_beginning(mark);
+  applied_ = *mark.applied;
 }
 
-void RunCheck::begin_at(const Control& control) {
-  const afm_emulator::Snapshot& snapshot = *control.snapshot;
+void RunCheck::begin_at(const Mark& mark) {
+  const afm_emulator::Snapshot& snapshot = *mark.snapshot;
   configuration_ = snapshot.configuration;
   require_same_arithmetic(configuration_);
   in_force_ = node::to_parameters(configuration_);
@@ -166,16 +166,16 @@ void RunCheck::begin_at(const Control& control) {
   const Snapshot state = from_message(snapshot);
   require_possible(in_force_, state.settings, "the snapshot at " + to_text(snapshot.time, snapshot.epoch));
   run_.emplace(state);
-  note_beginning(control);
+  note_beginning(mark);
   applied_ = snapshot.applied;
-  const Control* before = next_control_ >= 2 ? &controls_[next_control_ - 2] : nullptr;
+  const Mark* before = next_mark_ >= 2 ? &marks_[next_mark_ - 2] : nullptr;
   if (!before || !before->applied || before->number.start != start_ || before->epoch() != applied_.epoch) return;
   if (before->applied->number == applied_.number) compare(*before->applied, applied_);
 }
 
-void RunCheck::note_beginning(const Control& control) {
-  if (extent_.epochs == 0 || control.number.start != start_ || control.epoch() != applied_.epoch) ++extent_.epochs;
-  start_ = control.number.start;
+void RunCheck::note_beginning(const Mark& mark) {
+  if (extent_.epochs == 0 || mark.number.start != start_ || mark.epoch() != applied_.epoch) ++extent_.epochs;
+  start_ = mark.number.start;
   has_begun_ = true;
 }
 
@@ -197,9 +197,9 @@ void RunCheck::take_applied(const afm_emulator::Applied& applied) {
   ++extent_.commands;
 }
 
-void RunCheck::take_snapshot(const Control& control) {
-  if (!run_) return begin_at(control);
-  const afm_emulator::Snapshot& snapshot = *control.snapshot;
+void RunCheck::take_snapshot(const Mark& mark) {
+  if (!run_) return begin_at(mark);
+  const afm_emulator::Snapshot& snapshot = *mark.snapshot;
   run_to(snapshot.time, snapshot.next_impact);
   settle();
   if (difference_) return;

@@ -1,4 +1,4 @@
-// A recorded run, simulated again and compared byte for byte. It begins at a snapshot, obeys what was applied, splits
+// A recorded run, simulated again and compared byte for byte. It begins at a snapshot, applies what was applied, splits
 // the motion at every snapshot, and makes every message as the node does. A batch is advanced as the node advanced it;
 // where batches are missing, the run goes on to the next one, as its motion does not depend on how it is divided.
 #pragma once
@@ -58,7 +58,7 @@ class RunCheck {
 
  private:
   // Something that took effect, or a snapshot: one of the two.
-  struct Control {
+  struct Mark {
     Number number;
     boost::shared_ptr<afm_emulator::Applied> applied;
     boost::shared_ptr<afm_emulator::Snapshot> snapshot;
@@ -72,16 +72,16 @@ class RunCheck {
     std::uint64_t count;
   };
 
-  void read_controls();
+  void read_marks();
   void check_configurations();
-  bool is_due(const Control& control) const;
-  void take(const Control& control);
-  bool begins_epoch(const Control& control) const;
-  void begin_epoch(const Control& control);
-  void begin_at(const Control& control);
-  void note_beginning(const Control& control);
+  bool is_due(const Mark& mark) const;
+  void take(const Mark& mark);
+  bool begins_epoch(const Mark& mark) const;
+  void begin_epoch(const Mark& mark);
+  void begin_at(const Mark& mark);
+  void note_beginning(const Mark& mark);
   void take_applied(const afm_emulator::Applied& applied);
-  void take_snapshot(const Control& control);
+  void take_snapshot(const Mark& mark);
   void settle();
   void check_batch();
   void advance(const afm_emulator::Friction& recorded);
@@ -97,8 +97,8 @@ class RunCheck {
   const Recording& recording_;
   const Progress progress_;
   const double most_gap_;
-  std::vector<Control> controls_;
-  std::size_t next_control_ = 0;
+  std::vector<Mark> marks_;
+  std::size_t next_mark_ = 0;
   std::unique_ptr<Cursor<afm_emulator::Friction>> batches_;
   std::unique_ptr<Cursor<afm_emulator::Deflection>> deflections_;  // null: not held
   std::unique_ptr<Cursor<afm_emulator::ImpactArray>> impacts_;     // likewise
