@@ -139,9 +139,9 @@ class EmulatorNode {
                                                               live_server_->applied(live);
                                                             }});
     runner_.start();
-    publisher_->start(runner_.scheduler());
-    advertise(node);
     report_run(parameters, runner_.scheduler());
+    advertise(node);
+    publisher_->start(runner_.scheduler());  // last: whoever has a message finds the services
   }
 
   // In order: no more commands, the last batch, all published, the bag closed.
