@@ -1,4 +1,5 @@
-"""For catkin alone: the Python package afm_emulator (the client library). pip builds the module afm by pyproject.toml."""
+"""For catkin alone: the Python package afm_emulator (the client library). pip builds the module afm by
+pyproject.toml."""
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 

@@ -1,5 +1,5 @@
-// How much faster than real time one tip is for six levers on three crystals, over loads and speeds: without a bath, and
-// with one at 300 K and Q = 100. CSV on stdout, a summary on stderr. In processor time, and in the lever's own tau.
+// How much faster than real time one tip is for six levers on three crystals, over loads and speeds: without a bath,
+// and with one at 300 K and Q = 100. CSV on stdout, a summary on stderr. In processor time, and in the lever's own tau.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -66,7 +66,9 @@ struct Summary {
   }
   void print(const char* name) {
     std::sort(times.begin(), times.end());
-    const auto below = [&](double limit) { return std::lower_bound(times.begin(), times.end(), limit) - times.begin(); };
+    const auto below = [&](double limit) {
+      return std::lower_bound(times.begin(), times.end(), limit) - times.begin();
+    };
     std::fprintf(stderr, "%s: %zu points, below 1: %td, below 3: %td, below 10: %td, least %.3g (tau >= 40 us: %.3g), "
                  "median %.3g\n", name, times.size(), below(1.0), below(3.0), below(10.0), times.front(),
                  worst_slow_lever, times[times.size() / 2]);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""How long a controller waits for its command: starts a master and an emulator of its own, at batches of 100 Hz and of 1 kHz, and
-runs the example loop_delay beside it. Writes the table of docs/interface.md.
+"""How long a controller waits for its command: starts a master and an emulator of its own, at batches of 100 Hz and of
+1 kHz, and runs the example loop_delay beside it. Writes the table of docs/interface.md.
 
 usage: loop_delay.py [--commands N] [--output FILE]     (default: 1000, docs/data/loop_delay.csv)"""
 import argparse
@@ -18,7 +18,8 @@ PATIENCE_S = 30.0
 
 
 def binary(name):
-    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'afm_emulator', name], text=True).strip()
+    return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'afm_emulator', name],
+                                   text=True).strip()
 
 
 def wait_for(server):
@@ -36,8 +37,8 @@ def measure(server, rate, commands):
     server.setParam('loop_delay', '/afm', {'batch_rate_hz': rate, 'drag_velocity': 6.62e-6})
     emulator = subprocess.Popen([binary('emulator_node'), '__name:=afm'])
     try:
-        done = subprocess.run([binary('loop_delay'), '_commands:=%d' % commands], check=True, stdout=subprocess.PIPE, text=True,
-                              timeout=PATIENCE_S + commands)
+        done = subprocess.run([binary('loop_delay'), '_commands:=%d' % commands], check=True, stdout=subprocess.PIPE,
+                              text=True, timeout=PATIENCE_S + commands)
         return [line for line in done.stdout.splitlines() if not line.startswith('[')]
     finally:
         emulator.send_signal(signal.SIGINT)
@@ -47,7 +48,8 @@ def measure(server, rate, commands):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--commands', type=int, default=1000)
-    parser.add_argument('--output', type=Path, default=Path(__file__).resolve().parent.parent / 'docs/data/loop_delay.csv')
+    parser.add_argument('--output', type=Path,
+                        default=Path(__file__).resolve().parent.parent / 'docs/data/loop_delay.csv')
     arguments = parser.parse_args()
     os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
     master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])

@@ -1,6 +1,6 @@
-// How much faster than real time one tip is, over drag speeds, cutoffs, levers, loads and baths, and what K_f comes out:
-// CSV on stdout, a summary on stderr. In processor time. A tau is 157 us with the paper's springs, and counts as that
-// for every lever. A tau that seems the slowest is made again, as it may have been interrupted.
+// How much faster than real time one tip is, over drag speeds, cutoffs, levers, loads and baths, and what K_f comes
+// out: CSV on stdout, a summary on stderr. In processor time. A tau is 157 us with the paper's springs, and counts as
+// that for every lever. A tau that seems the slowest is made again, as it may have been interrupted.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,5 @@
-# Quad precision, for tests and measurements: GCC's libquadmath where there is one; without it Boost computes in software.
+# Quad precision, for tests and measurements: GCC's libquadmath where there is one; without it Boost computes in
+# software.
 include(CheckCXXSourceCompiles)
 set(CMAKE_REQUIRED_LIBRARIES quadmath)
 check_cxx_source_compiles("#include <boost/multiprecision/float128.hpp>

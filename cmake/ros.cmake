@@ -21,7 +21,8 @@ generate_messages(DEPENDENCIES std_msgs)
 generate_dynamic_reconfigure_options(config/Emulator.cfg)
 
 if(AFM_DYNAMICS)
-  set(afm_dynamics_exports INCLUDE_DIRS include dynamics/include LIBRARIES afm_emulator_core afm_emulator_dynamics DEPENDS EIGEN3)
+  set(afm_dynamics_exports INCLUDE_DIRS include dynamics/include LIBRARIES afm_emulator_core afm_emulator_dynamics
+    DEPENDS EIGEN3)
 else()
   set(afm_dynamics_exports INCLUDE_DIRS include LIBRARIES afm_emulator_core)
 endif()

@@ -37,15 +37,15 @@ def tag():
     return '%s-%s-%s' % (python, abi, re.sub(r'[-.]', '_', sysconfig.get_platform()))
 
 
-NEEDED = 'afm_emulator: %s. The module needs a compiler, CMake, Boost, Eigen, pybind11 and the headers of Python. On Debian and ' \
-    'Ubuntu scripts/install_dependencies --without-ros installs them all.'
+NEEDED = 'afm_emulator: %s. The module needs a compiler, CMake, Boost, Eigen, pybind11 and the headers of Python. On Debian ' \
+    'and Ubuntu scripts/install_dependencies --without-ros installs them all.'
 
 
 def configure(build, *options):
     """Ends with a sentence where something is missing."""
     try:
-        subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DAFM_DYNAMICS=ON', '-DBUILD_TESTING=OFF',
-                               '-DCMAKE_BUILD_TYPE=Release', '-DAFM_PYTHON_DESTINATION=.',
+        subprocess.check_call(['cmake', '-S', str(ROOT), '-B', str(build), '-DAFM_ROS=OFF', '-DAFM_DYNAMICS=ON',
+                               '-DBUILD_TESTING=OFF', '-DCMAKE_BUILD_TYPE=Release', '-DAFM_PYTHON_DESTINATION=.',
                                '-DPYTHON_EXECUTABLE=' + sys.executable, '-DPython3_EXECUTABLE=' + sys.executable,
                                *shlex.split(os.environ.get('CMAKE_ARGS', '')), *options])
     except FileNotFoundError:
@@ -59,7 +59,8 @@ def configure(build, *options):
 def install(build, prefix):
     """The package `afm`, below the prefix."""
     configure(build)
-    subprocess.check_call(['cmake', '--build', str(build), '--target', 'afm_python', '--parallel', str(os.cpu_count() or 1)])
+    subprocess.check_call(['cmake', '--build', str(build), '--target', 'afm_python', '--parallel',
+                           str(os.cpu_count() or 1)])
     subprocess.check_call(['cmake', '-DCMAKE_INSTALL_COMPONENT=python', '-DCMAKE_INSTALL_PREFIX=' + str(prefix), '-P',
                            str(Path(build) / 'python' / 'cmake_install.cmake')])
 

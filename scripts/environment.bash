@@ -3,8 +3,8 @@
 
 afm_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 afm_build=${AFM_BUILD_DIR:-$afm_root/build}
-# what is sourced: rosrun finds no executable below PACKAGE/build, and roslaunch finds files of an install space below the
-# package twice
+# what is sourced: rosrun finds no executable below PACKAGE/build, and roslaunch finds files of an install space below
+# the package twice
 afm_devel=${AFM_BUILD_DIR:-$afm_root}/devel
 
 # another python3 may be first on PATH (pyenv, conda); ROS's modules belong to the system's
@@ -26,8 +26,8 @@ print_help() {
   awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
 }
 
-# For builds with one version of each function (sanitizers): where the machine has fused multiply-add and they do not use
-# it, each is a call of the C library, and what computes takes 1.6 to 15 times as long. The bits are the same.
+# For builds with one version of each function (sanitizers): where the machine has fused multiply-add and they do not
+# use it, each is a call of the C library, and what computes takes 1.6 to 15 times as long. The bits are the same.
 fused_multiply_add_flag() {
   if grep -qsw fma /proc/cpuinfo; then echo -mfma; fi
 }

@@ -14,7 +14,8 @@ def labels(test):
 
 
 def needs(test, outputs):
-    # ctest leaves out the command of a program that is not built yet: its target has the name of the test behind a prefix
+    # ctest leaves out the command of a program that is not built yet: its target has the name of the test behind a
+    # prefix
     words = re.split(r'[\s"=]+', ' '.join(test.get('command', ['afm_' + test['name'], 'afm_replay_' + test['name']])))
     if '_rostest_' in test['name']:
         return {'afm_emulator', 'afm_clock_jump', 'afm_examples_ros', 'afm_bag_to_csv'} | ({'afm_python'} & outputs)

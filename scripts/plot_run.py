@@ -18,7 +18,8 @@ MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is
 ZOOM_TAU = 6.0  # the end of the run, sample by sample
 # Okabe and Ito's colours, which the colour-blind can tell apart
 BLUE, ORANGE, GREEN, PINK = '#0072B2', '#D55E00', '#009E73', '#CC79A7'
-KINDS = {0: ('impact', BLUE, 3), 1: ('chatter sequence', ORANGE, 14), 2: ('contact begins', GREEN, 12), 3: ('contact ends', PINK, 12)}
+KINDS = {0: ('impact', BLUE, 3), 1: ('chatter sequence', ORANGE, 14), 2: ('contact begins', GREEN, 12),
+         3: ('contact ends', PINK, 12)}
 
 
 class Run:
@@ -65,8 +66,8 @@ class Run:
 
     def add_friction(self, message):
         per_unit = message.k_f_work_natural / message.k_f_work if message.k_f_work else NAN
-        self.friction.append((self.seconds(message.time), message.k_f_work_natural, message.k_f_work_std_error * per_unit,
-                              message.window_k_f_natural))
+        self.friction.append((self.seconds(message.time), message.k_f_work_natural,
+                              message.k_f_work_std_error * per_unit, message.window_k_f_natural))
 
     def add_drag(self, message):
         moment = self.offset + (message.time.tau + message.time.phase) * self.unit
@@ -119,7 +120,8 @@ def put_legend(axes, **options):
 
 def draw_deflection(axes, run):
     times, *ranges = np.hstack(run.samples)
-    for name, low, high, colour in (('vertical', ranges[0], ranges[2], BLUE), ('lateral', ranges[1], ranges[3], ORANGE)):
+    for name, low, high, colour in (('vertical', ranges[0], ranges[2], BLUE),
+                                    ('lateral', ranges[1], ranges[3], ORANGE)):
         axes.fill_between(times, low, high, lw=0.8, color=colour, alpha=0.6, label=name + ', range')
     axes.set_ylabel('deflection [nm]')
     put_legend(axes)

@@ -15,7 +15,8 @@ show_last_line() {
 }
 
 # usage: step TEXT LOG COMMAND...
-# Runs the command with its output in the log, and says what it is at. Fails as the command fails, with the end of the log.
+# Runs the command with its output in the log, and says what it is at. Fails as the command fails, with the end of the
+# log.
 step() {
   local text=$1 log=$2 begin=$SECONDS watcher status=0
   shift 2

@@ -13,20 +13,22 @@ ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'dynamics/include/
          'dynamics/src': 'dynamics', 'dynamics/tools': 'studies', 'dynamics/test': 'test',
          'src/core': 'core', 'src/core/lanes': 'lanes',
          'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
-         'src/node/params': 'params', 'src/node/runner': 'runner', 'src/node/publisher': 'publisher', 'src/node/recorder': 'recorder',
-         'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials', 'test': 'test'}
-ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'}, 'studies': {'common', 'core', 'dynamics'}, 'sweep': {'common', 'core'},
-           'params': {'core'}, 'runner': {'core', 'params'}, 'recorder': set(),
-           'publisher': {'core', 'params', 'runner', 'recorder'},
+         'src/node/params': 'params', 'src/node/runner': 'runner', 'src/node/publisher': 'publisher',
+         'src/node/recorder': 'recorder', 'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials',
+         'test': 'test'}
+ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'},
+           'studies': {'common', 'core', 'dynamics'}, 'sweep': {'common', 'core'}, 'params': {'core'},
+           'runner': {'core', 'params'}, 'recorder': set(), 'publisher': {'core', 'params', 'runner', 'recorder'},
            'node': {'core', 'params', 'runner', 'publisher', 'recorder'}, 'view': {'core', 'publisher'},
            'tools': {'common', 'core', 'dynamics', 'sweep', 'params', 'publisher', 'recorder'},
            'python': {'core', 'common', 'dynamics', 'studies', 'sweep'}, 'trials': {'core'},
            'benchmark': {'common', 'core', 'trials'},
-           'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher', 'recorder',
-                    'view', 'trials'}}
+           'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher',
+                    'recorder', 'view', 'trials'}}
 # where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
 DOORS = {('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h')}
-SEARCHED = ('include', 'dynamics/include', 'src', 'dynamics/tools', 'test', 'benchmark')  # after the folder of the file itself
+# after the folder of the file itself
+SEARCHED = ('include', 'dynamics/include', 'src', 'dynamics/tools', 'test', 'benchmark')
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The examples in C++, copied out of the tree: they find the installed package, or that of the devel space, and give the same bits
-# as within the tree, also where they are compiled for the machine at hand.
+# The examples in C++, copied out of the tree: they find the installed package, or that of the devel space, and give the
+# same bits as within the tree, also where they are compiled for the machine at hand.
 #
 # usage: consumer_test.sh BUILD DEVEL EXAMPLES PROGRAM...
 #   DEVEL: the devel space, empty without ROS; EXAMPLES: their folder; PROGRAM: each of them, compiled within the tree

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# examples/my_controller in a workspace of its own, as a user has it: its rostest passes. With the wrong sign of the gain it fails, with
-# a sentence, a picture, and a bag that replay_check calls identical.
+# examples/my_controller in a workspace of its own, as a user has it: its rostest passes. With the wrong sign of the
+# gain it fails, with a sentence, a picture, and a bag that replay_check calls identical.
 # usage: my_controller_test.sh SOURCE_DIRECTORY DEVEL_DIRECTORY
 set -euo pipefail
 source_directory=$1 devel=$2

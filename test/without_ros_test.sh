@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Without ROS, Eigen and the laboratory the tree gives the core and the tools of the emulator that need no bag. And `pip install .`
-# gives the Python module from the same build, in an environment of its own and without a network.
+# Without ROS, Eigen and the laboratory the tree gives the core and the tools of the emulator that need no bag. And `pip
+# install .` gives the Python module from the same build, in an environment of its own and without a network.
 #
 # usage: without_ros_test.sh ROOT BUILD [PYTHON]    BUILD: a directory that is kept, so that the next run builds only what changed;
 #   PYTHON: of the module; none where that is not built

@@ -1,5 +1,5 @@
-// heyoka: Taylor's method in compiled code, with event detection on the series of each step. As its manual recommends: the
-// gap is a terminal event of falling direction, the model's numbers are runtime parameters, so it compiles once.
+// heyoka: Taylor's method in compiled code, with event detection on the series of each step. As its manual recommends:
+// the gap is a terminal event of falling direction, the model's numbers are runtime parameters, so it compiles once.
 #include <algorithm>
 #include <heyoka/heyoka.hpp>
 #include <iterator>

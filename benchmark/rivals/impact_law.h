@@ -65,8 +65,8 @@ class CrossingWatch {
     return -1.0;
   }
 
-  // The same with the gap rate as a second event: where it changes from falling to rising in a span, the minimum between
-  // the samples is found first, and the root before it if the gap is negative there. `both` gives gap and rate.
+  // The same with the gap rate as a second event: where it changes from falling to rising in a span, the minimum
+  // between the samples is found first, and the root before it if the gap is negative there. `both` gives gap and rate.
   template <class Both>
   double look_with_minima(const Both& both, double t0, double t1) {
     const auto gap = [&both](double s) { return both(s).gap; };

@@ -1,5 +1,5 @@
-// The energy balance of a tip, from the records of its segments (afm/segment.h): the drag works only through the holder,
-// so what is lost is what it put in, less what is stored.
+// The energy balance of a tip, from the records of its segments (afm/segment.h): the drag works only through the
+// holder, so what is lost is what it put in, less what is stored.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +45,8 @@ class EnergyBalance {
     stored_ = tip.stored_energy();
   }
 
-  // Energy from nothing: in the sum of all segments, or between it and the state of the tip. A hammer's holder changes the
-  // state where it takes up a new velocity.
+  // Energy from nothing: in the sum of all segments, or between it and the state of the tip. A hammer's holder changes
+  // the state where it takes up a new velocity.
   double imbalance(const Tip& tip) const {
     const double sum = std::abs(static_cast<double>(imbalance_));
     if (tip.model().kind == ModelKind::hammer) return sum;

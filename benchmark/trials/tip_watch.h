@@ -29,7 +29,8 @@ class TipWatch {
 
   // One arc, or to the limit. False: what violation() tells has happened.
   bool advance_segment(const ModelTime& limit, Outcome& outcome) {
-    const ModelTime begin = tip_.now(), segment_end = tip_.segment_end(), end = segment_end < limit ? segment_end : limit;
+    const ModelTime begin = tip_.now(), segment_end = tip_.segment_end(),
+                    end = segment_end < limit ? segment_end : limit;
     if (segment_end < begin) return violated("an arc ends before it begins");
     if (!check_depths(begin, end)) return false;
     outcome = balance_.advance_segment(tip_, limit);

@@ -52,8 +52,8 @@ int bifurcation_sign(BifurcationKind kind, const PeriodicOrbit& orbit, double v_
   }
 }
 
-// True: the orbit at a change of sign is at a bifurcation of that kind. Multipliers may also jump past the unit circle at
-// a corner, or a pair may split on the real axis.
+// True: the orbit at a change of sign is at a bifurcation of that kind. Multipliers may also jump past the unit circle
+// at a corner, or a pair may split on the real axis.
 bool confirms(BifurcationKind kind, const PeriodicOrbit& orbit) {
   switch (kind) {
     case BifurcationKind::saddle_node:

@@ -43,7 +43,8 @@ Eigen::Matrix4d quad_jacobian(const Model& model, double eta, const TipState& st
     for (const double s : guess) p = impacts.next(p, s);
     return p;
   };
-  return without_held_directions(is_free_along_x(model), Eigen::Matrix4d(quad_differences<4>(chain, quad_point(start), Quad(1e-13))));
+  return without_held_directions(is_free_along_x(model),
+                                 Eigen::Matrix4d(quad_differences<4>(chain, quad_point(start), Quad(1e-13))));
 }
 
 struct Burst {
@@ -68,7 +69,8 @@ class Bursts {
       const bool ends = tip_.advance(kEnd) == Outcome::impact && tip_.tip_state().g1 > 0.0;
       if (!ends || tip_.last_impact().count > kMostBounces) continue;
       if (tip_.now() == begin) continue;  // at the threshold of contact: it ends where it began, without a bounce
-      return {leave_surface(model_, {slide.phase, slide.X, slide.u}, after), tip_.now() - begin, tip_.last_impact().count};
+      return {leave_surface(model_, {slide.phase, slide.X, slide.u}, after), tip_.now() - begin,
+              tip_.last_impact().count};
     }
   }
   const ChatterLaw& law() const { return tip_.chatter_law(); }

@@ -46,8 +46,8 @@ INSTANTIATE_TEST_SUITE_P(Settings, HeatedSweep,
                                          Setting{3.4, 20.0, 0.926}, Setting{6.0, 100.0, 0.0},
                                          Setting{6.0, 500.0, 0.926}));
 
-// Strobing: kicks at a whole rate come always at the same phases of an orbit of even eta. The start decides at which: four
-// starts are 4, 6, 33 and 36 % off.
+// Strobing: kicks at a whole rate come always at the same phases of an orbit of even eta. The start decides at which:
+// four starts are 4, 6, 33 and 36 % off.
 TEST(HeatedSweep, AWholeRateIsNot) { EXPECT_GT(bias_beyond_noise(2.0, 100.0, 0.926, 2.0), 4.0 * kBias); }
 
 }  // namespace

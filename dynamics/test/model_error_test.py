@@ -37,7 +37,8 @@ class Errors(unittest.TestCase):
         self.assertGreater(rows[0]['stretch_max'], rows[0]['stretch_rms'])
 
     def test_of_bursts_is_within_their_tolerance(self):
-        _, rows, _ = run('--model', 'oscillator', '--eta', '3', '--cutoff', '0.15', '--reference-tolerance', '0', *QUICK)
+        _, rows, _ = run('--model', 'oscillator', '--eta', '3', '--cutoff', '0.15', '--reference-tolerance', '0',
+                         *QUICK)
         self.assertLess(abs(rows[0]['k_f_error']), 1e-2)
         self.assertGreater(rows[0]['cost_ratio'], 0.0)
 

@@ -1,4 +1,5 @@
-"""The level that each shipped scene runs is as far from the finest as its table says. usage: scene_levels_test.py TOOLS SCRIPTS"""
+"""The level that each shipped scene runs is as far from the finest as its table says. usage: scene_levels_test.py TOOLS
+SCRIPTS"""
 import importlib.util
 import math
 import sys
@@ -24,7 +25,8 @@ class SceneLevels(unittest.TestCase):
                 self.assertLessEqual(found['error'], found['expected'] + found['noise'])
                 self.assertLess(found['noise'], 0.05)
                 known.add(found['scene'])
-        self.assertEqual(known, {p.stem for p in (scene_levels.CONFIG / 'scenes').glob('*.yaml')} - {'rest', 'room', 'loop'})
+        self.assertEqual(known, {p.stem for p in (scene_levels.CONFIG / 'scenes').glob('*.yaml')} -
+                         {'rest', 'room', 'loop'})
 
 
 if __name__ == '__main__':

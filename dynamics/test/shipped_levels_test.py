@@ -1,4 +1,5 @@
-"""The errors in config/levels.csv are those of the code as it is. usage: shipped_levels_test.py LEVEL_TABLE LEVELS.CSV"""
+"""The errors in config/levels.csv are those of the code as it is. usage: shipped_levels_test.py LEVEL_TABLE
+LEVELS.CSV"""
 import csv
 import subprocess
 import sys

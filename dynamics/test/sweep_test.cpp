@@ -40,7 +40,8 @@ TEST(Sweep, OnAPeriodicOrbitTheFrictionIsExact) {
                          {2.25, 1.603774408582840476679226},
                          {4.5, 0.445730537638223617016902}};
   for (const Known& k : known) {
-    const SweepResult r = sweep_attractor({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
+    const SweepResult r =
+        sweep_attractor({k.eta, mica.gamma, 0.1 * k.eta}, settings_of(1000.0, 500.0), plain_start(k.eta));
     EXPECT_EQ(r.attractor.rfind("period-", 0), 0u) << r.attractor;
     EXPECT_NEAR(r.friction.K_f, k.K_f, 1e-10) << k.eta;
     EXPECT_LT(r.friction.K_f_std_error, 1e-10) << k.eta;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""A detector: what an instrument would give of ~deflection. Light on a photodiode has a calibration, white noise and a range, and
-a converter has bits. Publishes volts on ~volts (std_msgs/Float64MultiArray, the two channels vertical and lateral one after the
-other, a message for each batch).
+"""A detector: what an instrument would give of ~deflection. Light on a photodiode has a calibration, white noise and a
+range, and a converter has bits. Publishes volts on ~volts (std_msgs/Float64MultiArray, the two channels vertical and
+lateral one after the other, a message for each batch).
 Parameters: emulator, vertical_v_per_nm, lateral_v_per_nm, noise_v_per_sqrt_hz, range_v, bits, seed."""
 from afm_emulator import ending  # before all else
 import numpy
@@ -12,14 +12,15 @@ from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 class Detector:
     def __init__(self):
-        self.v_per_nm = numpy.array([[rospy.get_param('~vertical_v_per_nm', 0.05)], [rospy.get_param('~lateral_v_per_nm', 0.01)]])
+        self.v_per_nm = numpy.array([[rospy.get_param('~vertical_v_per_nm', 0.05)],
+                                     [rospy.get_param('~lateral_v_per_nm', 0.01)]])
         self.noise = rospy.get_param('~noise_v_per_sqrt_hz', 5e-6)  # 0.1 pm per root Hz of vertical deflection
         self.range = rospy.get_param('~range_v', 10.0)
         self.step = 2 * self.range / 2 ** rospy.get_param('~bits', 16)
         self.random = numpy.random.default_rng(rospy.get_param('~seed', 1))
         self.volts = rospy.Publisher('~volts', Float64MultiArray, queue_size=100)
-        rospy.Subscriber(rospy.get_param('~emulator', '/afm') + '/deflection', Deflection, self.measure, tcp_nodelay=True,
-                         buff_size=1 << 22)
+        rospy.Subscriber(rospy.get_param('~emulator', '/afm') + '/deflection', Deflection, self.measure,
+                         tcp_nodelay=True, buff_size=1 << 22)
 
     def measure(self, batch):
         deflection = 1e9 * numpy.array([batch.vertical, batch.lateral])

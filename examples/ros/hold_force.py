@@ -2,7 +2,8 @@
 """A controller: holds the mean lateral force by commanding ~rest_height, the normal load.
 
 Friction is not monotonic in the load, so the height stays within limits between which force rises as the tip is lowered
-(docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on ~commanded_height.
+(docs/temperature.md, "Load"). Publishes the measured force [N] on ~measured_force and the height [m] on
+~commanded_height.
 Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time."""
 from afm_emulator import ending  # before all else
 import rospy

@@ -1,5 +1,5 @@
-// Measures how long a controller waits: from publishing a drag velocity until ~applied says that it holds, and until the
-// first batch that was moved by it arrives. Prints one row of CSV.
+// Measures how long a controller waits: from publishing a drag velocity until ~applied says that it holds, and until
+// the first batch that was moved by it arrives. Prints one row of CSV.
 // Parameters: emulator; commands, how many; batch_rate_hz is asked of the emulator's configuration.
 #include <afm_emulator/Applied.h>
 #include <afm_emulator/Configuration.h>

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A subscriber: checks that no sample is lost, and plots the lateral force of each batch against model time, in a window, or with
-the parameter output in a file.
+"""A subscriber: checks that no sample is lost, and plots the lateral force of each batch against model time, in a
+window, or with the parameter output in a file.
 Parameters: emulator, duration [s of wall time], output. Exit code 1 if samples were lost or none came."""
 from afm_emulator import ending  # before all else
 import math

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """A controller: seeks the drag velocity with the greatest friction by commanding ~drag_velocity (extremum seeking).
 
-Measures the mean lateral force a little below and a little above the present speed, and goes to where it is greater. The step is
-proportional to the relative difference, so it vanishes at the peak. Publishes the speed [m/s] on ~speed.
+Measures the mean lateral force a little below and a little above the present speed, and goes to where it is greater.
+The step is proportional to the relative difference, so it vanishes at the peak. Publishes the speed [m/s] on ~speed.
 Parameters: emulator, start, dither, gain, lowest and highest speed [m/s], settle_s and window_s of model time."""
 from afm_emulator import ending  # before all else
 import rospy

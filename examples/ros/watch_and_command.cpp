@@ -1,7 +1,8 @@
-// A subscriber and commander in C++: checks that no sample and no impact is lost, commands drag velocities in turn, and prints
-// the friction of each.
+// A subscriber and commander in C++: checks that no sample and no impact is lost, commands drag velocities in turn, and
+// prints the friction of each.
 // usage: watch_and_command [DRAG_VELOCITY...]     in m/s; without one it watches until Ctrl-C
-// Parameters: emulator; hold_s of wall time for each velocity. Exit code 1 if something was lost, 2 for what is no number.
+// Parameters: emulator; hold_s of wall time for each velocity. Exit code 1 if something was lost, 2 for what is no
+// number.
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>

@@ -1,4 +1,5 @@
-"""The library of afm_emulator: an AFM tip as an impact oscillator over a sinusoidal surface, exact from impact to impact.
+"""The library of afm_emulator: an AFM tip as an impact oscillator over a sinusoidal surface, exact from impact to
+impact.
 
 Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `Units` converts to SI.
 
@@ -12,13 +13,14 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
 - friction_curve, attractors, periodic_orbits, lyapunov, next_impact: what the tools of these names compute
 - from_bag: a recording: its model, its commands, and its run simulated again
 
-Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1 of the
-paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with one k_f is no
-friction, as the bath feeds the impacts: at eta = 0.1 and 300 K k_f is 20 times as much.
+Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1 of
+the paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with one k_f
+is no friction, as the bath feeds the impacts: at eta = 0.1 and 300 K k_f is 20 times as much.
 
-What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL and end
-at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A copy has the bits
-of the original; pickling splits the motion under way in what is pickled, so that its last digits may differ.
+What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL
+and end at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A
+copy has the bits of the original; pickling splits the motion under way in what is pickled, so that its last digits may
+differ.
 """
 from .errors import ArgumentTypeError, ParameterError
 from .values import Batch, Kind, Lyapunov, ModelTime, Samples, State
@@ -29,8 +31,8 @@ from .tables import attractors, friction_curve, lyapunov, next_impact, periodic_
 from .recordings import Recording, from_bag
 
 __all__ = ['ArgumentTypeError', 'Bath', 'Batch', 'Ensemble', 'Kind', 'Lyapunov', 'Model', 'ModelTime', 'ParameterError',
-           'Recording', 'Run', 'Samples', 'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag', 'lyapunov',
-           'next_impact', 'periodic_orbits', '__version__']
+           'Recording', 'Run', 'Samples', 'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag',
+           'lyapunov', 'next_impact', 'periodic_orbits', '__version__']
 
 explain(Bath, Ensemble, Model, Run, Tip, Units)
 del explain

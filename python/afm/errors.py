@@ -7,7 +7,8 @@ def _text(value: Any) -> str:
 
 
 class ParameterError(ValueError):
-    """One argument: its name, the value given, and why it cannot be used. `faults` holds all that are wrong with a call."""
+    """One argument: its name, the value given, and why it cannot be used. `faults` holds all that are wrong with a
+    call."""
 
     faults: Tuple['ParameterError', ...]
 

@@ -17,33 +17,39 @@ Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
 
 def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int, Any]]:
-    """Of one emulator, by type: the messages by their numbers in their topic. Of samples and impacts the numbers alone."""
+    """Of one emulator, by type: the messages by their numbers in their topic. Of samples and impacts the numbers
+    alone."""
     try:
         import rosbag
     except ImportError as fault:
-        raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): %s' % fault)
+        raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): '
+                          '%s' % fault)
     kinds = {'afm_emulator/' + kind: kind for kind in _KINDS}
     found: Any = defaultdict(lambda: defaultdict(dict))
     stamps: Dict[Tuple[str, str, int], Tuple[str, bytes]] = {}
     for path in paths:
         with rosbag.Bag(str(path)) as bag:
-            for topic, raw, _, header in bag.read_messages(raw=True, return_connection_header=True,
-                                                           connection_filter=lambda _, datatype, *__: datatype in kinds):
+            for topic, raw, _, header in bag.read_messages(
+                    raw=True, return_connection_header=True,
+                    connection_filter=lambda _, datatype, *__: datatype in kinds):
                 node = header.get('callerid', b'')
                 node = node.decode() if isinstance(node, bytes) else node
                 kind, seq, stamp = kinds[raw[0]], int.from_bytes(raw[1][:4], 'little'), raw[1][4:12]
                 if stamps.setdefault((node, kind, seq), (topic, stamp)) != (topic, stamp):
-                    raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' % (path, node))
+                    raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' %
+                                     (path, node))
                 found[node][kind][seq] = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
     if namespace is None and len(found) == 1:
         namespace = next(iter(found))
     if namespace not in found:
-        raise ValueError('namespace = %s: the bag holds recordings of %s' % (namespace, ', '.join(sorted(found)) or 'nothing'))
+        raise ValueError('namespace = %s: the bag holds recordings of %s' %
+                         (namespace, ', '.join(sorted(found)) or 'nothing'))
     return {kind: dict(sorted(found[namespace][kind].items())) for kind in _KINDS}
 
 
 def _model_time(message: Any) -> ModelTime:
-    """Comparable: rosbag makes a class of its own for the ModelTime of every type of message, and unlike classes are unequal."""
+    """Comparable: rosbag makes a class of its own for the ModelTime of every type of message, and unlike classes are
+    unequal."""
     return ModelTime(message.tau, message.phase)
 
 
@@ -60,9 +66,9 @@ class Recording:
     """One epoch of a recording.
 
     units, model: of its configuration; eta: drag velocity at its beginning [a/tau]; configuration: the message;
-    commands: structured array (n,) of the drag velocity at the beginning and after each command: tau, phase, eta [a/tau],
-    drag_velocity [m/s]; begin, end: model times between which the run is simulated; epochs: all that the bag holds.
-    Where something is missing without which the run is not known, it is a ValueError that names it.
+    commands: structured array (n,) of the drag velocity at the beginning and after each command: tau, phase, eta
+    [a/tau], drag_velocity [m/s]; begin, end: model times between which the run is simulated; epochs: all that the bag
+    holds. Where something is missing without which the run is not known, it is a ValueError that names it.
     """
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
@@ -87,12 +93,14 @@ class Recording:
         self.eta: float = start.applied.drag_velocity / self.units.velocity
         self.begin = _model_time(start.time)
         if not frictions:
-            raise ValueError('the bag holds no message of Friction in epoch %d: the end of the run is not known' % self.epoch)
+            raise ValueError('the bag holds no message of Friction in epoch %d: the end of the run is not known' %
+                             self.epoch)
         self._last = frictions[-1]
         self.end = _model_time(self._last.time)
         if _model_time(frictions[0].begin) < self.begin and self.begin > (0, 0.0):
             raise ValueError('the bag begins before its first snapshot: the state there is not known')
-        self._applied = [m for m in read['Applied'].values() if m.epoch == self.epoch and m.number > start.applied.number]
+        self._applied = [m for m in read['Applied'].values() if m.epoch == self.epoch
+                         and m.number > start.applied.number]
         numbers = [start.applied.number] + [m.number for m in self._applied]
         if numbers != list(range(numbers[0], max(numbers[-1], self._snapshots[-1].applied.number) + 1)):
             raise ValueError('messages of Applied are missing: a command is not known')
@@ -108,19 +116,21 @@ class Recording:
         model = self._units(applied).model
         bath: Bath = self.units.bath(seed=self.configuration.seed, **{name: getattr(applied, name) for name in _BATH})
         return dict(eta=applied.drag_velocity / self.units.velocity, gamma=model.gamma, cutoff=model.cutoff,
-                    rest_height=model.rest_height, kind=applied.model, contact_tolerance=applied.contact_tolerance, bath=bath,
-                    friction_window=applied.friction_window_tau, sample_period=applied.sample_period_tau,
+                    rest_height=model.rest_height, kind=applied.model, contact_tolerance=applied.contact_tolerance,
+                    bath=bath, friction_window=applied.friction_window_tau, sample_period=applied.sample_period_tau,
                     samples_per_batch=applied.samples_per_batch)
 
     def _run_from(self, snapshot: Any) -> Run:
         c, live, m = self.configuration, self._settings(snapshot.applied), self.model
-        model = Model(*(live.pop(name) for name in ('gamma', 'cutoff', 'rest_height')), m.amplitude, m.frequency_ratio, live.pop('kind'))
+        model = Model(*(live.pop(name) for name in ('gamma', 'cutoff', 'rest_height')), m.amplitude, m.frequency_ratio,
+                      live.pop('kind'))
         state = {name: getattr(snapshot, name) for name in snapshot.__slots__
                  if name not in ('header', 'epoch', 'configuration', 'applied')}
         state = {name: _model_time(v) if hasattr(v, 'tau') else v for name, v in state.items()}
         return Run.from_snapshot(dict(
-            state, model=model, initial_phase=c.initial_phase, initial_extension=c.initial_extension, initial_y=c.initial_height,
-            initial_u=c.initial_u, initial_w=c.initial_w, impact_budget=c.impact_budget, **live))
+            state, model=model, initial_phase=c.initial_phase, initial_extension=c.initial_extension,
+            initial_y=c.initial_height, initial_u=c.initial_u, initial_w=c.initial_w, impact_budget=c.impact_budget,
+            **live))
 
     def _parts(self) -> Iterator[Batch]:
         """The run from one command or snapshot to the next."""
@@ -149,9 +159,11 @@ class Recording:
     def simulate(self) -> Batch:
         """The whole run simulated again, in natural units: times a factor of `units`, the bits of the recording."""
         parts = list(self._parts())
-        joined = {name: np.concatenate([getattr(part, name) for part in parts]) for name in ('vertical', 'lateral', 'impacts')}
+        joined = {name: np.concatenate([getattr(part, name) for part in parts])
+                  for name in ('vertical', 'lateral', 'impacts')}
         return parts[-1]._replace(begin=parts[0].begin, first_sample=parts[0].first_sample,
-                                  first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact, **joined)
+                                  first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact,
+                                  **joined)
 
 
 def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:

@@ -23,7 +23,8 @@ def _structured(columns, rows, names, whole=()):
 
 def _axes(model, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio):
     """Those that are not given are the model's."""
-    given = dict(eta=eta, gamma=model.gamma if gamma is None else gamma, cutoff=model.cutoff if cutoff is None else cutoff,
+    given = dict(eta=eta, gamma=model.gamma if gamma is None else gamma,
+                 cutoff=model.cutoff if cutoff is None else cutoff,
                  rest_height=model.rest_height if rest_height is None else rest_height,
                  amplitude=model.amplitude if amplitude is None else amplitude,
                  frequency_ratio=model.frequency_ratio if frequency_ratio is None else frequency_ratio)
@@ -46,23 +47,24 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
                    progress: Optional[Callable[[int, int], None]] = None) -> np.ndarray:
     """K_f against drag velocity, restitution, cutoff, load and surface: the same bits as the tool friction_curve.
 
-    eta [a/tau], gamma, cutoff [a/tau], rest_height [a], amplitude [a], frequency_ratio: numbers or arrays (k,); None is the
-    model's. The points are all combinations, eta changing fastest, then gamma and so on.
+    eta [a/tau], gamma, cutoff [a/tau], rest_height [a], amplitude [a], frequency_ratio: numbers or arrays (k,); None is
+    the model's. The points are all combinations, eta changing fastest, then gamma and so on.
     model: 'oscillator', 'hammer', or a Model; duration and transient: of the measurement and before it [tau].
     sweep: 'fresh' from random starts; 'up', 'down' from where the point before ended, along eta.
     bath: a heat bath; or in place of it its numbers: temperature kT [m a^2/tau^2], quality_factor (above 0: there is a
     bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's, or 1.
     threads: 0 is one for each processor; no bit depends on it. progress(done, all) is called ten times a second.
 
-    Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m_tip/tau], impacts_per_tau,
-    mean_energy_loss [m a^2/tau^2], mean_flight_time [tau], largest_lyapunov [1/tau], attractor (text), rest_height,
-    amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m_tip/tau].
-    Plot k_f_work against eta: it is friction, from the work of the drag. k_f, from the energy lost in impacts, agrees with it
-    without a bath alone.
+    Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m_tip/tau],
+    impacts_per_tau, mean_energy_loss [m a^2/tau^2], mean_flight_time [tau], largest_lyapunov [1/tau], attractor (text),
+    rest_height, amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m_tip/tau].
+    Plot k_f_work against eta: it is friction, from the work of the drag. k_f, from the energy lost in impacts, agrees
+    with it without a bath alone.
     """
     chosen = _model(model)
     if bath is None:
-        bath = Bath(temperature, quality_factor, lateral_quality_factor, kicks_per_tau, 1 if seed is None else count('seed', seed))
+        bath = Bath(temperature, quality_factor, lateral_quality_factor, kicks_per_tau,
+                    1 if seed is None else count('seed', seed))
     elif not isinstance(bath, Bath):
         raise ArgumentTypeError('bath', bath, 'must be a Bath')
     elif (temperature, quality_factor, lateral_quality_factor, kicks_per_tau) != (0.0, 0.0, 0.0, Bath().kicks_per_tau):
@@ -70,7 +72,8 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     seed = bath.seed if seed is None else count('seed', seed)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
     return _structured(*_afm.friction_curve(axes, chosen.kind, sweep, number('duration', duration),
-                                            number('transient', transient), bath, seed, count('threads', threads), progress))
+                                            number('transient', transient), bath, seed, count('threads', threads),
+                                            progress))
 
 
 def _laboratory(name):
@@ -87,14 +90,16 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
                friction_duration: float = 1000.0, labels: bool = False, threads: int = 0):
     """What attractors there are, and from which starts.
 
-    Points and models as of friction_curve(); transient, duration, friction_duration [tau]. Several points share the threads.
+    Points and models as of friction_curve(); transient, duration, friction_duration [tau]. Several points share the
+    threads.
     starts: how many random ones at each point; or an array (n, 5) of phase, extension, y [a], u, w [a/tau].
 
-    Returns a structured array, a row for each attractor: eta, gamma, cutoff, attractor (text), impacts and cells in a period (0:
-    it does not repeat), k_f, k_f_std_error [m_tip/tau], lyapunov_1 to lyapunov_4 [1/tau], rotation_number, contact_share, basin
-    (share of the starts), basin_std_error, and a start that leads there: phase, extension, y [a], u, w [a/tau].
-    With labels=True (table, starts): a row of `starts` for each start at each point, in their order, with the fields point
-    (0 for the first), attractor_row (in the table), and phase, extension, y, u, w. This is a map of the basins.
+    Returns a structured array, a row for each attractor: eta, gamma, cutoff, attractor (text), impacts and cells in a
+    period (0: it does not repeat), k_f, k_f_std_error [m_tip/tau], lyapunov_1 to lyapunov_4 [1/tau], rotation_number,
+    contact_share, basin (share of the starts), basin_std_error, and a start that leads there: phase, extension, y [a],
+    u, w [a/tau]. With labels=True (table, starts): a row of `starts` for each start at each point, in their order, with
+    the fields point (0 for the first), attractor_row (in the table), and phase, extension, y, u, w. This is a map of
+    the basins.
     """
     chosen = _model(model)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
@@ -103,8 +108,8 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
     how_many = count('starts', starts) if np.ndim(starts) == 0 else len(given)
     *table, where = _laboratory('attractors')(
-        points, chosen.kind, how_many, given, count('seed', seed), number('transient', transient), number('duration', duration),
-        number('friction_duration', friction_duration), count('threads', threads))
+        points, chosen.kind, how_many, given, count('seed', seed), number('transient', transient),
+        number('duration', duration), number('friction_duration', friction_duration), count('threads', threads))
     found = _structured(*table, whole=('impacts', 'cells'))
     if not labels:
         return found
@@ -128,15 +133,17 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
 
     trajectory: impacts of the run that guesses are taken from; guesses: of each of three kinds, for each length.
 
-    Returns a structured array, a row for each orbit: length [impacts], cells, period [tau], k_f [m_tip/tau], residual, the first
-    point just after an impact (phase, extension [a], u, w [a/tau]), multipliers (4 complex numbers, largest first).
+    Returns a structured array, a row for each orbit: length [impacts], cells, period [tau], k_f [m_tip/tau], residual,
+    the first point just after an impact (phase, extension [a], u, w [a/tau]), multipliers (4 complex numbers, largest
+    first).
     """
     columns, rows, _ = _laboratory('periodic_orbits')(
         _model(model), number('eta', eta), count('max_length', max_length), count('trajectory', trajectory),
         count('guesses', guesses), count('seed', seed))
     width = len(columns) - 8  # behind them the multipliers' real and imaginary parts
     whole = ('length', 'cells')
-    orbits = np.empty(len(rows), [(c, 'i8' if c in whole else 'f8') for c in columns[:width]] + [('multipliers', 'c16', 4)])
+    orbits = np.empty(len(rows), [(c, 'i8' if c in whole else 'f8') for c in columns[:width]] +
+                      [('multipliers', 'c16', 4)])
     for column, values in zip(columns[:width], rows.T):
         orbits[column] = values
     orbits['multipliers'] = np.ascontiguousarray(rows[:, width:]).view('c16')
@@ -144,32 +151,35 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
 
 
 def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase: float = 0.25, extension: float = 0.0,
-             y: float = 0.2, u: Optional[float] = None, w: float = 0.0, transient: float = 500.0, duration: float = 2000.0,
-             most_events: int = 20000000, contact_tolerance: float = 1e-3):
+             y: float = 0.2, u: Optional[float] = None, w: float = 0.0, transient: float = 500.0,
+             duration: float = 2000.0, most_events: int = 20000000, contact_tolerance: float = 1e-3):
     """The Lyapunov exponents [1/tau] of the orbit that a start leads to; see afm.Lyapunov.
 
-    The start as of Tip; transient and duration: before and of the measurement [tau]; most_events: allowed to both together.
+    The start as of Tip; transient and duration: before and of the measurement [tau]; most_events: allowed to both
+    together.
     """
     return _laboratory('lyapunov')(
-        _model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u, number('w', w),
-        number('transient', transient), number('duration', duration), count('most_events', most_events, 1),
-        number('contact_tolerance', contact_tolerance))
+        _model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u,
+        number('w', w), number('transient', transient), number('duration', duration),
+        count('most_events', most_events, 1), number('contact_tolerance', contact_tolerance))
 
 
 _INPUTS = ('eta', 'gamma', 'cutoff', 'phase', 'extension', 'u', 'w')
-_RESULTS = ('dt', 'phase_next', 'extension_next', 'u_next', 'w_next', 'normal_speed', 'tangential_velocity', 'energy_loss')
+_RESULTS = ('dt', 'phase_next', 'extension_next', 'u_next', 'w_next', 'normal_speed', 'tangential_velocity',
+            'energy_loss')
 
 
-def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model] = 'oscillator', on_error: str = 'raise',
-                threads: int = 0, **columns: Axis) -> np.ndarray:
-    """The next impact of each state just after an impact: the same bits as the tool next_impact. Every bounce by itself.
+def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model] = 'oscillator',
+                on_error: str = 'raise', threads: int = 0, **columns: Axis) -> np.ndarray:
+    """The next impact of each state just after an impact: the same bits as the tool next_impact. Every bounce by
+    itself.
 
-    states: a structured array with the fields phase, extension [a], u, w [a/tau], and eta, gamma, cutoff where they are not
-    given; or these as keywords, numbers or arrays that broadcast. gamma and cutoff default to the model's.
+    states: a structured array with the fields phase, extension [a], u, w [a/tau], and eta, gamma, cutoff where they are
+    not given; or these as keywords, numbers or arrays that broadcast. gamma and cutoff default to the model's.
     on_error: 'raise', or 'nan' for rows that have no next impact.
 
-    Returns a structured array of the broadcast shape: the seven inputs, then dt [tau], phase_next, extension_next [a], u_next,
-    w_next (after the impact), normal_speed, tangential_velocity (before it) [a/tau], energy_loss [m a^2/tau^2].
+    Returns a structured array of the broadcast shape: the seven inputs, then dt [tau], phase_next, extension_next [a],
+    u_next, w_next (after the impact), normal_speed, tangential_velocity (before it) [a/tau], energy_loss [m a^2/tau^2].
     """
     chosen = _model(model)
     given: Dict[str, Axis] = {'gamma': chosen.gamma, 'cutoff': chosen.cutoff}

@@ -20,7 +20,8 @@ class Kind(enum.IntEnum):
     CONTACT_ENDED = 3
 
 
-_document(Kind, IMPACT='one impact', BURST='a chatter sequence as one event: `count` bounces and all the energy that they lose',
+_document(Kind, IMPACT='one impact',
+          BURST='a chatter sequence as one event: `count` bounces and all the energy that they lose',
           CONTACT_BEGUN='the tip no longer bounces: the surface presses on it from here on',
           CONTACT_ENDED='the surface lets go, and the tip flies')
 
@@ -94,11 +95,12 @@ class Batch(NamedTuple):
 
 _document(Batch, begin='of the advance', end='of the advance', first_sample='running index of the first sample',
           first_sample_time='of the first sample', sample_period='at the end [tau]', vertical='(n,): y - y0 [a]',
-          lateral='(n,): x - xc [a]', first_impact='running index of the first event', impacts='(m,): as of Tip.advance',
-          eta='drag velocity [a/tau]', holder='position of the holder at first_sample_time [a]',
-          friction='the estimate at the end: a dict with the fields of the topic ~friction, in natural units. Friction is '
-                   'k_f_work [m_tip/tau], by the work of the drag; k_f counts the losses in impacts, and agrees without a '
-                   'bath alone')
+          lateral='(n,): x - xc [a]', first_impact='running index of the first event',
+          impacts='(m,): as of Tip.advance', eta='drag velocity [a/tau]',
+          holder='position of the holder at first_sample_time [a]',
+          friction='the estimate at the end: a dict with the fields of the topic ~friction, in natural units. Friction '
+                   'is k_f_work [m_tip/tau], by the work of the drag; k_f counts the losses in impacts, and agrees '
+                   'without a bath alone')
 
 
 class Lyapunov(NamedTuple):

@@ -20,8 +20,8 @@ PROGRAMS = {Path(path).name: path for path in sys.argv[2:]}
 
 
 def output(program, *arguments, **options):
-    return subprocess.run([PROGRAMS[program], *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True,
-                          timeout=150, universal_newlines=True, **options).stdout
+    return subprocess.run([PROGRAMS[program], *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          check=True, timeout=150, universal_newlines=True, **options).stdout
 
 
 def rows_of(text):
@@ -51,12 +51,15 @@ class Tools(Bits):
         self.assert_same(mine, self.curve('--eta', '2:3.8:0.2', '--gamma', '0.5:0.7:0.2', '--seed', '7'))
 
     def test_a_curve_whose_points_begin_where_others_end(self):
-        mine = afm.friction_curve([2.0, 2.5, 3.0], sweep='down', duration=100, transient=50, model=afm.Model(cutoff=0.1))
+        mine = afm.friction_curve([2.0, 2.5, 3.0], sweep='down', duration=100, transient=50,
+                                  model=afm.Model(cutoff=0.1))
         self.assert_same(mine, self.curve('--eta', '2:3:0.5', '--sweep', 'down', '--cutoff', '0.1'))
 
     def test_a_curve_with_heat_on_a_hammer(self):
-        mine = afm.friction_curve([1.0, 2.0], model='hammer', temperature=0.9, quality_factor=100, duration=100, transient=50)
-        self.assert_same(mine, self.curve('--eta', '1:2:1', '--model', 'hammer', '--temperature', '0.9', '--quality-factor', '100'))
+        mine = afm.friction_curve([1.0, 2.0], model='hammer', temperature=0.9, quality_factor=100, duration=100,
+                                  transient=50)
+        self.assert_same(mine, self.curve('--eta', '1:2:1', '--model', 'hammer', '--temperature', '0.9',
+                                          '--quality-factor', '100'))
 
     def test_no_bit_depends_on_threads(self):
         curves = [afm.friction_curve(np.linspace(2, 4, 9), duration=50, transient=50, threads=n) for n in (1, 5)]

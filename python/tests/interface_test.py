@@ -83,7 +83,8 @@ class Errors(unittest.TestCase):
                            ('eta', lambda: afm.friction_curve('all')), ('eta', lambda: afm.friction_curve([[1], [2]])),
                            ('duration', lambda: afm.friction_curve(2, duration='long')),
                            ('seed', lambda: afm.friction_curve(2, seed='one')),
-                           ('bath', lambda: afm.friction_curve(2, bath=0.9)), ('model', lambda: afm.friction_curve(2, model=1)),
+                           ('bath', lambda: afm.friction_curve(2, bath=0.9)),
+                           ('model', lambda: afm.friction_curve(2, model=1)),
                            ('starts', lambda: afm.attractors(2, starts='many')),
                            ('starts', lambda: afm.attractors(2, starts=[[1, 2]])),
                            ('eta', lambda: afm.periodic_orbits('fast')), ('u', lambda: afm.lyapunov(u='fast'))):
@@ -104,7 +105,8 @@ class Errors(unittest.TestCase):
     def test_all_faults_of_a_call_are_there(self):
         with self.assertRaises(afm.ParameterError) as caught:
             afm.Model(gamma=-1, cutoff=-1, amplitude=-1)
-        self.assertEqual({fault.name for fault in caught.exception.faults}, {'gamma', 'cutoff', 'amplitude', 'rest_height'})
+        self.assertEqual({fault.name for fault in caught.exception.faults},
+                         {'gamma', 'cutoff', 'amplitude', 'rest_height'})
 
     def test_errors_are_values(self):
         fault = pickle.loads(pickle.dumps(self.refused('gamma', 1.5, afm.Model, gamma=1.5)))
@@ -184,7 +186,8 @@ class Arrays(unittest.TestCase):
 
     def test_a_copy_goes_on_with_the_same_bits(self):
         bath = afm.Bath(0.926, 100)
-        for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=bath), afm.Tip(afm.Model(kind='hammer'))):
+        for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=bath),
+                    afm.Tip(afm.Model(kind='hammer'))):
             tip.advance(123.456)
             other = copy.deepcopy(tip)
             np.testing.assert_array_equal(tip.advance(500), other.advance(500))
@@ -207,7 +210,8 @@ class Arrays(unittest.TestCase):
                 # in a chatter sequence the state is that without its bounces, which the pickled tip begins again
                 np.testing.assert_allclose(others[0].state, tip.state, rtol=0, atol=1e-4)
                 self.assertEqual(others[0].now, tip.now)
-                np.testing.assert_array_equal(others[0].advance(tip.now.after(20)), others[1].advance(tip.now.after(20)))
+                np.testing.assert_array_equal(others[0].advance(tip.now.after(20)),
+                                              others[1].advance(tip.now.after(20)))
 
     def test_the_processes_of_a_pool_take_them(self):
         models = [afm.Model(gamma=g) for g in (0.6, 0.7, 0.8)]
@@ -306,7 +310,8 @@ class Stubs(unittest.TestCase):
             import mypy  # noqa: F401
         except ImportError:
             self.skipTest('mypy is not installed')
-        done = subprocess.run([sys.executable, '-m', 'mypy', '--ignore-missing-imports', '--cache-dir', '/dev/null', '-p', 'afm'],
+        done = subprocess.run([sys.executable, '-m', 'mypy', '--ignore-missing-imports', '--cache-dir', '/dev/null',
+                               '-p', 'afm'],
                               stdout=subprocess.PIPE, universal_newlines=True, cwd=str(HERE.parent))
         self.assertEqual(done.returncode, 0, done.stdout)
 

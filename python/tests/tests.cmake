@@ -2,12 +2,14 @@
 if(TARGET afm_python_module AND AFM_DYNAMICS)
   function(afm_add_python_test name)
     add_test(NAME python_${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${afm_python_path} PYTHONDONTWRITEBYTECODE=1
-      AFM_MODULE=$<TARGET_FILE:afm_python_module> ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})
+      AFM_MODULE=$<TARGET_FILE:afm_python_module> ${PYTHON_EXECUTABLE}
+      ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})
     set_tests_properties(python_${name} PROPERTIES TIMEOUT 300)
   endfunction()
   afm_add_python_test(interface)
   afm_add_python_test(interrupt)
-  afm_add_python_test(bits ${CMAKE_CURRENT_SOURCE_DIR}/data $<TARGET_FILE:afm_friction_curve> $<TARGET_FILE:afm_attractors>
+  afm_add_python_test(bits ${CMAKE_CURRENT_SOURCE_DIR}/data $<TARGET_FILE:afm_friction_curve>
+    $<TARGET_FILE:afm_attractors>
     $<TARGET_FILE:afm_periodic_orbits> $<TARGET_FILE:afm_next_impact> $<TARGET_FILE:afm_example_impacts_to_csv>
     $<TARGET_FILE:afm_example_warm_scene>)
   afm_add_python_test(examples ${PROJECT_SOURCE_DIR}/examples/python)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a function compiled for fused multiply-add calls must be inlined into it, or have such a version too: or else it runs
-# the version for older machines, where each fused multiply-add is a call of the C library.
+# What a function compiled for fused multiply-add calls must be inlined into it, or have such a version too: or else it
+# runs the version for older machines, where each fused multiply-add is a call of the C library.
 set -euo pipefail
 
 # the caller, and what it calls, of every call in the archive

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Files compiled for newer machines than the rest must share no code with it: of an inline function that both define the
-# linker keeps either, and the program would stop on an older machine. Of each object given, one function may be seen outside.
+# linker keeps either, and the program would stop on an older machine. Of each object given, one function may be seen
+# outside.
 set -euo pipefail
 
 failed=0

@@ -4,7 +4,8 @@
 function(afm_add_core_test path)
   get_filename_component(name ${path} NAME)
   afm_add_gtest(${name}_test core/${path}_test.cpp)
-  target_include_directories(afm_${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(afm_${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark
+    ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(afm_${name}_test afm_emulator_core afm_quad ${ARGN})
   target_compile_definitions(afm_${name}_test PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
@@ -77,13 +78,15 @@ foreach(program afm_reference_digest afm_reference_digest_O0)
   add_dependencies(tests ${program})
 endforeach()
 add_test(NAME reference_digest
-  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/reference_digest_test.sh ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
+  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/reference_digest_test.sh
+  ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
     $<TARGET_FILE:afm_reference_digest> $<TARGET_FILE:afm_reference_digest_O0>)
 set_tests_properties(reference_digest PROPERTIES TIMEOUT 120)
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT AFM_SANITIZE)
   add_test(NAME older_machines
-    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/older_machines_test.sh ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/older_machines_test.sh
+    ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
       $<TARGET_FILE:afm_reference_digest> $<TARGET_FILE:afm_next_impact> $<TARGET_FILE:afm_friction_curve>
       ${CMAKE_CURRENT_SOURCE_DIR}/data/next_impact.csv)
   set_tests_properties(older_machines PROPERTIES TIMEOUT 180 SKIP_RETURN_CODE 77)
@@ -94,9 +97,11 @@ set(lane_objects)
 foreach(lanes IN LISTS afm_lanes)
   get_target_property(sources afm_lanes_${lanes} SOURCES)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
-  set_source_files_properties(${sources} core/lanes/lane_probe_${lanes}.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+  set_source_files_properties(${sources} core/lanes/lane_probe_${lanes}.cpp
+    PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
   add_library(afm_lanes_${lanes}_unoptimized OBJECT ${sources})
-  target_include_directories(afm_lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(afm_lanes_${lanes}_unoptimized PRIVATE ${PROJECT_SOURCE_DIR}/include
+    ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(afm_lanes_${lanes}_unoptimized PRIVATE ${afm_lanes_${lanes}_options} ${afm_lanes_options} -O0)
   target_link_libraries(afm_lanes_${lanes}_unoptimized PRIVATE afm_options)
   list(APPEND lane_objects $<TARGET_OBJECTS:afm_lanes_${lanes}> $<TARGET_OBJECTS:afm_lanes_${lanes}_unoptimized>)
@@ -121,7 +126,8 @@ endif()
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND NOT AFM_SANITIZE AND
    CMAKE_BUILD_TYPE STREQUAL "Release")
-  add_test(NAME hot_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/hot_symbols_test.sh $<TARGET_FILE:afm_emulator_core>)
+  add_test(NAME hot_symbols COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/hot_symbols_test.sh
+    $<TARGET_FILE:afm_emulator_core>)
   set_tests_properties(hot_symbols PROPERTIES TIMEOUT 30)
 endif()
 

@@ -10,12 +10,14 @@ SUBSTITUTIONS = [
     (r'^(cmake --build ~/afm/examples)', r'\1 --target one_tip'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
-    (r'^(roslaunch afm_emulator (?:emulator|pair|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)', r'until_interrupted \1'),
+    (r'^(roslaunch afm_emulator (?:emulator|pair|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)',
+     r'until_interrupted \1'),
     # a bag as a killed emulator leaves it
     (r'^rosbag reindex (\S+)\.active', r'cp \1 \1.active && rosbag reindex \1.active'),
     # fewer points, starts, guesses, rounds
     (r'--eta 0\.02:9:0\.01', '--eta 2:3:0.5'),
-    (r'--eta 0\.2:9:0\.01 --gamma 0\.3:0\.95:0\.05', '--eta 2:3:0.5 --gamma 0.5:0.7:0.1 --duration 100 --transient 100'),
+    (r'--eta 0\.2:9:0\.01 --gamma 0\.3:0\.95:0\.05',
+     '--eta 2:3:0.5 --gamma 0.5:0.7:0.1 --duration 100 --transient 100'),
     (r'--eta 0\.03:9:0\.03 --gamma 0\.3:0\.95:0\.01', '--eta 2:3:0.5 --gamma 0.5:0.7:0.1'),
     (r'--eta 1\.6:7:0\.02', '--eta 2.4:2.6:0.02'),
     (r'--eta 0\.1:9:0\.1 --frequency', '--eta 2:3:1 --starts 1 --duration 200 --frequency'),

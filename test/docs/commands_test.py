@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every command in README.md and docs/*.md runs as it stands there, but for what command_tables.py shortens or leaves out.
+"""Every command in README.md and docs/*.md runs as it stands there, but for what command_tables.py shortens or leaves
+out.
 
 Usage: commands_test.py ROOT BUILD PREFIX     (BUILD: of ROOT; PREFIX: its devel space)
 """

@@ -8,7 +8,8 @@ Command = namedtuple('Command', 'place text')  # place: DOCUMENT:LINE, of the fi
 FENCE = re.compile(r'^```(\w*)')
 SPAN = re.compile(r'`([^`]+)`')
 # what a line of a command begins with, if it stands outside a bash block
-BEGINNING = re.compile(r'(scripts/\w|benchmark/\w|build/\w|rosrun |roslaunch |rostopic |rosservice |rosbag |source |snakemake )')
+BEGINNING = re.compile(r'(scripts/\w|benchmark/\w|build/\w|rosrun |roslaunch |rostopic |rosservice |rosbag |source |'
+                       r'snakemake )')
 
 
 class Fault(Exception):
@@ -17,7 +18,8 @@ class Fault(Exception):
 
 def is_whole(text):
     """bash decides: a loop without its end and a pipe without its right side are not whole."""
-    return not text.endswith('\\') and subprocess.run(['bash', '-n', '-c', text], stderr=subprocess.DEVNULL).returncode == 0
+    return not text.endswith('\\') and subprocess.run(['bash', '-n', '-c', text],
+                                                      stderr=subprocess.DEVNULL).returncode == 0
 
 
 def without_comments(text):
@@ -88,7 +90,8 @@ class Document:
 
 
 def options(text):
-    """The --options of a command, without those of the commands that it is given as an argument, and NAME:= of roslaunch."""
+    """The --options of a command, without those of the commands that it is given as an argument, and NAME:= of
+    roslaunch."""
     words = shlex.split(without_comments(text).replace('\\\n', ' '))
     return [word.split('=')[0] for word in words if re.match(r'--[a-z]', word)] + [
         word.split(':=')[0] for word in words if re.match(r'\w+:=', word)]

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The tables of docs/interface.md are current and whole, and the names of parameters keep the rule. usage: interface_tables_test.py ROOT"""
+"""The tables of docs/interface.md are current and whole, and the names of parameters keep the rule. usage:
+interface_tables_test.py ROOT"""
 import importlib.util
 import re
 import sys
@@ -14,8 +15,8 @@ tables = importlib.util.module_from_spec(importlib.util.spec_from_loader('interf
 loader.exec_module(tables)
 
 # the end of a name and the unit it stands for; the first that fits counts
-ENDS = (('resonance_hz', 'Hz'), ('_rad_per_s', 'rad/s'), ('_n_per_m', 'N/m'), ('_per_tau', '1/tau'), ('_tau', 'tau'), ('_kg', 'kg'),
-        ('_hz', '1/s'), ('_mb', 'MB'), ('_k', 'K'), ('_m', 'm'), ('_s', 's'), ('_n', 'N'))
+ENDS = (('resonance_hz', 'Hz'), ('_rad_per_s', 'rad/s'), ('_n_per_m', 'N/m'), ('_per_tau', '1/tau'), ('_tau', 'tau'),
+        ('_kg', 'kg'), ('_hz', '1/s'), ('_mb', 'MB'), ('_k', 'K'), ('_m', 'm'), ('_s', 's'), ('_n', 'N'))
 NATURAL = ('a', 'a/tau', 'a, a/tau')
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Every link and picture of the documents leads to a file, every heading that is linked exists, every picture has a text, and every
-document and picture is reached from somewhere, every page of the site from the lists of docs/index.md. usage: links_test.py ROOT"""
+"""Every link and picture of the documents leads to a file, every heading that is linked exists, every picture has a
+text, and every document and picture is reached from somewhere, every page of the site from the lists of docs/index.md.
+usage: links_test.py ROOT"""
 import re
 import sys
 from pathlib import Path

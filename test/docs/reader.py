@@ -11,9 +11,11 @@ NEEDS_EMULATOR = re.compile(r'\b(rostopic|rosservice|dynparam|emulator:=)')
 OWN_MASTER = re.compile(r'\broslaunch afm_emulator (?!view)|scripts/run|benchmark/')
 BUILDS = re.compile(r'scripts/(run|build)')
 # for ROS's scripts end with 0 where they have not found something
-BAD_NEWS = re.compile(r"\bERROR\b|^(\S+: )?[Ee]rror:|[Cc]ouldn't find|command not found|No such file|Traceback|process has died", re.M)
+BAD_NEWS = re.compile(r"\bERROR\b|^(\S+: )?[Ee]rror:|[Cc]ouldn't find|command not found|No such file|Traceback|"
+                      r"process has died", re.M)
 # what the ROS of Debian 11 prints at its end (docs/platforms.md)
-OLD_THREADS = re.compile(r"Traceback \(most recent call last\):\n(?:  .*\n)+AttributeError: '\w+' object has no attribute 'isAlive'")
+OLD_THREADS = re.compile(r"Traceback \(most recent call last\):\n(?:  .*\n)+"
+                         r"AttributeError: '\w+' object has no attribute 'isAlive'")
 PROGRAM = re.compile(r'(rosrun afm_emulator |build/test/|(?=scripts/|benchmark/))([a-z][\w./]+)')
 
 
@@ -76,7 +78,8 @@ class Reader:
             output, code = shell.run(text, own_master=bool(OWN_MASTER.search(text)))
         print('%s: %.1f s: %s' % (command.place, time.monotonic() - begin, text), flush=True)
         if code != 0 or BAD_NEWS.search(OLD_THREADS.sub('', output)):
-            self.faults.append('%s: ends with %d: %s\nrun as: %s\n%s' % (command.place, code, command.text, text, output[-3000:]))
+            self.faults.append('%s: ends with %d: %s\nrun as: %s\n%s' %
+                               (command.place, code, command.text, text, output[-3000:]))
 
     def missing_here(self, text):
         """What the machine lacks that the command needs."""

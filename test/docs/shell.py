@@ -1,4 +1,5 @@
-"""A shell in which a user would paste commands: a copy of the tree, an empty home, devel/setup.bash sourced, a ROS master."""
+"""A shell in which a user would paste commands: a copy of the tree, an empty home, devel/setup.bash sourced, a ROS
+master."""
 import os
 import shutil
 import signal
@@ -11,7 +12,8 @@ from pathlib import Path
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
 DEADLINE_S = 120 * PATIENCE
 # what commands read, and some write
-COPIED = ('README.md', 'Snakefile', 'benchmark', 'config', 'docs', 'examples', 'scripts', 'test/data', 'test/node', 'workflow')
+COPIED = ('README.md', 'Snakefile', 'benchmark', 'config', 'docs', 'examples', 'scripts', 'test/data', 'test/node',
+          'workflow')
 PRELUDE = '''source "$0/setup.bash" || exit
 until_interrupted() { %s/until_interrupted.py "$@"; }
 set -eo pipefail
@@ -26,8 +28,8 @@ def free_port():
 
 def clean_environment(home, **more):
     """Nothing of the machine's own, no display among it."""
-    return dict({'HOME': str(home), 'PATH': '/usr/bin:/bin:/usr/sbin:/sbin', 'LC_ALL': 'C.UTF-8', 'ROS_HOSTNAME': 'localhost',
-                 'PYTHONUNBUFFERED': '1'}, **more)
+    return dict({'HOME': str(home), 'PATH': '/usr/bin:/bin:/usr/sbin:/sbin', 'LC_ALL': 'C.UTF-8',
+                 'ROS_HOSTNAME': 'localhost', 'PYTHONUNBUFFERED': '1'}, **more)
 
 
 class Shell:
@@ -44,14 +46,16 @@ class Shell:
         (self.tree / 'build' / 'test').symlink_to(build / 'test')
         (self.tree / 'devel').symlink_to(prefix)
         # a master of its own for what starts an emulator of its own
-        self.environment = clean_environment(self.home, AFM_ROOT=str(root), ROS_MASTER_URI='http://localhost:%d' % free_port())
+        self.environment = clean_environment(self.home, AFM_ROOT=str(root),
+                                             ROS_MASTER_URI='http://localhost:%d' % free_port())
         if prefix == build / 'devel':
             self.environment['AFM_BUILD_DIR'] = str(build)
 
     def start(self, text, **environment):
         return subprocess.Popen(['bash', '-c', PRELUDE + text, str(self.prefix)], cwd=str(self.tree),
-                                env=dict(self.environment, **environment), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, universal_newlines=True, start_new_session=True)
+                                env=dict(self.environment, **environment), stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
+                                start_new_session=True)
 
     def run(self, text, own_master=False):
         """The exit code and everything that was printed."""
@@ -78,7 +82,8 @@ class Shell:
         with log:
             self.emulator = subprocess.Popen(
                 ['bash', '-c', PRELUDE + 'exec roslaunch -p %s afm_emulator emulator.launch record:=false' % port,
-                 str(self.prefix)], env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+                 str(self.prefix)], env=self.environment, stdin=subprocess.DEVNULL, stdout=log,
+                 stderr=subprocess.STDOUT,
                 start_new_session=True)
         end = time.monotonic() + DEADLINE_S
         while time.monotonic() < end and not self.is_emulator_alive():
@@ -86,7 +91,8 @@ class Shell:
 
     def is_emulator_alive(self):
         return self.emulator.poll() is None and self.run(
-            'timeout 10 rostopic echo -n 1 /afm/status && rosservice type /afm/stop_recording')[1] == 0  # advertised last
+            # advertised last
+            'timeout 10 rostopic echo -n 1 /afm/status && rosservice type /afm/stop_recording')[1] == 0
 
     def close(self):
         if self.emulator and self.emulator.poll() is None:

@@ -70,7 +70,8 @@ def check_sidebar(site, pages):
 def check_reference(root, pages):
     text = ''.join(path.read_text() for path in sorted((root / 'docs/api').glob('cpp_*.rst')))
     shown = sorted(re.findall(r'^\.\. doxygenfile:: (\S+)', text, re.M))
-    there = [str(path.relative_to(root / folder)) for folder, name in (('include', 'afm'), ('dynamics/include', 'afm/dynamics'))
+    there = [str(path.relative_to(root / folder))
+             for folder, name in (('include', 'afm'), ('dynamics/include', 'afm/dynamics'))
              for path in sorted((root / folder / name).glob('*.h')) if path.name != 'afm.h']
     if shown != sorted(there):
         yield 'docs/api: not each public header once: %s' % sorted(set(shown) ^ set(there))

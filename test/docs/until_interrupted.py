@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs roslaunch as a user does who presses Ctrl-C once all is there: when every node that it names is known to the master, or has
-ended well. Ends with 0 if roslaunch went on until then, and ended.
+"""Runs roslaunch as a user does who presses Ctrl-C once all is there: when every node that it names is known to the
+master, or has ended well. Ends with 0 if roslaunch went on until then, and ended.
 
 usage: until_interrupted.py roslaunch ARGUMENT...
 """
@@ -24,8 +24,8 @@ class Launch:
     def __init__(self, command):
         self.text = ''
         # a session of its own: the signal is for it alone
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
-                                        start_new_session=True)
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                        universal_newlines=True, start_new_session=True)
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
 
@@ -37,7 +37,8 @@ class Launch:
     def names(self):
         """Of its nodes, in full, as it lists them: namespaces with their nodes."""
         listed = self.text.partition('\nNODES\n')[2].partition('\n\n')[0]
-        return [space.rstrip('/') + '/' + name for space, nodes in re.findall(r'^  (/\S*)\n((?:    .*\n?)*)', listed, re.M)
+        spaces = re.findall(r'^  (/\S*)\n((?:    .*\n?)*)', listed, re.M)
+        return [space.rstrip('/') + '/' + name for space, nodes in spaces
                 for name in re.findall(r'^    (\S+) \(', nodes, re.M)]
 
     def is_up(self):

@@ -1,5 +1,5 @@
-// A small recording, with messages altered, lost, doubled, moved and cut: replay_check ends in words, and what is not as
-// it was published is never called identical.
+// A small recording, with messages altered, lost, doubled, moved and cut: replay_check ends in words, and what is not
+// as it was published is never called identical.
 #include <afm_emulator/EmulatorStatus.h>
 #include <topic_tools/shape_shifter.h>
 #include <unistd.h>
@@ -32,8 +32,11 @@ class Writer {
     message.header.seq = sequences_[topic]++;
     message.header.stamp = ros::Time(1000, static_cast<std::uint32_t>(entries.size()) * 1000);
     const node::MessageBytes bytes = node::to_bytes(message);
-    entries.push_back({"/afm/" + topic, ros::message_traits::datatype<Message>(), ros::message_traits::md5sum<Message>(),
-                       ros::message_traits::definition<Message>(), {bytes.begin(), bytes.begin() + bytes.size()}});
+    entries.push_back({"/afm/" + topic,
+                       ros::message_traits::datatype<Message>(),
+                       ros::message_traits::md5sum<Message>(),
+                       ros::message_traits::definition<Message>(),
+                       {bytes.begin(), bytes.begin() + bytes.size()}});
   }
 
   Entries entries;

@@ -1,6 +1,7 @@
-# Each target takes any bytes. Without a fuzzer it is run over the inputs that are kept in data/fuzz and what chance makes of
-# them; with clang's libFuzzer (AFM_FUZZ, scripts/fuzz) it looks for new ones by what they reach.
-option(AFM_FUZZ "Build the fuzzers too: needs clang, and what is fuzzed must be built with -fsanitize=fuzzer-no-link" OFF)
+# Each target takes any bytes. Without a fuzzer it is run over the inputs that are kept in data/fuzz and what chance
+# makes of them; with clang's libFuzzer (AFM_FUZZ, scripts/fuzz) it looks for new ones by what they reach.
+option(AFM_FUZZ "Build the fuzzers too: needs clang, and what is fuzzed must be built with -fsanitize=fuzzer-no-link"
+  OFF)
 
 function(afm_add_fuzz_target name mutated)
   add_executable(afm_replay_fuzz_${name} EXCLUDE_FROM_ALL fuzz/${name}.cpp fuzz/replay_main.cpp)
@@ -11,13 +12,15 @@ function(afm_add_fuzz_target name mutated)
     list(APPEND programs afm_fuzz_${name})
   endif()
   foreach(program IN LISTS programs)
-    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/test/fuzz ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(${program} PRIVATE ${PROJECT_SOURCE_DIR}/test/fuzz ${PROJECT_SOURCE_DIR}/test
+      ${PROJECT_SOURCE_DIR}/benchmark ${PROJECT_SOURCE_DIR}/src)
     target_include_directories(${program} SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
     target_link_libraries(${program} PRIVATE afm_options ${ARGN})
     add_dependencies(tests ${program})
   endforeach()
   # some seconds of new inputs in every run, the same ones each time
-  add_test(NAME fuzz_${name} COMMAND afm_replay_fuzz_${name} ${PROJECT_SOURCE_DIR}/test/data/fuzz/${name} --mutated ${mutated})
+  add_test(NAME fuzz_${name} COMMAND afm_replay_fuzz_${name} ${PROJECT_SOURCE_DIR}/test/data/fuzz/${name} --mutated
+    ${mutated})
   set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT 60)
 endfunction()
 

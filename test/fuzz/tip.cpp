@@ -1,5 +1,5 @@
-// Any model that may be run, from any start in the air, under any commands, in any heat bath: the tip stays finite, above
-// the surface, in balance with its energy, and moves on.
+// Any model that may be run, from any start in the air, under any commands, in any heat bath: the tip stays finite,
+// above the surface, in balance with its energy, and moves on.
 #include <algorithm>
 
 #include "afm/surface.h"
@@ -15,8 +15,8 @@ using afm::fuzz::require;
 
 constexpr std::uint64_t kMostArcs = 400;    // of one input
 constexpr std::uint64_t kMostAtOnce = 100;  // arcs without any time passing
-// Of one input. The search of each takes up to 20000 evaluations in double-double: without a limit they take nine tenths
-// of the time.
+// Of one input. The search of each takes up to 20000 evaluations in double-double: without a limit they take nine
+// tenths of the time.
 constexpr int kMostGlides = 4;
 
 afm::Model model_of(Bytes& bytes) {

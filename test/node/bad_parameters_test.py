@@ -61,22 +61,24 @@ class BadParameters(NodeTest):
         parameters = {
             'restitution_gamma': 1.5, 'tip_mass_kg': -408e-12, 'omega_v_rad_per_s': math.nan, 'time_scale': 0.0,
             'batch_rate_hz': 'fast', 'sample_rate_hz': math.inf, 'gama': 0.7, 'friction_window_tau': -1.0,
-            'model': 'spring', 'record': 'yes please', 'bag_directory': 5, 'max_drag_velocity': -1.0, 'commands_eta': [3.4, 99.0],
-            'paused': 'no'}
+            'model': 'spring', 'record': 'yes please', 'bag_directory': 5, 'max_drag_velocity': -1.0,
+            'commands_eta': [3.4, 99.0], 'paused': 'no'}
         emulator = self.assert_refused(parameters)
         errors = [line for line in emulator.output().splitlines() if 'ERROR' in line or 'FATAL' in line]
         self.assertEqual(len(errors), 1, errors)
 
     def test_each_says_what_is_wrong(self):
-        self.assert_refused({'tip_mass_kg': 'heavy', 'record': 1, 'drag_speed': 1e-5, 'time_scale': 200.0, 'rest_height_m': 0.06e-9,
-                             'commands_eta': [1.0, 'fast']},
+        self.assert_refused({'tip_mass_kg': 'heavy', 'record': 1, 'drag_speed': 1e-5, 'time_scale': 200.0,
+                             'rest_height_m': 0.06e-9, 'commands_eta': [1.0, 'fast']},
                             'tip_mass_kg = "heavy": must be a number', 'record = 1: must be true or false',
-                            'drag_speed = 1e-05: there is no such parameter', 'time_scale = 200: must be between 1e-06 and 100',
-                            'rest_height_m = 6e-11: ', 'element 1: must be a number')
+                            'drag_speed = 1e-05: there is no such parameter',
+                            'time_scale = 200: must be between 1e-06 and 100', 'rest_height_m = 6e-11: ',
+                            'element 1: must be a number')
 
     def test_a_lever_is_given_in_one_way(self):
         lever = {'spring_constant_n_per_m': 0.2, 'resonance_hz': 13e3, 'lateral_spring_constant_n_per_m': 88.2}
-        self.assert_refused(dict(lever, tip_mass_kg=3e-11), 'tip_mass_kg = 3e-11: is given beside the spring constants and the resonance')
+        self.assert_refused(dict(lever, tip_mass_kg=3e-11),
+                            'tip_mass_kg = 3e-11: is given beside the spring constants and the resonance')
         self.assert_refused({'load_n': 1e-9, 'rest_height_m': -1e-9}, 'rest_height_m = -1e-09: is given beside load_n')
         emulator = self.assert_refused({'resonance_hz': 13e3, 'spring_constant_n_per_m': -0.2},
                                        'spring_constant_n_per_m = -0.2: ', 'lateral_spring_constant_n_per_m = 0: ')
@@ -84,7 +86,8 @@ class BadParameters(NodeTest):
         self.assert_refused({'load_n': -1e-9}, 'rest_height_m = 1.53')
 
     def test_drag_velocity_beyond_its_limit(self):
-        self.assert_refused({'drag_velocity': -2e-5, 'max_drag_velocity': 1e-5}, 'max_drag_velocity = ', 'drag_velocity = -2')
+        self.assert_refused({'drag_velocity': -2e-5, 'max_drag_velocity': 1e-5}, 'max_drag_velocity = ',
+                            'drag_velocity = -2')
 
     def test_a_limit_that_cannot_be_blames_nothing_else(self):
         for limit in (-1.0, math.nan):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""bag_to_csv writes every number of a recording as rosbag's reader finds it, in SI to the bit and in natural units to rounding;
-what is missing it names, and writes what there is."""
+"""bag_to_csv writes every number of a recording as rosbag's reader finds it, in SI to the bit and in natural units to
+rounding; what is missing it names, and writes what there is."""
 import csv
 import subprocess
 from pathlib import Path
@@ -16,24 +16,28 @@ from topics import PATIENCE, Topic
 
 LENGTH_UNIT = 0.52e-9
 IMPACT = {'surface_phase': ('surface_phase', 1), 'normal_speed': ('normal_speed_m_per_s', SPEED_UNIT),
-          'tangential_velocity': ('tangential_velocity_m_per_s', SPEED_UNIT), 'energy_loss': ('energy_loss_j', ENERGY_UNIT),
-          'kind': ('kind', 1), 'count': ('count', 1)}
-FRICTION_SUFFIX = {'eta': '', 'impact_count': '', 'drag_velocity': '_m_per_s', 'energy_loss': '_j', 'heat_to_bath': '_j',
-                   'force': '_n', 'force_std_error': '_n', 'window_force': '_n', 'mean_lateral_force': '_n',
+          'tangential_velocity': ('tangential_velocity_m_per_s', SPEED_UNIT),
+          'energy_loss': ('energy_loss_j', ENERGY_UNIT), 'kind': ('kind', 1), 'count': ('count', 1)}
+FRICTION_SUFFIX = {'eta': '', 'impact_count': '', 'drag_velocity': '_m_per_s', 'energy_loss': '_j',
+                   'heat_to_bath': '_j', 'force': '_n', 'force_std_error': '_n', 'window_force': '_n',
+                   'mean_lateral_force': '_n',
                    'mean_lateral_force_std_error': '_n', 'mean_normal_force': '_n'}  # all others: _kg_per_s
 NOT_IN_TABLE = ('header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'k_f_natural', 'window_k_f_natural',
                 'k_f_work_natural')
-APPLIED = {'drag_velocity_m_per_s': 'drag_velocity', 'restitution_gamma': 'restitution_gamma', 'cutoff_speed_m_per_s': 'cutoff_speed',
-           'rest_height_m': 'rest_height_m', 'sample_rate_per_s': 'sample_rate_hz', 'friction_window_tau': 'friction_window_tau',
-           'temperature_k': 'temperature_k', 'quality_factor': 'quality_factor', 'lateral_quality_factor': 'lateral_quality_factor',
-           'kicks_per_tau': 'kicks_per_tau', 'contact_tolerance': 'contact_tolerance', 'first_impact': 'first_impact',
-           'number': 'number', 'tau': None, 'phase': None}
+APPLIED = {'drag_velocity_m_per_s': 'drag_velocity', 'restitution_gamma': 'restitution_gamma',
+           'cutoff_speed_m_per_s': 'cutoff_speed', 'rest_height_m': 'rest_height_m',
+           'sample_rate_per_s': 'sample_rate_hz', 'friction_window_tau': 'friction_window_tau',
+           'temperature_k': 'temperature_k', 'quality_factor': 'quality_factor',
+           'lateral_quality_factor': 'lateral_quality_factor', 'kicks_per_tau': 'kicks_per_tau',
+           'contact_tolerance': 'contact_tolerance', 'first_impact': 'first_impact', 'number': 'number', 'tau': None,
+           'phase': None}
 
 
 def call(*arguments):
     binary = roslib.packages.find_node(PACKAGE, 'bag_to_csv')[0]
-    done = subprocess.run([binary] + [str(argument) for argument in arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          universal_newlines=True, timeout=60 * PATIENCE)
+    done = subprocess.run([binary] + [str(argument) for argument in arguments],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          timeout=60 * PATIENCE)
     return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
 
 
@@ -56,8 +60,8 @@ class BagToCsv(NodeTest):
 
     def test_a_split_recording_topic_by_topic(self):
         directory = Path(self.temporary_directory())
-        emulator = self.start(Emulator(dict(record=True, bag_directory=str(directory), sample_rate_hz=20000.0, temperature_k=300.0,
-                                            quality_factor=100.0, split_duration_s=0.4)))
+        emulator = self.start(Emulator(dict(record=True, bag_directory=str(directory), sample_rate_hz=20000.0,
+                                            temperature_k=300.0, quality_factor=100.0, split_duration_s=0.4)))
         applied, friction = Topic('applied'), Topic('friction')
         friction.wait_for()
         emulator.drag(2 * SPEED_UNIT)
@@ -89,7 +93,8 @@ class BagToCsv(NodeTest):
             for field, (column, unit) in IMPACT.items():
                 value = getattr(impact, field)
                 self.assertTrue(same(row[column], value), (column, row, impact))
-                self.assertAlmostEqual(float(other[self.natural_name(column)]), value / unit, delta=1e-14 * abs(value / unit))
+                self.assertAlmostEqual(float(other[self.natural_name(column)]), value / unit,
+                                       delta=1e-14 * abs(value / unit))
 
     def natural_name(self, column):
         for si, natural in (('_m_per_s', '_a_per_tau'), ('_j', '_m_tip_a2_per_tau2'), ('_m', '_a')):
@@ -103,7 +108,8 @@ class BagToCsv(NodeTest):
                  for b in self.merged(paths, 'deflection') for i, (v, w) in enumerate(zip(b.vertical, b.lateral))]
         self.assertEqual(len(rows), len(found))
         for row, other, (index, time, vertical, lateral) in zip(rows, natural, found):
-            self.assertEqual((int(row['index']), float(row['vertical_m']), float(row['lateral_m'])), (index, vertical, lateral))
+            self.assertEqual((int(row['index']), float(row['vertical_m']), float(row['lateral_m'])),
+                             (index, vertical, lateral))
             self.assertAlmostEqual(float(row['time_s']), time, delta=1e-12)
             self.assertAlmostEqual(float(other['vertical_a']), vertical / LENGTH_UNIT, delta=1e-15)
             self.assertAlmostEqual(float(other['time_tau']), time / TAU_S, delta=1e-8)
@@ -121,7 +127,8 @@ class BagToCsv(NodeTest):
             if message.k_f == message.k_f:
                 self.assertAlmostEqual(float(other['k_f_m_tip_per_tau']), message.k_f_natural,
                                        delta=1e-13 * abs(message.k_f_natural))
-                self.assertAlmostEqual(float(other['k_f_m_tip_per_tau']) * FRICTION_UNIT, float(row['k_f_kg_per_s']), delta=1e-16)
+                self.assertAlmostEqual(float(other['k_f_m_tip_per_tau']) * FRICTION_UNIT, float(row['k_f_kg_per_s']),
+                                       delta=1e-16)
 
     def check_commands(self, paths):
         rows, found = table(paths, '--topic', 'commands'), self.merged(paths, 'applied')
@@ -132,7 +139,8 @@ class BagToCsv(NodeTest):
                 value = getattr(message, field) if field else getattr(message.time, column)
                 self.assertEqual(float(row[column]), value, column)
             self.assertEqual((row['model'], row['cause']), (message.model, message.cause))
-        self.assertAlmostEqual(float(table(paths, '--topic', 'commands', '--natural')[-1]['drag_velocity_a_per_tau']), 2, delta=1e-14)
+        self.assertAlmostEqual(float(table(paths, '--topic', 'commands', '--natural')[-1]['drag_velocity_a_per_tau']),
+                               2, delta=1e-14)
 
 
 class Incomplete(SpoiledBag):
@@ -160,7 +168,8 @@ class Incomplete(SpoiledBag):
     def test_refuses_by_name(self):
         for arguments, code, words in (((self.good,), USAGE, 'topic: must be given'),
                                        (('--topic', 'impacts'), USAGE, 'bags: must be given'),
-                                       ((self.good, '--topic', 'samples'), USAGE, 'topic = samples: must be impacts, deflection'),
+                                       ((self.good, '--topic', 'samples'), USAGE,
+                                        'topic = samples: must be impacts, deflection'),
                                        ((self.good, '--topic', 'impacts', '--node', '/other'), UNCHECKED, '/other'),
                                        (('/no/such.bag', '--topic', 'impacts'), UNCHECKED, '/no/such.bag'),
                                        ((self.good, self.good, '--topic', 'impacts'), USAGE, 'does not go on where')):

@@ -1,5 +1,5 @@
-/* Preloaded into the node by a test: its wall clock is off by what stands in the file $CLOCK_JUMP, a double [s]. The clock that
-   only goes on is left alone. */
+/* Preloaded into the node by a test: its wall clock is off by what stands in the file $CLOCK_JUMP, a double [s].
+   The clock that only goes on is left alone. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <stdlib.h>
@@ -20,7 +20,8 @@ __attribute__((constructor)) static void find_offset(void) {
 
 int clock_gettime(clockid_t clock, struct timespec* now) {
   const int result = (int)syscall(SYS_clock_gettime, clock, now);
-  if (result == 0 && offset && (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE)) now->tv_sec += (time_t)*offset;
+  if (result == 0 && offset && (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE))
+    now->tv_sec += (time_t)*offset;
   return result;
 }
 

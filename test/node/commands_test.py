@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed. None stalls the
-node, not even rest and the speeds at which other methods stall; one that cannot be is counted and changes nothing."""
+"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed. None
+stalls the node, not even rest and the speeds at which other methods stall; one that cannot be is counted and changes
+nothing."""
 import math
 
 from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, EmulatorTest, run
@@ -30,7 +31,8 @@ class Commands(EmulatorTest):
 
     def assert_friction(self, eta, expected, tolerance):
         friction = self.friction_at(eta)
-        for k_f in (friction.k_f_natural, friction.k_f_work_natural, friction.k_f / FRICTION_UNIT, friction.k_f_work / FRICTION_UNIT):
+        for k_f in (friction.k_f_natural, friction.k_f_work_natural, friction.k_f / FRICTION_UNIT,
+                    friction.k_f_work / FRICTION_UNIT):
             self.assertAlmostEqual(k_f / expected, 1.0, delta=tolerance)
         self.assertAlmostEqual(friction.window_k_f_natural / expected, 1.0, delta=5 * tolerance)
         self.assertAlmostEqual(friction.window_k_f / FRICTION_UNIT / friction.window_k_f_natural, 1.0, delta=1e-9)
@@ -48,7 +50,8 @@ class Commands(EmulatorTest):
 
     def test_takes_effect_at_a_batch_boundary(self):
         applied = self.drag(2.0)
-        batch = self.deflection.wait_for(lambda m: key(m.time) == key(applied.time), 'a batch begins at the time reported')
+        batch = self.deflection.wait_for(lambda m: key(m.time) == key(applied.time),
+                                         'a batch begins at the time reported')
         self.assertEqual((batch.first_sample, batch.drag_velocity), (applied.first_sample, applied.drag_velocity))
         self.friction.wait_for(lambda m: m.drag_velocity == applied.drag_velocity, 'the new speed')
         for friction in list(self.friction.messages):
@@ -58,7 +61,8 @@ class Commands(EmulatorTest):
         applied = self.drag(-1.3)
         self.deflection.wait_for(lambda m: tau_between(applied.time, m.time) > 200, 'goes on')
         start = 0.25 * LATTICE_M
-        turned = start + self.applied.messages[0].drag_velocity * tau_between(self.applied.messages[0].time, applied.time) * TAU_S
+        turned = start + self.applied.messages[0].drag_velocity * tau_between(self.applied.messages[0].time,
+                                                                              applied.time) * TAU_S
         for m in list(self.deflection.messages):
             before = key(m.time) < key(applied.time)
             expected = (start + 3.4 * SPEED_UNIT * (m.time.tau + m.time.phase) * TAU_S if before else
@@ -69,11 +73,13 @@ class Commands(EmulatorTest):
         status = self.topics['status']
         for eta in ETAS:
             begin = self.drag(eta).time
-            later = status.wait_for_next(lambda m: tau_between(begin, m.time) > EACH_TAU, 'time goes on at eta = %g' % eta)
+            later = status.wait_for_next(lambda m: tau_between(begin, m.time) > EACH_TAU,
+                                         'time goes on at eta = %g' % eta)
             for counter in ('budget_exhausted', 'search_failures'):
                 self.assertEqual(getattr(later, counter), 0, '%s at eta = %g' % (counter, eta))
             self.assertLessEqual(later.worst_penetration, 1e-15 * LATTICE_M)
-            reported = self.friction.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT, 'friction at eta = %g' % eta)
+            reported = self.friction.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT,
+                                                   'friction at eta = %g' % eta)
             self.assertAlmostEqual(reported.eta, eta, delta=1e-12)
         # a busy machine may hold it up for a while: it catches up
         status.wait_for_next(lambda m: m.real_time_factor > 0.99, 'real time')
@@ -85,7 +91,8 @@ class Commands(EmulatorTest):
         for name in ('k_f', 'k_f_natural', 'k_f_work', 'k_f_work_natural', 'window_k_f', 'window_k_f_natural'):
             self.assertTrue(math.isnan(getattr(standing, name)), name)
         now = self.deflection.wait_for_next()
-        later = self.deflection.wait_for(lambda m: m.first_sample >= now.first_sample + 20 * len(now.vertical), 'batches go on')
+        later = self.deflection.wait_for(lambda m: m.first_sample >= now.first_sample + 20 * len(now.vertical),
+                                         'batches go on')
         self.assertTrue(all(map(math.isfinite, later.vertical + later.lateral)))
         self.drag(2.0)
         moving = self.friction.wait_for_next(lambda m: m.impact_count > 100 and m.drag_velocity > 0.0, 'moving')

@@ -55,7 +55,8 @@ class Diagnostics(NodeTest):
         self.expect('commands', OK)
         self.expect('commands', WARN, 'no command for 2 s')
         self.emulator.drag(math.nan)
-        self.assertEqual(self.expect('commands', WARN, 'drag_velocity = nan m/s: must be finite')['refused drag commands'], '1')
+        self.assertEqual(self.expect('commands', WARN,
+                                     'drag_velocity = nan m/s: must be finite')['refused drag commands'], '1')
         self.emulator.set(rest_height_m=6e-11)
         reported = self.expect('commands', WARN, 'rest_height_m = 6e-11: ')
         self.assertEqual(reported['refused changes of parameters'], '1')

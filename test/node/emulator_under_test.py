@@ -49,7 +49,8 @@ class Process:
         return self.wait()
 
     def clean_up(self):
-        """Asked first, so that the master forgets it: the address of a dead node can hide that of its heir from a subscriber."""
+        """Asked first, so that the master forgets it: the address of a dead node can hide that of its heir from a
+        subscriber."""
         try:
             if self.child.poll() is None:
                 self.stop()
@@ -60,8 +61,8 @@ class Process:
 
 
 class Launch(Process):
-    """roslaunch of a file of the package. Interrupted while it still starts a node it takes 10 to 20 s to end, so stop() waits
-    until all have started."""
+    """roslaunch of a file of the package. Interrupted while it still starts a node it takes 10 to 20 s to end, so
+    stop() waits until all have started."""
 
     def __init__(self, file, arguments, env=None):
         super().__init__(['roslaunch', PACKAGE, file] + ['%s:=%s' % item for item in arguments.items()], env)
@@ -73,7 +74,8 @@ class Launch(Process):
         return bool(names) and set(names) <= set(started)
 
     def stop(self, with_signal=signal.SIGINT):
-        wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes', deadline_s=60.0)
+        wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes',
+                   deadline_s=60.0)
         return super().stop(with_signal)
 
 
@@ -167,7 +169,8 @@ class NodeTest(unittest.TestCase):
 
 
 class EmulatorTest(NodeTest):
-    """One emulator for all tests of the class, alive after each, which ends well. Each test begins in an epoch of its own."""
+    """One emulator for all tests of the class, alive after each, which ends well. Each test begins in an epoch of its
+    own."""
     parameters = {}
 
     @classmethod
@@ -215,9 +218,11 @@ class EmulatorTest(NodeTest):
     def stepped(self, tau):
         """Steps, and waits until that has come."""
         end = self.step(tau=tau)
-        friction = self.topics['friction'].wait_for(lambda m: key(m.time) == key(end), 'what was stepped', deadline_s=60.0)
+        friction = self.topics['friction'].wait_for(lambda m: key(m.time) == key(end), 'what was stepped',
+                                                    deadline_s=60.0)
         for name in ('deflection', 'impacts'):
-            self.topics[name].wait_for(lambda m: m.header.seq == friction.header.seq, 'of the same batch', deadline_s=60.0)
+            self.topics[name].wait_for(lambda m: m.header.seq == friction.header.seq, 'of the same batch',
+                                       deadline_s=60.0)
         return friction
 
     def drag(self, eta):

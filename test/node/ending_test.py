@@ -31,9 +31,11 @@ def blocks_sigint(process):
 class Ending(NodeTest):
     def stop_all(self, moments):
         """Nodes with the moment of each. Returns how long each took to end, and its exit code."""
-        running = {name: self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]],
+        running = {name: self.start(Process([roslib.packages.find_node(PACKAGE, name)[0],
+                                             '__name:=' + name.split('.')[0]],
                                             dict(os.environ, QT_QPA_PLATFORM='offscreen'))) for name in moments}
-        wait_until(lambda: all(blocks_sigint(process) for process in running.values()), 'the first lines of all nodes have run')
+        wait_until(lambda: all(blocks_sigint(process) for process in running.values()),
+                   'the first lines of all nodes have run')
         begin = time.monotonic()
         ends = {}
         for name, moment in sorted(moments.items(), key=lambda item: item[1]):

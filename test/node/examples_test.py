@@ -22,7 +22,8 @@ from afm_emulator import Client
 rospy.init_node('repeats', disable_signals=True)
 key = lambda applied: (applied.epoch, applied.time.tau, applied.time.phase)
 tip, velocity = Client('/afm'), %r
-first, lowered, again = tip.command_and_wait(velocity), tip.command_and_wait(rest_height=-0.1e-9), tip.command_and_wait(velocity)
+first, lowered = tip.command_and_wait(velocity), tip.command_and_wait(rest_height=-0.1e-9)
+again = tip.command_and_wait(velocity)
 assert key(first) < key(lowered) <= key(again), (first, lowered, again)
 assert abs(tip.mean_force(0.05)) < 1e-9  # it ends
 rospy.signal_shutdown('done')
@@ -43,7 +44,8 @@ class Examples(NodeTest):
     def check_detector(self, language):
         volts, deflection = Topic('/detector/volts', Float64MultiArray), Topic('deflection')
         example = self.launch('detector.launch', language=language)
-        wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started', deadline_s=60.0)
+        wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started',
+                   deadline_s=60.0)
         message = volts.messages[-1]
         rows, columns = (dimension.size for dimension in message.layout.dim)
         self.assertEqual((rows, columns, len(message.data)), (2, 2000, 4000))
@@ -92,12 +94,14 @@ class Examples(NodeTest):
     def test_the_loop_delay_is_measured(self):
         self.start(Emulator({'batch_rate_hz': 100.0}))
         binary = roslib.packages.find_node(PACKAGE, 'loop_delay')[0]
-        done = subprocess.run([binary, '_commands:=40'], stdout=subprocess.PIPE, universal_newlines=True, timeout=60 * PATIENCE)
+        done = subprocess.run([binary, '_commands:=40'], stdout=subprocess.PIPE, universal_newlines=True,
+                              timeout=60 * PATIENCE)
         self.assertEqual(done.returncode, 0)
         row, = csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith('['))
         self.assertEqual((row['batch rate / Hz'], row['commands'], row['lost']), ('100', '40', '0'))
         applied, seen = float(row['applied: median / ms']), float(row['in a batch: median / ms'])
-        # a command waits for the end of a batch of 10 ms, 5 ms in the median; then the batch that it moves comes at once
+        # a command waits for the end of a batch of 10 ms, 5 ms in the median; then the batch that it moves comes at
+        # once
         self.assertGreater(applied, 2.0)
         self.assertGreaterEqual(seen, applied)
 

@@ -53,7 +53,8 @@ class Faults(NodeTest):
         master = self.start(Master())
         master.proxy.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
         emulator = self.start(Emulator(ROS_MASTER_URI=master.uri))
-        wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.proxy.getSystemState('test')[2]), 'the last of it is registered')
+        wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.proxy.getSystemState('test')[2]),
+                   'the last of it is registered')
         listener = BareSubscriber('deflection', master=master.proxy)
         before = listener.read_message()
         master.stop(signal.SIGKILL)
@@ -67,14 +68,16 @@ class Faults(NodeTest):
         checks.assert_identical(self, str(path))
 
     def test_what_happens_around_a_recording(self):
-        """One after another, to one run: no time on /clock, subscribers that die, a wall clock that jumps, and a long halt."""
+        """One after another, to one run: no time on /clock, subscribers that die, a wall clock that jumps, and a long
+        halt."""
         rospy.set_param('/use_sim_time', True)
         self.addCleanup(rospy.delete_param, '/use_sim_time')
         library = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[1] / 'libafm_clock_jump.so'
         self.jump = Path(self.temporary_directory()) / 'jump'
         self.jump.write_bytes(struct.pack('d', 0.0))
         self.emulator = self.recording_emulator(LD_PRELOAD=str(library), CLOCK_JUMP=str(self.jump))
-        for step in (self.time_without_a_clock, self.subscribers_are_killed, self.the_wall_clock_jumps, self.it_jumps_in_a_pause):
+        for step in (self.time_without_a_clock, self.subscribers_are_killed, self.the_wall_clock_jumps,
+                     self.it_jumps_in_a_pause):
             step()
             self.assert_no_sample_lost()
         self.assertEqual(self.status.wait_for_next().dropped_messages, 0)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""model: auto takes for every drag velocity the cheapest level that its tolerance allows, says which, and the recording is
-repeated bit for bit."""
+"""model: auto takes for every drag velocity the cheapest level that its tolerance allows, says which, and the recording
+is repeated bit for bit."""
 import math
 from pathlib import Path
 
@@ -11,7 +11,8 @@ from checks import assert_identical
 from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, Emulator, NodeTest, run
 from topics import Topic, key
 
-HEAD = 'eta,gamma,cutoff,frequency_ratio,amplitude,rest_height,model,contact_tolerance,k_f_error,deflection_error,cost\n'
+HEAD = ('eta,gamma,cutoff,frequency_ratio,amplitude,rest_height,model,contact_tolerance,'
+        'k_f_error,deflection_error,cost\n')
 # At eta = 2 the hammer will do, at 3 bursts, at 4 every bounce; between them the finer; with gamma = 0.8 at 2 as well
 ROWS = [(2, 0.7, 'hammer', 0.001, 0.01), (2, 0.7, 'oscillator', 0.001, 0.0), (2, 0.7, 'oscillator', 0, 0.0),
         (3, 0.7, 'hammer', 0.001, 0.3), (3, 0.7, 'oscillator', 0.001, 0.015), (3, 0.7, 'oscillator', 0, 0.0),
@@ -37,10 +38,12 @@ class Levels(NodeTest):
         self.table = self.directory / 'levels.csv'
         cutoff = 1.66e-7 / SPEED_UNIT
         self.table.write_text(HEAD + ''.join(
-            '%g,%g,%.12g,6.25,0.09615384615384616,0,%s,%g,%g,0,%g\n' % (eta, gamma, cutoff, model, tolerance, error, cost(model, tolerance))
+            '%g,%g,%.12g,6.25,0.09615384615384616,0,%s,%g,%g,0,%g\n' %
+            (eta, gamma, cutoff, model, tolerance, error, cost(model, tolerance))
             for eta, gamma, model, tolerance, error in ROWS))
-        self.parameters = {'model': 'auto', 'tolerance': 0.02, 'level_table': str(self.table), 'contact_tolerance': 0.002,
-                           'drag_velocity': 2 * SPEED_UNIT, 'record': True, 'bag_directory': str(self.directory / 'bags')}
+        self.parameters = {'model': 'auto', 'tolerance': 0.02, 'level_table': str(self.table),
+                           'contact_tolerance': 0.002, 'drag_velocity': 2 * SPEED_UNIT, 'record': True,
+                           'bag_directory': str(self.directory / 'bags')}
 
     def assert_same(self, got, expected):
         self.assertEqual(repr(got), repr(expected))  # nan is nan
@@ -77,7 +80,8 @@ class Levels(NodeTest):
         self.for_live_parameters_and_after_a_reset()
         self.many_changes_in_a_pause()
         configuration = self.finish()['configuration'][0]
-        self.assertEqual((configuration.model, configuration.tolerance, configuration.tolerance_of), ('auto', 0.02, 'friction'))
+        self.assertEqual((configuration.model, configuration.tolerance, configuration.tolerance_of),
+                         ('auto', 0.02, 'friction'))
 
     def for_every_drag_velocity(self):
         first = self.applied.wait_for()
@@ -85,8 +89,8 @@ class Levels(NodeTest):
         self.assert_same(reported(self.status.wait_for_next(lambda m: m.time.tau > 0)), HAMMER)
         # it begins with the speed for eta = 3.4, and gets its holder's
         self.assertAlmostEqual(first.energy_dropped / ENERGY_UNIT, 0.5 * (3.4 ** 2 - 2 ** 2), places=9)
-        for eta, level in ((3, BURSTS), (4, EVERY), (2, HAMMER), (-2, HAMMER), (2.5, BURSTS), (3.5, EVERY), (1.5, UNKNOWN),
-                           (0, UNKNOWN), (2, HAMMER)):
+        for eta, level in ((3, BURSTS), (4, EVERY), (2, HAMMER), (-2, HAMMER), (2.5, BURSTS), (3.5, EVERY),
+                           (1.5, UNKNOWN), (0, UNKNOWN), (2, HAMMER)):
             before = self.applied.messages[-1]
             message = self.drag(eta)
             self.assert_same(reported(message), level)
@@ -99,7 +103,8 @@ class Levels(NodeTest):
         self.assert_same(reported(self.set_gamma(0.9)), UNKNOWN)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         self.assert_same(reported(self.applied.wait_for(lambda m: m.epoch == 1)), HAMMER)  # of the start
-        self.assert_same(reported(self.set_parameter('quality_factor', 100.0)), UNKNOWN)  # the table was measured without a bath
+        # the table was measured without a bath
+        self.assert_same(reported(self.set_parameter('quality_factor', 100.0)), UNKNOWN)
         self.assert_same(reported(self.set_parameter('quality_factor', 0.0)), HAMMER)
 
     def many_changes_in_a_pause(self):
@@ -129,10 +134,12 @@ class Levels(NodeTest):
 
     def test_bad_input_is_refused_with_its_name_value_and_reason(self):
         for tolerance in (0.0, -0.1, math.inf, math.nan):
-            self.assertRegex(self.refusal(tolerance=tolerance), r'tolerance = -?(0|0.1\d*|inf|nan): must be above 0 and finite')
+            self.assertRegex(self.refusal(tolerance=tolerance),
+                             r'tolerance = -?(0|0.1\d*|inf|nan): must be above 0 and finite')
         self.assertIn('tolerance_of = "speed": there is no such quantity', self.refusal(tolerance_of='speed'))
         self.assertIn('level_table = "": model auto takes its levels from this file', self.refusal(level_table=''))
-        self.assertIn('level_table = "/no/such/file": cannot be read: No such file', self.refusal(level_table='/no/such/file'))
+        self.assertIn('level_table = "/no/such/file": cannot be read: No such file',
+                      self.refusal(level_table='/no/such/file'))
         self.table.write_text(HEAD + '1,2\n')
         self.assertRegex(self.refusal(), r'level_table = ".*levels.csv": line 2: has not as many fields')
         self.assertIn('use oscillator, hammer or auto', self.refusal(model='pendulum'))

@@ -21,7 +21,8 @@ def settings(kind, name):
 
 class LeverTest(NodeTest):
     def advance(self, name, seconds):
-        answer = call_service('/%s/control' % name, Control, drag_velocity=math.nan, rest_height=math.nan, duration=seconds)
+        answer = call_service('/%s/control' % name, Control, drag_velocity=math.nan, rest_height=math.nan,
+                              duration=seconds)
         self.assertTrue(answer.success, answer.message)
         return answer
 
@@ -34,14 +35,15 @@ class LeverTest(NodeTest):
                 k = lever['spring_constant_n_per_m']
                 self.assertAlmostEqual(c.omega_v_rad_per_s / (2 * math.pi) / lever['resonance_hz'], 1.0, delta=1e-12)
                 self.assertAlmostEqual(c.tip_mass_kg * c.omega_v_rad_per_s ** 2 / k, 1.0, delta=1e-12)
-                self.assertAlmostEqual(c.tip_mass_kg * c.omega_h_rad_per_s ** 2 / lever['lateral_spring_constant_n_per_m'], 1.0,
-                                       delta=1e-12)
+                lateral = c.tip_mass_kg * c.omega_h_rad_per_s ** 2
+                self.assertAlmostEqual(lateral / lever['lateral_spring_constant_n_per_m'], 1.0, delta=1e-12)
                 self.assertEqual((c.lattice_spacing_m, c.surface_amplitude_m),
                                  (surface['lattice_spacing_m'], surface['surface_amplitude_m']))
                 self.assertAlmostEqual(-k * c.rest_height_m / LOAD, 1.0, delta=1e-12)
 
     def test_the_tip_carries_its_load(self):
-        """The mean normal force is the load, but for the height at which the tip is: the corrugation, and above it the heat."""
+        """The mean normal force is the load, but for the height at which the tip is: the corrugation, and above it the
+        heat."""
         for name in ('ppp_cont', 'laterally_soft'):
             with self.subTest(lever=name):
                 friction = Topic('/%s/friction' % name)
@@ -57,7 +59,8 @@ class LeverTest(NodeTest):
     def test_a_lever_of_ones_own(self):
         lever = Path(self.temporary_directory()) / 'mine.yaml'
         lever.write_text('{spring_constant_n_per_m: 0.1, resonance_hz: 9000, lateral_spring_constant_n_per_m: 50.0}')
-        launch = self.start(Launch('emulator.launch', {'name': 'mine', 'lever': lever, 'load_n': '1e-9', 'pace': 'lockstep'}))
+        launch = self.start(Launch('emulator.launch',
+                                   {'name': 'mine', 'lever': lever, 'load_n': '1e-9', 'pace': 'lockstep'}))
         c = Topic('/mine/configuration').wait_for()
         self.assertAlmostEqual(c.rest_height_m, -1e-8, delta=1e-20)
         launch.stop()

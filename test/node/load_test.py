@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Under load (200 commands a second, 20 subscribers, one that never reads, every core busy) model time keeps up and the recording is whole."""
+"""Under load (200 commands a second, 20 subscribers, one that never reads, every core busy) model time keeps up and the
+recording is whole."""
 import multiprocessing
 import random
 import subprocess

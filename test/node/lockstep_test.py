@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""In lockstep the emulator advances when it is asked to, and a closed loop is a function of its controller. Model time on /clock rises
-strictly, whatever happens."""
+"""In lockstep the emulator advances when it is asked to, and a closed loop is a function of its controller. Model time
+on /clock rises strictly, whatever happens."""
 import math
 import sys
 import threading
@@ -39,7 +39,8 @@ class Lockstep(EmulatorTest):
     parameters = {'pace': 'lockstep', 'publish_clock': True, 'temperature_k': 300.0, 'quality_factor': 100.0}
 
     def control(self, duration, drag_velocity=NAN, rest_height=NAN):
-        return self.emulator.call('control', Control, drag_velocity=drag_velocity, rest_height=rest_height, duration=duration)
+        return self.emulator.call('control', Control, drag_velocity=drag_velocity, rest_height=rest_height,
+                                  duration=duration)
 
     def advance(self, *arguments):
         answer = self.control(*arguments)
@@ -64,16 +65,19 @@ class Lockstep(EmulatorTest):
         self.assertEqual((applied.drag_velocity, applied.rest_height_m, key(applied.time)),
                          (2.0 * SPEED_UNIT, -1e-11, key(answer.begin)))
         self.topics['friction'].wait_for(lambda m: key(m.time) == key(answer.end), 'the end of the period')
-        self.topics['impacts'].wait_for(lambda m: m.header.seq == self.topics['friction'].messages[-1].header.seq, 'the impacts')
+        self.topics['impacts'].wait_for(lambda m: m.header.seq == self.topics['friction'].messages[-1].header.seq,
+                                        'the impacts')
         batches = [m for m in self.topics['deflection'].messages if key(m.time) >= key(answer.begin)]
         lateral = [x for m in batches for x in m.lateral]
         self.assertEqual(answer.samples, len(lateral))
         self.assertAlmostEqual(answer.mean_lateral_force / (-K_H * sum(lateral) / len(lateral)), 1.0, delta=1e-9)
-        self.assertAlmostEqual(answer.rms_lateral_force / (K_H * math.sqrt(sum(x * x for x in lateral) / len(lateral))), 1.0, delta=1e-9)
+        rms = math.sqrt(sum(x * x for x in lateral) / len(lateral))
+        self.assertAlmostEqual(answer.rms_lateral_force / (K_H * rms), 1.0, delta=1e-9)
         impacts = [i for m in self.topics['impacts'].messages for i in m.impacts if key(i.time) > key(answer.begin)]
         self.assertEqual(answer.impact_count, sum(i.count for i in impacts))
         self.assertAlmostEqual(answer.energy_loss, sum(i.energy_loss for i in impacts), delta=1e-9 * ENERGY_UNIT)
-        friction = self.topics['friction'].messages[-1]  # its estimate began with the command, and is exact; the other is of samples
+        # its estimate began with the command, and is exact; the other is of samples
+        friction = self.topics['friction'].messages[-1]
         self.assertAlmostEqual(answer.k_f_work / friction.k_f_work, 1.0, delta=0.02)
         self.assertAlmostEqual(answer.k_f / friction.k_f, 1.0, delta=1e-9)
 
@@ -90,8 +94,9 @@ class Lockstep(EmulatorTest):
 
     def test_what_cannot_be_is_refused_by_name_and_nothing_advances(self):
         now = key(self.advance(0.01).end)
-        for name, request in (('drag_velocity', (0.01, 1.0)), ('rest_height', (0.01, NAN, 1e-9)), ('duration', (-0.01,)),
-                              ('duration', (NAN,)), ('duration', (math.inf,)), ('drag_velocity', (0.01, math.inf))):
+        for name, request in (('drag_velocity', (0.01, 1.0)), ('rest_height', (0.01, NAN, 1e-9)),
+                              ('duration', (-0.01,)), ('duration', (NAN,)), ('duration', (math.inf,)),
+                              ('drag_velocity', (0.01, math.inf))):
             answer = self.control(*request)
             self.assertFalse(answer.success, request)
             self.assertIn(name, answer.message)
@@ -159,14 +164,16 @@ class RealTime(NodeTest):
 class Starting(NodeTest):
     """The emulator advertises its topics before its services: a client that meets it between waits."""
     def topics_of(self, name):
-        for topic, kind, message in (('configuration', Configuration, Configuration(pace='lockstep')), ('applied', Applied, Applied())):
+        for topic, kind, message in (('configuration', Configuration, Configuration(pace='lockstep')),
+                                     ('applied', Applied, Applied())):
             publisher = rospy.Publisher('%s/%s' % (name, topic), kind, queue_size=1, latch=True)
             publisher.publish(message)
             self.addCleanup(publisher.unregister)
 
     def test_a_client_waits_for_the_service(self):
         self.topics_of('/late')
-        begin = threading.Timer(0.5, lambda: rospy.Service('/late/control', Control, lambda _: ControlResponse(success=True, epoch=7)))
+        begin = threading.Timer(0.5, lambda: rospy.Service('/late/control', Control,
+                                                           lambda _: ControlResponse(success=True, epoch=7)))
         begin.start()
         self.assertEqual(Client('/late').control(0.01).epoch, 7)
 

@@ -59,7 +59,8 @@ class Loopback(NodeTest):
         devel = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[2]
         environment = {name: value for name, value in os.environ.items() if name not in ('ROS_IP', 'ROS_HOSTNAME')}
         environment.update(AFM_BUILD_DIR=str(devel.parent), ROS_MASTER_URI='http://localhost:%d' % free_port())
-        command = 'source "$0/scripts/environment.bash"; listen_on_loopback_only; exec roslaunch afm_emulator emulator.launch'
+        command = ('source "$0/scripts/environment.bash"; listen_on_loopback_only; '
+                   'exec roslaunch afm_emulator emulator.launch')
         launch = self.start(Process(['bash', '-c', command, str(package)], env=environment, start_new_session=True))
         self.addCleanup(launch.stop, signal.SIGINT)
         wanted = {'emulator_node': 2, 'rosout': 2, 'rosmaster': 1, 'roslaunch': 1}

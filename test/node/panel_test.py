@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The front panel on a display of its own: what is turned and pressed takes effect, what comes is drawn; it greys out without an
-emulator, comes back with it, shows a recording, and ends when it is asked to. Pictures of it go to the test's results."""
+"""The front panel on a display of its own: what is turned and pressed takes effect, what comes is drawn; it greys out
+without an emulator, comes back with it, shows a recording, and ends when it is asked to. Pictures of it go to the
+test's results."""
 import os
 import signal
 import subprocess
@@ -20,7 +21,8 @@ class Display:
 
     def __init__(self):
         readable, writable = os.pipe()
-        self.child = subprocess.Popen(['Xvfb', '-displayfd', str(writable), '-screen', '0', '1000x700x24', '-nolisten', 'tcp'],
+        self.child = subprocess.Popen(['Xvfb', '-displayfd', str(writable), '-screen', '0', '1000x700x24', '-nolisten',
+                                       'tcp'],
                                       pass_fds=[writable], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writable)
         with os.fdopen(readable) as numbers:
@@ -140,7 +142,8 @@ class Knobs(EmulatorTest):
     def test_a_knob_follows_what_others_command(self):
         self.drag(-1.5)
         until(lambda: abs(self.panel.part('eta').value() + 1.5) < 1e-3, 'eta = -1.5 is shown')
-        self.assertEqual(self.topics['applied'].messages[-1].drag_velocity, -1.5 * SPEED_UNIT)  # and not commanded again
+        # and not commanded again
+        self.assertEqual(self.topics['applied'].messages[-1].drag_velocity, -1.5 * SPEED_UNIT)
 
     def test_load_surface_and_bath(self):
         stiffness = 408e-12 * 40e3 ** 2
@@ -169,7 +172,8 @@ class Knobs(EmulatorTest):
         self.assertAlmostEqual(tau_between(begin, end), 1.0, delta=1e-12)
         impacts = sum(i.count for m in self.topics['impacts'].messages for i in m.impacts)
         self.panel.press('step_impact')
-        until(lambda: sum(i.count for m in self.topics['impacts'].messages for i in m.impacts) > impacts, 'an impact later')
+        until(lambda: sum(i.count for m in self.topics['impacts'].messages for i in m.impacts) > impacts,
+              'an impact later')
         epoch = self.topics['status'].messages[-1].epoch
         self.panel.press('reset')
         self.status(lambda m: m.epoch == epoch + 1, 'a new epoch')
@@ -190,10 +194,12 @@ class Knobs(EmulatorTest):
         self.panel.type_in('eta', '2.0')
         self.applied(lambda m: abs(m.drag_velocity / SPEED_UNIT - 2.0) < 1e-9, 'eta = 2')
         window = self.panel.window
-        until(lambda: 'η = 2.000' in window.readouts['eta'].text() and {'pace', 'numerics'} <= set(window.lamps), 'read-outs')
+        until(lambda: 'η = 2.000' in window.readouts['eta'].text() and {'pace', 'numerics'} <= set(window.lamps),
+              'read-outs')
         until(lambda: len(window.trail.past) > 0, 'a trail')
         for plot, colour, least in ((window.scope.vertical, BLUE, 300), (window.scope.lateral, ORANGE, 300),
-                                    (window.path.plot, BLUE, 200), (window.loop_plot.plot, BLUE, 50), (window.curve.plot, ORANGE, 10)):
+                                    (window.path.plot, BLUE, 200), (window.loop_plot.plot, BLUE, 50),
+                                    (window.curve.plot, ORANGE, 10)):
             self.assertGreater(self.panel.pixels(plot, colour), least)
         self.panel.keep('eta_2')
         for _ in range(5):
@@ -256,7 +262,8 @@ class Ending(NodeTest):
 
     def test_without_a_display(self):
         for display, why in ((None, 'DISPLAY is not set'), (':987', ':987 cannot be opened')):
-            environment = {name: value for name, value in os.environ.items() if name not in ('DISPLAY', 'WAYLAND_DISPLAY')}
+            environment = {name: value for name, value in os.environ.items()
+                           if name not in ('DISPLAY', 'WAYLAND_DISPLAY')}
             if display:
                 environment['DISPLAY'] = display
             panel = self.start(Process([self.NODE], environment))

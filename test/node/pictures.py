@@ -1,4 +1,5 @@
-"""Shared by the tests of the view: its pictures, and what they must show, computed anew from what the emulator reported."""
+"""Shared by the tests of the view: its pictures, and what they must show, computed anew from what the emulator
+reported."""
 import math
 import subprocess
 

@@ -84,7 +84,8 @@ class Publishes(unittest.TestCase):
     def test_the_lateral_force_is_the_friction_but_for_what_the_tip_stores(self):
         last = self.topics['friction'][-1]
         self.assertGreater(last.mean_lateral_force_std_error, 0.0)
-        self.assertLess(abs(last.mean_lateral_force - last.force), 5 * (last.mean_lateral_force_std_error + last.force_std_error))
+        self.assertLess(abs(last.mean_lateral_force - last.force),
+                        5 * (last.mean_lateral_force_std_error + last.force_std_error))
 
     def test_model_time_keeps_up_with_wall_time(self):
         self.assertGreaterEqual(self.wall_s, WATCHED_S)

@@ -61,8 +61,8 @@ class PythonModule(NodeTest):
             samples += len(m.vertical)
         impacts = [(m.first_index + i, impact) for m in messages['impacts'] for i, impact in enumerate(m.impacts)]
         mine = run.impacts[[index - run.first_impact for index, _ in impacts]]
-        for name, unit in (('normal_speed', units.velocity), ('tangential_velocity', units.velocity), ('surface_phase', 1),
-                           ('energy_loss', units.energy), ('kind', 1), ('count', 1)):
+        for name, unit in (('normal_speed', units.velocity), ('tangential_velocity', units.velocity),
+                           ('surface_phase', 1), ('energy_loss', units.energy), ('kind', 1), ('count', 1)):
             np.testing.assert_array_equal(mine[name] * unit, [getattr(impact, name) for _, impact in impacts], name)
         np.testing.assert_array_equal(mine['tau'], [impact.time.tau for _, impact in impacts])
         np.testing.assert_array_equal(mine['phase'], [impact.time.phase for _, impact in impacts])
@@ -92,8 +92,8 @@ class PythonModule(NodeTest):
 
     def run_example(self, path):
         with tempfile.TemporaryDirectory() as folder:
-            output = subprocess.check_output([sys.executable, str(EXAMPLE), path], cwd=folder, universal_newlines=True, timeout=60,
-                                             env=dict(os.environ, MPLBACKEND='Agg', MPLCONFIGDIR=folder))
+            output = subprocess.check_output([sys.executable, str(EXAMPLE), path], cwd=folder, universal_newlines=True,
+                                             timeout=60, env=dict(os.environ, MPLBACKEND='Agg', MPLCONFIGDIR=folder))
             self.assertIn('um/s', output)
             self.assertTrue((Path(folder) / 'read_bag.png').exists())
 
@@ -139,13 +139,15 @@ class PythonModule(NodeTest):
     def check_what_is_missing(self, path):
         """The whole run, or an error that names what it would take."""
         for condition, words in (("topic != '/afm/friction'", 'Friction'), ("topic != '/afm/snapshot'", 'Snapshot'),
-                                 ("topic != '/afm/applied'", 'Applied'), ("topic != '/afm/friction' or m.header.seq != 20", 'Friction'),
+                                 ("topic != '/afm/applied'", 'Applied'),
+                                 ("topic != '/afm/friction' or m.header.seq != 20", 'Friction'),
                                  ("topic != '/afm/applied' or m.number != 2", 'Applied'),
                                  ("topic != '/afm/snapshot' or m.time.tau > 10", 'Snapshot')):
             filtered = str(self.directory / 'filtered.bag')
             subprocess.run(['rosbag', 'filter', path, filtered, condition], check=True, stdout=subprocess.DEVNULL)
             self.assertRaisesRegex(ValueError, words, afm.from_bag, filtered)
-        subprocess.run(['rosbag', 'filter', path, filtered, "topic != '/afm/deflection'"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(['rosbag', 'filter', path, filtered, "topic != '/afm/deflection'"], check=True,
+                       stdout=subprocess.DEVNULL)
         np.testing.assert_array_equal(afm.from_bag(filtered).simulate().lateral, afm.from_bag(path).simulate().lateral)
 
 

@@ -100,8 +100,8 @@ class OtherNames(NodeTest):
     def test_topics_may_be_remapped(self):
         directory = self.temporary_directory()
         set_parameters({'record': True, 'bag_directory': directory})
-        node = self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=afm', '~friction:=/force',
-                                   '~snapshot:=/start']))
+        node = self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=afm',
+                                   '~friction:=/force', '~snapshot:=/start']))
         Topic('/force', Friction).wait_for_more(100)
         self.assertEqual(node.stop(), 0)
         path, = (os.path.join(directory, name) for name in os.listdir(directory))

@@ -43,12 +43,17 @@ class Repeats(NodeTest):
     def change_at_random(self):
         """Some of all live parameters."""
         chance = self.random
-        values = {'restitution_gamma': chance.uniform(0.1, 0.95), 'cutoff_speed': chance.choice([0.0, 1e-8, 1.66e-7, 1e-6]),
-                  'rest_height_m': chance.uniform(-1e-10, 4.9e-11), 'sample_rate_hz': chance.choice([5e4, 61234.5, 1.5e5]),
-                  'friction_window_tau': chance.choice([100.0, 1000.0]), 'temperature_k': chance.choice([0.0, 77.0, 300.0]),
-                  'quality_factor': chance.choice([0.0, 20.0, 100.0]), 'lateral_quality_factor': chance.choice([0.0, 500.0]),
+        values = {'restitution_gamma': chance.uniform(0.1, 0.95),
+                  'cutoff_speed': chance.choice([0.0, 1e-8, 1.66e-7, 1e-6]),
+                  'rest_height_m': chance.uniform(-1e-10, 4.9e-11),
+                  'sample_rate_hz': chance.choice([5e4, 61234.5, 1.5e5]),
+                  'friction_window_tau': chance.choice([100.0, 1000.0]),
+                  'temperature_k': chance.choice([0.0, 77.0, 300.0]),
+                  'quality_factor': chance.choice([0.0, 20.0, 100.0]),
+                  'lateral_quality_factor': chance.choice([0.0, 500.0]),
                   'kicks_per_tau': chance.choice([2.0, 4.0, 7.3])}
-        self.emulator.set(**{name: values[name] for name in chance.sample(sorted(values), chance.randrange(1, len(values)))})
+        names = chance.sample(sorted(values), chance.randrange(1, len(values)))
+        self.emulator.set(**{name: values[name] for name in names})
 
     def call(self, service, kind=Trigger, **request):
         answer = self.emulator.call(service, kind, **request)
@@ -107,7 +112,8 @@ class Repeats(NodeTest):
         self.call('stop_recording')
         paths = self.end()
         self.assertGreaterEqual(len(paths), 3)
-        self.assertEqual([Path(path).name for path in paths], ['part.bag'] + ['part_%03d.bag' % i for i in range(1, len(paths))])
+        self.assertEqual([Path(path).name for path in paths],
+                         ['part.bag'] + ['part_%03d.bag' % i for i in range(1, len(paths))])
         self.assertEqual({m.model for m in self.applied.messages}, {'oscillator', 'hammer'})
         self.assert_each_is_identical(*paths)
         lost = checks.replay_check(paths[0], *paths[2:])  # two recordings, then
@@ -129,11 +135,12 @@ class Repeats(NodeTest):
         return recorder
 
     def wait_for_subscribers(self, count):
-        """Beside this test: rosbag looks for topics once a second, and subscribes to each by itself. The master knows of a
-        subscriber before it is connected."""
+        """Beside this test: rosbag looks for topics once a second, and subscribes to each by itself. The master knows
+        of a subscriber before it is connected."""
         def number(topic):
             return len(connected_to(NAMESPACE + '/' + topic) - {rospy.get_name()})
-        wait_until(lambda: all(number(topic) >= count for topic in ('snapshot', 'applied', 'deflection', 'impacts', 'friction')),
+        wait_until(lambda: all(number(topic) >= count
+                               for topic in ('snapshot', 'applied', 'deflection', 'impacts', 'friction')),
                    'rosbag listens to the topics')
 
     def test_recorded_by_rosbag(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Reset starts the same run again, with the parameters of the start. Pause holds model time. A step goes exactly as far as it is
-asked to, and a slow subscriber loses nothing in it, or what it loses is counted."""
+"""Reset starts the same run again, with the parameters of the start. Pause holds model time. A step goes exactly as far
+as it is asked to, and a slow subscriber loses nothing in it, or what it loses is counted."""
 import math
 
 from afm_emulator.srv import Step
@@ -14,7 +14,8 @@ LONG_TAU = 10000  # the longest step there is
 
 class ResetPauseStep(EmulatorTest):
     # a paused start; a scene's commands
-    parameters = {'paused': True, 'sample_rate_hz': 100000.0, 'commands_eta': [3.4, 2.0, 0.0, -1.0], 'commands_hold_s': 0.02}
+    parameters = {'paused': True, 'sample_rate_hz': 100000.0, 'commands_eta': [3.4, 2.0, 0.0, -1.0],
+                  'commands_hold_s': 0.02}
 
     @classmethod
     def setUpClass(cls):
@@ -34,7 +35,8 @@ class ResetPauseStep(EmulatorTest):
             if name in ('deflection', 'applied', 'snapshot'):
                 self.assertEqual(key(first.time), (0, 0.0), name)
         first = {name: topic.messages[0] for name, topic in self.topics.items()}
-        self.assertEqual((first['deflection'].first_sample, first['impacts'].first_index, first['applied'].number), (0, 0, 0))
+        self.assertEqual((first['deflection'].first_sample, first['impacts'].first_index, first['applied'].number),
+                         (0, 0, 0))
         self.assertEqual((first['applied'].cause, first['snapshot'].next_sample), ('epoch', 0))
 
     def test_a_scene_with_commands_repeats_to_the_bit(self):
@@ -46,7 +48,8 @@ class ResetPauseStep(EmulatorTest):
             runs.append((self.samples(), commands))
         self.assertEqual(runs[0], runs[1])
         # at the first batch boundary after each time; they begin with the run
-        self.assertEqual([round(v / SPEED_UNIT, 9) for _, cause, v in runs[0][1] if cause == 'scene'][:5], [3.4, 2.0, 0.0, -1.0, 3.4])
+        self.assertEqual([round(v / SPEED_UNIT, 9) for _, cause, v in runs[0][1] if cause == 'scene'][:5],
+                         [3.4, 2.0, 0.0, -1.0, 3.4])
         self.assertEqual([time for time, cause, _ in runs[0][1]][:2], [(0, 0.0), (0, 0.0)])
 
     def test_reset_goes_back_to_the_parameters_of_the_start(self):
@@ -71,7 +74,8 @@ class ResetPauseStep(EmulatorTest):
         self.assertEqual({key(m.time) for m in self.topics['status'].messages[begin:]}, {key(time)})
         self.assertLessEqual(max(key(m.time) for m in self.topics['deflection'].messages), key(time))
         self.pause(False)
-        self.topics['status'].wait_for_next(lambda m: not m.paused and tau_between(time, m.time) > 500, 'time passes again')
+        self.topics['status'].wait_for_next(lambda m: not m.paused and tau_between(time, m.time) > 500,
+                                            'time passes again')
 
     def test_step_by_time(self):
         self.begin(paused=True)
@@ -79,7 +83,8 @@ class ResetPauseStep(EmulatorTest):
         for tau in (0.25, 1e-6, 1.0, 33.3):
             end = self.step(tau=tau)
             self.assertAlmostEqual(tau_between(begin, end), tau, delta=1e-13)
-            self.topics['status'].wait_for_next(lambda m, end=end: key(m.time) == key(end) and m.paused, 'the time reached')
+            self.topics['status'].wait_for_next(lambda m, end=end: key(m.time) == key(end) and m.paused,
+                                                'the time reached')
             begin = end
 
     def test_step_to_the_next_impacts(self):
@@ -146,8 +151,8 @@ class ResetPauseStep(EmulatorTest):
 
     def test_bad_steps_are_refused(self):
         self.begin(paused=True)
-        for how_far in ({}, {'tau': 1.0, 'impacts': 1}, {'tau': -1.0}, {'tau': math.nan}, {'tau': math.inf}, {'tau': 10001.0},
-                        {'impacts': 100001}):
+        for how_far in ({}, {'tau': 1.0, 'impacts': 1}, {'tau': -1.0}, {'tau': math.nan}, {'tau': math.inf},
+                        {'tau': 10001.0}, {'impacts': 100001}):
             answer = self.emulator.call('step', Step, **how_far)
             self.assertFalse(answer.success, how_far)
             self.assertTrue(answer.message, how_far)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every shipped scene has the parameters of its file and shows what that says one sees. scenes.test starts all of them paused; they
-are stepped, faster than time passes and with nothing lost."""
+"""Every shipped scene has the parameters of its file and shows what that says one sees. scenes.test starts all of them
+paused; they are stepped, faster than time passes and with nothing lost."""
 import math
 from pathlib import Path
 
@@ -53,9 +53,11 @@ class Scenes(NodeTest):
         while tau > 0.0:
             end = self.call('step', Step, tau=min(tau, MOST_TAU), impacts=0).time
             tau -= MOST_TAU
-        estimate = self.friction.wait_for(lambda m: key(m.time) == key(end), '%g s of model time' % seconds, deadline_s=60.0)
+        estimate = self.friction.wait_for(lambda m: key(m.time) == key(end), '%g s of model time' % seconds,
+                                          deadline_s=60.0)
         for name in ('deflection', 'impacts'):
-            self.topics[name].wait_for(lambda m: m.header.seq == estimate.header.seq, 'of the same time', deadline_s=60.0)
+            self.topics[name].wait_for(lambda m: m.header.seq == estimate.header.seq, 'of the same time',
+                                       deadline_s=60.0)
         return estimate
 
     def last_of_each_command(self):
@@ -153,8 +155,10 @@ class Scenes(NodeTest):
         self.play('loop')
         self.after(12 * self.parameters['commands_hold_s'])
         traces = self.last_of_each_command()[:12]
-        self.assertEqual({math.copysign(1, m.mean_lateral_force) for m in traces[::2]}, {math.copysign(1, traces[0].eta)})
-        opening = [(a.mean_lateral_force - b.mean_lateral_force) * math.copysign(1, a.eta) for a, b in zip(traces, traces[1:])]
+        self.assertEqual({math.copysign(1, m.mean_lateral_force) for m in traces[::2]},
+                         {math.copysign(1, traces[0].eta)})
+        opening = [(a.mean_lateral_force - b.mean_lateral_force) * math.copysign(1, a.eta)
+                   for a, b in zip(traces, traces[1:])]
         half = 0.5 * sum(opening) / len(opening)
         self.assertAlmostEqual(half / (4.17 * FRICTION_UNIT * 2 * SPEED_UNIT), 1.0, delta=0.1)
 

@@ -45,9 +45,11 @@ class ShippedFiles(NodeTest):
 
     def test_launch_arguments_reach_the_node(self):
         directory, asked = self.temporary_directory(), {
-            'time_scale': 0.5, 'drag_velocity': 6.6e-6, 'sample_rate_hz': 50000.0, 'batch_rate_hz': 50.0, 'temperature_k': 77.0, 'seed': 5}
+            'time_scale': 0.5, 'drag_velocity': 6.6e-6, 'sample_rate_hz': 50000.0, 'batch_rate_hz': 50.0,
+            'temperature_k': 77.0, 'seed': 5}
         status, configuration = Topic('/tip/status'), Topic('/tip/configuration')
-        play = self.launch('emulator.launch', scene='rest', record='true', bag_directory=directory, name='tip', paused='true', **asked)
+        play = self.launch('emulator.launch', scene='rest', record='true', bag_directory=directory, name='tip',
+                           paused='true', **asked)
         first = status.wait_for(lambda m: m.recording, 'recording')
         self.assertEqual((first.paused, first.time.tau), (True, 0))
         got = values(configuration.wait_for())

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
-"""However and whenever the node is asked to end, it does so soon, and a recording is closed and holds all that was published.
-usage: shutdown_test.py [STOPS]      so many stops of shipped scenes at random moments, beside a master; default: each scene once"""
+"""However and whenever the node is asked to end, it does so soon, and a recording is closed and holds all that was
+published.
+usage: shutdown_test.py [STOPS]      so many stops of shipped scenes at random moments, beside a master; default: each
+scene once"""
 import random
 import signal
 import sys
@@ -59,7 +61,8 @@ class Shutdown(NodeTest):
         while ended < STOPS:
             wave = min(STOPS - ended, len(SCENES))
             nodes = [(self.start_scene(SCENES[i], 'stop_%d' % (ended + i)), SCENES[i].stem) for i in range(wave)]
-            begin, moments = time.monotonic(), sorted((chance.uniform(0.0, WITHIN_S * PATIENCE), i) for i in range(wave))
+            begin, moments = time.monotonic(), sorted((chance.uniform(0.0, WITHIN_S * PATIENCE), i)
+                                                      for i in range(wave))
             for moment, i in moments:
                 time.sleep(max(0.0, begin + moment - time.monotonic()))
                 node, scene = nodes[i]
@@ -67,7 +70,8 @@ class Shutdown(NodeTest):
                 node.child.send_signal(signal.SIGINT)
                 asked = time.monotonic()
                 code = node.wait(SOON_S)
-                print('%-12s %.2f s after its start: ended with %d after %.2f s' % (scene, moment, code, time.monotonic() - asked))
+                print('%-12s %.2f s after its start: ended with %d after %.2f s' %
+                      (scene, moment, code, time.monotonic() - asked))
                 self.assertIn(code, (0,) if begun else (0, -signal.SIGINT), scene)
             ended += wave
         self.assertEqual([str(path) for path in self.directory.rglob('*.active')], [])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Whatever is altered, lost, renamed or filtered in a recording: both checks say what, in words and by their exit codes. What is
-intact is never called damaged, and what is altered never identical."""
+"""Whatever is altered, lost, renamed or filtered in a recording: both checks say what, in words and by their exit
+codes. What is intact is never called damaged, and what is altered never identical."""
 import subprocess
 
 import genpy
@@ -44,8 +44,10 @@ class SpoiledBags(SpoiledBag):
              lambda: self.of('deflection')[80].flip_last_bit(-8)),
             (DIFFERS, ('.energy_loss',), None, lambda: self.of('impacts')[full].flip_last_bit(-13)),
             (DIFFERS, ('heat_to_bath',), None, lambda: self.of('friction')[80].flip_last_bit(-8)),
-            (DIFFERS, ('estimate_energy[', '/afm/snapshot'), None, lambda: self.of('snapshot')[0].edit(estimate_energy=[1e-300, 0.0])),
-            (DIFFERS, ('initial_height', '/afm/configuration'), None, lambda: self.of('configuration')[0].edit(initial_height=0.21)))
+            (DIFFERS, ('estimate_energy[', '/afm/snapshot'), None,
+             lambda: self.of('snapshot')[0].edit(estimate_energy=[1e-300, 0.0])),
+            (DIFFERS, ('initial_height', '/afm/configuration'), None,
+             lambda: self.of('configuration')[0].edit(initial_height=0.21)))
 
     def test_what_was_applied(self):
         def edit(**values):
@@ -87,8 +89,8 @@ class SpoiledBags(SpoiledBag):
             with self.subTest(topic=topic):
                 self.setUp()
                 self.remove(self.of(topic)[80])
-                self.assert_reported(UNCHECKED, '1 messages of /afm/%s, the first after' % topic, 'what was compared is identical',
-                                     sound=False)
+                self.assert_reported(UNCHECKED, '1 messages of /afm/%s, the first after' % topic,
+                                     'what was compared is identical', sound=False)
 
     def test_batches_are_lost(self):
         batch = [self.of(topic)[80:83] for topic in ('deflection', 'impacts', 'friction')]
@@ -97,8 +99,10 @@ class SpoiledBags(SpoiledBag):
 
     def test_a_topic_is_filtered_out(self):
         self.spoil_each(
-            (SOUND, ('IDENTICAL in what it holds; it holds no deflection',), True, lambda: self.remove(*self.of('deflection'))),
-            (SOUND, ('IDENTICAL in what it holds; it holds no impacts',), True, lambda: self.remove(*self.of('impacts'))),
+            (SOUND, ('IDENTICAL in what it holds; it holds no deflection',), True,
+             lambda: self.remove(*self.of('deflection'))),
+            (SOUND, ('IDENTICAL in what it holds; it holds no impacts',), True,
+             lambda: self.remove(*self.of('impacts'))),
             (SOUND, ('IDENTICAL',), True, lambda: self.remove(*self.of('status'), *self.of('configuration'))),
             (UNCHECKED, ('holds no message of friction',), None, lambda: self.remove(*self.of('friction'))),
             (UNCHECKED, ('holds no message of what was applied',), None, lambda: self.remove(*self.of('applied'))),
@@ -121,12 +125,14 @@ class SpoiledBags(SpoiledBag):
     def test_two_emulators(self):
         """Each by itself; but where another program published both, nothing tells which topics belong together."""
         path = self.directory / 'two.bag'
-        for callers, code, words in ((('/afm', '/other'), SOUND, '/other in'), (('/play', '/play'), UNCHECKED, 'nothing tells')):
+        for callers, code, words in ((('/afm', '/other'), SOUND, '/other in'),
+                                     (('/play', '/play'), UNCHECKED, 'nothing tells')):
             with rosbag.Bag(str(path), 'w') as bag:
                 for e in self.entries:
                     for space, caller in zip((NAMESPACE, '/other'), callers):
                         topic = space + '/' + e.topic
-                        bag.write(topic, e.raw, e.stamp, raw=True, connection_header=dict(e.header, topic=topic, callerid=caller))
+                        bag.write(topic, e.raw, e.stamp, raw=True,
+                                  connection_header=dict(e.header, topic=topic, callerid=caller))
             self.assert_reported(code, words, path=path, sound=True if code == SOUND else None)
         self.assertEqual(checks.bag_check(path).code, UNCHECKED)
         self.assertEqual(checks.replay_check(self.good, '--node', '/other').code, UNCHECKED)
@@ -141,8 +147,9 @@ class SpoiledBags(SpoiledBag):
         foreign = self.directory / 'foreign.bag'
         with rosbag.Bag(str(foreign), 'w') as bag:
             bag.write('/chatter', String('hello'))
-        for path, words in ((cut, 'rosbag reindex'), (text, 'text.bag'), (empty, 'empty.bag'), ('/nowhere.bag', 'nowhere.bag'),
-                            (foreign, 'holds no message of an emulator'), (self.directory, str(self.directory))):
+        for path, words in ((cut, 'rosbag reindex'), (text, 'text.bag'), (empty, 'empty.bag'),
+                            ('/nowhere.bag', 'nowhere.bag'), (foreign, 'holds no message of an emulator'),
+                            (self.directory, str(self.directory))):
             self.assert_reported(UNCHECKED, words, path=path)
             self.assertEqual(checks.bag_check(path).code, UNCHECKED, path)
         subprocess.run(['rosbag', 'reindex', '--force', str(cut)], check=True, stdout=subprocess.DEVNULL)

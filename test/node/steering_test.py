@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Live parameters take effect as they are reported, faulty ones change nothing; the load is set by topics; without commands the drag
-stops."""
+"""Live parameters take effect as they are reported, faulty ones change nothing; the load is set by topics; without
+commands the drag stops."""
 import math
 import subprocess
 import time
@@ -43,7 +43,8 @@ class Steering(EmulatorTest):
         self.assertEqual(set(described), set(AT_START))
         self.assertEqual((described['restitution_gamma'], described['sample_rate_hz']), ((0.0, 1.0), (1e3, 1e6)))
         command = ['rosrun', 'dynamic_reconfigure', 'dynparam', 'set', NAMESPACE, 'restitution_gamma', '0.55']
-        done = subprocess.run(command, timeout=30, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        done = subprocess.run(command, timeout=30, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.55, 'dynparam is obeyed')
         self.assertEqual(client.update_configuration({'friction_window_tau': 640.0})['restitution_gamma'], 0.55)
@@ -81,9 +82,11 @@ class Steering(EmulatorTest):
             # the good part of a faulty change is not taken either
             self.assertEqual(self.emulator.set(friction_window_tau=500.0, **{name: value}), in_force)
             self.assertIn('refused: %s = ' % name, self.emulator.output())
-            updates.wait_for(lambda m: {v.name: v.value for v in m.doubles} == in_force, 'clients see the old values', before)
+            updates.wait_for(lambda m: {v.name: v.value for v in m.doubles} == in_force,
+                             'clients see the old values', before)
             diagnostics.wait_for(lambda m, n=name, r=reason: any(
-                s.name == 'afm: commands' and s.level == 1 and n + ' = ' in s.message and r in s.message for s in m.status),
+                s.name == 'afm: commands' and s.level == 1 and n + ' = ' in s.message and r in s.message
+                for s in m.status),
                 '%s is named' % name, said)
         self.assertEqual([m.cause for m in self.applied.messages], ['epoch'])
 

@@ -1,6 +1,6 @@
 // The running thread neither allocates nor locks, and calls the system only to sleep and to wake the publisher. A real
-// one runs here under every kind of request: its allocations and locks are counted, and in a child the kernel has orders
-// to kill for any other call.
+// one runs here under every kind of request: its allocations and locks are counted, and in a child the kernel has
+// orders to kill for any other call.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <linux/audit.h>
@@ -128,8 +128,8 @@ class Reader {
     live.sample_rate_hz = 1e5;
     live.bath.temperature_k = 77.0;
     std::vector<Request> requests;
-    for (const Kind kind : {Kind::command, Kind::command, Kind::change, Kind::snapshot, Kind::pause, Kind::step, Kind::step,
-                            Kind::resume, Kind::reset, Kind::flush}) {
+    for (const Kind kind : {Kind::command, Kind::command, Kind::change, Kind::snapshot, Kind::pause, Kind::step,
+                            Kind::step, Kind::resume, Kind::reset, Kind::flush}) {
       requests.emplace_back(kind);
     }
     requests[0].drag_velocity = -2.0 * Units(p_.si).velocity();

@@ -26,7 +26,8 @@ class BareSubscriber:
         self.socket.settimeout(15.0)
         self.socket.connect((host, port))
         self.kind = TOPICS[name]
-        fields = {'callerid': caller, 'topic': topic, 'type': self.kind._type, 'md5sum': self.kind._md5sum, 'tcp_nodelay': '1'}
+        fields = {'callerid': caller, 'topic': topic, 'type': self.kind._type, 'md5sum': self.kind._md5sum,
+                  'tcp_nodelay': '1'}
         header = b''.join(_field('%s=%s' % item) for item in fields.items())
         self.socket.sendall(struct.pack('<I', len(header)) + header)
         self.read(struct.unpack('<I', self.read(4))[0])

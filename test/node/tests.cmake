@@ -40,7 +40,8 @@ foreach(arguments "hold_force.test language:=python" "hold_force.test language:=
         "seek_peak.test language:=python" "seek_peak.test language:=cpp start:=7.3e-6")
   separate_arguments(arguments)
   list(POP_FRONT arguments file)
-  add_rostest(${PROJECT_SOURCE_DIR}/examples/ros/test/${file} ARGS ${arguments} DEPENDENCIES afm_emulator_node afm_examples_ros)
+  add_rostest(${PROJECT_SOURCE_DIR}/examples/ros/test/${file} ARGS ${arguments}
+    DEPENDENCIES afm_emulator_node afm_examples_ros)
 endforeach()
 
 # of the tools that read recordings
@@ -82,7 +83,8 @@ file(GLOB scripts RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} node/*_test.py)
 execute_process(COMMAND git ls-files --stage -- ${scripts} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
   OUTPUT_VARIABLE staged ERROR_QUIET)
 foreach(script IN LISTS scripts)
-  execute_process(COMMAND test -x ${script} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} RESULT_VARIABLE not_executable)
+  execute_process(COMMAND test -x ${script} WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+    RESULT_VARIABLE not_executable)
   if(not_executable OR staged MATCHES "100644 [0-9a-f]+ [0-9]\t${script}\n")
     message(FATAL_ERROR "test/${script} is not executable, so rostest cannot start it: "
       "chmod +x test/${script} && git update-index --chmod=+x test/${script}")

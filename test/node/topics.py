@@ -7,8 +7,8 @@ import rospy
 from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray, Snapshot
 
 NAMESPACE = '/afm'
-TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied': Applied, 'status': EmulatorStatus,
-          'configuration': Configuration, 'snapshot': Snapshot}
+TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied': Applied,
+          'status': EmulatorStatus, 'configuration': Configuration, 'snapshot': Snapshot}
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))  # under a sanitizer all takes longer
 
@@ -53,7 +53,8 @@ class Topic:
         self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
 
     def _ask_again(self):
-        """rospy misses a publisher that the master names while it still answers who was there before: we ask every 2 s."""
+        """rospy misses a publisher that the master names while it still answers who was there before: we ask every 2
+        s."""
         if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._asked + 2.0:
             self._subscriber.unregister()
             self._subscribe()

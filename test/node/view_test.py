@@ -15,7 +15,8 @@ from topics import Topic, wait_until
 
 SLOW = {'time_scale': 3e-4, 'sample_rate_hz': 1e6, 'batch_rate_hz': 50.0}
 EXACT = 1e-6          # cells: the exact place, after sums over some hundred tau
-PLOTTED = {Friction: ('drag_velocity', 'eta', 'force', 'k_f', 'k_f_std_error', 'k_f_work_natural', 'window_k_f_natural'),
+PLOTTED = {Friction: ('drag_velocity', 'eta', 'force', 'k_f', 'k_f_std_error', 'k_f_work_natural',
+                      'window_k_f_natural'),
            Applied: ('drag_velocity',),
            EmulatorStatus: ('real_time_factor', 'lag', 'impacts_per_tau', 'late_batches')}
 
@@ -95,10 +96,12 @@ class ViewTest(EmulatorTest):
     def shows_friction(self):
         """K_f and its error as they were reported last, to the decimals shown."""
         friction = self.topics['friction'].messages[-1]
-        shown = re.match(r'K_f ([\d.]+) \+- ([\d.]+) m_tip/tau$', Picture(self.view.markers.messages[-1]).text('friction'))
+        shown = re.match(r'K_f ([\d.]+) \+- ([\d.]+) m_tip/tau$',
+                         Picture(self.view.markers.messages[-1]).text('friction'))
         return shown and all(
             float(number) > 0.0 and abs(float(number) - right) < 0.51 * 10.0 ** -len(number.split('.')[1])
-            for number, right in zip(shown.groups(), (friction.k_f_work_natural, friction.k_f_work_std_error / FRICTION_UNIT)))
+            for number, right in zip(shown.groups(),
+                                     (friction.k_f_work_natural, friction.k_f_work_std_error / FRICTION_UNIT)))
 
     def assert_shows_all(self):
         picture, reported, time = self.picture_of_now()

@@ -13,8 +13,8 @@ BROUGHT_BY = {'ros': 'roscpp', 'genpy': 'rospy', 'roslib': 'rospy', 'rosunit': '
 
 
 def is_ros(name):
-    return re.fullmatch(r'(ros|rospy|rosbag|rosgraph|roslaunch|roslib|rostest|rosunit|genpy|diagnostic_updater|dynamic_reconfigure|'
-                        r'\w+_(msgs|srvs))', name) is not None
+    return re.fullmatch(r'(ros|rospy|rosbag|rosgraph|roslaunch|roslib|rostest|rosunit|genpy|diagnostic_updater|'
+                        r'dynamic_reconfigure|\w+_(msgs|srvs))', name) is not None
 
 
 def uses(folder, suffixes, pattern):
@@ -39,13 +39,15 @@ class Package(unittest.TestCase):
             self.assertIn(name, declared, '%s uses %s, which package.xml does not declare' % (path, name))
 
     def test_what_the_sources_include(self):
-        found = [use for folder in ('src', 'include', 'examples/ros') for pattern in (r'^#include <(\w+)/', r'\b(\w+_msgs)::')
+        found = [use for folder in ('src', 'include', 'examples/ros')
+                 for pattern in (r'^#include <(\w+)/', r'\b(\w+_msgs)::')
                  for use in uses(folder, ('.h', '.cpp'), pattern) if is_ros(use[1])]
         self.assert_declared(found, self.declared('depend', 'build_depend'))
 
     def test_what_the_scripts_import(self):
         known = self.declared('depend', 'exec_depend')
-        found = [use for folder in ('scripts', 'examples/ros') for use in uses(folder, ('', '.py'), r'^\s*(?:import|from) (\w+)')
+        found = [use for folder in ('scripts', 'examples/ros')
+                 for use in uses(folder, ('', '.py'), r'^\s*(?:import|from) (\w+)')
                  if is_ros(use[1]) or use[1] in PYTHON_PACKAGES]
         self.assert_declared(found, known)
 

@@ -46,28 +46,33 @@ class SameNumbers(unittest.TestCase):
             for (name, unit), value, converted in zip(names, row.values(), other.values()):
                 if value != converted:
                     expected = float(value) * unit
-                    self.assertAlmostEqual(float(converted), expected, delta=tolerance * abs(expected) + 1e-300, msg=name)
+                    self.assertAlmostEqual(float(converted), expected, delta=tolerance * abs(expected) + 1e-300,
+                                           msg=name)
 
     def test_friction_curve(self):
-        columns = ['drag_velocity_m_per_s', 'cutoff_m_per_s', 'k_f_kg_per_s', 'k_f_std_error_kg_per_s', 'mean_energy_loss_j',
-                   'mean_flight_time_s', 'largest_lyapunov_per_s', 'rest_height_m', 'amplitude_m', 'k_f_work_kg_per_s',
-                   'k_f_work_std_error_kg_per_s']
+        columns = ['drag_velocity_m_per_s', 'cutoff_m_per_s', 'k_f_kg_per_s', 'k_f_std_error_kg_per_s',
+                   'mean_energy_loss_j', 'mean_flight_time_s', 'largest_lyapunov_per_s', 'rest_height_m',
+                   'amplitude_m', 'k_f_work_kg_per_s', 'k_f_work_std_error_kg_per_s']
         common = ['--duration', 200, '--transient', 100, '--eta', 2]
-        self.compare(run('friction_curve', *common), run('friction_curve', '--duration', 200 * TAU, '--transient', 100 * TAU,
+        self.compare(run('friction_curve', *common),
+                     run('friction_curve', '--duration', 200 * TAU, '--transient', 100 * TAU,
                                                          '--eta', 2, '--si'), columns)
 
     def test_options_of_friction_curve_are_taken_in_si(self):
-        """The table gives them back, and the run is that of their natural values: an orbit, so that rounding does not grow."""
+        """The table gives them back, and the run is that of their natural values: an orbit, so that rounding does not
+        grow."""
         scale = ['--lattice-spacing', 4e-10, '--omega-v', 5e4, '--tip-mass', 2e-10]
         speed = 4e-10 * 5e4 / (2 * math.pi)
-        given = {'drag_velocity_m_per_s': 2 * speed, 'cutoff_m_per_s': 0.1 * speed, 'rest_height_m': -8e-12, 'amplitude_m': 4e-11}
+        given = {'drag_velocity_m_per_s': 2 * speed, 'cutoff_m_per_s': 0.1 * speed, 'rest_height_m': -8e-12,
+                 'amplitude_m': 4e-11}
         code, rows, complaint = run('friction_curve', '--si', *scale, '--drag-velocity', '%.15g' % (2 * speed),
                                     '--cutoff', '%.15g' % (0.1 * speed), '--rest-height', -8e-12, '--amplitude', 4e-11)
         self.assertEqual(code, 0, complaint)
         for column, value in given.items():
             self.assertAlmostEqual(float(rows[0][column]) / value, 1, delta=2e-15, msg=column)
         natural = run('friction_curve', '--eta', 2, '--cutoff', 0.1, '--rest-height', -0.02, '--amplitude', 0.1)[1][0]
-        self.assertAlmostEqual(float(rows[0]['k_f_kg_per_s']) / (2e-10 * 5e4 / (2 * math.pi)), float(natural['k_f']), delta=1e-6)
+        self.assertAlmostEqual(float(rows[0]['k_f_kg_per_s']) / (2e-10 * 5e4 / (2 * math.pi)), float(natural['k_f']),
+                               delta=1e-6)
 
     def test_room_temperature_in_kelvin(self):
         arguments = ['friction_curve', '--eta', 2, '--quality-factor', 100, '--duration', 300 * TAU, '--si']
@@ -75,7 +80,8 @@ class SameNumbers(unittest.TestCase):
         natural = run('friction_curve', '--eta', 2, '--quality-factor', 100, '--duration', 300, '--temperature',
                       repr(300 * KELVIN))
         self.assertEqual(code, 0)
-        self.assertAlmostEqual(float(rows[0]['k_f_work_kg_per_s']) / (MASS / TAU), float(natural[1][0]['k_f_work']), delta=0.3)
+        self.assertAlmostEqual(float(rows[0]['k_f_work_kg_per_s']) / (MASS / TAU), float(natural[1][0]['k_f_work']),
+                               delta=0.3)
 
     def test_periodic_orbits(self):
         arguments = ['--eta', 3.4, '--max-length', 1, *QUICK]
@@ -92,20 +98,21 @@ class SameNumbers(unittest.TestCase):
         self.compare(run('attractors', '--eta', 2, '--starts', 2, '--friction-duration', 100),
                      run('attractors', '--eta', 2, '--starts', 2, '--friction-duration', repr(100 * TAU), '--si'),
                      ['drag_velocity_m_per_s', 'cutoff_m_per_s', 'k_f_kg_per_s', 'k_f_std_error_kg_per_s',
-                      'lyapunov_1_per_s', 'lyapunov_2_per_s', 'lyapunov_3_per_s', 'lyapunov_4_per_s', 'extension_m', 'y_m',
-                      'u_m_per_s', 'w_m_per_s'], tolerance=1e-6)
+                      'lyapunov_1_per_s', 'lyapunov_2_per_s', 'lyapunov_3_per_s', 'lyapunov_4_per_s', 'extension_m',
+                      'y_m', 'u_m_per_s', 'w_m_per_s'], tolerance=1e-6)
 
     def test_bifurcations(self):
         self.compare(run('bifurcations', '--vary', 'gamma', '--range', '0.6:0.7:0.1', '--impacts', 3),
                      run('bifurcations', '--vary', 'gamma', '--range', '0.6:0.7:0.1', '--impacts', 3, '--si'),
                      ['normal_speed_m_per_s', 'extension_m'])
         code, rows, complaint = run('bifurcations', '--range', '6.6e-6:6.7e-6:1e-7', '--impacts', 1, '--si')
-        self.assertEqual((code, [row['drag_velocity_m_per_s'] for row in rows]), (0, ['6.6000000000000003e-06', '6.7000000000000002e-06']),
-                         complaint)
+        self.assertEqual((code, [row['drag_velocity_m_per_s'] for row in rows]),
+                         (0, ['6.6000000000000003e-06', '6.7000000000000002e-06']), complaint)
 
     def test_return_scan(self):
         arguments = ['return_scan', '--eta', 3.4, '--points', 2, '--depth', 2]
-        self.compare(run(*arguments), run(*arguments, '--si'), ['gap_rate_m_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s'])
+        self.compare(run(*arguments), run(*arguments, '--si'),
+                     ['gap_rate_m_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s'])
 
     def test_next_impact(self):
         natural = 'eta,gamma,cutoff,phase,extension,u,w\n3.4,0.7,0.05,0.25,0.1,3.4,2\n'
@@ -134,7 +141,8 @@ class Refused(unittest.TestCase):
 
     def test_what_does_not_go_together(self):
         self.refuse('drag-velocity: is taken only with --si', 'friction_curve', '--drag-velocity', 6e-6)
-        self.refuse('drag-velocity: is taken in place of --eta', 'periodic_orbits', '--si', '--drag-velocity', 6e-6, '--eta', 2)
+        self.refuse('drag-velocity: is taken in place of --eta', 'periodic_orbits', '--si', '--drag-velocity', 6e-6,
+                    '--eta', 2)
         self.refuse('tip-mass: has a meaning only with --si', 'attractors', '--tip-mass', 1e-12)
         self.refuse('must be above 0', 'friction_curve', '--si', '--tip-mass', 0)
         self.refuse('must be positive, between 1e-40 and 1e40', 'next_impact', '--si', '--tip-mass', 1e50)

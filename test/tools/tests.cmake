@@ -21,7 +21,8 @@ add_test(NAME friction_curve
 set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
 
 if(AFM_DYNAMICS)
-  add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py $<TARGET_FILE_DIR:afm_friction_curve>)
+  add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py
+    $<TARGET_FILE_DIR:afm_friction_curve>)
   set_tests_properties(si PROPERTIES TIMEOUT 120)
 endif()
 
@@ -31,7 +32,8 @@ add_test(NAME stress_shipped COMMAND afm_stress --shipped --tau 100000 --scenes 
 set_tests_properties(stress stress_shipped PROPERTIES TIMEOUT 120)
 
 if(TARGET afm_stability_matrix)
-  # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first instant
+  # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first
+  # instant
   add_test(NAME stability COMMAND afm_stability_matrix --quick --methods exact)
   set_tests_properties(stability PROPERTIES TIMEOUT 120)
 endif()
@@ -39,7 +41,8 @@ endif()
 add_test(NAME arrows COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
 set_tests_properties(arrows PROPERTIES TIMEOUT 30)
 
-add_test(NAME package COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py ${PROJECT_SOURCE_DIR})
+add_test(NAME package COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py
+  ${PROJECT_SOURCE_DIR})
 set_tests_properties(package PROPERTIES TIMEOUT 30)
 
 # every program answers --help, and refuses an option that it does not have
@@ -64,16 +67,19 @@ if(NOT AFM_SANITIZE AND AFM_DYNAMICS)
     add_dependencies(tests afm_example_${name})
     list(APPEND examples $<TARGET_FILE:afm_example_${name}>)
   endforeach()
-  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR} "${CATKIN_DEVEL_PREFIX}"
+  add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR}
+    "${CATKIN_DEVEL_PREFIX}"
     ${PROJECT_SOURCE_DIR}/examples/cpp ${examples})
   set_tests_properties(consumer PROPERTIES TIMEOUT 300)
-  add_test(NAME neighbours COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/neighbours_test.sh ${PROJECT_SOURCE_DIR} ${catkin_EXTRAS_DIR}/..)
+  add_test(NAME neighbours COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/neighbours_test.sh ${PROJECT_SOURCE_DIR}
+    ${catkin_EXTRAS_DIR}/..)
   set_tests_properties(neighbours PROPERTIES TIMEOUT 300)
 endif()
 
 # a tree that is without ROS itself proves it by being built
 if(NOT AFM_SANITIZE AND catkin_FOUND)
-  set(without_ros ${CMAKE_CURRENT_SOURCE_DIR}/without_ros_test.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/without_ros)
+  set(without_ros ${CMAKE_CURRENT_SOURCE_DIR}/without_ros_test.sh ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/without_ros)
   if(TARGET afm_python_module)
     list(APPEND without_ros ${PYTHON_EXECUTABLE})
   endif()

@@ -1,7 +1,8 @@
 """What a controller needs: commands that wait until they hold, and what is measured over a control period.
 
-In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same controller gives the
-same bits each time. In real time the same calls measure while the clock goes on. The controller need not know which it is.
+In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same
+controller gives the same bits each time. In real time the same calls measure while the clock goes on. The controller
+need not know which it is.
 """
 import math
 import threading
@@ -41,7 +42,8 @@ class Client:
         self.applied = None        # the latest message: what is in force
         self._news = threading.Condition()
         self._batches = None       # Deflection and ImpactArray messages, while something is measured
-        self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10, tcp_nodelay=True)
+        self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
+                                                   tcp_nodelay=True)
                             for topic in ('drag_velocity', 'rest_height')}
         for topic, kind in (('configuration', Configuration), ('applied', Applied)):
             rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._keep, topic, tcp_nodelay=True)
@@ -81,7 +83,8 @@ class Client:
         return self.configuration.tip_mass_kg * self.configuration.omega_v_rad_per_s ** 2
 
     def control(self, duration, drag_velocity=None, rest_height=None):
-        """Commands what is given, advances, and returns what was measured on the way: the answer of the service ~control.
+        """Commands what is given, advances, and returns what was measured on the way: the answer of the service
+        ~control.
 
         duration: of the control period [s of model time]
         drag_velocity: [m/s]; None: as it is
@@ -173,7 +176,8 @@ class Client:
         while True:
             self._publishers[topic].publish(value)
             # the emulator reports every command, also one of the value that holds already
-            if self._wait_for(lambda: self.applied is not before and getattr(self.applied, field) == value, '', AGAIN_S, True):
+            if self._wait_for(lambda: self.applied is not before and getattr(self.applied, field) == value, '',
+                              AGAIN_S, True):
                 return
             if time.monotonic() > end:
                 raise EmulatorError('%s/%s: %g had no effect within %g s: refused, or no emulator there?'

@@ -27,7 +27,8 @@ def seconds_of(stamp, tau_s):
 
 
 class Follower:
-    """Follows a topic of the emulator until a condition on its messages holds or the wall clock says that it is enough."""
+    """Follows a topic of the emulator until a condition on its messages holds or the wall clock says that it is
+    enough."""
 
     def __init__(self, topic, kind):
         self.messages, self.news = [], threading.Condition()
@@ -75,7 +76,8 @@ def draw(path, title, label, times, values, least, most, window):
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(figsize=(9, 5), layout='constrained' if hasattr(plt.Figure, 'set_layout_engine') else None)
+    figure, axes = plt.subplots(figsize=(9, 5), layout='constrained' if hasattr(plt.Figure, 'set_layout_engine')
+                                else None)
     axes.plot(times, values, color='#0072B2', lw=1)
     axes.axvspan(*window, color='#999999', alpha=0.2, lw=0)
     for bound in (least, most):

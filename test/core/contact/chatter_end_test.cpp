@@ -64,7 +64,8 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
     const double end = tip.now() - ModelTime{};
     int count = 0;
     const ModelTime late = tip.now() + 1.0;
-    while (project_onto_surface(model, bounces.tip_state()).normal_speed > kThreshold && bounces.advance(late) == Outcome::impact)
+    while (project_onto_surface(model, bounces.tip_state()).normal_speed > kThreshold &&
+           bounces.advance(late) == Outcome::impact)
       ++count;
     ASSERT_NEAR(burst.count, count, 1.5 + 0.05 * count) << i;
     while (bounces.tip_state().g1 > 1e-9 && bounces.advance(late) == Outcome::impact) continue;

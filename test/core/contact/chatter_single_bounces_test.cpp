@@ -123,8 +123,10 @@ TEST(Descent, BouncesAboveTheCutoffThatLoseLittleAreFlown) {
   const RandomChatter below = random_chatter(model, law, random, -4.0, -3.1);
   RandomChatter above = below;
   above.v = 3e-3;
-  EXPECT_TRUE(law.holds(Flight<double>(below.reference.mechanics(), below.reference.eta(), below.every_bounce().tip_state())));
-  EXPECT_FALSE(law.holds(Flight<double>(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state())));
+  EXPECT_TRUE(
+      law.holds(Flight<double>(below.reference.mechanics(), below.reference.eta(), below.every_bounce().tip_state())));
+  EXPECT_FALSE(
+      law.holds(Flight<double>(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state())));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// With gamma = 1 and without drag the Boltzmann distribution above the surface is stationary, whatever the rate of kicks:
-// moments and quantiles against quadrature, within 4 standard errors. Two wrong thermostats must fail the same checks.
+// With gamma = 1 and without drag the Boltzmann distribution above the surface is stationary, whatever the rate of
+// kicks: moments and quantiles against quadrature, within 4 standard errors. Two wrong thermostats must fail the same
+// checks.
 #include <gtest/gtest.h>
 
 #include <array>

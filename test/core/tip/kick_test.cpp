@@ -1,5 +1,5 @@
-// Kicks wherever the tip is: in the air, in a chatter sequence, in contact, at rest; the account of heat; and that nothing
-// depends on how an advance is split.
+// Kicks wherever the tip is: in the air, in a chatter sequence, in contact, at rest; the account of heat; and that
+// nothing depends on how an advance is split.
 #include <gtest/gtest.h>
 
 #include <cmath>

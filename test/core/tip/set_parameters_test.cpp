@@ -100,7 +100,8 @@ TEST_P(RetuneEnergy, IsConserved) {
     const bool free = tip.tip_state().g > 0.0;
     const Model changed = random_model(random, GetParam().v_c);
     balance.command(tip, [&] { tip.set_parameters(changed); });
-    // in a burst the tip is where its bounces are, not on its reference slide: beside it by less than the contact tolerance
+    // in a burst the tip is where its bounces are, not on its reference slide: beside it by less than the contact
+    // tolerance
     const double near = free || tip.in_contact() ? 1e-14 : 1e-5;
     ASSERT_NEAR(tip.state().y, before.y, near);
     ASSERT_NEAR(tip.state().X, before.X, near);

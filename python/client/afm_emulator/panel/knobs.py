@@ -13,7 +13,8 @@ class Spin(QtWidgets.QDoubleSpinBox):
     """A number with its unit. It speaks when it is entered, not while it is typed."""
 
     def __init__(self, name, suffix, decimals, step, low, high):
-        super().__init__(objectName=name, keyboardTracking=False, decimals=decimals, singleStep=step, minimum=low, maximum=high)
+        super().__init__(objectName=name, keyboardTracking=False, decimals=decimals, singleStep=step, minimum=low,
+                         maximum=high)
         self.setSuffix(suffix)
         self.setLocale(QtCore.QLocale.c())  # a decimal point everywhere
         self.setAlignment(QtCore.Qt.AlignRight)

@@ -1,4 +1,5 @@
-"""The emulator on its topics and services, live or replayed. Callbacks only put aside what comes; the window takes it 30 times a second."""
+"""The emulator on its topics and services, live or replayed. Callbacks only put aside what comes; the window takes it
+30 times a second."""
 import collections
 import math
 import queue
@@ -38,7 +39,8 @@ NumpyDeflection = numpy_msg(Deflection)
 
 
 def read_impacts(raw):
-    """(seq, epoch, table) of the bytes of an ImpactArray: tens of thousands of impacts a second are too many for Python objects."""
+    """(seq, epoch, table) of the bytes of an ImpactArray: tens of thousands of impacts a second are too many for Python
+    objects."""
     seq, name_length = np.frombuffer(raw, '<u4', 4)[[0, 3]]
     epoch = np.frombuffer(raw, '<u4', 1, 16 + name_length)[0]
     begin = 16 + name_length + 4 + 8  # first_index
@@ -96,8 +98,8 @@ class Link:
         return self._commands['drag_velocity'].get_num_connections() > 0
 
     def batches(self):
-        """(Deflection message, its impacts as (epoch, table)) of every batch since the last call; without impacts if they did
-        not come in time."""
+        """(Deflection message, its impacts as (epoch, table)) of every batch since the last call; without impacts if
+        they did not come in time."""
         while self._batches:
             arrived, batch = self._batches[0]
             have_come = self._impacts and self._impacts[-1][0] >= batch.header.seq
@@ -114,9 +116,11 @@ class Link:
             for subscriber in self._subscribers:
                 subscriber.unregister()
             fast = {'tcp_nodelay': True, 'buff_size': 1 << 20}
-            self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, keep, (topic, kind), **fast)
+            self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, keep, (topic, kind),
+                                                  **fast)
                                  for topic, kind, keep in [(topic, kind, self._keep) for topic, kind in LATEST.items()]
-                                 + [('deflection', Deflection, self._keep_batch), ('impacts', ImpactArray, self._keep_impacts)]]
+                                 + [('deflection', Deflection, self._keep_batch),
+                                    ('impacts', ImpactArray, self._keep_impacts)]]
             self._subscribers.append(rospy.Subscriber('/diagnostics', DiagnosticArray, self._keep_diagnostics))
 
     def _keep(self, message, subject):

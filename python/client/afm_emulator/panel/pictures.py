@@ -29,7 +29,8 @@ def pen(colour, width=1.0):
 
 
 class Line(pg.PlotCurveItem):
-    """Takes half the time of a PlotDataItem, and does not look for its bounds at every change: we choose those of the axes."""
+    """Takes half the time of a PlotDataItem, and does not look for its bounds at every change: we choose those of the
+    axes."""
 
     def boundingRect(self):
         return self.viewRect() or super().boundingRect()
@@ -109,7 +110,8 @@ class Path:
         self.plot = Plot('Path of the tip over the surface', 'height [pm]', 'along the surface [nm]', (0.1, 20.0))
         bounds = ['&lt; %g' % above for above, _ in ENERGIES[1:]] + ['&ge; %g' % ENERGIES[-1][0]]
         self.plot.note('impacts [zJ]: ' + ' '.join(
-            '<span style="color:%s">&#9679;</span> %s' % (colour, bound) for (_, colour), bound in zip(ENERGIES, bounds)))
+            '<span style="color:%s">&#9679;</span> %s' % (colour, bound) for (_, colour),
+            bound in zip(ENERGIES, bounds)))
         self._surface = self.plot.line('#777777', fillLevel=-1e6, brush=pg.mkBrush('#e4e4e4'))
         self._line = self.plot.line(BLUE)
         self._spots = pg.ScatterPlotItem(size=8, pen=pg.mkPen('w', width=0.5), pxMode=True)
@@ -143,8 +145,8 @@ class Path:
 
 class Loop:
     def __init__(self):
-        self.plot = Plot('Friction loop: <span style="color:%s">trace</span>, <span style="color:%s">retrace</span>' % (BLUE, ORANGE),
-                         'lateral force [pN]', 'position of the holder [nm]', (10.0, 20.0), patience=5)
+        self.plot = Plot('Friction loop: <span style="color:%s">trace</span>, <span style="color:%s">retrace</span>' %
+                         (BLUE, ORANGE), 'lateral force [pN]', 'position of the holder [nm]', (10.0, 20.0), patience=5)
         self._lines = {1: self.plot.line(BLUE), -1: self.plot.line(ORANGE)}
         self.plot.addItem(pg.InfiniteLine(0.0, 0, pen=pen('#bbbbbb')))
 
@@ -168,7 +170,8 @@ class Curve:
     """The running estimate, on the friction curve of the paper."""
 
     def __init__(self, curve):
-        self.plot = Plot('Friction; grey: FIG. 1', 'K<sub>f</sub> [m<sub>tip</sub>/τ]', 'drag speed η [a/τ]', (1.0, 1.0))
+        self.plot = Plot('Friction; grey: FIG. 1', 'K<sub>f</sub> [m<sub>tip</sub>/τ]', 'drag speed η [a/τ]',
+                         (1.0, 1.0))
         self.plot.line('#aaaaaa').setData(curve[:, 0], curve[:, 1])
         self._curve = curve
         self._trail = self.plot.plot([], [], pen=None, symbol='o', symbolSize=4, symbolPen=None, symbolBrush=GREEN)
@@ -187,7 +190,8 @@ class Curve:
         else:
             x, y, error = trail.now
             self._now.setData([x], [y])
-            self._error.setData(x=np.array([x]), y=np.array([y]), height=np.array([2.0 * error if np.isfinite(error) else 0.0]))
+            self._error.setData(x=np.array([x]), y=np.array([y]),
+                                height=np.array([2.0 * error if np.isfinite(error) else 0.0]))
             reach.append(x)
             tall.append(np.array([y]))
         self.plot.fit_x(0.0, max(reach))

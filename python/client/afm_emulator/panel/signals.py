@@ -3,7 +3,8 @@ import collections
 
 import numpy as np
 
-TRIGGER_PHASE = 0.75    # middle of the rising flank, for a tip that moves to the right: a crest is at 0, a valley at 0.5
+# middle of the rising flank, for a tip that moves to the right: a crest is at 0, a valley at 0.5
+TRIGGER_PHASE = 0.75
 TRIGGER_SEARCH = 16.0   # tau: a motion with a period up to this stands still
 RESTS = 0.002           # cells above the surface: a sample closer than that is of a tip in contact, or about to be
 BOUNCE = 0              # kind of an impact: the others are of chatter and contact (msg/Impact.msg)
@@ -53,8 +54,8 @@ def envelope(t, y, buckets):
 
 
 def swing(t, y, omega, steps, is_free):
-    """`steps` points per interval on the free oscillation of angular frequency omega through both of its ends; a straight line
-    where the tip is not free, or the interval is too long to know the oscillation."""
+    """`steps` points per interval on the free oscillation of angular frequency omega through both of its ends; a
+    straight line where the tip is not free, or the interval is too long to know the oscillation."""
     angle = omega * np.diff(t)[:, None]
     part = np.arange(steps) / steps
     with np.errstate(divide='ignore', invalid='ignore'):
@@ -65,8 +66,8 @@ def swing(t, y, omega, steps, is_free):
 
 
 class Motion:
-    """The tip's motion over a time, of all that is known: samples, and impacts, which lie on the surface. Between them it flies, unless it
-    rests on the surface."""
+    """The tip's motion over a time, of all that is known: samples, and impacts, which lie on the surface. Between them
+    it flies, unless it rests on the surface."""
 
     def __init__(self, samples, impacts, amplitude, rest_height, omega_h, steps=FINE_STEPS):
         t, Y, X, xc = samples
@@ -86,8 +87,8 @@ class Motion:
         self.t, self.Y, self.X, self.xc = t, Y, X, xc
 
     def trigger(self, span, direction):
-        """Begin of a picture of that span: where the tip passes the middle of a rising flank; of the last passages the highest, so
-        that a periodic motion stands still. None if it passes none."""
+        """Begin of a picture of that span: where the tip passes the middle of a rising flank; of the last passages the
+        highest, so that a periodic motion stands still. None if it passes none."""
         first, last = np.searchsorted(self.t, (self.t[-1] - span - TRIGGER_SEARCH, self.t[-1] - span))
         t, Y = self.t[first:last], self.Y[first:last]
         x = direction * (self.xc + self.X)[first:last] - TRIGGER_PHASE
@@ -119,8 +120,8 @@ class Recent:
         self._count, self._next = 0, None
 
     def add(self, batch, impacts):
-        """A Deflection message whose arrays are of numpy, and its impacts: (epoch, table with the fields of Impact). Returns whether
-        it goes on where the last batch ended."""
+        """A Deflection message whose arrays are of numpy, and its impacts: (epoch, table with the fields of Impact).
+        Returns whether it goes on where the last batch ended."""
         goes_on = self._next == (batch.epoch, batch.first_sample)
         if not goes_on:
             self.clear()
@@ -135,7 +136,8 @@ class Recent:
         return goes_on
 
     def last(self, duration, spacing_m, tau_s):
-        """Samples (t, Y, X, xc) and impacts (t, phase, energy lost, kind) of the last so many tau; t counts from a whole tau near them."""
+        """Samples (t, Y, X, xc) and impacts (t, phase, energy lost, kind) of the last so many tau; t counts from a
+        whole tau near them."""
         origin, tables = self.batches[-1].time.tau, []
         for batch in reversed(self.batches):
             seconds = batch.sample_period * np.arange(len(batch.vertical))
@@ -200,7 +202,8 @@ class Trail:
 
 
 class Scale:
-    """Bounds of an axis that grow at once, and shrink when they were far too wide for a while: so that a picture does not tremble."""
+    """Bounds of an axis that grow at once, and shrink when they were far too wide for a while: so that a picture does
+    not tremble."""
 
     def __init__(self, least_span, patience=30):
         """patience: updates until it shrinks."""

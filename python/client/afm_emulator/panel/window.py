@@ -44,7 +44,8 @@ class Window(QtWidgets.QWidget):
     # the desk
 
     def _lay_out(self):
-        self.banner = QtWidgets.QLabel(objectName='banner', styleSheet='background: #D55E00; color: white; padding: 3px;')
+        self.banner = QtWidgets.QLabel(objectName='banner',
+                                       styleSheet='background: #D55E00; color: white; padding: 3px;')
         self.readouts, head = {}, QtWidgets.QHBoxLayout()
         for name in ('drag', 'eta', 'friction', 'force', 'impacts'):
             self.readouts[name] = QtWidgets.QLabel(objectName=name + '_readout')
@@ -82,16 +83,19 @@ class Window(QtWidgets.QWidget):
 
     def _knobs(self):
         """Units in SI; those that depend on the lever and on the surface come with them."""
-        self.drag = Knob('Drag', [Spin('drag_um_s', ' µm/s', 3, 0.1, -1000.0, 1000.0), Spin('eta', ' η', 3, 0.01, -99.0, 99.0)],
+        self.drag = Knob('Drag', [Spin('drag_um_s', ' µm/s', 3, 0.1, -1000.0, 1000.0),
+                                  Spin('eta', ' η', 3, 0.01, -99.0, 99.0)],
                          (1e-6, 3.3104e-6), (-10.0, 10.0))
-        self.load = Knob('Load', [Spin('load_pn', ' pN', 1, 1.0, -1e5, 1e6), Spin('height_pm', ' pm', 1, 1.0, -1e6, 1e3)],
+        self.load = Knob('Load', [Spin('load_pn', ' pN', 1, 1.0, -1e5, 1e6),
+                                  Spin('height_pm', ' pm', 1, 1.0, -1e6, 1e3)],
                          (-1.5e-12, 1e-12))
         self.gamma = Knob('Restitution γ', [Spin('gamma', '', 3, 0.01, 0.0, 1.0)], (1.0,), (0.0, 1.0))
         self.temperature = Knob('Temperature', [Spin('temperature', ' K', 1, 10.0, 0.0, 400.0)], (1.0,))
         self.quality = Knob('Q of the lever', [Spin('quality', '', 1, 10.0, 0.0, 1000.0)], (1.0,))
         self.drag.turned.connect(lambda value: self.link.command('drag_velocity', value))
         self.load.turned.connect(lambda value: self.link.command('rest_height', value))
-        for knob, name in ((self.gamma, 'restitution_gamma'), (self.temperature, 'temperature_k'), (self.quality, 'quality_factor')):
+        for knob, name in ((self.gamma, 'restitution_gamma'), (self.temperature, 'temperature_k'),
+                           (self.quality, 'quality_factor')):
             knob.turned.connect(lambda value, name=name: self.link.set_parameter(name, value))
         return [self.drag, self._row(self._button('reverse', 'Reverse', self.reverse),
                                      self._button('stop', 'Stop', lambda: self.drag.turn_to(0.0))),
@@ -206,7 +210,8 @@ class Window(QtWidgets.QWidget):
         self._follow(self.link.latest('configuration'), self.link.latest('applied'))
         friction, status = self.link.latest('friction'), self.link.latest('status')
         if friction is not None:
-            error = friction.k_f_work_std_error * friction.k_f_work_natural / friction.k_f_work if friction.k_f_work else math.nan
+            unit = friction.k_f_work_natural / friction.k_f_work if friction.k_f_work else math.nan
+            error = friction.k_f_work_std_error * unit
             if not self.hold.isChecked():
                 self.loop_plot.draw(self.loop)
                 self.trail.add(friction.eta, friction.k_f_work_natural, error)
@@ -223,13 +228,15 @@ class Window(QtWidgets.QWidget):
         for name, title, value, unit in (
                 ('drag', 'drag speed', '%.3f' % (1e6 * friction.drag_velocity), 'µm/s'),
                 ('eta', 'in cells per τ', 'η = %.3f' % friction.eta, ''),
-                ('friction', 'friction K<sub>f</sub>', with_error(friction.k_f_work_natural, error), 'm<sub>tip</sub>/τ'),
+                ('friction', 'friction K<sub>f</sub>', with_error(friction.k_f_work_natural, error),
+                 'm<sub>tip</sub>/τ'),
                 ('force', 'mean lateral force', '%.1f' % (friction.mean_lateral_force / PICO), 'pN'),
                 ('impacts', 'impacts', '%.2f' % status.impacts_per_tau, '/τ')):
             self.readouts[name].setText(READOUT % (title, value, unit if value != 'undefined' else ''))
 
     def _follow(self, settings, applied):
-        tau_s, stiffness = 2 * math.pi / settings.omega_v_rad_per_s, settings.tip_mass_kg * settings.omega_v_rad_per_s ** 2
+        tau_s = 2 * math.pi / settings.omega_v_rad_per_s
+        stiffness = settings.tip_mass_kg * settings.omega_v_rad_per_s ** 2
         self.drag.units[1], self.load.units[0] = settings.lattice_spacing_m / tau_s, -1e-12 / stiffness
         for knob, value in ((self.drag, applied.drag_velocity), (self.load, applied.rest_height_m),
                             (self.gamma, applied.restitution_gamma), (self.temperature, applied.temperature_k),
