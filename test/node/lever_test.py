@@ -63,6 +63,7 @@ class LeverTest(NodeTest):
                                    {'name': 'mine', 'lever': lever, 'load_n': '1e-9', 'pace': 'lockstep'}))
         c = Topic('/mine/configuration').wait_for()
         self.assertAlmostEqual(c.rest_height_m, -1e-8, delta=1e-20)
+        self.advance('mine', 0.0)  # it has begun, and said so; what it said is written when it ends
         launch.stop()
         self.assertIn('0.1 N/m at 9000 Hz, 50 N/m laterally', launch.output())
         self.assertIn('times real time on this machine', launch.output())

@@ -54,6 +54,7 @@ class Lockstep(EmulatorTest):
 
     def test_nothing_advances_by_itself(self):
         answer = self.advance(0.01)
+        self.topics['status'].wait_for(lambda m: key(m.time) == key(answer.end), 'its end')
         begin = len(self.topics['status'].messages)
         self.topics['status'].wait_for_more(3)
         self.assertEqual({key(m.time) for m in self.topics['status'].messages[begin:]}, {key(answer.end)})
@@ -65,8 +66,9 @@ class Lockstep(EmulatorTest):
         self.assertEqual((applied.drag_velocity, applied.rest_height_m, key(applied.time)),
                          (2.0 * SPEED_UNIT, -1e-11, key(answer.begin)))
         self.topics['friction'].wait_for(lambda m: key(m.time) == key(answer.end), 'the end of the period')
-        self.topics['impacts'].wait_for(lambda m: m.header.seq == self.topics['friction'].messages[-1].header.seq,
-                                        'the impacts')
+        for name in ('deflection', 'impacts'):
+            self.topics[name].wait_for(lambda m: m.header.seq == self.topics['friction'].messages[-1].header.seq,
+                                       'of the same batch')
         batches = [m for m in self.topics['deflection'].messages if key(m.time) >= key(answer.begin)]
         lateral = [x for m in batches for x in m.lateral]
         self.assertEqual(answer.samples, len(lateral))

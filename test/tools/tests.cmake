@@ -7,7 +7,7 @@ if(catkin_FOUND)
   add_test(NAME plot_run
     COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
       ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
-  set_tests_properties(plot_run PROPERTIES TIMEOUT 60)
+  set_tests_properties(plot_run PROPERTIES TIMEOUT 180)
 endif()
 
 add_test(NAME next_impact
