@@ -131,8 +131,9 @@ class ContactSolver {
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
 // into the velocity, or where the swing turns back, into the place.
 SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
-  constexpr double kMaxPart = 0.25;  // of the energy of the swing: beyond it the swing is as small as rounding
-  constexpr int kMaxTries = 8;       // two are enough, as the convergence is quadratic
+  // of the energy of the swing: beyond it the swing is as small as rounding. A velocity can take nearly all of it.
+  constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
+  constexpr int kMaxTries = 8;  // two are enough, as the convergence is quadratic
   SlideState<double> q{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
   if (s.m_.is_free_along_x == 0.0) return q;
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
@@ -143,8 +144,10 @@ SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, do
                            k * k * (to.h - s.first_.h) * (to.h + s.first_.h - 2.0 * s.m_.y0);
     const double surplus = (to.N2 * (u * u) - kinetic + springs + work) / to.N2;  // of twice the energy, over N2
     const double u2 = u * u, swing = to.force * to.force / s.stiffness_;
-    if (!(std::fabs(surplus) < kMaxPart * (u2 > swing ? u2 : swing))) return q;
-    if (u2 >= 0.25 * swing) {
+    const bool by_velocity = u2 >= 0.25 * swing;
+    if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2)))
+      return q;
+    if (by_velocity && surplus < u2) {
       q.u = std::copysign(std::sqrt(u2 - surplus), u);
       return q;
     }
