@@ -7,7 +7,6 @@
 #include "afm/run.h"
 #include "afm/ensemble.h"
 #include "afm/impact_search.h"
-#include "afm/detail/multiversion.h"
 #include "afm/reflection.h"
 #include "afm/tip.h"
 #include "core/tip/tip_motion.h"
@@ -45,9 +44,9 @@ struct Chain {
 
 double eta_of(const benchmark::State& state) { return 1e-2 * static_cast<double>(state.range(0)); }
 
-AFM_MULTIVERSION double sine_of(double x) { return sin_cos_turns(x).sin; }
-AFM_MULTIVERSION GapJet<double> gap_of(const Flight<double>& flight, double s) { return flight.gap(s); }
-AFM_MULTIVERSION Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) {
+double sine_of(double x) { return sin_cos_turns(x).sin; }
+GapJet<double> gap_of(const Flight<double>& flight, double s) { return flight.gap(s); }
+Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) {
   return reflect(model, eta, jet);
 }
 

@@ -1,5 +1,5 @@
-// Cost against work: time against impacts, tips (alone and in lanes) and threads, and memory against tips. CSV;
-// straight lines are expected.
+// Cost against work: time against impacts, tips and threads, and memory against tips. CSV; straight lines
+// are expected.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
   Options o;
   afm::CommandLine app(
       "work_cost",
-      "Cost against work: time against impacts, tips (one after another, and in lanes) and threads (wall time), "
+      "Cost against work: time against impacts, tips (one after another) and threads (wall time), "
       "memory. CSV.");
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("impacts", o.most_impacts, "most impacts of one tip");

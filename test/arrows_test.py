@@ -11,22 +11,20 @@ from pathlib import Path
 # the longest beginning of a path names its room
 ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'dynamics/include/afm': 'dynamics',
          'dynamics/src': 'dynamics', 'dynamics/tools': 'studies', 'dynamics/test': 'test',
-         'src/core': 'core', 'src/core/lanes': 'lanes',
+         'src/core': 'core',
          'src/common': 'common', 'src/sweep': 'sweep', 'src/tools': 'tools', 'src/node': 'node', 'src/view': 'view',
          'src/node/params': 'params', 'src/node/runner': 'runner', 'src/node/publisher': 'publisher',
          'src/node/recorder': 'recorder', 'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials',
          'test': 'test'}
-ALLOWED = {'core': set(), 'dynamics': {'core'}, 'lanes': {'core'}, 'common': {'core'},
+ALLOWED = {'core': set(), 'dynamics': {'core'}, 'common': {'core'},
            'studies': {'common', 'core', 'dynamics'}, 'sweep': {'common', 'core'}, 'params': {'core'},
            'runner': {'core', 'params'}, 'recorder': set(), 'publisher': {'core', 'params', 'runner', 'recorder'},
            'node': {'core', 'params', 'runner', 'publisher', 'recorder'}, 'view': {'core', 'publisher'},
            'tools': {'common', 'core', 'dynamics', 'sweep', 'params', 'publisher', 'recorder'},
            'python': {'core', 'common', 'dynamics', 'studies', 'sweep'}, 'trials': {'core'},
            'benchmark': {'common', 'core', 'trials'},
-           'test': {'common', 'core', 'dynamics', 'lanes', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher',
+           'test': {'common', 'core', 'dynamics', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher',
                     'recorder', 'view', 'trials'}}
-# where the core hands many numbers at once to the lanes of the machine: headers of types and function pointers
-DOORS = {('src/core/tip/deflection.h', 'src/core/lanes/sample_row.h')}
 # after the folder of the file itself
 SEARCHED = ('include', 'dynamics/include', 'src', 'dynamics/tools', 'test', 'benchmark')
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
@@ -57,16 +55,13 @@ def arrows(root):
 
 
 def main(root, listing=False):
-    root, faults, seen, doors = Path(root), [], Counter(), set()
+    root, faults, seen = Path(root), [], Counter()
     for path, to, a, b in arrows(root):
         seen[a, b] += 1
         if b is None:
             faults.append('%s includes "%s", which is nowhere' % (path, to))
-        elif (path.as_posix(), to.as_posix()) in DOORS:
-            doors.add((path.as_posix(), to.as_posix()))
         elif a != b and b not in ALLOWED[a]:
             faults.append('%s includes %s: %s may not know %s' % (path, to, a, b))
-    faults += ['%s no longer includes %s' % door for door in sorted(DOORS - doors)]
     if listing:
         for (a, b), n in sorted(seen.items(), key=str):
             print('%-10s -> %-10s %4d' % (a, b, n))

@@ -245,7 +245,7 @@ def commands(quick):
     for kind in ("address", "thread"):
         add("sanitized_" + kind, "scripts/sanitize", kind, may_fail=True)
     single = "AFM_BUILD_DIR=$PWD/build/single_version "
-    add("leaks", single + "scripts/build --emulator -- -DCMAKE_CXX_FLAGS=-DAFM_SINGLE_VERSION &&", single +
+    add("leaks", single + "scripts/build --emulator -- -DAFM_NATIVE=OFF &&", single +
         'scripts/soak --duration 300 --time-scale 0.01 --any-memory --any-bits',
         '--under "valgrind --leak-check=full --error-exitcode=9"',
         may_fail=True)

@@ -3,7 +3,6 @@
 // the routes of the shipped search are worth is the difference to `exact`.
 #include "afm/detail/double_double.h"
 #include "afm/detail/impact_steps.h"
-#include "afm/detail/multiversion.h"
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
 #include "method.h"
@@ -76,7 +75,7 @@ Hit decide_in_double_double(const Model& model, double eta, const TipState& star
                 {d(j.g), d(j.g1), d(j.g2), d(j.g3), {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)}, d(j.h), d(j.h1)});
 }
 
-AFM_MULTIVERSION Hit next_plainly(const Model& model, double eta, const TipState& start, double horizon) {
+Hit next_plainly(const Model& model, double eta, const TipState& start, double horizon) {
   const Flight<double> f(Mechanics<double>(model), eta, start);
   const Landing<double> l = find_plainly(f, horizon, 0.0);
   if (l.s > horizon || l.outcome == SearchOutcome::clear) return {Hit::none, horizon, f.tip_state(horizon), 0.0};

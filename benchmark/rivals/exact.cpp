@@ -1,7 +1,6 @@
 // Ours, one flight: exact flow, guaranteed search, reflection.
 #include "afm/flight.h"
 #include "afm/impact_search.h"
-#include "afm/detail/multiversion.h"
 #include "afm/reflection.h"
 #include "method.h"
 
@@ -9,10 +8,10 @@ namespace afm {
 namespace rivals {
 namespace {
 
-AFM_MULTIVERSION void launch(const Model& model, double eta, const TipState& start, Flight<double>& flight) {
+void launch(const Model& model, double eta, const TipState& start, Flight<double>& flight) {
   flight = Flight<double>(Mechanics<double>(model), eta, start);
 }
-AFM_MULTIVERSION Hit bounce(const Model& model, double eta, const Landing<double>& landing) {
+Hit bounce(const Model& model, double eta, const Landing<double>& landing) {
   const Reflection r = reflect(model, eta, landing.jet);
   return {Hit::impact, landing.s, r.after, r.energy_loss};
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "afm/detail/multiversion.h"
 #include "afm/dynamics/contact_jacobian.h"
 #include "afm/flight.h"
 #include "afm/reflection.h"
@@ -20,7 +19,7 @@ struct Bounced {
   SectionJacobian<double> jacobian;
 };
 
-AFM_MULTIVERSION void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start,
+void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start,
                              double dt, Bounced& bounced) {
   const Flight<double> flight(mechanics, eta, start);
   GapJet<double> landing = flight.gap(dt);

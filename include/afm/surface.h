@@ -15,7 +15,7 @@ struct SurfaceJet {
 };
 
 template <class T>
-AFM_INLINED SurfaceJet<T> surface_jet(const T& H, const T& phase) {
+inline SurfaceJet<T> surface_jet(const T& H, const T& phase) {
   const SinCos<T> turn = sin_cos_turns(phase);
   const T k = two_pi<T>();
   const T h = H * turn.cos;
@@ -28,10 +28,10 @@ template <class T>
 T wrapped(const T& x) {
   using std::floor;
   const T phase = x - floor(x);
-  return select(phase < T(1.0), phase, T(0.0));
+  return phase < T(1.0) ? phase : T(0.0);
 }
 // Most phases are in the interval already, and a predicted branch is faster than the rounding.
-AFM_INLINED double wrapped(double x) { return x > 0.0 && x < 1.0 ? x : wrapped<double>(x); }
+inline double wrapped(double x) { return x > 0.0 && x < 1.0 ? x : wrapped<double>(x); }
 inline double wrap_phase(double x) { return wrapped(x); }
 
 }  // namespace afm

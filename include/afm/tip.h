@@ -17,13 +17,11 @@
 
 namespace afm {
 
-template <class T>
-struct DeflectionOf {
-  T vertical;  // y - y0 [a]
-  T lateral;   // x - xc [a]
-  T gap;       // y - h(x) [a]
+struct Deflection {
+  double vertical;  // y - y0 [a]
+  double lateral;   // x - xc [a]
+  double gap;       // y - h(x) [a]
 };
-using Deflection = DeflectionOf<double>;
 
 // The contact tolerance: error allowed in the state at the next impact when chatter is computed as a sequence [a,
 // a/tau]. At the default half of all sequences have an error below 4e-6, and 99 in 100 below 2e-4 (docs/stability.md).
@@ -117,8 +115,7 @@ class Tip {
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
   Deflection deflection(const ModelTime& t) const;  // precondition: now() <= t < segment_end()
-  // The same at n times of a grid, from its sample `first` on. Guarantee: the same bits. It computes several at once if
-  // the machine has vector registers. Returns the lowest gap [a].
+  // The same at n times of a grid, from its sample `first` on. Returns the lowest gap [a].
   double deflections(const SampleGrid& grid, std::uint64_t first, std::size_t n, double* vertical,
                      double* lateral) const;
 

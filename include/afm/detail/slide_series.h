@@ -44,7 +44,7 @@ struct SlideSeries {
 // Order n of the product of two series, without its first and last `skip` terms. The sum runs from the middle outwards,
 // because the outermost coefficients are known last. Precondition: n >= 2 skip - 1.
 template <class T, class A, class B>
-AFM_INLINED T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) {
+inline T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) {
   using std::fma;
   T low(0.0), high = n % 2 == 0 ? T(a[n / 2] * b[n / 2]) : T(0.0);
   for (std::size_t i = (n + 1) / 2; i-- > skip;) {
@@ -60,7 +60,7 @@ AFM_INLINED T product_order(const A& a, const B& b, std::size_t n, std::size_t s
 // as y' = -r u and omega_v is the surface's wave number too. Of each order these are two linear equations for x'' and
 // lambda; the hammer has x'' = 0. The coefficients of the order before, u[n] and c[n], enter last.
 template <class T>
-AFM_INLINED void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideState<T>& start,
+inline void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideState<T>& start,
                                     SlideSeries<T>& series) {
   using std::fma;
   const SinCos<T> turn = sin_cos_turns(start.phase);

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "multiversion.h"
-
 namespace afm {
 
 template <class T>
@@ -34,7 +32,7 @@ inline double epsilon<double>() {
 template <class T>
 T two_pi();
 template <>
-AFM_INLINED double two_pi<double>() {
+inline double two_pi<double>() {
   return 6.283185307179586476925286766559;
 }
 
@@ -57,93 +55,67 @@ constexpr double kCosine[] = {1.0,
 constexpr double kSineLow[] = {2.4492935982947064e-16, 1.8132498260631558e-15};
 constexpr double kCosineLow[] = {0.0, -1.2530591017506564e-15, -4.256320131887783e-15};
 
-using std::fma;  // packs of lanes have their own
-
 // (sin(2 pi x) - 2 pi x) / x^3 - kSine[1], and ((cos(2 pi x) - 1) / x^2 - kCosine[1]) / x^2, with z = x^2. Terms are
 // paired to shorten the chain of dependent operations.
-template <class T>
-AFM_INLINED T sine_rest(T z) {
-  const T z2 = z * z, z4 = z2 * z2;
-  const T low = fma(fma(z, T(kSine[4]), T(kSine[3])), z2, fma(z, T(kSine[2]), T(kSineLow[1])));
-  const T high = fma(fma(z, T(kSine[8]), T(kSine[7])), z2, fma(z, T(kSine[6]), T(kSine[5])));
-  return fma(high, z4, low);
+inline double sine_rest(double z) {
+  const double z2 = z * z, z4 = z2 * z2;
+  const double low = std::fma(std::fma(z, kSine[4], kSine[3]), z2, std::fma(z, kSine[2], kSineLow[1]));
+  const double high = std::fma(std::fma(z, kSine[8], kSine[7]), z2, std::fma(z, kSine[6], kSine[5]));
+  return std::fma(high, z4, low);
 }
-template <class T>
-AFM_INLINED T cosine_rest(T z) {
-  const T z2 = z * z;
-  const T low = fma(T(kCosine[4]), z2, fma(z, T(kCosine[3]), T(kCosine[2])));
-  const T high = fma(T(kCosine[8]), z2, fma(z, T(kCosine[7]), T(kCosine[6])));
-  return fma(fma(high, z, T(kCosine[5])), z2 * z, low);
+inline double cosine_rest(double z) {
+  const double z2 = z * z;
+  const double low = std::fma(kCosine[4], z2, std::fma(z, kCosine[3], kCosine[2]));
+  const double high = std::fma(kCosine[8], z2, std::fma(z, kCosine[7], kCosine[6]));
+  return std::fma(std::fma(high, z, kCosine[5]), z2 * z, low);
 }
 // 1 + z kCosine[1] is kept in two parts, and kCosine[1] with its rounding: a cosine that is too large by 1e-17 on
 // average would add energy.
-template <class T>
-AFM_INLINED T cosine(T x, T z) {
-  const T over_z = fma(-x, x, z);  // rounding of z = x^2
-  const T head = fma(z, T(kCosine[1]), T(1.0)), head_low = fma(z, T(kCosine[1]), T(1.0) - head);
-  const T rest = head_low + fma(over_z, T(-kCosine[1]), z * fma(z, T(kCosineLow[2]), T(kCosineLow[1])));
-  return head + fma(z * z, cosine_rest(z), rest);
+inline double cosine(double x, double z) {
+  const double over_z = std::fma(-x, x, z);  // rounding of z = x^2
+  const double head = std::fma(z, kCosine[1], 1.0), head_low = std::fma(z, kCosine[1], 1.0 - head);
+  const double rest =
+      head_low + std::fma(over_z, -kCosine[1], z * std::fma(z, kCosineLow[2], kCosineLow[1]));
+  return head + std::fma(z * z, cosine_rest(z), rest);
 }
-template <class T>
-AFM_INLINED T sine(T x, T z) {
-  const T cube = x * z;
-  return fma(x, T(kSine[0]), fma(cube, sine_rest(z), fma(cube, T(kSine[1]), x * T(kSineLow[0]))));
+inline double sine(double x, double z) {
+  const double cube = x * z;
+  return std::fma(x, kSine[0], std::fma(cube, sine_rest(z), std::fma(cube, kSine[1], x * kSineLow[0])));
 }
 
 // Adding and subtracting 1.5 * 2^52 rounds to the nearest integer; a quarter of it to the nearest quarter.
 constexpr double kRounder = 6755399441055744.0, kQuarterRounder = 1688849860263936.0;
 
-// Sine and cosine of an angle from s and c, those of its rest after subtracting whole quarters of a turn. `quarters` is
-// these quarters plus kQuarterRounder.
-AFM_INLINED SinCos<double> turn_quarters(double quarters, double s, double c) {
+// Sine and cosine of the angle r + q. `quarters`: q, a whole number of quarters of a turn, plus kQuarterRounder.
+inline SinCos<double> sin_cos_beside(double quarters, double r) {
+  const double z = r * r, s = sine(r, z), c = cosine(r, z);
   const long long k = static_cast<long long>(4.0 * (quarters - kQuarterRounder));
   const bool swap = (k & 1) != 0;
   const double sin_value = swap ? c : s, cos_value = swap ? s : c;
   return {(k & 2) != 0 ? -sin_value : sin_value, ((k + 1) & 2) != 0 ? -cos_value : cos_value};
 }
 
-template <class T>
-AFM_INLINED T nearest_of(T x) {
-  return (x + T(kRounder)) - T(kRounder);
-}
-
-template <class T>
-AFM_INLINED SinCos<T> sin_cos_beside(T quarters, T r) {
-  const T z = r * r;
-  const T s = sine(r, z), c = cosine(r, z);
-  return turn_quarters(quarters, s, c);
-}
-template <class T>
-AFM_INLINED SinCos<T> sin_cos_of(T x) {
-  const T quarters = x + T(kQuarterRounder);
-  return sin_cos_beside(quarters, T(x - (quarters - T(kQuarterRounder))));
-}
-template <class T>
-AFM_INLINED SinCos<T> sin_cos_of_product(T a, T b) {
-  const T quarters = fma(a, b, T(kQuarterRounder));
-  return sin_cos_beside(quarters, T(fma(a, b, T(kQuarterRounder) - quarters)));
-}
-
-template <class T>
-AFM_INLINED SmallTurn<T> small_turn_of(T x) {
-  const T z = x * x, cube = x * z;
-  return {sine(x, z), fma(cube, sine_rest(z), cube * T(kSine[1])),
-          fma(-(z * z), cosine_rest(z), fma(z, T(-kCosine[1]), z * fma(z, T(-kCosineLow[2]), T(-kCosineLow[1]))))};
-}
-
 }  // namespace turns_detail
 
 // Nearest whole number, |x| < 2^51.
-AFM_INLINED double nearest(double x) { return turns_detail::nearest_of(x); }
+inline double nearest(double x) { return (x + turns_detail::kRounder) - turns_detail::kRounder; }
 
 // a * b minus the nearest integer, rounded once. Precondition: |a b| < 2^51.
-AFM_INLINED double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
+inline double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
 
 // Error below 0.8 ulp. Precondition: |x| < 2^49.
-AFM_INLINED SinCos<double> sin_cos_turns(double x) { return turns_detail::sin_cos_of(x); }
+inline SinCos<double> sin_cos_turns(double x) {
+  using namespace turns_detail;
+  const double quarters = x + kQuarterRounder;
+  return sin_cos_beside(quarters, x - (quarters - kQuarterRounder));
+}
 
 // Of a * b, reduced as in turn_product. Precondition: |a b| < 2^49.
-AFM_INLINED SinCos<double> sin_cos_turn_product(double a, double b) { return turns_detail::sin_cos_of_product(a, b); }
+inline SinCos<double> sin_cos_turn_product(double a, double b) {
+  using namespace turns_detail;
+  const double quarters = std::fma(a, b, kQuarterRounder);
+  return sin_cos_beside(quarters, std::fma(a, b, kQuarterRounder - quarters));
+}
 template <class T>
 SinCos<T> sin_cos_turn_product(const T& a, const T& b) {
   return sin_cos_turns(turn_product(a, b));
@@ -152,6 +124,12 @@ SinCos<T> sin_cos_turn_product(const T& a, const T& b) {
 constexpr double kSmallTurn = 0.125;  // [turns] limit of SmallTurn, which also bounds the error of the series above
 
 // Precondition: |x| <= 1/8.
-AFM_INLINED SmallTurn<double> small_turn(double x) { return turns_detail::small_turn_of(x); }
+inline SmallTurn<double> small_turn(double x) {
+  using namespace turns_detail;
+  const double z = x * x, cube = x * z;
+  const double low = z * std::fma(z, -kCosineLow[2], -kCosineLow[1]);
+  return {sine(x, z), std::fma(cube, sine_rest(z), cube * kSine[1]),
+          std::fma(-(z * z), cosine_rest(z), std::fma(z, -kCosine[1], low))};
+}
 
 }  // namespace afm

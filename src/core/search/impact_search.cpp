@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "afm/detail/double_double.h"
-#include "afm/detail/multiversion.h"
 
 namespace afm {
 namespace {
@@ -17,7 +16,7 @@ constexpr double kMinProgress = 0.1;
 // only its fourth derivative, below 1e4 a/tau^4, so that each step is at least 1e-5 tau.
 constexpr double kNoGap = 1e-17;
 
-AFM_MULTIVERSION Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
+Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
   return find_impact(flight, horizon);
 }
 

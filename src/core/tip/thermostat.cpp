@@ -3,7 +3,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "afm/detail/multiversion.h"
 #include "core/contact/portable_exp.h"
 #include "core/tip/philox.h"
 
@@ -38,13 +37,13 @@ namespace {
 double unit(std::uint64_t bits) { return static_cast<double>((bits >> 11) + 1) * 0x1p-53; }
 
 // The method of Box and Muller.
-AFM_MULTIVERSION NormalPair normals_of(double radius, double angle) {
+NormalPair normals_of(double radius, double angle) {
   const double r = std::sqrt(-2.0 * portable_log(radius));
   const SinCos<double> turn = sin_cos_turns(angle);
   return {r * turn.cos, r * turn.sin};
 }
 
-AFM_MULTIVERSION VelocityKick kick_of(double temperature, double angle, double quality_factor) {
+VelocityKick kick_of(double temperature, double angle, double quality_factor) {
   if (quality_factor == 0.0) return {};
   constexpr double kMaxExponent = 600.0;  // within portable_exp; e^-600 is as good as 0
   const double keep = portable_exp(-std::fmin(angle / quality_factor, kMaxExponent));

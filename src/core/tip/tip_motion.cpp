@@ -3,7 +3,6 @@
 #include <cmath>
 #include <new>
 
-#include "afm/detail/multiversion.h"
 #include "afm/reflection.h"
 
 namespace afm {
@@ -18,7 +17,7 @@ bool is_rounding(const Flight<double>& flight, double s) {
 }
 
 // In one function: between two, the values would wait for memory.
-AFM_MULTIVERSION void reflect_and_launch(const Model& model, const Mechanics<double>& mechanics, double eta,
+void reflect_and_launch(const Model& model, const Mechanics<double>& mechanics, double eta,
                                          const GapJet<double>& incident, Flight<double>& flight, Bounce& bounce) {
   const Reflection r = reflect(model, eta, incident);
   const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, r.after.g1};
@@ -39,7 +38,7 @@ void stay(const Mechanics<double>& mechanics, double eta, Flight<double>& flight
 }  // namespace
 
 // Constructed in place: a copy of the new flight would wait for memory, which costs a tenth of an impact.
-AFM_MULTIVERSION void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
+void launch(const Mechanics<double>& mechanics, double eta, const TipState& state,
                              Flight<double>& flight) {
   new (&flight) Flight<double>(mechanics, eta, state);
 }
@@ -51,28 +50,28 @@ void rebound(const Model& model, const Mechanics<double>& mechanics, double eta,
   if (rounding || flight.launch().g1 < kMinGapRate) stay(mechanics, eta, flight, bounce);
 }
 
-AFM_MULTIVERSION TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
+TipState state_of(const Flight<double>& flight, double s) { return flight.tip_state(s); }
 
-AFM_MULTIVERSION FlightState<double> flight_state(const Flight<double>& flight, double s) { return flight.at(s); }
+FlightState<double> flight_state(const Flight<double>& flight, double s) { return flight.at(s); }
 
-AFM_MULTIVERSION void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
+void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
                                  int bits, SlideSegment<double>& slide) {
   new (&slide) SlideSegment<double>(mechanics, eta, start, bits);
 }
 
-AFM_MULTIVERSION double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
+double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
   const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
   const double Y = surface.h - m.y0;
   return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
                 m.omega_v * m.omega_v * Y * Y);
 }
 
-AFM_MULTIVERSION double extension_integral(const SlideSegment<double>& slide, double s) {
+double extension_integral(const SlideSegment<double>& slide, double s) {
   return s * (slide.start().X - 0.5 * slide.eta() * s) + slide.displacement_integral(s);
 }
 
-AFM_MULTIVERSION double release_of(const SlideSegment<double>& slide) { return slide.find_release(); }
+double release_of(const SlideSegment<double>& slide) { return slide.find_release(); }
 
-AFM_MULTIVERSION SlideState<double> slide_at(const SlideSegment<double>& slide, double s) { return slide.at(s); }
+SlideState<double> slide_at(const SlideSegment<double>& slide, double s) { return slide.at(s); }
 
 }  // namespace afm
