@@ -168,3 +168,11 @@ def cutoff_table(tables):
         table.setdefault("%.4g" % float(r["cutoff"]), OrderedDict())["eta = %.4g"
                                                                      % float(r["eta"])] = "%.6g" % float(r["k_f"])
     return [OrderedDict([("v_c", cutoff)] + list(row.items())) for cutoff, row in table.items()]
+
+
+@short_table("scene_levels")
+def levels_in_use(tables):
+    return [OrderedDict([("scene", row["scene"]), ("eta", row["eta"]), ("contact_tolerance", row["contact_tolerance"]),
+                         ("error of K_f", short(row["k_f_error"])),
+                         ("error of the deflection", short(row["deflection_error"])), ("cost", short(row["cost"]))])
+            for row in tables.strings("scene_levels") if row["in_use"] == "1"]

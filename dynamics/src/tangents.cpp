@@ -19,8 +19,8 @@ struct Bounced {
   SectionJacobian<double> jacobian;
 };
 
-void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start,
-                             double dt, Bounced& bounced) {
+void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start, double dt,
+            Bounced& bounced) {
   const Flight<double> flight(mechanics, eta, start);
   GapJet<double> landing = flight.gap(dt);
   landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());

@@ -4,12 +4,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "afm/level_table.h"
 #include "afm/dynamics/model_error.h"
+#include "afm/level_table.h"
 
 namespace afm {
 
 struct LevelErrorSettings {
+  LevelErrorSettings() {
+    run.transient = 300.0;
+    run.duration = 20000.0;
+    run.periodic_duration = 1000.0;
+    run.periodic_samples = 2000;
+    run.most_events = 1000000;
+    run.most_events_per_tau = 100.0;
+  }
   ErrorSettings run;
   int starts = 2;
   std::uint64_t seed = 1;

@@ -11,8 +11,8 @@
 
 #include "afm/number_text.h"
 #include "common/csv.h"
-#include "common/progress_bar.h"
 #include "common/point_options.h"
+#include "common/progress_bar.h"
 #include "level_errors.h"
 
 namespace {
@@ -20,24 +20,23 @@ namespace {
 const char kDescription[] =
     "Measures how far each level of the model (hammer; oscillator with bursts at several contact tolerances; "
     "oscillator with\n"
-    "every bounce) is from the finest, over a grid of parameters (units a, tau, tip mass), and writes the table from "
+    "every bounce) is from the finest, over the drag velocity (units a, tau, tip mass), and writes the table from "
     "which\n"
     "`model: auto` takes its levels. Without options it is the one that is shipped as config/levels.csv, but for the "
     "costs, which\n"
-    "are measured, and for coarse levels that these leave out. --eta, --gamma, --cutoff and --frequency-ratio may be "
-    "ranges\n"
-    "FROM:TO:STEP and lists A,B.";
+    "are measured, and for coarse levels that these leave out.";
 
 // The shipped cutoff is 0.166 um/s, in these units.
 struct Options {
-  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.0501446519707602", frequency_ratio = "6.25";
+  std::string eta = "0.1:9:0.1";
+  double gamma = 0.7, cutoff = 0.0501446519707602, frequency_ratio = 6.25;
   std::string output;
   unsigned threads = 0;
   afm::LevelErrorSettings settings;
 };
 
 void add_options(afm::CommandLine& app, Options& o) {
-  app.option("eta", o.eta, "drag velocity [a/tau], above 0");
+  app.option("eta", o.eta, "drag velocities [a/tau] above 0: a range FROM:TO:STEP, or a list A,B");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
   app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v");
@@ -49,44 +48,30 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("output", o.output, "file; without it the table goes to the standard output");
 }
 
-struct Point {
-  afm::Model model;
-  double eta;
-};
-
-std::vector<Point> grid(const Options& o) {
-  std::vector<Point> points;
-  for (const afm::PointOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
-    if (!(at.eta > 0.0)) throw std::invalid_argument("eta = " + afm::number_text(at.eta) + ": must be above 0");
-    points.push_back({afm::checked_model(at), at.eta});
+std::vector<double> drag_velocities(const Options& o) {
+  const std::vector<double> etas = afm::ranges_option("eta", o.eta);
+  for (const double eta : etas) {
+    if (!(eta > 0.0)) throw std::invalid_argument("eta = " + afm::number_text(eta) + ": must be above 0");
   }
-  return points;
+  return etas;
 }
 
-std::string to_row(const Point& point, const afm::MeasuredLevel& m) {
-  const afm::Model& model = point.model;
+std::string to_row(double eta, const afm::MeasuredLevel& m) {
   char text[160];
   std::snprintf(text, sizeof text, ",%s,%g,%.3g,%.3g,%.3g\n", name(m.level.kind), m.level.contact_tolerance,
                 m.error.friction, m.error.deflection, m.error.cost);
-  return afm::join_numbers({point.eta, model.gamma, model.v_c, model.frequency_ratio, model.H, model.y0}) + text;
-}
-
-std::string head() {
-  std::string text;
-  for (const std::string& column : afm::LevelTable::columns()) text += (text.empty() ? "" : ",") + column;
-  return text + "\n";
+  return afm::number_text(eta) + text;
 }
 
 // A point is a function of its parameters alone, so the threads show nowhere but in the cost.
-std::vector<std::string> measure(const std::vector<Point>& points, const Options& o) {
-  std::vector<std::string> rows(points.size());
+std::vector<std::string> measure(const afm::Model& model, const std::vector<double>& etas, const Options& o) {
+  std::vector<std::string> rows(etas.size());
   std::atomic<std::size_t> next{0}, done{0};
   std::mutex showing;
-  afm::ProgressBar bar(points.size(), 0);
+  afm::ProgressBar bar(etas.size(), 0);
   const auto work = [&] {
-    for (std::size_t i = next++; i < points.size(); i = next++) {
-      for (const auto& level : measure_levels(points[i].model, points[i].eta, o.settings))
-        rows[i] += to_row(points[i], level);
+    for (std::size_t i = next++; i < etas.size(); i = next++) {
+      for (const auto& level : measure_levels(model, etas[i], o.settings)) rows[i] += to_row(etas[i], level);
       const std::lock_guard<std::mutex> lock(showing);
       bar.show(++done);
     }
@@ -100,15 +85,20 @@ std::vector<std::string> measure(const std::vector<Point>& points, const Options
 }
 
 int run(const Options& o) {
-  const std::vector<Point> points = grid(o);
+  afm::PointOptions at;
+  at.gamma = o.gamma;
+  at.cutoff = o.cutoff;
+  at.frequency_ratio = o.frequency_ratio;
+  const afm::Model model = afm::checked_model(at);
+  const std::vector<double> etas = drag_velocities(o);
   std::ofstream file;
   if (!o.output.empty()) {
     file.open(o.output);
     if (!file) throw std::invalid_argument("output = " + o.output + ": cannot be written");
   }
   std::ostream& out = o.output.empty() ? std::cout : file;
-  const std::vector<std::string> rows = measure(points, o);
-  out << head();
+  const std::vector<std::string> rows = measure(model, etas, o);
+  out << afm::LevelTable::head(model);
   for (const std::string& row : rows) out << row;
   out.flush();
   if (!out) throw std::runtime_error("output = " + o.output + ": could not be written");
@@ -120,12 +110,6 @@ int run(const Options& o) {
 int main(int argc, char** argv) {
   afm::CommandLine app("level_table", kDescription);
   Options options;
-  options.settings.run.transient = 300.0;
-  options.settings.run.duration = 20000.0;
-  options.settings.run.periodic_duration = 1000.0;
-  options.settings.run.periodic_samples = 2000;
-  options.settings.run.most_events = 1000000;
-  options.settings.run.most_events_per_tau = 100.0;
   add_options(app, options);
   return app.run(argc, argv, [&] { return run(options); });
 }

@@ -1,15 +1,22 @@
-// How far a simpler level of the model is from the full one, and what it saves.
+// How far a simpler level of the model is from the full one, and what it saves; or all levels of a scene.
 #include "afm/dynamics/model_error.h"
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "afm/dynamics/sweep.h"
 #include "common/csv.h"
-#include "common/progress_bar.h"
 #include "common/point_options.h"
+#include "common/progress_bar.h"
+#include "level_errors.h"
 #include "tip_times.h"
 
 namespace {
@@ -27,14 +34,23 @@ const char kDescription[] =
     "vertical\n"
     "velocity; rms and largest stretch of the reference's horizontal spring; and the time of this thread for a tau of "
     "each\n"
-    "(median of alternated runs), with the ratio of reference to level: above 1 the level is cheaper.";
+    "(median of alternated runs), with the ratio of reference to level: above 1 the level is cheaper.\n"
+    "With --scene, and no other option but --duration: every level at the parameters of these scenes (config/scenes, "
+    "or "
+    "files), at\n"
+    "their drag velocities, against the finest: errors of K_f and of the deflection, both relative, cost over that of "
+    "the default\n"
+    "level, and whether it is the one that the scene uses.";
 
 const char kHeader[] =
     "eta,gamma,cutoff,frequency_ratio,model,contact_tolerance,reference_tolerance,start,k_f,k_f_std_error,attractor,"
     "reference_k_f,reference_k_f_std_error,reference_attractor,k_f_error,k_f_error_std_error,deflection_error,"
     "deflection_noise,deflection_rms,tracking_error,stretch_rms,stretch_max,ns_per_tau,reference_ns_per_tau,cost_ratio";
 
+const char kSceneHeader[] = "scene,eta,model,contact_tolerance,k_f_error,deflection_error,cost,in_use";
+
 struct Options {
+  std::vector<std::string> scenes;
   std::string eta = "3.4", gamma = "0.7", cutoff = "0.05", frequency_ratio = "6.25", model = "hammer";
   bool relative_cutoff = false;
   afm::Level level;
@@ -46,6 +62,7 @@ struct Options {
 
 void add_options(afm::CommandLine& app, Options& o) {
   const afm::Within tolerance{0.0, afm::kMaxContactTolerance};
+  app.option("scene", o.scenes, "names or files");
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
@@ -105,6 +122,80 @@ void compare(const Options& o, const Point& point, int start) {
             << "\n";
 }
 
+// Parameters of the emulator by their names. A scene is flat: a name, a colon, a value, and perhaps a comment.
+std::map<std::string, std::string> read_parameters(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument("scene = " + path + ": cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  static const std::regex entry(R"((?:^|\n)(\w+):[ ]*(\[[^\]]*\]|[^#\n]*))");
+  std::map<std::string, std::string> parameters;
+  for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) {
+    parameters[i->str(1)] = std::regex_replace(i->str(2), std::regex(R"([\[\]"\s]+)"), "");
+  }
+  return parameters;
+}
+
+struct Scene {
+  explicit Scene(const std::string& name_or_file) : name(name_or_file) {
+    const std::string folder = AFM_CONFIG;
+    auto p = read_parameters(name.find('/') == std::string::npos ? folder + "/scenes/" + name + ".yaml" : name);
+    p.merge(read_parameters(folder + "/emulator.yaml"));
+    const auto number = [&](const char* key) { return std::stod(p.at(key)); };
+    if (number("quality_factor") > 0.0) {
+      throw std::invalid_argument("scene = " + name + ": it has a bath, and levels are compared without one");
+    }
+    const double speed = number("lattice_spacing_m") * number("omega_v_rad_per_s") / afm::kTwoPi;
+    afm::PointOptions at;
+    at.gamma = number("restitution_gamma");
+    at.cutoff = number("cutoff_speed") / speed;
+    at.frequency_ratio = number("omega_h_rad_per_s") / number("omega_v_rad_per_s");
+    model = afm::checked_model(at);
+    in_use.contact_tolerance = number("contact_tolerance");
+    is_stated = afm::parse(p.at("model"), in_use.kind);
+    std::set<double> sent;
+    if (!p["commands_eta"].empty()) {
+      for (const double eta : afm::ranges_option("commands_eta", p["commands_eta"])) sent.insert(std::abs(eta));
+    }
+    if (sent.empty()) sent.insert(std::abs(number("drag_velocity")) / speed);
+    sent.erase(0.0);
+    const std::vector<double> all(sent.begin(), sent.end());
+    for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / 4)) etas.push_back(all[i]);
+  }
+
+  std::string name;
+  afm::Model model;
+  afm::Level in_use;
+  bool is_stated;  // false: auto
+  std::vector<double> etas;
+};
+
+void compare_levels(const Scene& scene, double eta, const afm::LevelErrorSettings& settings) {
+  for (const afm::MeasuredLevel& m : measure_levels(scene.model, eta, settings)) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s,%.6g,%s,%g,%.3g,%.3g,%.3g,%d\n", scene.name.c_str(), eta, name(m.level.kind),
+                  m.level.contact_tolerance, m.error.friction, m.error.deflection, m.error.cost,
+                  scene.is_stated && m.level == scene.in_use);
+    std::cout << text << std::flush;
+  }
+}
+
+int run_scenes(const Options& o, bool duration_given) {
+  const std::vector<Scene> scenes(o.scenes.begin(), o.scenes.end());
+  afm::LevelErrorSettings settings;
+  if (duration_given) settings.run.duration = o.settings.duration;
+  std::size_t points = 0, done = 0;
+  for (const Scene& scene : scenes) points += scene.etas.size();
+  afm::ProgressBar bar(points, 0);
+  std::cout << kSceneHeader << "\n";
+  for (const Scene& scene : scenes) {
+    for (const double eta : scene.etas) {
+      compare_levels(scene, eta, settings);
+      bar.show(++done);
+    }
+  }
+  return 0;
+}
+
 int run(Options o) {
   o.level.kind = afm::checked_kind(o.model);
   const std::vector<Point> points = grid(o);
@@ -124,5 +215,6 @@ int main(int argc, char** argv) {
   afm::CommandLine app("model_error", kDescription);
   Options options;
   add_options(app, options);
-  return app.run(argc, argv, [&] { return run(options); });
+  return app.run(argc, argv,
+                 [&] { return options.scenes.empty() ? run(options) : run_scenes(options, app.is_given("duration")); });
 }

@@ -10,14 +10,15 @@ namespace afm {
 namespace {
 
 const char kHead[] =
-    "eta,gamma,cutoff,frequency_ratio,amplitude,rest_height,model,contact_tolerance,k_f_error,deflection_error,cost\n";
+    "# parameters: gamma 0.7 cutoff 0.05 frequency_ratio 6.25 amplitude 0.1 rest_height 0\n"
+    "eta,model,contact_tolerance,k_f_error,deflection_error,cost\n";
 // At eta 1 bursts save half; at 2 the hammer saves more, and at 3 nothing of it is known.
 const char kRows[] =
-    "1,0.7,0.05,6.25,0.1,0,oscillator,0,0,0,2\n1,0.7,0.05,6.25,0.1,0,oscillator,0.001,0.01,0.02,1\n"
-    "1,0.7,0.05,6.25,0.1,0,hammer,0.001,0.3,0.4,0.95\n"
-    "2,0.7,0.05,6.25,0.1,0,oscillator,0,0,0,3\n2,0.7,0.05,6.25,0.1,0,oscillator,0.001,0.03,0.01,1\n"
-    "2,0.7,0.05,6.25,0.1,0,hammer,0.001,0.1,0.2,0.5\n"
-    "3,0.7,0.05,6.25,0.1,0,oscillator,0.001,0.02,0.02,1\n";
+    "1,oscillator,0,0,0,2\n1,oscillator,0.001,0.01,0.02,1\n"
+    "1,hammer,0.001,0.3,0.4,0.95\n"
+    "2,oscillator,0,0,0,3\n2,oscillator,0.001,0.03,0.01,1\n"
+    "2,hammer,0.001,0.1,0.2,0.5\n"
+    "3,oscillator,0.001,0.02,0.02,1\n";
 
 LevelTable table_of(const std::string& text) {
   std::istringstream in(text);
@@ -53,8 +54,8 @@ TEST(LevelTable, TakesTheCheapestThatTheToleranceAllows) {
 
 TEST(LevelTable, EveryBounceIsTakenOnlyWhereNoChatterLevelWillDo) {
   const LevelTable table = table_of(std::string(kHead) +
-                                    "1,0.7,0.05,6.25,0.1,0,oscillator,0,0,0,1\n"
-                                    "1,0.7,0.05,6.25,0.1,0,oscillator,0.001,0.001,0.001,1.1\n");
+                                    "1,oscillator,0,0,0,1\n"
+                                    "1,oscillator,0.001,0.001,0.001,1.1\n");
   EXPECT_TRUE(table.choose(model_at(), 1.0, 0.01, ToleranceOf::friction, kFull).level == kBursts);
   EXPECT_TRUE(table.choose(model_at(), 1.0, 1e-4, ToleranceOf::friction, kFull).level == kEvery);
 }
@@ -81,9 +82,9 @@ TEST(LevelTable, WhereNothingIsGoodEnoughTheBestIsTaken) {
 TEST(LevelTable, OutsideTheFullModelIsTakenAndNothingIsKnown) {
   Model lower = model_at();
   lower.y0 = -0.1;
-  for (const LevelChoice& choice : {choose(0.5, 0.1), choose(3.5, 0.1), choose(0.0, 0.1), choose(NAN, 0.1),
-                                    choose(2.0, 0.1, ToleranceOf::friction, model_at(0.71)),
-                                    choose(2.0, 0.1, ToleranceOf::friction, lower)}) {
+  for (const LevelChoice& choice :
+       {choose(0.5, 0.1), choose(3.5, 0.1), choose(0.0, 0.1), choose(NAN, 0.1),
+        choose(2.0, 0.1, ToleranceOf::friction, model_at(0.71)), choose(2.0, 0.1, ToleranceOf::friction, lower)}) {
     EXPECT_TRUE(choice.level == kFull);
     EXPECT_TRUE(std::isnan(choice.expected_error));
   }
@@ -99,16 +100,24 @@ void expect_refused(const std::string& text, const std::string& why) {
 }
 
 TEST(LevelTable, SaysWhatIsWrongWithAFile) {
-  expect_refused("", "no row");
-  expect_refused(kHead, "no row");
-  expect_refused("eta,gamma\n1,2\n", "line 1: the head has no column");
-  expect_refused(std::string(kHead) + "1,0.7,0.05\n", "line 2: has not as many fields");
-  const std::string row = "1,0.7,0.05,6.25,0.1,0,oscillator,0.001,0.01,0.02,1\n";
-  expect_refused(std::string(kHead) + row + "x" + row, "line 3: eta = 'x1'");
-  expect_refused(std::string(kHead) + "1,0.7,0.05,6.25,0.1,0,pendulum,0.001,0,0,1\n", "model = 'pendulum'");
-  expect_refused(std::string(kHead) + "1,0.7,0.05,6.25,0.1,0,hammer,0.5,0,0,1\n", "contact_tolerance");
-  expect_refused(std::string(kHead) + "1,0.7,0.05,6.25,0.1,0,hammer,0.001,-1,0,1\n", "negative");
-  expect_refused(std::string(kHead) + row + row, "twice");
+  const std::string head = kHead, row = "1,oscillator,0.001,0.01,0.02,1\n";
+  expect_refused("", "parameters");
+  expect_refused(head.substr(head.find('\n') + 1) + row, "does not say for which parameters");
+  expect_refused(head, "no row");
+  expect_refused("eta,gamma\n1,2\n", "line 1: the head is not eta,model");
+  expect_refused(head + "1,hammer,0.05\n", "line 3: '1,hammer,0.05' is not eta,model");
+  expect_refused(head + row + "x" + row, "line 4: 'x1,");
+  expect_refused(head + "1,oscillator,0.001,0.01,0.02,1,7\n", "line 3");
+  expect_refused(head + "1,pendulum,0.001,0,0,1\n", "model = 'pendulum'");
+  expect_refused(head + "1,hammer,0.5,0,0,1\n", "contact_tolerance");
+  expect_refused(head + "1,hammer,0.001,-1,0,1\n", "negative");
+  expect_refused(head + "1,hammer,0.001,nan,0,1\n", "line 3");
+  expect_refused(head + row + row, "twice");
+}
+
+TEST(LevelTable, KnowsTheHeadThatItWrites) {
+  const LevelTable table = table_of(LevelTable::head(model_at()) + "1,oscillator,0.001,0.01,0.02,1\n");
+  EXPECT_EQ(table.choose(model_at(), 1.0, 0.1, ToleranceOf::friction, kFull).expected_error, 0.01);
 }
 
 }  // namespace
