@@ -214,6 +214,7 @@ def commands(quick):
         choose("--tau 2000", "--tau 20000"), "--transient 500")
     add("grazes_flight", "grazes --kinds flight", choose("--flights 100 --ordinary 10000",
                                                          "--flights 3000 --ordinary 400000"))
+    add("search_constants", "benchmark/search_constants.py")
     add("grazes_start", "grazes --kinds start --ordinary 10 --flights", choose(10, 100))
     add("grazes_tau", "grazes --kinds tau --ordinary 10 --flights", choose(3, 20))
     seconds = choose(15, 110)
@@ -224,8 +225,7 @@ def commands(quick):
 
     # levels, scenes, recording, control
     add("new_levels", "level_table --output {out}/levels.csv", sides=["levels"])
-    add("scene_levels_run", "scripts/scene_levels", choose("--duration 500", ""), "--output {out}/scene_levels.csv",
-        sides=["scene_levels"])
+    add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep", choose("--duration 500", ""))
     add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
     add("topic_rates_run", "benchmark/topic_rates.py --output {out}/topic_rates.csv --seconds", choose(2, 10),
         sides=["topic_rates"])

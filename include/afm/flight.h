@@ -193,8 +193,10 @@ TipState Flight<T>::tip_state(const T& s) const {
 template <class T>
 T Flight<T>::gap_error(const T& s) const {
   using std::abs;
-  if (is_small(s)) return epsilon<T>() * (start_.g + T(8.0) * s * (abs(start_.g1) + bounds_.second * s));
-  return epsilon<T>() * (T(4.0) * bounds_.Y + T(16.0) * m_.H);
+  using std::max;
+  constexpr double kOfChange = 8.0, kOfHeight = 4.0, kOfSurface = 16.0, kOfExtension = 32.0;  // [ulp] Lemma 7
+  if (is_small(s)) return epsilon<T>() * (start_.g + T(kOfChange) * s * (abs(start_.g1) + bounds_.second * s));
+  return epsilon<T>() * (T(kOfHeight) * bounds_.Y + max(T(kOfSurface), T(T(kOfExtension) * bounds_.X)) * m_.H);
 }
 
 }  // namespace afm

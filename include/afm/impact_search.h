@@ -75,17 +75,23 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
   return hidden_root(f, s, root, evaluations);
 }
 
-// Lookahead as a part of the certified step. The next evaluation certifies the time behind itself too (Lemma 2). Such a
-// step reaches as far backwards as forwards if the gap does not shrink. Measured: docs/history.md, "evaluation ahead".
+// These save evaluations and decide nothing: every step is certified. Their table is in docs/algorithm.md.
+// Lookahead as a part of the certified step: the next evaluation certifies the time behind itself too (Lemma 2). Such a
+// step reaches as far backwards as forwards if the gap does not shrink.
 constexpr double kLookahead = 0.8;
+// Lookahead from the crest down: the time of a fall by this part of H at the greatest vertical speed.
+constexpr double kDescent = 0.46;
+// The first trial step from above the surface [tau].
+constexpr double kFirstTrial = 0.05;
+// A launch whose gap rate falls by more than this part of itself, within the certified time, returns soon; at -2 the
+// parabola is back on the surface.
+constexpr double kReturns = -1.6;
 
-// The lookahead below the crest: the time of a fall of 0.46 H at the greatest vertical speed. Most tips land later
-// (measured: docs/history.md, "its length below the crest").
 template <class T>
 T descent(const Flight<T>& f, const T& reach) {
   using std::min;
   const Mechanics<T>& m = f.mechanics();
-  return min(T(kLookahead) * reach, T(0.46) * m.H / (m.omega_v * f.amplitude_Y()));
+  return min(T(kLookahead) * reach, T(kDescent) * m.H / (m.omega_v * f.amplitude_Y()));
 }
 
 // The state of the loop: certified free of impacts up to s; the next evaluation is at s + lookahead; the next trial
@@ -102,7 +108,7 @@ Progress<T> take_off(const Flight<T>& f) {
   const T first = time_to_leave(f), aloft = time_above_crest_from_launch(f, first), trial = T(2.0) * first;
   if (aloft > first) return {aloft, descent(f, first), trial};
   // the parabola falls to zero soon: the impact is near its root
-  const bool returns = f.start().g2 * first < T(-1.6) * f.start().g1;
+  const bool returns = f.start().g2 * first < T(kReturns) * f.start().g1;
   if (!returns) return {first, T(kLookahead) * first, trial};
   const T parabola = T(-2.0) * f.start().g1 / f.start().g2;
   return {first, max(T(0.0), T(quartic_root(f, f.start(), parabola) - first)), trial};
@@ -118,7 +124,7 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   using std::min;
   const bool on_surface = !(f.start().g > T(0.0)) && !(from > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
-  search_detail::Progress<T> now{from, T(0.0), T(0.05)};
+  search_detail::Progress<T> now{from, T(0.0), T(search_detail::kFirstTrial)};
   if (on_surface) now = search_detail::take_off(f);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
     if (!(now.s < horizon)) return {SearchOutcome::clear, horizon, f.start(), evaluations - 1};

@@ -97,15 +97,19 @@ RootInterval<T> no_root() {
   return {false, T(0.0), T(0.0), T(0.0)};
 }
 
-// Lemma 3, ahead of a gap that is positive or within rounding. The interval is 1.25 times as long as the root of the
-// parabola, plus four times the time that the rounding is worth.
+// The interval of a root over the root of the parabola; any number above 1 is safe. The table of constants in
+// docs/algorithm.md ("The search") shows what it costs, as of every other constant here.
+constexpr double kRootReach = 1.25;
+constexpr double kRoundingReach = 4.0;  // the interval also holds the time that the rounding is worth, so many times
+
+// Lemma 3, ahead of a gap that is positive or within rounding.
 template <class T>
 RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& error) {
   using std::max;
   if (!(jet.g1 < T(0.0))) return no_root<T>();
   const T high = jet.g + error, t = high > T(0.0) ? first_root(high, jet.g1, jet.g2, T(-1.0)) : T(0.0);
   if (t < T(0.0)) return no_root<T>();
-  const T d = T(1.25) * t + T(4.0) * error / -jet.g1, third = third_derivative_over(f, jet, d).high;
+  const T d = T(kRootReach) * t + T(kRoundingReach) * error / -jet.g1, third = third_derivative_over(f, jet, d).high;
   const T slope = jet.g1 + max(T(0.0), T(jet.g2 * d + max(T(0.0), third) * d * d / T(2.0)));
   const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + over(T(d * third), 6.0)));
   return {slope < T(0.0) && end < T(0.0), clamp(quartic_root(f, jet, t), T(0.0), d), T(0.0), d};

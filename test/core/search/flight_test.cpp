@@ -78,6 +78,21 @@ TEST(Flight, ItsGapIsTheGapInQuadWithinItsOwnBound) {
   }
 }
 
+// The rounding of the extension is one of the place on the surface.
+TEST(Flight, TheBoundHoldsForASpringThatIsStretchedFar) {
+  RandomLaunches launches(4);
+  for (int i = 0; i < 20000; ++i) {
+    const double eta = kDragSpeeds[i % 7], s = std::pow(10.0, launches.within(-3.0, 0.9));
+    const double stretch = std::pow(10.0, launches.within(-1.0, 3.0));
+    TipState start = launches.next(eta);
+    start.X = launches.within(-stretch, stretch);
+    start.u += kMechanics.omega_h * launches.within(-stretch, stretch);
+    const Flight<double> flight(kMechanics, eta, start);
+    const GapJet<Quad> truth = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    ASSERT_LE(static_cast<double>(abs(flight.gap(s).g - truth.g)), flight.gap_error(s)) << stretch << " " << s;
+  }
+}
+
 TEST(Flight, NearItsStartTheGapKeepsItsDigits) {
   RandomLaunches launches(4);
   for (int i = 0; i < 20000; ++i) {
