@@ -44,6 +44,8 @@ class ResetPauseStep(EmulatorTest):
         for _ in range(2):
             self.begin(paused=True)
             self.stepped(1000.0)
+            # a command every 127 tau: the last of them in this time is the eighth
+            self.topics['applied'].wait_for(lambda m: m.time.tau > 880, 'the last command')
             commands = [(key(m.time), m.cause, m.drag_velocity) for m in self.topics['applied'].messages]
             runs.append((self.samples(), commands))
         self.assertEqual(runs[0], runs[1])
