@@ -30,17 +30,18 @@ class TipRunner : public Runner {
     ChainResult r;
     Stopwatch watch(most_seconds);
     const ModelTime begin = tip_.now(), end = begin + tau;
+    const std::uint64_t failures = tip_.search_failures();
     if (eta != tip_.eta()) tip_.drag(eta);
     while (r.impacts < most_impacts && r.finished) {
       const Outcome outcome = tip_.advance(end);
-      if (outcome == Outcome::time_limit) break;
-      if (outcome == Outcome::search_failed) r.gave_up = true;
+      if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) break;
       if (outcome == Outcome::impact) {
         r.energy += tip_.last_impact().energy_loss;
         r.impacts += tip_.last_impact().count;
       }
       r.finished = !watch.over();
     }
+    r.gave_up = tip_.search_failures() > failures;
     r.seconds = watch.seconds();
     r.tau = tip_.now() - begin;
     r.end = tip_.tip_state();

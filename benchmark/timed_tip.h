@@ -12,18 +12,17 @@ struct TipRun {
   double energy = 0.0, events = 0.0;  // lost in impacts [m a^2/tau^2]; impacts
   long search_failures = 0;
 
-  void add(const TipRun& run) {
-    energy += run.energy, events += run.events, search_failures += run.search_failures;
-  }
+  void add(const TipRun& run) { energy += run.energy, events += run.events, search_failures += run.search_failures; }
 };
 
 // Up to the given time [tau].
 inline TipRun run_tip(Tip& tip, std::int64_t end) {
   TipRun run;
+  const std::uint64_t failures = tip.search_failures();
   for (;;) {
     const Outcome outcome = tip.advance({end, 0.0});
-    if (outcome == Outcome::time_limit) return run;
-    if (outcome == Outcome::search_failed) ++run.search_failures;
+    run.search_failures = static_cast<long>(tip.search_failures() - failures);
+    if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return run;
     if (outcome != Outcome::impact) continue;
     run.energy += tip.last_impact().energy_loss;
     run.events += tip.last_impact().count;

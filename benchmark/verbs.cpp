@@ -4,12 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "afm/run.h"
 #include "afm/ensemble.h"
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "afm/run.h"
 #include "afm/tip.h"
-#include "core/tip/tip_motion.h"
 
 namespace {
 
@@ -46,9 +45,7 @@ double eta_of(const benchmark::State& state) { return 1e-2 * static_cast<double>
 
 double sine_of(double x) { return sin_cos_turns(x).sin; }
 GapJet<double> gap_of(const Flight<double>& flight, double s) { return flight.gap(s); }
-Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) {
-  return reflect(model, eta, jet);
-}
+Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) { return reflect(model, eta, jet); }
 
 // One after the other: each angle waits for the sine before.
 void TurnSine(benchmark::State& state) {
@@ -118,8 +115,8 @@ void Slide(benchmark::State& state) {
   double phase = 0.4;
   SlideSegment<double> slide(mechanics, 3.0, {phase, 0.001, 3.0});
   for (auto _ : state) {
-    slide_from(mechanics, 3.0, {phase, 0.001, 3.0}, kSlideBits, slide);
-    benchmark::DoNotOptimize(release_of(slide));
+    slide = SlideSegment<double>(mechanics, 3.0, {phase, 0.001, 3.0});
+    benchmark::DoNotOptimize(slide.find_release());
     phase = phase > 0.6 ? 0.4 : phase + 1e-3;
   }
 }
@@ -175,8 +172,8 @@ void SampledBatch(benchmark::State& state) {
   Run run(settings);
   Batch batch;
   for (auto _ : state) benchmark::DoNotOptimize(run.advance(batch));
-  state.counters["per_sample"] = benchmark::Counter(
-      2000.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_sample"] =
+      benchmark::Counter(2000.0, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(SampledBatch)->Arg(100)->Arg(340)->Arg(450);
 

@@ -118,10 +118,9 @@ void against_threads(const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  afm::CommandLine app(
-      "work_cost",
-      "Cost against work: time against impacts, tips (one after another) and threads (wall time), "
-      "memory. CSV.");
+  afm::CommandLine app("work_cost",
+                       "Cost against work: time against impacts, tips (one after another) and threads (wall time), "
+                       "memory. CSV.");
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("impacts", o.most_impacts, "most impacts of one tip");
   app.option("tips", o.most_tips, "most tips");

@@ -24,8 +24,8 @@ int main() {
     tips.advance(kEvents, end, log.data());
     on_the_way = false;
     for (std::size_t i = 0; i < kTips; ++i) {
-      const std::size_t records = tips.events(i) - tips.search_failures(i);
-      for (std::size_t n = 0; n < records; ++n) K_f[i] += log[i * kEvents + n].energy_loss / (eta * eta * duration);
+      for (std::size_t n = 0; n < tips.events(i); ++n)
+        K_f[i] += log[i * kEvents + n].energy_loss / (eta * eta * duration);
       on_the_way = on_the_way || tips.events(i) == kEvents;
     }
   }

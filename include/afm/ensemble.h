@@ -14,19 +14,17 @@ class Ensemble {
  public:
   explicit Ensemble(int threads = 1) : threads_(threads) {}
 
-  void add(const Tip& tip) { members_.push_back({tip, 0, 0}); }  // in any state; the copy keeps its time
+  void add(const Tip& tip) { members_.push_back({tip, 0}); }  // in any state; the copy keeps its time
   void reserve(std::size_t tips) { members_.reserve(tips); }
   std::size_t size() const { return members_.size(); }
 
-  // Each tip makes up to `events` calls of Tip::advance(limit), until one returns time_limit. A log needs room for
-  // size() * events records; those of the i-th tip start at log + i * events.
+  // Each tip makes up to `events` events until the limit. A log needs room for size() * events records; those of the
+  // i-th tip start at log + i * events.
   void advance(std::uint32_t events, const ModelTime& limit, Impact* log = nullptr);
   void advance(std::uint32_t events, const ModelTime* limits, Impact* log = nullptr);  // to a limit for each
   void advance(const ModelTime& limit);                                                // all events until then
 
-  // Of the last advance: the number of events, and how many of them were failed searches, which write no record.
-  std::uint32_t events(std::size_t i) const { return members_[i].events; }
-  std::uint32_t search_failures(std::size_t i) const { return members_[i].search_failures; }
+  std::uint32_t events(std::size_t i) const { return members_[i].events; }  // of the last advance
 
   const Impact& last_impact(std::size_t i) const { return members_[i].tip.last_impact(); }
   const Tip& tip(std::size_t i) const { return members_[i].tip; }
@@ -35,7 +33,7 @@ class Ensemble {
  private:
   struct Member {
     Tip tip;
-    std::uint32_t events, search_failures;
+    std::uint32_t events;
   };
 
   template <class Limit>

@@ -81,7 +81,7 @@ enum class Outcome : std::uint8_t {
   budget_spent,  // the budget of impacts ran out before the time asked for
   contact,       // contact has begun: the tip slides
   released,      // contact has ended
-  search_failed  // the search failed at a time that is certified free of impacts; it goes on from there
+  search_failed  // the search failed at a time that is certified free of impacts; the motion goes on from there
 };
 
 }  // namespace afm

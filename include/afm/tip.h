@@ -3,6 +3,9 @@
 // rounding. Natural units.
 #pragma once
 
+#include <optional>
+#include <variant>
+
 #include "afm/detail/sample_grid.h"
 #include "afm/detail/thermostat.h"
 #include "bath.h"
@@ -63,15 +66,18 @@ class Tip {
   TipSnapshot snapshot() const;
   bool is_settled() const;  // false: an event at now() is still to be reported
 
-  // To the next event or to `limit`, whichever is first. An event at the limit itself still happens. Guarantee: any
-  // sequence of limits gives the same bits as one, because a limit splits no motion.
+  // To the next event or to `limit`, whichever is first: impact, contact, released or time_limit. An event at the limit
+  // itself still happens. A failed search is counted and goes on from where the flight is certified; only one that
+  // cannot go on is returned (search_failed). Guarantee: any sequence of limits gives the same bits as one, because a
+  // limit splits no motion.
   Outcome advance(const ModelTime& limit);
+  std::uint64_t search_failures() const { return search_failures_; }  // so far; also of steps in contact
 
   // The same, one segment of motion at a time. It also stops (Outcome::flying) after a kick, at the horizon of a
   // search, and at the end of a step in contact. `ended`: the records that end with it; they do not depend on
   // the limits.
   Outcome advance_segment(const ModelTime& limit, Segments* ended = nullptr);
-  ModelTime segment_end();  // deflection() is valid before this time
+  ModelTime segment_end() const;  // deflection() is valid before this time
 
   // The record of the segment under way, up to now(). Ask for it before a command: a command that changes something
   // ends the segment, and no advance reports it. The energy that the command itself adds (a lifted holder) is in no
@@ -101,16 +107,16 @@ class Tip {
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 
-  bool in_flight() const { return mode_ == Mode::flying; }
-  const Flight<double>& flight() const { return flight_; }  // precondition: in_flight()
+  bool in_flight() const { return std::holds_alternative<Flying>(phase_); }
+  const Flight<double>& flight() const { return std::get<Flying>(phase_).flight; }  // precondition: in_flight()
   ModelTime flight_start() const { return start_; }
   const Model& model() const { return model_; }
   const ChatterLaw& chatter_law() const { return law_; }
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   double contact_tolerance() const { return contact_tolerance_; }
-  bool in_contact() const { return mode_ == Mode::sliding; }
-  bool in_chatter() const { return mode_ == Mode::chattering; }
+  bool in_contact() const { return std::holds_alternative<Sliding>(phase_); }
+  bool in_chatter() const { return std::holds_alternative<Chattering>(phase_); }
   const Impact& last_impact() const { return last_impact_; }
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
@@ -120,66 +126,100 @@ class Tip {
                      double* lateral) const;
 
  private:
-  // touching: the tip is on the surface, and contact begins at now().
-  enum class Mode : std::uint8_t { flying, chattering, touching, sliding };
-
-  // In a chatter sequence: the tip displaced from the reference slide, and totals since the sequence began.
+  // The phases of motion (docs/algorithm.md). The one under way lasts from start_ for end_.
+  struct Flying {
+    Flying(const Mechanics<double>& mechanics, double eta, const TipState& start) : flight(mechanics, eta, start) {}
+    Flight<double> flight;
+    Landing<double> landing{};  // at end_
+  };
+  // On the surface, at rest against it. Contact begins at once.
+  struct Touching {
+    TipState state;
+  };
+  // One step in contact.
+  struct Sliding {
+    Sliding(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, double tolerance,
+            const ContactStep::Hint& hint)
+        : step(mechanics, eta, start, tolerance, hint) {}
+    ContactStep step;
+    bool releases = false;  // at its end the surface no longer presses
+    Account begin;          // of the record under way
+  };
+  // What a chatter sequence has done up to the start of its reference slide.
+  struct Sequence {
+    ModelTime begin;
+    double normal_speed;   // after its first bounce [a/tau]
+    double gain, impulse;  // energy lost beyond the fall of v^2/2; impulse of the holder
+  };
+  // One reference slide of a chatter sequence.
+  struct Chattering {
+    Chattering(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits)
+        : reference(mechanics, eta, start, bits) {}
+    SlideSegment<double> reference;
+    bool releases = false;  // at its end the surface no longer presses
+    Chatter chatter{};      // at start_
+    ChatterRun run{};       // to end_
+    Sequence sequence{};
+    Account begin;  // of the record under way
+  };
+  // A chatter sequence at a time: the tip displaced from the reference slide, and totals since the sequence began.
   struct SequenceState {
     SlideState<double> moved;
-    double gain, impulse, energy;  // energy lost beyond the fall of v^2/2; impulse of the holder; energy stored now
+    double energy;  // stored
+    Sequence sequence;
   };
+  // A tip at rest on the surface leaves it under any pull, or only under one above the rounding of the reaction.
+  enum class Leaves { under_any_pull, above_rounding };
 
-  bool on_slide() const { return mode_ == Mode::sliding || mode_ == Mode::chattering; }
-
-  // phases of motion (tip.cpp)
   TipState constrained(const TipState& state) const;
   void set_tolerance(double contact_tolerance);
   void set_laws(const Model& model);
-  void fly(const TipState& start);
-  void begin_flight();
-  void slide(const SlideState<double>& start);
-  void refer_to(const SlideState<double>& start, int bits);
-  SlideState<double> surface_state(double s) const;
-  void start_chatter(const SlideState<double>& reference, const Chatter& start);
-  void leave_or_press();
-  void find_landing();
-  ModelTime event_time();
+  ModelTime event_time() const;
 
-  // ends of phases (tip_events.cpp)
-  bool sequence_goes_on() const;
-  SlideState<double> leave_reference(double s, const Chatter& chatter);
-  Outcome end_segment();
-  Outcome end_segment(Segments& ended);
-  Outcome end_segment(Segments* ended) { return ended == nullptr ? end_segment() : end_segment(*ended); }
-  Outcome land();
-  Outcome touch();
-  Outcome end_flight();
-  Outcome end_chatter();
-  Outcome end_slide();
+  // phases begin (tip.cpp)
+  void fly(const TipState& start, Leaves leaves = Leaves::under_any_pull);
+  void find_landing(Flying& flying);
+  void touch(const TipState& state);
+  void slide(const SlideState<double>& start);
+  Chattering& refer_to(const SlideState<double>& start, int bits);
+  void chatter_along(const SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
+                     const Account& begin);
+  bool rests(const Flight<double>& flight, Leaves leaves) const;
+
+  // phases end (tip_events.cpp)
+  Outcome end_phase(Segments* ended);
+  Outcome end_flight(Flying& flying, Segments* ended);
+  Outcome land(Flying& flying, Segments* ended);
+  void leave_or_press(Flying& flying);
+  void begin_chatter(const TipState& bounce);
+  Outcome begin_contact(const TipState& state);
+  Outcome end_step(const Sliding& sliding);
+  Outcome end_chatter(const Chattering& chattering);
 
   // commands and kicks (tip_changes.cpp, tip_kick.cpp)
-  void jolt(double eta);
+  bool is_on_slide() const { return in_contact() || in_chatter(); }
+  void jump_holder_velocity(double eta);
   void end_slide_now();
   void leave_now();
+  void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;
   bool stays_after(const Kick& kick) const;
   Outcome kick(Segments* ended);
 
   // energy balance (tip_account.cpp)
-  Chatter chatter_now() const;
-  SequenceState sequence_state(double s, const Chatter& chatter) const;
-  double slide_impulse(double s) const;
-  double chatter_loss(double v, double gain) const;
+  Chatter chatter_now(const Chattering& chattering) const;
+  SequenceState sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const;
+  double slide_impulse(const ContactStep& step, double s) const;
   double bounce_impulse(const SlideState<double>& at, double v) const;
   Account account() const;
-  Account account_at(double s, const Chatter& chatter) const;
   Account account_at_begin() const;
   Account account_at_end() const;
-  Account flight_account(const FlightState<double>& state) const;
+  Account flight_account(const Flying& flying, const FlightState<double>& state) const;
+  Account contact_account(const Sliding& sliding, double s) const;
+  Account chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const;
   Segment segment_to(const Account& end) const;
-  Segment impact_segment(double energy_before) const;
+  Segment impact_segment(const Landing<double>& landing, const Flight<double>& after) const;
   Segment kick_segment(const TipState& before, const TipState& after) const;
-  void split_account();
 
   Model model_;
   Mechanics<double> mechanics_;
@@ -188,29 +228,13 @@ class Tip {
   double slowest_chatter_;  // threshold of contact [a/tau]
   ChatterLaw law_;
   double entry_speed_;  // chatter_entry_speed()
-  Flight<double> flight_;
-  ContactStep contact_;         // while sliding
-  SlideSegment<double> slide_;  // the reference slide of a chatter sequence
-  Mode mode_ = Mode::flying;
-  ModelTime start_, now_;  // start of flight_, contact_ or slide_; the present
-  Landing<double> landing_{};
-  bool landing_known_ = false;
-  double slide_end_ = 0.0;  // since start_ [tau]
-  bool slide_releases_ = false;
-  Chatter chatter_{};         // at start_
-  ChatterRun chatter_run_{};  // along slide_
-  // of the chatter sequence under way
-  ModelTime sequence_begin_;
-  double sequence_normal_speed_ = 0.0;  // after its first bounce [a/tau]
-  double sequence_energy_ = 0.0;        // stored at its begin
-  double sequence_gain_ = 0.0;          // up to start_, as in SequenceState
-  double sequence_impulse_ = 0.0;       // up to start_
-  Account split_;                       // at the last command within the phase under way
-  bool is_split_ = false;
-  Impact last_impact_;
-  bool pending_ = false;  // an event at now() that the next advance reports
-  Impact pending_impact_;
   Thermostat thermostat_;
+  ModelTime start_, now_;
+  double end_ = 0.0;  // of the phase, since start_ [tau]
+  std::variant<Flying, Touching, Sliding, Chattering> phase_;
+  Impact last_impact_;
+  std::optional<Impact> pending_;  // an event at now() that the next advance reports
+  std::uint64_t search_failures_ = 0;
 };
 
 }  // namespace afm

@@ -25,7 +25,7 @@ class PyEnsemble {
     ensemble_.reserve(tips.size());
     for (const PyTip& tip : tips) {
       ensemble_.add(tip.tip);
-      search_failures_.push_back(tip.search_failures);
+      earlier_failures_.push_back(tip.earlier_failures);
     }
   }
 
@@ -57,7 +57,7 @@ class PyEnsemble {
 
   PyTip tip(std::size_t i) const {
     if (i >= size()) throw py::index_error("an ensemble of " + std::to_string(size()) + " tips");
-    return {ensemble_.tip(i), search_failures_[i]};
+    return {ensemble_.tip(i), earlier_failures_[i]};
   }
 
  private:
@@ -66,15 +66,12 @@ class PyEnsemble {
       const py::gil_scoped_release released;
       ensemble_.advance(stop);
     }
-    for (std::size_t i = 0; i < size(); ++i) {
-      events[i] += ensemble_.events(i) - ensemble_.search_failures(i);
-      search_failures_[i] += ensemble_.search_failures(i);
-    }
+    for (std::size_t i = 0; i < size(); ++i) events[i] += ensemble_.events(i);
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
 
   Ensemble ensemble_;
-  std::vector<std::uint64_t> search_failures_;
+  std::vector<std::uint64_t> earlier_failures_;
 };
 
 }  // namespace

@@ -9,7 +9,9 @@ namespace afm::python {
 
 struct PyTip {
   Tip tip;
-  std::uint64_t search_failures = 0;
+  std::uint64_t earlier_failures = 0;  // of searches, before it was pickled
+
+  std::uint64_t search_failures() const { return earlier_failures + tip.search_failures(); }
 };
 
 }  // namespace afm::python

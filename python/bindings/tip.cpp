@@ -71,10 +71,8 @@ py::array advance_tip(PyTip& self, const py::object& time, const py::object& mos
       const ModelTime stop = next_stop(self.tip, end);
       const Outcome outcome = self.tip.advance(stop);
       if (outcome == Outcome::time_limit) return stop == end;
-      if (outcome == Outcome::search_failed)
-        ++self.search_failures;
-      else
-        events.push_back(self.tip.last_impact());
+      if (outcome == Outcome::search_failed) throw std::runtime_error("the search of an impact cannot go on");
+      events.push_back(self.tip.last_impact());
       return events.size() == most;
     });
   }
@@ -93,7 +91,6 @@ class Sampler {
     take(segment_end < stop ? segment_end : stop);
     const Outcome outcome = tip.advance_segment(stop);
     if (outcome == Outcome::time_limit) return stop == end_;
-    if (outcome == Outcome::search_failed) ++self_.search_failures;
     if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) {
       events_.push_back(tip.last_impact());
     }
@@ -152,7 +149,7 @@ py::tuple pickled_tip(const PyTip& self) {
   s.samples.origin = s.tip.time;
   s.kicks = tip.thermostat().grid();
   s.kick_count = tip.thermostat().count();
-  return py::make_tuple(to_dict(s), self.search_failures);
+  return py::make_tuple(to_dict(s), self.search_failures());
 }
 
 PyTip unpickled_tip(const py::tuple& t) {
@@ -214,7 +211,8 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
       .def_property_readonly(
           "stored_energy", [](const PyTip& self) { return self.tip.stored_energy(); },
           "in springs and motion, in the lab [m a^2/tau^2]")
-      .def_readonly("search_failures", &PyTip::search_failures, "must stay 0: searches that gave up at a safe point");
+      .def_property_readonly("search_failures", &PyTip::search_failures,
+                             "must stay 0: searches that gave up at a safe point");
 }
 
 }  // namespace afm::python

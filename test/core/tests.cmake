@@ -60,8 +60,9 @@ set(core_tests
 foreach(name IN LISTS core_tests)
   afm_add_core_test(${name})
 endforeach()
-# The bits of a run depend on no compiler and no option: reference runs as built here and, portable, without any optimization,
-# against digests that are written down. scripts/platforms --digests does it for every compiler there is, and for older machines.
+# The bits of a run depend on no compiler and no option: reference runs as built here and, portable, without any
+# optimization, against digests that are written down. scripts/platforms --digests does it for every compiler there is,
+# and for older machines.
 get_target_property(core_sources afm_emulator_core SOURCES)
 list(TRANSFORM core_sources PREPEND ${PROJECT_SOURCE_DIR}/src/core/)
 add_executable(afm_reference_digest EXCLUDE_FROM_ALL core/reference_digest.cpp)

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-
 namespace afm {
 
 // x / d. For doubles a product with 1/d: faster, with an error of up to 1.5 ulp.

@@ -61,7 +61,7 @@ inline T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) 
 // lambda; the hammer has x'' = 0. The coefficients of the order before, u[n] and c[n], enter last.
 template <class T>
 inline void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideState<T>& start,
-                                    SlideSeries<T>& series) {
+                               SlideSeries<T>& series) {
   using std::fma;
   const SinCos<T> turn = sin_cos_turns(start.phase);
   const T k = two_pi<T>(), k2 = k * k, wh2 = m.omega_h * m.omega_h;

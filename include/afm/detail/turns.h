@@ -74,8 +74,7 @@ inline double cosine_rest(double z) {
 inline double cosine(double x, double z) {
   const double over_z = std::fma(-x, x, z);  // rounding of z = x^2
   const double head = std::fma(z, kCosine[1], 1.0), head_low = std::fma(z, kCosine[1], 1.0 - head);
-  const double rest =
-      head_low + std::fma(over_z, -kCosine[1], z * std::fma(z, kCosineLow[2], kCosineLow[1]));
+  const double rest = head_low + std::fma(over_z, -kCosine[1], z * std::fma(z, kCosineLow[2], kCosineLow[1]));
   return head + std::fma(z * z, cosine_rest(z), rest);
 }
 inline double sine(double x, double z) {

@@ -6,7 +6,6 @@
 #include <new>
 #include <utility>
 
-#include "afm/detail/multiversion.h"
 #include "chatter_control.h"
 #include "chatter_geometry.h"
 #include "projection.h"
@@ -53,7 +52,7 @@ double ChatterLaw::adiabaticity(const ChatterSurroundings& at, double v, bool wi
          (Control::kMaxDuration * fineness_ * longer);
 }
 
-AFM_MULTIVERSION bool ChatterLaw::holds(const Flight<double>& bounce) const {
+bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const double v = bounce.start().g1;
   if (v <= threshold_) return true;
   if (!(bounce.start().g2 < 0.0)) return false;
@@ -90,8 +89,8 @@ double ChatterLaw::step_towards_end(const ChatterPoint& at, double dt) const {
 
 // A sequence that may exit goes back from a step at whose end the law no longer holds. Without `exits`, for the state
 // in the middle of a known sequence, the law is not checked.
-AFM_MULTIVERSION ChatterRun ChatterLaw::follow(const SlideSegment<double>& reference, double from, double until,
-                                               const Chatter& start, bool exits) const {
+ChatterRun ChatterLaw::follow(const SlideSegment<double>& reference, double from, double until, const Chatter& start,
+                              bool exits) const {
   ChatterRun first{ChatterEnd::time, from, start};
   if (takes_single_bounces(start.v)) first = follow_single_bounces(reference, from, until, start, exits);
   if (first.end != ChatterEnd::time || takes_single_bounces(first.chatter.v)) return first;
@@ -135,12 +134,12 @@ Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Ch
   return follow(reference, 0.0, s, start, false).chatter;
 }
 
-AFM_MULTIVERSION Projection project_onto_surface(const Model& model, const TipState& state) {
+Projection project_onto_surface(const Model& model, const TipState& state) {
   const auto p = projected<double>(is_free_along_x(model), model.H, {state.phase, state.X, state.u, state.g1});
   return {p.reference, p.normal_speed, p.tangential_velocity};
 }
 
-AFM_MULTIVERSION TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed) {
+TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed) {
   const Bounce4<double> b = launched<double>(is_free_along_x(model), model.H, reference, normal_speed);
   return {wrap_phase(b.phase), b.X, b.u, 0.0, b.g1};
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "afm/detail/chatter_rates.h"
-#include "afm/detail/multiversion.h"
 #include "afm/detail/select.h"
 #include "chatter_flow.h"
 
@@ -19,7 +18,7 @@ struct Reaction {
 };
 
 template <class T>
-AFM_INLINED Reaction<T> later(const ChatterSurroundingsOf<T>& at, const T& t) {
+inline Reaction<T> later(const ChatterSurroundingsOf<T>& at, const T& t) {
   const T P = mul_add(t, mul_add(t, mul_add(t, T(at.P3 * T(1.0 / 6)), T(T(0.5) * at.P2)), at.P1), at.P);
   const T inverse_P = T(1.0) / P;
   return {P, inverse_P, mul_add(t, mul_add(t, T(T(0.5) * at.P3), at.P2), at.P1) * inverse_P,
@@ -33,7 +32,7 @@ struct BounceArc {
 };
 
 template <class T>
-AFM_INLINED BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsOf<T>& at, const T& v) {
+inline BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsOf<T>& at, const T& v) {
   const T q = T(2.0) * v * r.inverse_P, p1 = r.p1, p2 = r.p2, p1_2 = p1 * p1, K = at.K;
   const T longer2 = mul_add(T(8.0), p1_2, T(T(-3.0) * (p2 + K))) * T(1.0 / 36), longer1 = T(-kThird) * p1;
   const T inner = p1 * mul_add(T(100.0), p1_2, mul_add(T(-75.0), p2, T(T(-54.0) * K)));
@@ -47,15 +46,15 @@ AFM_INLINED BounceArc<T> arc_of(const Reaction<T>& r, const ChatterSurroundingsO
 
 // The normal speed after an impact at v (the restitution law, section III of the paper). max_loss = 1 - gamma.
 template <class T>
-AFM_INLINED T speed_after(double max_loss, const ChatterFlow& flow, const T& v) {
+inline T speed_after(double max_loss, const ChatterFlow& flow, const T& v) {
   using std::min;
   return v * (T(1.0) - min(T(max_loss), T(T(flow.loss) * v)));
 }
 
 // The displacement from the reference slide after a part dt of a bounce, by its mean height v^2/(3 P).
 template <class T>
-AFM_INLINED ChatterOf<T> moved(const ChatterSurroundingsOf<T>& at, const Reaction<T>& r, const T& dt,
-                               bool is_held_along_x, const ChatterOf<T>& c) {
+inline ChatterOf<T> moved(const ChatterSurroundingsOf<T>& at, const Reaction<T>& r, const T& dt, bool is_held_along_x,
+                          const ChatterOf<T>& c) {
   const T height = T(kThird) * c.v * c.v * r.inverse_P * dt, P1 = r.p1 * r.P;
   const T p = mul_add(at.c_height, height, mul_add(T(-at.c_sigma * c.sigma), dt, c.p));
   return {c.v,

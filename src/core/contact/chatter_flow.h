@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "afm/detail/chatter_rates.h"
-#include "afm/detail/multiversion.h"
 #include "afm/detail/select.h"
 #include "portable_exp.h"
 
@@ -18,7 +17,7 @@ constexpr double kLeastSpeed = std::numeric_limits<double>::min();
 
 // The coefficients that follow from P, its derivatives, K and K1.
 template <class T>
-AFM_INLINED void set_reaction_terms(ChatterSurroundingsOf<T>& at) {
+inline void set_reaction_terms(ChatterSurroundingsOf<T>& at) {
   const T inverse_P = T(1.0) / at.P, inverse_P2 = inverse_P * inverse_P, K = at.K;
   const T p1 = at.P1 * inverse_P, p2 = at.P2 * inverse_P, p3 = at.P3 * inverse_P, p1_2 = p1 * p1;
   at.inverse_P = inverse_P;
@@ -32,19 +31,19 @@ AFM_INLINED void set_reaction_terms(ChatterSurroundingsOf<T>& at) {
 
 // The reaction at the displaced place over that on the reference slide, minus 1. The bounces keep v^3/P.
 template <class T>
-AFM_INLINED T disturbance(const ChatterSurroundingsOf<T>& at, const T& sigma, const T& p) {
+inline T disturbance(const ChatterSurroundingsOf<T>& at, const T& sigma, const T& p) {
   return mul_add(T(T(2.0) * at.turn_rate), p, T(-at.c_height * sigma)) * at.inverse_P;
 }
 
 // The flow that interpolates w -> w (1 - w): R = G/T, and 1/T.
 template <class T>
-AFM_INLINED T series_R(const T& w) {
+inline T series_R(const T& w) {
   const T w2 = w * w;
   const T low = mul_add(w2, mul_add(w, T(7.0 / 8), T(7.0 / 12)), mul_add(w, T(0.5), T(1.0)));
   return mul_add(T(w2 * w2), mul_add(w2, T(264917.0 / 60480), mul_add(w, T(727.0 / 288), T(1049.0 / 720))), low);
 }
 template <class T>
-AFM_INLINED T series_1_over_T(const T& w) {
+inline T series_1_over_T(const T& w) {
   const T w2 = w * w;
   const T low = mul_add(T(-w2), mul_add(w, T(5.0 / 8), T(5.0 / 12)), mul_add(T(-w), T(0.5), T(1.0)));
   return mul_add(T(-w2 * w2), mul_add(w2, T(261679.0 / 60480), mul_add(w, T(629.0 / 288), T(811.0 / 720))), low);
@@ -52,16 +51,16 @@ AFM_INLINED T series_1_over_T(const T& w) {
 
 // Under a changing reaction ln v changes by P'/3P (1 - w^2 S)/T, and bounces come later by the part (v P'/3P^2) w D.
 template <class T>
-AFM_INLINED T series_S(const T& w) {
+inline T series_S(const T& w) {
   return mul_add(T(w * w), mul_add(w, T(2423.0 / 360), T(119.0 / 45)), w + T(1.0 / 3));
 }
 template <class T>
-AFM_INLINED T series_D(const T& w) {
+inline T series_D(const T& w) {
   return mul_add(T(w * w), mul_add(w, T(1477.0 / 180), T(259.0 / 90)), w + T(1.0 / 3));
 }
 
 template <class T>
-AFM_INLINED T chatter_speed(const ChatterFlow& flow, const T& x) {
+inline T chatter_speed(const ChatterFlow& flow, const T& x) {
   using std::max;
   return flow.geometric ? T(max(x, T(kLeastSpeed))) : portable_exp(x);
 }
@@ -69,8 +68,8 @@ AFM_INLINED T chatter_speed(const ChatterFlow& flow, const T& x) {
 // The time derivatives. In `c` the speed is what it would be on the reference slide itself. Products of two terms of
 // the second order are of the fourth order and left out.
 template <class T>
-AFM_INLINED SmoothChatterOf<T> chatter_rate(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at,
-                                            double n_per_inverse_v, const SmoothChatterOf<T>& c) {
+inline SmoothChatterOf<T> chatter_rate(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at,
+                                       double n_per_inverse_v, const SmoothChatterOf<T>& c) {
   const T one(1.0), third(kThird), half(0.5), undisturbed = chatter_speed(flow, c.x), inverse_v = one / undisturbed;
   const T more = disturbance(at, c.sigma, c.p), v = mul_add(undisturbed, T(third * more), undisturbed), v2 = v * v;
   const T height = v2 * (third * at.inverse_P), longer = at.c_duration * v2,
@@ -105,26 +104,26 @@ AFM_INLINED SmoothChatterOf<T> chatter_rate(const ChatterFlow& flow, const Chatt
 }
 
 template <class T>
-AFM_INLINED T smooth_speed(const ChatterFlow& flow, const T& v) {
+inline T smooth_speed(const ChatterFlow& flow, const T& v) {
   return flow.geometric ? v : portable_log(v);
 }
 
 // The part of n that is not in `rest`.
 template <class T>
-AFM_INLINED T bounces_at(const ChatterFlow& flow, double n_per_inverse_v, const T& v) {
+inline T bounces_at(const ChatterFlow& flow, double n_per_inverse_v, const T& v) {
   return flow.geometric ? T(T(-flow.n_per_inverse_v) * portable_log(v)) : T(T(n_per_inverse_v) / v);
 }
 
 // To the smooth variables, and back.
 template <class T>
-AFM_INLINED SmoothChatterOf<T> to_smooth(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at,
-                                         double n_per_inverse_v, const ChatterOf<T>& c) {
+inline SmoothChatterOf<T> to_smooth(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double n_per_inverse_v,
+                                    const ChatterOf<T>& c) {
   const T v = c.v * mul_add(T(-kThird), disturbance(at, c.sigma, c.p), T(1.0));
   return {smooth_speed(flow, v), c.n - bounces_at(flow, n_per_inverse_v, v), c.sigma, c.p, c.drift, c.held_work};
 }
 template <class T>
-AFM_INLINED ChatterOf<T> from_smooth(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at,
-                                     double n_per_inverse_v, const SmoothChatterOf<T>& c) {
+inline ChatterOf<T> from_smooth(const ChatterFlow& flow, const ChatterSurroundingsOf<T>& at, double n_per_inverse_v,
+                                const SmoothChatterOf<T>& c) {
   const T v = chatter_speed(flow, c.x);
   return {v * mul_add(T(kThird), disturbance(at, c.sigma, c.p), T(1.0)),
           c.rest + bounces_at(flow, n_per_inverse_v, v),

@@ -7,19 +7,17 @@
 #include <cmath>
 
 #include "afm/detail/chatter_geometry.h"
-#include "afm/detail/multiversion.h"
 #include "chatter_flow.h"
 
 namespace afm {
 
 template <class T>
-AFM_INLINED T square(const T& x) {
+inline T square(const T& x) {
   return x * x;
 }
 
 template <class T>
-AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::surroundings(const SlideSegment<T>& reference,
-                                                                   const T& time) const {
+inline ChatterSurroundingsOf<T> ChatterGeometry::surroundings(const SlideSegment<T>& reference, const T& time) const {
   using std::sqrt;
   const T one(1.0), two(2.0), three(3.0), wh2(wh2_), wv2(wv2_), free(free_);
   const SlideState<T> q = reference.at(time);
@@ -63,7 +61,7 @@ AFM_INLINED ChatterSurroundingsOf<T> ChatterGeometry::surroundings(const SlideSe
 }
 
 // As above with the state of the flight; the reaction comes from g2 and g3 of the gap.
-AFM_INLINED ChatterSurroundings ChatterGeometry::surroundings(const Flight<double>& bounce) const {
+inline ChatterSurroundings ChatterGeometry::surroundings(const Flight<double>& bounce) const {
   const TipState& q = bounce.launch();
   const GapJet<double>& start = bounce.start();
   const double k2 = square(kTwoPi), h1 = start.h1, h2 = -k2 * start.h;
@@ -83,7 +81,7 @@ AFM_INLINED ChatterSurroundings ChatterGeometry::surroundings(const Flight<doubl
 }
 
 // A bounce lasts 2 v/P, and P is at most a; P'/P = a'/a - h' h'' u / N^2.
-AFM_INLINED bool ChatterGeometry::certainly_outlasts(const Flight<double>& bounce, double part) const {
+inline bool ChatterGeometry::certainly_outlasts(const Flight<double>& bounce, double part) const {
   const GapJet<double>& start = bounce.start();
   const double slope = free_ * start.h1, N2 = 1.0 + slope * start.h1, a = -start.g2;
   const double change = slope * square(kTwoPi) * start.h * bounce.launch().u * a - start.g3 * N2;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "afm/detail/multiversion.h"
 #include "chatter_control.h"
 #include "chatter_flow.h"
 #include "chatter_geometry.h"
@@ -28,8 +27,8 @@ using AtNodes = std::array<SmoothChatter, kNodeCount>;
 
 // The surroundings at node i from those at both ends, without the step control. The reaction is interpolated to the
 // order 8, what stands only in terms of the second order linearly.
-AFM_INLINED ChatterSurroundings between(const ChatterSurroundings& first, const ChatterSurroundings& last, double dt,
-                                        std::size_t i) {
+inline ChatterSurroundings between(const ChatterSurroundings& first, const ChatterSurroundings& last, double dt,
+                                   std::size_t i) {
   const auto linear = [i](double a, double b) { return std::fma(kNodes[i], b, kRest[i] * a); };
   const HermitePoint P = hermite(dt, hermite_end(dt, first.P, first.P1, first.P2, first.P3),
                                  hermite_end(-dt, last.P, last.P1, last.P2, last.P3), i);
@@ -46,8 +45,8 @@ AFM_INLINED ChatterSurroundings between(const ChatterSurroundings& first, const 
 }
 
 // start plus the integral of the rates from the start of the step to node i.
-AFM_INLINED SmoothChatter integrated(double dt, const SmoothChatter& start, const SmoothChatter& first,
-                                     const AtNodes& rates, std::size_t i) {
+inline SmoothChatter integrated(double dt, const SmoothChatter& start, const SmoothChatter& first, const AtNodes& rates,
+                                std::size_t i) {
   const auto sum = [&](double SmoothChatter::*of) {
     double x = std::fma(dt * kLobatto[0][i], first.*of, start.*of);
 #pragma GCC unroll 4
@@ -61,7 +60,7 @@ AFM_INLINED SmoothChatter integrated(double dt, const SmoothChatter& start, cons
 // On entry to.smooth and to.rate are those at the start of the step, and to.surroundings those at its end. The
 // equations of the method are solved by iteration, from the first rate extrapolated. Three iterations leave an error of
 // 1e-7 of what the step changes where w is 0.1.
-AFM_INLINED void collocation_step(const ChatterFlow& flow, const ChatterPoint& from, double dt, ChatterPoint& to) {
+inline void collocation_step(const ChatterFlow& flow, const ChatterPoint& from, double dt, ChatterPoint& to) {
   const SmoothChatter start = to.smooth, first = to.rate;
   std::array<ChatterSurroundings, kNodeCount> at;
   AtNodes rates;
@@ -107,16 +106,14 @@ double ChatterRates::fall_time(const ChatterSurroundings& at, double v) const {
   return 2.0 * at.inverse_P * (flow_.geometric ? v / (1.0 - flow_.gamma) : 1.0 / flow_.loss);
 }
 
-AFM_MULTIVERSION ChatterPoint ChatterRates::begin(const SlideSegment<double>& reference, double s,
-                                                  const Chatter& start) const {
+ChatterPoint ChatterRates::begin(const SlideSegment<double>& reference, double s, const Chatter& start) const {
   ChatterPoint at{s, geometry_.surroundings(reference, s), {}, {}, start, flow_.n_per_inverse_v};
   at.smooth = to_smooth(flow_, at.surroundings, at.n_per_inverse_v, start);
   at.rate = chatter_rate(flow_, at.surroundings, at.n_per_inverse_v, at.smooth);
   return at;
 }
 
-AFM_MULTIVERSION ChatterPoint ChatterRates::step(const SlideSegment<double>& reference, const ChatterPoint& from,
-                                                 double dt) const {
+ChatterPoint ChatterRates::step(const SlideSegment<double>& reference, const ChatterPoint& from, double dt) const {
   // a lambda, as a function that returns one of two variables would copy the point
   const auto by_collocation = [&] {
     const bool falls_fast = dt > ChatterControl::kFastFall * fall_time(from.surroundings, from.chatter.v);
@@ -136,8 +133,8 @@ AFM_MULTIVERSION ChatterPoint ChatterRates::step(const SlideSegment<double>& ref
   return dt * fastest < ChatterControl::kBriefStep ? brief_step(reference, from, dt) : by_collocation();
 }
 
-AFM_MULTIVERSION ChatterPoint ChatterRates::brief_step(const SlideSegment<double>& reference, const ChatterPoint& from,
-                                                       double dt) const {
+ChatterPoint ChatterRates::brief_step(const SlideSegment<double>& reference, const ChatterPoint& from,
+                                      double dt) const {
   ChatterPoint to{from.s + dt, geometry_.surroundings(reference, from.s + dt), {}, {}, {}, from.n_per_inverse_v};
   to.rate = chatter_rate(flow_, to.surroundings, to.n_per_inverse_v, from.smooth + dt * from.rate);
   to.smooth = from.smooth + 0.5 * dt * (from.rate + to.rate);
@@ -145,12 +142,11 @@ AFM_MULTIVERSION ChatterPoint ChatterRates::brief_step(const SlideSegment<double
   return to;
 }
 
-AFM_MULTIVERSION Chatter ChatterRates::after(const ChatterPoint& from, double dt) const {
+Chatter ChatterRates::after(const ChatterPoint& from, double dt) const {
   return from_smooth(flow_, from.surroundings, from.n_per_inverse_v, from.smooth + dt * from.rate);
 }
 
-AFM_MULTIVERSION SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference,
-                                                    const Chatter& chatter) {
+SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter) {
   return moved_reference_of(model.H, reference, chatter);
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "afm/chatter.h"
-#include "afm/detail/multiversion.h"
 #include "chatter_bounce.h"
 #include "chatter_control.h"
 #include "chatter_geometry.h"
@@ -13,8 +12,8 @@ namespace afm {
 
 // Ends where the averages hold, where contact begins, or with the last bounce before `until`. Without `exits` it ends
 // at `until`, within the bounce under way: by the flow through both ends of the bounce.
-AFM_MULTIVERSION ChatterRun ChatterLaw::follow_single_bounces(const SlideSegment<double>& reference, double from,
-                                                              double until, const Chatter& start, bool exits) const {
+ChatterRun ChatterLaw::follow_single_bounces(const SlideSegment<double>& reference, double from, double until,
+                                             const Chatter& start, bool exits) const {
   Chatter c = start;
   double s = from;
   while (takes_single_bounces(c.v) && c.v > threshold_) {

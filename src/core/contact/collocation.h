@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "afm/detail/multiversion.h"
-
 namespace afm {
 
 constexpr double kRoot21 = 4.58257569495584;
@@ -51,7 +49,7 @@ constexpr HermiteWeights kFromStart = hermite_weights(kNodes), kFromEnd = hermit
 struct HermiteEnd {
   double scaled[4];
 };
-AFM_INLINED HermiteEnd hermite_end(double dt, double value, double first, double second, double third) {
+inline HermiteEnd hermite_end(double dt, double value, double first, double second, double third) {
   const double dt2 = dt * dt;
   return {{value, dt * first, dt2 * second, dt2 * dt * third}};
 }
@@ -61,7 +59,7 @@ struct HermitePoint {
 };
 
 // Value and first two derivatives at node i. `last` is taken with -dt: seen from the end, time runs backwards.
-AFM_INLINED HermitePoint hermite(double dt, const HermiteEnd& first, const HermiteEnd& last, std::size_t i) {
+inline HermitePoint hermite(double dt, const HermiteEnd& first, const HermiteEnd& last, std::size_t i) {
   const double inverse_dt = 1.0 / dt;
   HermitePoint p{0.0, 0.0, 0.0};
 #pragma GCC unroll 4

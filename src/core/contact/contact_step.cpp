@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/detail/multiversion.h"
 #include "afm/surface.h"
 
 namespace afm {
@@ -57,12 +56,12 @@ constexpr double kMaxReach = 0.25;    // [a] from the middle of a step: the seri
 constexpr double kMaxLength = 8.0;    // [tau] a choice: as far as a flight is searched at once
 constexpr double kMinLength = 1e-12;  // [tau] only a corrupted state is so fast
 
-AFM_INLINED double sum_of_products(const AtGaussNodes& a, const AtGaussNodes& b) {
+inline double sum_of_products(const AtGaussNodes& a, const AtGaussNodes& b) {
   double sum[4];
   for (std::size_t i = 0; i < 4; ++i) sum[i] = a[i] * b[i] + a[i + 4] * b[i + 4];
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
-AFM_INLINED double least_of(const AtGaussNodes& a) {
+inline double least_of(const AtGaussNodes& a) {
   double least = a[0];
   for (std::size_t i = 1; i < kN; ++i) least = a[i] < least ? a[i] : least;
   return least;
@@ -70,7 +69,7 @@ AFM_INLINED double least_of(const AtGaussNodes& a) {
 
 // With y = h(x), Newton's equations in x and y leave x'' = -(omega_h^2 X + h' push) / (1 + h'^2), where
 // push = omega_v^2 (h - y0) + h'' x'^2; the reaction along y is (push - h' omega_h^2 X) / (1 + h'^2).
-AFM_INLINED ContactForces forces(const Mechanics<double>& m, const SinCos<double>& turn, double X, double u) {
+inline ContactForces forces(const Mechanics<double>& m, const SinCos<double>& turn, double X, double u) {
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
   const double h = m.H * turn.cos, h1 = -k * m.H * turn.sin, h2 = -k2 * h, h3 = -k2 * h1, u2 = u * u;
   const double push = k2 * (h - m.y0) + h2 * u2, pull = wh2 * X, N2 = 1.0 + free * h1 * h1;
@@ -80,7 +79,7 @@ AFM_INLINED ContactForces forces(const Mechanics<double>& m, const SinCos<double
 }
 
 // Sine and cosine of the turn from which `turn` is r away, |r| <= kMaxReach: within 1e-12.
-AFM_INLINED SinCos<double> turned_by(const SinCos<double>& turn, double r) {
+inline SinCos<double> turned_by(const SinCos<double>& turn, double r) {
   using namespace turns_detail;
   const double z = r * r, z2 = z * z, z4 = z2 * z2;
   const double s_low = (kSine[0] + z * kSine[1]) + z2 * (kSine[2] + z * kSine[3]);
@@ -116,16 +115,15 @@ __attribute__((noinline)) double first_fall(const AtGaussNodes& b, double low, d
 
 class ContactSolver {
  public:
-  AFM_INLINED static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
-  AFM_INLINED static SlideState<double> balanced(const ContactStep& s, double time, double d, double u,
-                                                 double integral);
-  AFM_INLINED static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
+  static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
+  static SlideState<double> balanced(const ContactStep& s, double time, double d, double u, double integral);
+  static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
 
  private:
-  AFM_INLINED static void rest(ContactStep& s);
-  AFM_INLINED static int try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint);
-  AFM_INLINED static bool attempt(ContactStep& s, int level, double stiffness, double tolerance);
-  AFM_INLINED static bool is_close_call(const ContactStep& s, double tolerance);
+  static void rest(ContactStep& s);
+  static int try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint);
+  static bool attempt(ContactStep& s, int level, double stiffness, double tolerance);
+  static bool is_close_call(const ContactStep& s, double tolerance);
 };
 
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
@@ -290,24 +288,10 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
   return !(first_fall(b, 0.0, 1.0, kHalvings) < 0.0);
 }
 
-namespace {
-
-AFM_MULTIVERSION void solve(ContactStep& step, double tolerance, const ContactStep::Hint& hint) {
-  ContactSolver::solve(step, tolerance, hint);
-}
-AFM_MULTIVERSION SlideState<double> balanced(const ContactStep& step, double s, double d, double u, double integral) {
-  return ContactSolver::balanced(step, s, d, u, integral);
-}
-AFM_MULTIVERSION double reaction_at(const Mechanics<double>& m, const SlideState<double>& q) {
-  return forces(m, sin_cos_turns(q.phase), q.X, q.u).reaction;
-}
-
-}  // namespace
-
 ContactStep::ContactStep(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
                          double tolerance, const Hint& hint)
     : m_(mechanics), eta_(eta), start_(start) {
-  solve(*this, tolerance, hint);
+  ContactSolver::solve(*this, tolerance, hint);
 }
 
 Series<double> ContactStep::displacement() const {
@@ -331,7 +315,7 @@ SlideState<double> ContactStep::at(double s) const {
     d = s * (d + c[m]), u = u * s + c[m] * static_cast<double>(m);
     integral = s * (integral + c[m] / static_cast<double>(m + 1));
   }
-  return balanced(*this, s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
+  return ContactSolver::balanced(*this, s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
 }
 
 double ContactStep::extension_integral(double s) const {
@@ -342,7 +326,9 @@ double ContactStep::extension_integral(double s) const {
   return s * ((start_.X - 0.5 * eta_ * s) + integral);
 }
 
-double ContactStep::pressure(const SlideState<double>& q) const { return reaction_at(m_, q); }
+double ContactStep::pressure(const SlideState<double>& q) const {
+  return forces(m_, sin_cos_turns(q.phase), q.X, q.u).reaction;
+}
 
 double ContactStep::find_release() const {
   constexpr int kHalvings = 12;               // to 1/4000 of the step; the rest is done on the reaction itself

@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <cstring>
 
-#include "afm/detail/multiversion.h"
 #include "afm/detail/select.h"
 #include "afm/detail/turns.h"
 
 namespace afm {
 
 // Natural logarithm, x > 0, error below 1e-15: by the series of artanh(z), z = (m-1)/(m+1), up to z^23.
-AFM_INLINED double portable_log(double x) {
+inline double portable_log(double x) {
   constexpr double kLog2 = 0.6931471805599453;
   int exponent = 0;
   double m = std::frexp(x, &exponent);
@@ -31,7 +30,7 @@ namespace exp_detail {
 // e^r 2^k, where power(k + kRounder) is 2^k. The terms are added in pairs, which shortens the chain of dependent
 // operations.
 template <class T, class Power>
-AFM_INLINED T exp_of(const T& x, const Power& power) {
+inline T exp_of(const T& x, const Power& power) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
   const T shifted = x * T(1.4426950408889634) + T(turns_detail::kRounder), k = shifted - T(turns_detail::kRounder);
   const T r = mul_add(T(-k), T(kLog2Low), mul_add(T(-k), T(kLog2High), x));
@@ -47,7 +46,7 @@ AFM_INLINED T exp_of(const T& x, const Power& power) {
 }  // namespace exp_detail
 
 // e^x for |x| < 700, error below 1e-15 of it. Beyond that the result means nothing, but is the same on every machine.
-AFM_INLINED double portable_exp(double x) {
+inline double portable_exp(double x) {
   return exp_detail::exp_of(x, [](double shifted) {
     std::uint64_t bits;
     std::memcpy(&bits, &shifted, sizeof bits);

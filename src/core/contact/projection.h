@@ -6,7 +6,6 @@
 
 #include "afm/contact.h"
 #include "afm/detail/chatter_rates.h"
-#include "afm/detail/multiversion.h"
 #include "afm/surface.h"
 
 namespace afm {
@@ -25,7 +24,7 @@ struct ProjectedOf {
 
 // Takes the normal velocity out. The tangential velocity stays.
 template <class T>
-AFM_INLINED ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>& state) {
+inline ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>& state) {
   using std::sqrt;
   const T slope = free * surface_jet(H, state.phase).h1, N2 = T(1.0) + slope * slope, N = sqrt(N2);
   const T u = state.u + slope * state.g1 / N2;
@@ -34,7 +33,7 @@ AFM_INLINED ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>
 
 // Puts a normal velocity back.
 template <class T>
-AFM_INLINED Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& reference, const T& normal_speed) {
+inline Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& reference, const T& normal_speed) {
   using std::sqrt;
   const T slope = free * surface_jet(H, reference.phase).h1, N = sqrt(T(1.0) + slope * slope);
   return {reference.phase, reference.X, reference.u - slope * normal_speed / N, normal_speed * N};
@@ -42,7 +41,7 @@ AFM_INLINED Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& 
 
 // The reference slide, displaced by sigma along the surface, and faster by p along it.
 template <class T>
-AFM_INLINED SlideState<T> moved_reference_of(const T& H, const SlideState<T>& reference, const ChatterOf<T>& chatter) {
+inline SlideState<T> moved_reference_of(const T& H, const SlideState<T>& reference, const ChatterOf<T>& chatter) {
   using std::sqrt;
   const auto N = [&](const T& phase) {
     const T slope = surface_jet(H, phase).h1;

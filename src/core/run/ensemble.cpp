@@ -33,13 +33,10 @@ void Ensemble::advance_all(std::uint32_t events, const Limit& limit, Impact* log
   on_threads(threads_, size(), [&](std::size_t i) {
     Member& m = members_[i];
     Impact* record = log == nullptr ? nullptr : log + i * events;
-    for (m.events = m.search_failures = 0; m.events < events; ++m.events) {
+    for (m.events = 0; m.events < events; ++m.events) {
       const Outcome outcome = m.tip.advance(limit(i));
-      if (outcome == Outcome::time_limit) return;
-      if (outcome == Outcome::search_failed)
-        ++m.search_failures;
-      else if (record != nullptr)
-        *record++ = m.tip.last_impact();
+      if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return;
+      if (record != nullptr) *record++ = m.tip.last_impact();
     }
   });
 }

@@ -16,9 +16,7 @@ constexpr double kMinProgress = 0.1;
 // only its fourth derivative, below 1e4 a/tau^4, so that each step is at least 1e-5 tau.
 constexpr double kNoGap = 1e-17;
 
-Landing<double> find_in_double(const Flight<double>& flight, double horizon) {
-  return find_impact(flight, horizon);
-}
+Landing<double> find_in_double(const Flight<double>& flight, double horizon) { return find_impact(flight, horizon); }
 
 Landing<double> rounded(const Landing<DoubleDouble>& landing) {
   const auto d = [](const DoubleDouble& x) { return static_cast<double>(x); };

@@ -19,7 +19,7 @@ Deflection flight_deflection(const Flight<double>& flight, double s) {
   return {q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
 }
 
-// `slide`: a step in contact or a reference slide. `displacement`: its series, which a step in contact makes when asked.
+// `slide`: a step in contact or a reference slide. `displacement`: its series; a step in contact makes it when asked.
 template <class Slide>
 Deflection slide_deflection(const Slide& slide, const Series<double>& displacement, double s) {
   const Mechanics<double>& m = slide.mechanics();
@@ -40,13 +40,17 @@ double Tip::deflections(const SampleGrid& grid, std::uint64_t first, std::size_t
       lowest = std::min(lowest, d.gap);
     }
   };
-  if (in_contact()) {
-    const Series<double> displacement = contact_.displacement();
-    take([&](double s) { return slide_deflection(contact_, displacement, s); });
-  } else if (in_chatter()) {
-    take([&](double s) { return slide_deflection(slide_, slide_.displacement(), s); });
+  if (const Flying* flying = std::get_if<Flying>(&phase_)) {
+    take([&](double s) { return flight_deflection(flying->flight, s); });
+  } else if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) {
+    const Series<double> displacement = sliding->step.displacement();
+    take([&](double s) { return slide_deflection(sliding->step, displacement, s); });
+  } else if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
+    const SlideSegment<double>& reference = chattering->reference;
+    take([&](double s) { return slide_deflection(reference, reference.displacement(), s); });
   } else {
-    take([&](double s) { return flight_deflection(flight_, s); });
+    const FreeState touching = state();
+    take([&](double) -> Deflection { return {touching.y - model_.y0, touching.X, 0.0}; });
   }
   return lowest;
 }

@@ -53,10 +53,10 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       slowest_chatter_(contact_tolerance / kErrorGrowth),
       law_(model, slowest_chatter_),
       entry_speed_(chatter_entry_speed(contact_tolerance)),
-      flight_(mechanics_, eta, constrained(checked(start))),
-      slide_(mechanics_, eta, {start.phase, start.X, start.u}) {
-  const TipState& launched = flight_.launch();
-  if (launched.g == 0.0 && !(launched.g1 < 0.0)) leave_or_press();
+      phase_(std::in_place_type<Flying>, mechanics_, eta, constrained(checked(start))) {
+  Flying& flying = std::get<Flying>(phase_);
+  const TipState& launched = flying.flight.launch();
+  launched.g == 0.0 && !(launched.g1 < 0.0) ? leave_or_press(flying) : find_landing(flying);
 }
 
 // The state with the constraint of the hammer, which moves along x with its holder. Height and vertical velocity stay.
@@ -70,112 +70,109 @@ TipState Tip::constrained(const TipState& state) const {
   return s;
 }
 
-void Tip::fly(const TipState& start) {
-  launch(mechanics_, eta_, constrained(start), flight_);
-  begin_flight();
-  const GapJet<double>& gap = flight_.start();
-  // a hammer that one command lifts off, and a second command at the same time does not
-  if (gap.g == 0.0 && gap.g1 == 0.0 && gap.g2 < 0.0) mode_ = Mode::touching;
-}
-
-void Tip::begin_flight() {
-  mode_ = Mode::flying;
-  is_split_ = false;
-  start_ = now_;
-  landing_known_ = false;
-}
-
-// A step that follows another one begins with its length.
-void Tip::slide(const SlideState<double>& start) {
-  const ContactStep::Hint hint = mode_ == Mode::sliding ? contact_.hint() : ContactStep::Hint{};
-  new (&contact_) ContactStep(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u},
-                              step_tolerance(contact_tolerance_), hint);
-  mode_ = Mode::sliding;
-  is_split_ = false;
-  start_ = now_;
-  const double release = contact_.find_release();
-  slide_releases_ = release >= 0.0;
-  slide_end_ = slide_releases_ ? release : contact_.length();
-}
-
-void Tip::refer_to(const SlideState<double>& start, int bits) {
-  slide_from(mechanics_, eta_, {wrap_phase(start.phase), start.X, start.u}, bits, slide_);
-  mode_ = Mode::chattering;
-  start_ = now_;
-  const double release = release_of(slide_);
-  slide_releases_ = release >= 0.0;
-  slide_end_ = slide_releases_ ? release : slide_.length();
-}
-
-SlideState<double> Tip::surface_state(double s) const {
-  return mode_ == Mode::sliding ? contact_.at(s) : slide_at(slide_, s);
-}
-
-void Tip::start_chatter(const SlideState<double>& reference, const Chatter& start) {
-  refer_to(reference, reference_bits(kErrorGrowth * slowest_chatter_));
-  chatter_ = start;
-  chatter_run_ = law_.run(slide_, 0.0, slide_end_, start);
-}
-
-// A flight has just begun on the surface. If the surface presses, contact begins, or a chatter sequence with this
-// bounce.
-void Tip::leave_or_press() {
-  const TipState& start = flight_.launch();
-  const double g2 = flight_.start().g2;
-  if (!(start.g1 > 0.0)) {
-    // a pull within rounding is no release (mechanics.h): on the glide at eta = 1 the reaction is zero for ever
-    if (g2 < release_noise(mechanics_, start.u, start.X)) mode_ = Mode::touching;
-  } else if (g2 < 0.0 && start.g1 <= entry_speed_ && law_.holds(flight_)) {
-    const Projection projected_tip = project_onto_surface(model_, start);
-    sequence_begin_ = now_;
-    sequence_normal_speed_ = projected_tip.normal_speed;
-    const double v = projected_tip.normal_speed, bounce = bounce_impulse(projected_tip.reference, v);
-    sequence_energy_ = slide_energy(mechanics_, projected_tip.reference) + 0.5 * v * v + eta_ * bounce;
-    sequence_gain_ = 0.0;
-    sequence_impulse_ = -bounce;
-    is_split_ = false;
-    start_chatter(projected_tip.reference, {projected_tip.normal_speed, 0.0});
-  }
-}
-
 void Tip::set_tolerance(double contact_tolerance) {
   contact_tolerance_ = contact_tolerance;
   slowest_chatter_ = contact_tolerance / kErrorGrowth;
   entry_speed_ = chatter_entry_speed(contact_tolerance);
 }
 
-TipState Tip::tip_state() const {
-  if (on_slide()) {
-    const SlideState<double> q = surface_state(now_ - start_);
-    return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
-  }
-  TipState state = state_of(flight_, now_ - start_);
-  state.g = std::fmax(state.g, 0.0);
-  return state;
+void Tip::set_laws(const Model& model) {
+  model_ = model;
+  mechanics_ = Mechanics<double>(model);
+  law_ = ChatterLaw(model, slowest_chatter_);
+}
+
+// --- A phase begins now ---
+
+// A pull within rounding is no release (mechanics.h): on the glide at eta = 1 the reaction is zero for ever.
+bool Tip::rests(const Flight<double>& flight, Leaves leaves) const {
+  const TipState& start = flight.launch();
+  const double rounding = leaves == Leaves::above_rounding ? release_noise(mechanics_, start.u, start.X) : 0.0;
+  return start.g == 0.0 && start.g1 == 0.0 && flight.start().g2 < rounding;
+}
+
+void Tip::fly(const TipState& start, Leaves leaves) {
+  Flying& flying = phase_.emplace<Flying>(mechanics_, eta_, constrained(start));
+  start_ = now_;
+  // a hammer that one command lifts off, and a second command at the same time does not, rests
+  rests(flying.flight, leaves) ? touch(flying.flight.launch()) : find_landing(flying);
 }
 
 // The search ends just after the next kick, if that comes first.
-void Tip::find_landing() {
+void Tip::find_landing(Flying& flying) {
   constexpr double kBeyondKick = 1e-6;  // [tau] far above rounding, so that the kick comes before the end of the search
   const double horizon = std::fmin(kSearchHorizon, thermostat_.next() - start_ + kBeyondKick);
-  new (&landing_) Landing<double>(afm::find_landing(model_, flight_, horizon));  // in place, see tip_motion.cpp
-  landing_known_ = true;
+  // in its place: a copy would wait for memory
+  new (&flying.landing) Landing<double>(afm::find_landing(model_, flying.flight, horizon));
+  end_ = flying.landing.s;
 }
 
-ModelTime Tip::segment_end() {
+void Tip::touch(const TipState& state) {
+  phase_ = Touching{state};
+  start_ = now_;
+  end_ = 0.0;
+}
+
+// A step that follows another one begins with its length.
+void Tip::slide(const SlideState<double>& start) {
+  const Sliding* before = std::get_if<Sliding>(&phase_);
+  const ContactStep::Hint hint = before != nullptr ? before->step.hint() : ContactStep::Hint{};
+  const SlideState<double> from{wrap_phase(start.phase), start.X, start.u};
+  Sliding& sliding = phase_.emplace<Sliding>(mechanics_, eta_, from, step_tolerance(contact_tolerance_), hint);
+  const double release = sliding.step.find_release();
+  sliding.releases = release >= 0.0;
+  sliding.begin = {now_, 0.0, 0.0, slide_energy(mechanics_, from), 0};
+  start_ = now_;
+  end_ = sliding.releases ? release : sliding.step.length();
+}
+
+// The caller sets what happens along it.
+Tip::Chattering& Tip::refer_to(const SlideState<double>& start, int bits) {
+  const SlideState<double> from{wrap_phase(start.phase), start.X, start.u};
+  start_ = now_;
+  return phase_.emplace<Chattering>(mechanics_, eta_, from, bits);
+}
+
+void Tip::chatter_along(const SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
+                        const Account& begin) {
+  Chattering& chattering = refer_to(start, reference_bits(kErrorGrowth * slowest_chatter_));
+  const double release = chattering.reference.find_release();
+  chattering.releases = release >= 0.0;
+  chattering.chatter = chatter;
+  chattering.run =
+      law_.run(chattering.reference, 0.0, chattering.releases ? release : chattering.reference.length(), chatter);
+  chattering.sequence = sequence;
+  chattering.begin = begin;
+  end_ = chattering.run.s;
+}
+
+// --- Time passes ---
+
+TipState Tip::tip_state() const {
+  const auto on_surface = [](const SlideState<double>& q) -> TipState {
+    return {wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
+  };
+  const double s = now_ - start_;
+  if (const Flying* flying = std::get_if<Flying>(&phase_)) {
+    TipState state = flying->flight.tip_state(s);
+    state.g = std::fmax(state.g, 0.0);
+    return state;
+  }
+  if (const Touching* touching = std::get_if<Touching>(&phase_)) return touching->state;
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return on_surface(sliding->step.at(s));
+  return on_surface(std::get<Chattering>(phase_).reference.at(s));
+}
+
+// A command ends a phase at now(), not a rounding earlier.
+ModelTime Tip::event_time() const {
+  if (pending_) return now_;
+  const ModelTime end = start_ + end_;
+  return end < now_ ? now_ : end;
+}
+
+ModelTime Tip::segment_end() const {
   const ModelTime event = event_time();
   return thermostat_.next() < event ? thermostat_.next() : event;
-}
-
-ModelTime Tip::event_time() {
-  if (pending_) return now_;
-  if (on_slide()) {
-    const ModelTime end = start_ + (mode_ == Mode::sliding ? slide_end_ : chatter_run_.s);
-    return end < now_ ? now_ : end;  // a command ends it at now(), not a rounding earlier
-  }
-  if (mode_ == Mode::touching) return start_;
-  if (!landing_known_) find_landing();
-  return start_ + landing_.s;
 }
 
 Outcome Tip::advance_segment(const ModelTime& limit, Segments* ended) {
@@ -187,23 +184,20 @@ Outcome Tip::advance_segment(const ModelTime& limit, Segments* ended) {
     now_ = now_ < limit ? limit : now_;
     return Outcome::time_limit;
   }
-  if (kicked) {
-    now_ = end;
-    return kick(ended);
-  }
-  if (pending_) {
-    pending_ = false;
-    last_impact_ = pending_impact_;
-    return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
-  }
-  now_ = now_ < end ? end : now_;
-  return end_segment(ended);
+  now_ = end;
+  if (kicked) return kick(ended);
+  if (!pending_) return end_phase(ended);
+  last_impact_ = *pending_;
+  pending_.reset();
+  return last_impact_.kind == ImpactKind::burst ? Outcome::impact : Outcome::released;
 }
 
 Outcome Tip::advance(const ModelTime& limit) {
   for (;;) {
+    const ModelTime begin = now_;
     const Outcome outcome = advance_segment(limit);
-    if (outcome != Outcome::flying) return outcome;
+    const bool goes_on = outcome == Outcome::search_failed && begin < now_;
+    if (outcome != Outcome::flying && !goes_on) return outcome;
   }
 }
 

@@ -24,29 +24,35 @@ double held_impulse(const Mechanics<double>& m, double eta, const SlideState<dou
 
 }  // namespace
 
-double Tip::slide_impulse(double s) const {
-  if (mechanics_.is_free_along_x > 0.0) return spring_impulse(mechanics_, contact_.extension_integral(s));
-  const SlideState<double>& start = contact_.start();
-  const double work = slide_energy(mechanics_, contact_.at(s)) - slide_energy(mechanics_, start);
-  return held_impulse(mechanics_, eta_, start, contact_.pressure(start), s, work);
+double Tip::slide_impulse(const ContactStep& step, double s) const {
+  if (mechanics_.is_free_along_x > 0.0) return spring_impulse(mechanics_, step.extension_integral(s));
+  const double work = slide_energy(mechanics_, step.at(s)) - slide_energy(mechanics_, step.start());
+  return held_impulse(mechanics_, eta_, step.start(), step.pressure(step.start()), s, work);
 }
 
-// A chatter sequence at the time s of slide_. `gain` is the work of the drag minus the change of the energy stored in
-// the slide: the bounces lose it beyond the fall of v^2/2.
-Tip::SequenceState Tip::sequence_state(double s, const Chatter& chatter) const {
-  const SlideState<double> reference = slide_at(slide_, s), moved = moved_reference(model_, reference, chatter);
-  const double start = slide_energy(mechanics_, slide_.start()), after = slide_energy(mechanics_, moved);
-  SequenceState r{moved, sequence_gain_, sequence_impulse_, after + 0.5 * chatter.v * chatter.v};
+Chatter Tip::chatter_now(const Chattering& chattering) const {
+  return law_.at(chattering.reference, now_ - start_, chattering.chatter);
+}
+
+// At the time s of the reference slide. `gain` is the work of the drag minus the change of the energy stored in the
+// slide: the bounces lose it beyond the fall of v^2/2.
+Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const {
+  const SlideSegment<double>& slide = chattering.reference;
+  const SlideState<double> reference = slide.at(s), moved = moved_reference(model_, reference, chatter);
+  const double start = slide_energy(mechanics_, slide.start()), after = slide_energy(mechanics_, moved);
+  SequenceState r{moved, after + 0.5 * chatter.v * chatter.v, chattering.sequence};
+  double& gain = r.sequence.gain;
+  double& impulse = r.sequence.impulse;
   if (mechanics_.is_free_along_x > 0.0) {
-    const double stretch = extension_integral(slide_, s), force = spring_impulse(mechanics_, 1.0) * eta_;
-    r.gain += force * stretch;
-    r.gain += force * chatter.drift - (after - start) + chatter.held_work;
-    r.impulse = r.impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
+    const double stretch = extension_integral(slide, s), force = spring_impulse(mechanics_, 1.0) * eta_;
+    gain += force * stretch;
+    gain += force * chatter.drift - (after - start) + chatter.held_work;
+    impulse = impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
   } else {
-    const double along = slide_energy(mechanics_, reference);
-    r.gain += chatter.held_work - (after - along);
-    r.impulse = r.impulse + held_impulse(mechanics_, eta_, slide_.start(), slide_.pressure(0.0), s, along - start) +
-                held_impulse(mechanics_, eta_, slide_.start(), slide_.pressure(0.0), 0.0, chatter.held_work);
+    const double along = slide_energy(mechanics_, reference), pressure = slide.pressure(0.0);
+    gain += chatter.held_work - (after - along);
+    impulse = impulse + held_impulse(mechanics_, eta_, slide.start(), pressure, s, along - start) +
+              held_impulse(mechanics_, eta_, slide.start(), pressure, 0.0, chatter.held_work);
   }
   return r;
 }
@@ -57,42 +63,65 @@ double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
   return mechanics_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
 }
 
-Account Tip::account_at_begin() const {
-  if (is_split_) return split_;
-  if (mode_ == Mode::chattering) return {sequence_begin_, 0.0, 0.0, sequence_energy_, 0};
-  if (mode_ == Mode::sliding) return {start_, 0.0, 0.0, slide_energy(mechanics_, contact_.start()), 0};
-  return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flight_.start().state), 0};
-}
-
-// At the time s of the segment under way; `chatter` is the state of a chatter sequence there.
-Account Tip::account_at(double s, const Chatter& chatter) const {
-  if (mode_ == Mode::chattering) {
-    const SequenceState r = sequence_state(s, chatter);
-    const double bounce = bounce_impulse(r.moved, chatter.v), energy = r.energy + eta_ * bounce;
-    return {now_, r.impulse + bounce, chatter_loss(chatter.v, r.gain), energy, static_cast<std::uint64_t>(chatter.n)};
-  }
-  if (mode_ == Mode::sliding) {
-    return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, contact_.at(s)), 0};
-  }
-  return flight_account(flight_state(flight_, s));
-}
-
 // In a flight the impulse is the change of the lateral velocity.
-Account Tip::flight_account(const FlightState<double>& q) const {
-  return {now_, q.U - flight_.start().state.U, 0.0, energy_of(mechanics_, eta_, q), 0};
+Account Tip::flight_account(const Flying& flying, const FlightState<double>& q) const {
+  return {now_, q.U - flying.flight.start().state.U, 0.0, energy_of(mechanics_, eta_, q), 0};
+}
+
+Account Tip::contact_account(const Sliding& sliding, double s) const {
+  return {now_, slide_impulse(sliding.step, s), 0.0, slide_energy(mechanics_, sliding.step.at(s)), 0};
+}
+
+Account Tip::chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const {
+  const SequenceState r = sequence_state(chattering, s, chatter);
+  const double bounce = bounce_impulse(r.moved, chatter.v), energy = r.energy + eta_ * bounce;
+  const double loss = chatter_loss(r.sequence.normal_speed, chatter.v, r.sequence.gain);
+  return {now_, r.sequence.impulse + bounce, loss, energy, static_cast<std::uint64_t>(chatter.n)};
+}
+
+Account Tip::account_at_begin() const {
+  if (const Flying* flying = std::get_if<Flying>(&phase_)) {
+    return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flying->flight.start().state), 0};
+  }
+  if (const Touching* touching = std::get_if<Touching>(&phase_)) {
+    const TipState& q = touching->state;
+    return {start_, 0.0, 0.0, slide_energy(mechanics_, {q.phase, q.X, q.u}), 0};
+  }
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return sliding->begin;
+  return std::get<Chattering>(phase_).begin;
 }
 
 Account Tip::account() const {
-  if (mode_ == Mode::touching) return account_at_begin();
-  return account_at(now_ - start_, mode_ == Mode::chattering ? chatter_now() : Chatter{});
+  const double s = now_ - start_;
+  if (const Flying* flying = std::get_if<Flying>(&phase_)) return flight_account(*flying, flying->flight.at(s));
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return contact_account(*sliding, s);
+  if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
+    return chatter_account(*chattering, s, chatter_now(*chattering));
+  }
+  return account_at_begin();
+}
+
+// To the last digit. Chatter that has died has no normal speed left.
+Account Tip::account_at_end() const {
+  if (const Flying* flying = std::get_if<Flying>(&phase_)) {
+    const bool lands = flying->landing.outcome == SearchOutcome::impact;
+    return flight_account(*flying, lands ? flying->landing.jet.state : flying->flight.at(end_));
+  }
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return contact_account(*sliding, end_);
+  if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
+    Chatter chatter = chattering->run.chatter;
+    if (chattering->run.end == ChatterEnd::died) chatter.v = 0.0;
+    Account end = chatter_account(*chattering, end_, chatter);
+    end.count = whole_count(chatter.n);
+    return end;
+  }
+  return account_at_begin();
 }
 
 Segment Tip::segment_to(const Account& end) const {
   const Account begin = account_at_begin();
   Segment s;
-  s.kind = mode_ == Mode::chattering ? SegmentKind::chatter
-           : mode_ == Mode::sliding  ? SegmentKind::contact
-                                     : SegmentKind::flight;
+  s.kind = in_chatter() ? SegmentKind::chatter : in_contact() ? SegmentKind::contact : SegmentKind::flight;
   s.begin = begin.time;
   s.end = end.time;
   s.eta = eta_;
@@ -105,52 +134,19 @@ Segment Tip::segment_to(const Account& end) const {
 
 Segment Tip::segment() const { return segment_to(account()); }
 
-// A command that leaves the tip on the surface ends the segment within the phase.
-void Tip::split_account() {
-  is_split_ = false;
-  split_ = account();
-  is_split_ = true;
-}
-
-// At the end of the segment under way, to the last digit. Chatter that has died has no normal speed left.
-Account Tip::account_at_end() const {
-  if (mode_ == Mode::touching) return account_at_begin();
-  if (mode_ == Mode::sliding) return account_at(slide_end_, {});
-  if (mode_ == Mode::flying) {
-    const bool lands = landing_.outcome == SearchOutcome::impact;
-    return lands ? flight_account(landing_.jet.state) : account_at(landing_.s, {});
-  }
-  Chatter chatter = chatter_run_.chatter;
-  if (chatter_run_.end == ChatterEnd::died) chatter.v = 0.0;
-  Account end = account_at(chatter_run_.s, chatter);
-  end.count = whole_count(chatter.n);
-  return end;
-}
-
-// The flight that begins with it is in the tip, also where the tip does not fly it.
-Segment Tip::impact_segment(double energy_before) const {
-  const GapJet<double>& after = flight_.start();
+// `after` is the flight that begins with the impact, also where the tip does not fly it.
+Segment Tip::impact_segment(const Landing<double>& landing, const Flight<double>& after) const {
+  const GapJet<double>& left = after.start();
   Segment s;
   s.kind = SegmentKind::impact;
   s.begin = s.end = now_;
   s.eta = eta_;
   // the holder of the hammer takes the impulse along x
-  if (mechanics_.is_free_along_x == 0.0) s.impulse = landing_.jet.h1 * (after.g1 - landing_.jet.g1);
+  if (mechanics_.is_free_along_x == 0.0) s.impulse = landing.jet.h1 * (left.g1 - landing.jet.g1);
   s.loss = last_impact_.energy_loss;
-  s.stored = energy_of(mechanics_, eta_, after.state) - energy_before;
+  s.stored = energy_of(mechanics_, eta_, left.state) - energy_of(mechanics_, eta_, landing.jet.state);
   s.count = last_impact_.count;
   return s;
-}
-
-// A Taylor series of the reference slide that another one follows ends no record.
-Outcome Tip::end_segment(Segments& ended) {
-  if (sequence_goes_on()) return end_segment();
-  const Account end = account_at_end();
-  ended.add(segment_to(end));
-  const Outcome outcome = end_segment();
-  const bool bounced = outcome == Outcome::impact && last_impact_.kind == ImpactKind::impact;
-  if (bounced) ended.add(impact_segment(end.energy));
-  return outcome;
 }
 
 }  // namespace afm

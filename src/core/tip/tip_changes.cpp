@@ -4,99 +4,91 @@
 
 namespace afm {
 
-Chatter Tip::chatter_now() const { return law_.at(slide_, now_ - start_, chatter_); }
-
 void Tip::drag(double eta) {
   if (eta == eta_) return;
-  if (model_.kind == ModelKind::hammer && on_slide()) return jolt(eta);
-  const TipState state = tip_state();
-  SlideState<double> reference{state.phase, state.X, state.u};
-  if (mode_ == Mode::chattering) {
-    const Chatter chatter = chatter_now();
-    reference = leave_reference(now_ - start_, chatter);
+  if (model_.kind == ModelKind::hammer && is_on_slide()) return jump_holder_velocity(eta);
+  if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
+    const Chatter chatter = chatter_now(*chattering);
+    const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
     eta_ = eta;
-    start_chatter(reference, {chatter.v, chatter.n});
-    return split_account();
+    chatter_along(sequence.moved, {chatter.v, chatter.n}, sequence.sequence, {});
+    return split_record();
   }
+  const TipState state = tip_state();
   eta_ = eta;
-  if (mode_ == Mode::sliding) return slide(reference);
-  const bool due = mode_ == Mode::touching;
-  fly(state);
-  if (due && flight_.launch().g1 == 0.0) mode_ = Mode::touching;
+  if (in_contact()) return slide({state.phase, state.X, state.u});
+  const bool touches = std::holds_alternative<Touching>(phase_) && constrained(state).g1 == 0.0;
+  touches ? touch(constrained(state)) : fly(state);
 }
 
 // The hammer on the surface gets the new velocity of its holder at once. So its gap rate jumps: it lifts off, or has an
 // impact.
-void Tip::jolt(double eta) {
+void Tip::jump_holder_velocity(double eta) {
   end_slide_now();
   eta_ = eta;
-  split_account();
+  split_record();
 }
 
 // Lets the next advance end the chatter sequence or contact at now().
 void Tip::end_slide_now() {
   const double s = now_ - start_;
-  if (mode_ == Mode::sliding) {
-    slide_end_ = s;
-    slide_releases_ = true;
-  } else {
-    chatter_run_ = {ChatterEnd::exits, s, chatter_now()};
+  if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->releases = true;
+  if (Chattering* chattering = std::get_if<Chattering>(&phase_)) {
+    chattering->run = {ChatterEnd::exits, s, chatter_now(*chattering)};
   }
+  end_ = s;
 }
 
-void Tip::set_laws(const Model& model) {
-  model_ = model;
-  mechanics_ = Mechanics<double>(model);
-  law_ = ChatterLaw(model, slowest_chatter_);
+// A command that leaves the tip on the surface ends the record within the phase.
+void Tip::split_record() {
+  const Account now = account();
+  if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->begin = now;
+  if (Chattering* chattering = std::get_if<Chattering>(&phase_)) chattering->begin = now;
 }
 
 void Tip::set_parameters(const Model& model) {
-  const TipState state = tip_state();
-  SlideState<double> reference{state.phase, state.X, state.u};
-  if (mode_ == Mode::chattering) {
-    const Chatter chatter = chatter_now();
-    reference = leave_reference(now_ - start_, chatter);
+  if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
+    const Chatter chatter = chatter_now(*chattering);
+    const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
     set_laws(model);
-    refer_to(reference, kSlideBits);
-    chatter_ = {chatter.v, chatter.n};
-    chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
-    return split_account();
+    Chattering& last = refer_to(sequence.moved, kSlideBits);
+    last.chatter = {chatter.v, chatter.n};
+    last.sequence = sequence.sequence;
+    last.run = {ChatterEnd::exits, 0.0, last.chatter};
+    end_ = 0.0;
+    return split_record();
   }
+  const TipState state = tip_state();
   set_laws(model);
-  if (mode_ == Mode::sliding) return slide(reference);
-  fly(state);
-  if (state.g == 0.0 && state.g1 == 0.0) leave_or_press();
+  if (in_contact()) return slide({state.phase, state.X, state.u});
+  fly(state, Leaves::above_rounding);
 }
 
 // Ends the chatter sequence or contact at once. The next advance reports the event.
 void Tip::leave_now() {
   end_slide_now();
-  mode_ == Mode::sliding ? end_slide() : end_chatter();
-  pending_ = true;
-  pending_impact_ = last_impact_;
+  end_phase(nullptr);
+  pending_ = last_impact_;
 }
 
 double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
-  const bool jolted = mode_ == Mode::sliding && slide_releases_ && start_ + slide_end_ <= now_;
-  if (mode_ == Mode::chattering || jolted || (mode_ == Mode::sliding && drops)) leave_now();
+  const Sliding* sliding = std::get_if<Sliding>(&phase_);
+  const bool jumped = sliding != nullptr && sliding->releases && start_ + end_ <= now_;
+  if (in_chatter() || jumped || (in_contact() && drops)) leave_now();
   const TipState state = tip_state();
   const double spring = mechanics_.omega_h * state.X;
   Model model = model_;
   model.kind = kind;
   set_tolerance(contact_tolerance);
   set_laws(model);
-  if (mode_ == Mode::sliding) {
+  if (in_contact()) {
     slide({state.phase, state.X, state.u});
     return 0.0;
   }
-  const bool due = mode_ == Mode::touching;
-  fly(state);
-  const TipState& launched = flight_.launch();
-  if (launched.g == 0.0 && launched.g1 == 0.0) {
-    leave_or_press();
-    if (due) mode_ = Mode::touching;
-  }
+  const TipState launched = constrained(state);
+  const bool touches = std::holds_alternative<Touching>(phase_) && launched.g == 0.0 && launched.g1 == 0.0;
+  touches ? touch(launched) : fly(state, Leaves::above_rounding);
   if (!drops) return 0.0;
   return 0.5 * (spring * spring + (state.u - eta_) * (state.u + eta_));
 }

@@ -1,100 +1,126 @@
-// What happens at the end of a segment of motion: impact, end of a chatter sequence, contact, release, end of a search.
+// The transitions at the end of a phase of motion: impact, chatter, contact, release (docs/algorithm.md).
+#include <cmath>
+#include <new>
+
 #include "afm/reflection.h"
 #include "afm/tip.h"
 #include "tip_motion.h"
 
 namespace afm {
+namespace {
 
-Outcome Tip::land() {
-  Bounce b;
-  rebound(model_, mechanics_, eta_, landing_, flight_, b);
-  last_impact_ = {now_, b.phase, b.normal_speed, b.tangential_velocity, b.energy_loss, ImpactKind::impact, 1};
-  begin_flight();
-  leave_or_press();
+// A flight shorter than this part of the fastest turn may be rounding: 4500 ulp of a phase.
+constexpr double kMinFlight = 1e-12;
+
+// A flight that is shorter than rounding, under a force within rounding, is no flight: its end is rounding too. Without
+// this a drag of 1e-18 a/tau, which moves no phase, would repeat it for ever.
+bool is_rounding(const Flight<double>& flight, double s) {
+  const TipState& start = flight.launch();
+  return s * flight.bounds().fastest < kMinFlight && start.g1 > 0.0 &&
+         std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
+}
+
+}  // namespace
+
+Outcome Tip::end_phase(Segments* ended) {
+  Flying* flying = std::get_if<Flying>(&phase_);
+  Chattering* chattering = std::get_if<Chattering>(&phase_);
+  // a reference slide that another one follows ends no record
+  const bool goes_on = chattering != nullptr && chattering->run.end == ChatterEnd::time && !chattering->releases;
+  if (ended != nullptr && !goes_on) ended->add(segment_to(account_at_end()));
+  if (flying != nullptr) return end_flight(*flying, ended);
+  if (chattering != nullptr) return end_chatter(*chattering);
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return end_step(*sliding);
+  return begin_contact(std::get<Touching>(phase_).state);
+}
+
+Outcome Tip::end_flight(Flying& flying, Segments* ended) {
+  if (flying.landing.outcome == SearchOutcome::impact) return land(flying, ended);
+  const bool failed = flying.landing.outcome == SearchOutcome::cap;
+  search_failures_ += failed;
+  fly(flying.flight.tip_state(flying.landing.s));
+  return failed ? Outcome::search_failed : Outcome::flying;
+}
+
+// The next flight is constructed in the place of the one that ends: a copy would wait for memory, a tenth of an impact.
+// A bounce slower than kMinGapRate loses all its energy.
+Outcome Tip::land(Flying& flying, Segments* ended) {
+  const Landing<double>& landing = flying.landing;
+  const bool rounding = is_rounding(flying.flight, landing.s);
+  const Reflection r = reflect(model_, eta_, landing.jet);
+  const bool rests = rounding || r.after.g1 < kMinGapRate;
+  const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, rests ? 0.0 : r.after.g1};
+  new (&flying.flight) Flight<double>(mechanics_, eta_, after);
+  const double loss = rests ? 0.5 * r.normal_speed * r.normal_speed : r.energy_loss;
+  last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, loss, ImpactKind::impact, 1};
+  if (ended != nullptr) ended->add(impact_segment(landing, flying.flight));
+  start_ = now_;
+  leave_or_press(flying);
   return Outcome::impact;
 }
 
-// The energy that the bounces of a sequence have lost: the fall of v^2/2 since its begin, and `gain` (SequenceState).
-double Tip::chatter_loss(double v, double gain) const {
-  return 0.5 * (sequence_normal_speed_ - v) * (sequence_normal_speed_ + v) + gain;
+// After a bounce the tip flies. If the surface presses, contact begins, or a chatter sequence with this bounce.
+void Tip::leave_or_press(Flying& flying) {
+  const TipState& bounce = flying.flight.launch();
+  if (rests(flying.flight, Leaves::above_rounding)) {
+    touch(bounce);
+  } else if (flying.flight.start().g2 < 0.0 && bounce.g1 <= entry_speed_ && law_.holds(flying.flight)) {
+    begin_chatter(bounce);
+  } else {
+    find_landing(flying);
+  }
 }
 
-// True: only a Taylor series of the reference slide ends, not the sequence.
-bool Tip::sequence_goes_on() const {
-  return mode_ == Mode::chattering && chatter_run_.end == ChatterEnd::time && !slide_releases_;
+void Tip::begin_chatter(const TipState& bounce) {
+  const Projection start = project_onto_surface(model_, bounce);
+  const double v = start.normal_speed, impulse = bounce_impulse(start.reference, v);
+  const double energy = slide_energy(mechanics_, start.reference) + 0.5 * v * v + eta_ * impulse;
+  chatter_along(start.reference, {v, 0.0}, {now_, v, 0.0, -impulse}, {now_, 0.0, 0.0, energy, 0});
 }
 
-// To the state that the chatter has displaced from the reference slide.
-SlideState<double> Tip::leave_reference(double s, const Chatter& chatter) {
-  const SequenceState r = sequence_state(s, chatter);
-  sequence_gain_ = r.gain;
-  sequence_impulse_ = r.impulse;
-  return r.moved;
-}
-
-Outcome Tip::end_chatter() {
-  const ChatterRun run = chatter_run_;
-  if (sequence_goes_on()) {
-    start_chatter(leave_reference(run.s, run.chatter), {run.chatter.v, run.chatter.n});
+// It goes on along the next reference slide, dies, or exits into a flight.
+Outcome Tip::end_chatter(const Chattering& chattering) {
+  const ChatterRun run = chattering.run;
+  const SequenceState end = sequence_state(chattering, run.s, run.chatter);
+  if (run.end == ChatterEnd::time && !chattering.releases) {
+    chatter_along(end.moved, {run.chatter.v, run.chatter.n}, end.sequence, Account(chattering.begin));
     return Outcome::flying;
   }
-  const SlideState<double> reference = leave_reference(run.s, run.chatter);
   const bool died = run.end == ChatterEnd::died;
-  const TipState bounce = leave_surface(model_, reference, died ? 0.0 : run.chatter.v);
-  const Projection projected_tip = project_onto_surface(model_, bounce);
+  const double v = died ? 0.0 : run.chatter.v;
+  const TipState bounce = leave_surface(model_, end.moved, v);
   last_impact_ = {now_,
                   bounce.phase,
-                  sequence_normal_speed_,
-                  projected_tip.tangential_velocity,
-                  chatter_loss(died ? 0.0 : run.chatter.v, sequence_gain_),
+                  end.sequence.normal_speed,
+                  project_onto_surface(model_, bounce).tangential_velocity,
+                  chatter_loss(end.sequence.normal_speed, v, end.sequence.gain),
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
-  fly(bounce);
-  if (died) mode_ = Mode::touching;
+  died ? touch(constrained(bounce)) : fly(bounce);
   return Outcome::impact;
 }
 
-Outcome Tip::touch() {
-  const TipState state = flight_.launch();
+Outcome Tip::begin_contact(const TipState& state) {
   const double tangential = project_onto_surface(model_, state).tangential_velocity;
   last_impact_ = {now_, state.phase, 0.0, tangential, 0.0, ImpactKind::contact_begun, 0};
   slide({state.phase, state.X, state.u});
   return Outcome::contact;
 }
 
-Outcome Tip::end_slide() {
-  const SlideState<double> q = contact_.at(slide_end_);
-  if (!slide_releases_) {
-    const bool failed = !contact_.is_accurate();
+// Another step follows, or the surface releases the tip.
+Outcome Tip::end_step(const Sliding& sliding) {
+  const SlideState<double> q = sliding.step.at(end_);
+  if (!sliding.releases) {
+    const bool failed = !sliding.step.is_accurate();
+    search_failures_ += failed;
     slide(q);
     return failed ? Outcome::search_failed : Outcome::flying;
   }
   const TipState state{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0};
-  last_impact_ = {
-      now_, state.phase, 0.0, project_onto_surface(model_, state).tangential_velocity, 0.0, ImpactKind::contact_ended,
-      0};
+  const double tangential = project_onto_surface(model_, state).tangential_velocity;
+  last_impact_ = {now_, state.phase, 0.0, tangential, 0.0, ImpactKind::contact_ended, 0};
   fly(state);
   return Outcome::released;
-}
-
-Outcome Tip::end_flight() {
-  if (landing_.outcome == SearchOutcome::impact) return land();
-  const bool failed = landing_.outcome == SearchOutcome::cap;
-  fly(state_of(flight_, landing_.s));
-  return failed ? Outcome::search_failed : Outcome::flying;
-}
-
-Outcome Tip::end_segment() {
-  switch (mode_) {
-    case Mode::chattering:
-      return end_chatter();
-    case Mode::touching:
-      return touch();
-    case Mode::sliding:
-      return end_slide();
-    default:
-      return end_flight();
-  }
 }
 
 }  // namespace afm

@@ -8,7 +8,8 @@ namespace afm {
 
 void Tip::set_bath(const Bath& bath) {
   thermostat_.set(bath, model_.frequency_ratio, now_);
-  landing_known_ = false;  // the known search ends at the next kick of the old bath
+  // a search ends at the next kick
+  if (Flying* flying = std::get_if<Flying>(&phase_)) find_landing(*flying);
 }
 
 // Both velocities relative to the holder change. The hammer's lateral velocity is that of its holder and stays.
@@ -34,16 +35,16 @@ Segment Tip::kick_segment(const TipState& before, const TipState& after) const {
 // Contact goes on if the gap rate after the kick is below the threshold at which chatter becomes contact.
 bool Tip::stays_after(const Kick& kick) const {
   const double least = std::fmax(slowest_chatter_, kMinGapRate);
-  return mode_ == Mode::sliding && std::fabs(kicked(kick, tip_state()).g1) < least;
+  return in_contact() && std::fabs(kicked(kick, tip_state()).g1) < least;
 }
 
 Outcome Tip::kick(Segments* ended) {
   const Kick kick = thermostat_.draw();
   const bool stays = stays_after(kick);
   Outcome outcome = Outcome::flying;
-  if (on_slide() && !stays) {
+  if (is_on_slide() && !stays) {
     end_slide_now();
-    outcome = end_segment(ended);
+    outcome = end_phase(ended);
   } else if (ended != nullptr) {
     ended->add(segment());
   }

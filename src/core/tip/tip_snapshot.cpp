@@ -33,28 +33,25 @@ std::vector<ParameterError> find_faults(const TipSnapshot& s) {
   return faults;
 }
 
-bool Tip::is_settled() const {
-  const bool ends_now = (mode_ == Mode::sliding && start_ + slide_end_ <= now_) ||
-                        (mode_ == Mode::chattering && start_ + chatter_run_.s <= now_);
-  return !pending_ && !ends_now;
-}
+bool Tip::is_settled() const { return !pending_ && !(is_on_slide() && start_ + end_ <= now_); }
 
 TipSnapshot Tip::snapshot() const {
   TipSnapshot s;
   s.time = now_;
-  s.state = !on_slide() && now_ == start_ ? flight_.launch() : tip_state();
-  if (mode_ == Mode::sliding) s.phase = TipSnapshot::Phase::contact;
-  if (mode_ == Mode::touching) {
-    s.phase = TipSnapshot::Phase::touching;
-    s.state.g1 = 0.0;  // but for rounding
+  s.state = tip_state();
+  if (const Flying* flying = std::get_if<Flying>(&phase_); flying != nullptr && now_ == start_) {
+    s.state = flying->flight.launch();
   }
-  if (mode_ != Mode::chattering) return s;
-  const Chatter chatter = chatter_now();
-  const SequenceState sequence = sequence_state(now_ - start_, chatter);
+  if (std::holds_alternative<Touching>(phase_)) s.phase = TipSnapshot::Phase::touching;
+  if (in_contact()) s.phase = TipSnapshot::Phase::contact;
+  const Chattering* chattering = std::get_if<Chattering>(&phase_);
+  if (chattering == nullptr) return s;
+  const Chatter chatter = chatter_now(*chattering);
+  const SequenceState now = sequence_state(*chattering, now_ - start_, chatter);
   s.phase = TipSnapshot::Phase::chatter;
-  s.state = {wrap_phase(sequence.moved.phase), sequence.moved.X, sequence.moved.u, 0.0, 0.0};
-  s.sequence_normal_speed = sequence_normal_speed_;
-  s.sequence_gain = sequence.gain;
+  s.state = {wrap_phase(now.moved.phase), now.moved.X, now.moved.u, 0.0, 0.0};
+  s.sequence_normal_speed = now.sequence.normal_speed;
+  s.sequence_gain = now.sequence.gain;
   s.chatter_speed = chatter.v;
   s.chatter_count = chatter.n;
   return s;
@@ -65,15 +62,23 @@ Tip::Tip(const Model& model, double eta, const TipSnapshot& start, double contac
     : Tip(model, eta, start.state, contact_tolerance) {
   now_ = start.time;
   thermostat_ = thermostat;
-  begin_flight();  // the phase is known: a bounce begins no other chatter sequence
-  if (start.phase == TipSnapshot::Phase::touching) mode_ = Mode::touching;
+  // the phase is known: a bounce begins no other chatter sequence
   const SlideState<double> reference{start.state.phase, start.state.X, start.state.u};
-  if (start.phase == TipSnapshot::Phase::contact) slide(reference);
-  if (start.phase != TipSnapshot::Phase::chatter) return;
-  sequence_normal_speed_ = start.sequence_normal_speed;
-  sequence_gain_ = start.sequence_gain;
-  start_chatter(reference, {start.chatter_speed, start.chatter_count});
-  split_account();
+  switch (start.phase) {
+    case TipSnapshot::Phase::flight:
+      fly(start.state);
+      break;
+    case TipSnapshot::Phase::touching:
+      touch(constrained(start.state));
+      break;
+    case TipSnapshot::Phase::contact:
+      slide(reference);
+      break;
+    case TipSnapshot::Phase::chatter:
+      chatter_along(reference, {start.chatter_speed, start.chatter_count},
+                    {now_, start.sequence_normal_speed, start.sequence_gain, 0.0}, {});
+      split_record();
+  }
 }
 
 }  // namespace afm

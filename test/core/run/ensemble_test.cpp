@@ -62,7 +62,7 @@ Runs one_by_one(std::vector<Tip> tips, const ModelTime& limit) {
     for (int k = 0; k < kEvents; ++k) {
       const Outcome outcome = tips[i].advance(limit);
       if (outcome == Outcome::time_limit) break;
-      if (outcome != Outcome::search_failed) *log++ = tips[i].last_impact();
+      *log++ = tips[i].last_impact();
     }
   }
   return {std::move(tips), std::move(impacts)};

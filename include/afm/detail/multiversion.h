@@ -1,3 +1,0 @@
-#pragma once
-#define AFM_MULTIVERSION
-#define AFM_INLINED inline
