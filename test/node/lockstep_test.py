@@ -106,6 +106,7 @@ class Lockstep(EmulatorTest):
 
     def test_the_clock_rises_over_periods_and_resets(self):
         clock = Topic('/clock', Clock)
+        clock.wait_for_connection()
         for _ in range(3):
             begin = len(clock.messages)
             answer = self.advance(0.05)
