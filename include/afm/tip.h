@@ -26,7 +26,7 @@ struct DeflectionOf {
 using Deflection = DeflectionOf<double>;
 
 // The contact tolerance: error allowed in the state at the next impact when chatter is computed as a sequence [a,
-// a/tau]. At the default half of all sequences have an error below 4e-6, and 99 in 100 below 2e-4 (docs/stability.md).
+// a/tau]. At the default half of all sequences have an error below 2e-5, and 99 in 100 below 3e-4 (docs/stability.md).
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
@@ -129,7 +129,8 @@ class Tip {
   // In a chatter sequence: the tip displaced from the reference slide, and totals since the sequence began.
   struct SequenceState {
     SlideState<double> moved;
-    double gain, impulse, energy;  // energy lost beyond the fall of v^2/2; impulse of the holder; energy stored now
+    double v;                      // normal speed after the last bounce
+    double loss, impulse, energy;  // energy lost in the bounces; impulse of the holder; energy stored now
   };
 
   bool on_slide() const { return mode_ == Mode::sliding || mode_ == Mode::chattering; }
@@ -150,7 +151,7 @@ class Tip {
 
   // ends of phases (tip_events.cpp)
   bool sequence_goes_on() const;
-  SlideState<double> leave_reference(double s, const Chatter& chatter);
+  SequenceState leave_reference(double s, const Chatter& chatter);
   Outcome end_segment();
   Outcome end_segment(Segments& ended);
   Outcome end_segment(Segments* ended) { return ended == nullptr ? end_segment() : end_segment(*ended); }
@@ -172,7 +173,6 @@ class Tip {
   Chatter chatter_now() const;
   SequenceState sequence_state(double s, const Chatter& chatter) const;
   double slide_impulse(double s) const;
-  double chatter_loss(double v, double gain) const;
   double bounce_impulse(const SlideState<double>& at, double v) const;
   Account account() const;
   Account account_at(double s, const Chatter& chatter) const;
@@ -206,7 +206,7 @@ class Tip {
   ModelTime sequence_begin_;
   double sequence_normal_speed_ = 0.0;  // after its first bounce [a/tau]
   double sequence_energy_ = 0.0;        // stored at its begin
-  double sequence_gain_ = 0.0;          // up to start_, as in SequenceState
+  double sequence_loss_ = 0.0;          // up to start_, as in SequenceState
   double sequence_impulse_ = 0.0;       // up to start_
   Account split_;                       // at the last command within the phase under way
   bool is_split_ = false;

@@ -131,7 +131,7 @@ void Tip::leave_or_press() {
     sequence_normal_speed_ = projected_tip.normal_speed;
     const double v = projected_tip.normal_speed, bounce = bounce_impulse(projected_tip.reference, v);
     sequence_energy_ = slide_energy(mechanics_, projected_tip.reference) + 0.5 * v * v + eta_ * bounce;
-    sequence_gain_ = 0.0;
+    sequence_loss_ = 0.0;
     sequence_impulse_ = -bounce;
     is_split_ = false;
     start_chatter(projected_tip.reference, {projected_tip.normal_speed, 0.0});

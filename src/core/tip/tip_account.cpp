@@ -31,24 +31,25 @@ double Tip::slide_impulse(double s) const {
   return held_impulse(mechanics_, eta_, start, contact_.pressure(start), s, work);
 }
 
-// A chatter sequence at the time s of slide_. `gain` is the work of the drag minus the change of the energy stored in
-// the slide: the bounces lose it beyond the fall of v^2/2.
+// A chatter sequence at the time s of slide_. A hammer's bounces have gained `gain`, which its holder has given.
 Tip::SequenceState Tip::sequence_state(double s, const Chatter& chatter) const {
-  const SlideState<double> reference = slide_at(slide_, s), moved = moved_reference(model_, reference, chatter);
-  const double start = slide_energy(mechanics_, slide_.start()), after = slide_energy(mechanics_, moved);
-  SequenceState r{moved, sequence_gain_, sequence_impulse_, after + 0.5 * chatter.v * chatter.v};
-  if (mechanics_.is_free_along_x > 0.0) {
-    const double stretch = extension_integral(slide_, s), force = spring_impulse(mechanics_, 1.0) * eta_;
-    r.gain += force * stretch;
-    r.gain += force * chatter.drift - (after - start) + chatter.held_work;
-    r.impulse = r.impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
-  } else {
+  const SlideState<double> reference = slide_at(slide_, s);
+  const double start = slide_energy(mechanics_, slide_.start()), loss = sequence_loss_ + chatter.loss;
+  if (mechanics_.is_free_along_x == 0.0) {
+    const double v = chatter.v, gain = 0.5 * (v - chatter_.v) * (v + chatter_.v) + chatter.loss;
     const double along = slide_energy(mechanics_, reference);
-    r.gain += chatter.held_work - (after - along);
-    r.impulse = r.impulse + held_impulse(mechanics_, eta_, slide_.start(), slide_.pressure(0.0), s, along - start) +
-                held_impulse(mechanics_, eta_, slide_.start(), slide_.pressure(0.0), 0.0, chatter.held_work);
+    const double pressure = slide_.pressure(0.0);
+    const double impulse = held_impulse(mechanics_, eta_, slide_.start(), pressure, s, along - start) +
+                           held_impulse(mechanics_, eta_, slide_.start(), pressure, 0.0, gain);
+    return {reference, v, loss, sequence_impulse_ + impulse, along + 0.5 * v * v};
   }
-  return r;
+  const double impulse = spring_impulse(mechanics_, extension_integral(slide_, s) + chatter.drift);
+  const double wanted = start + 0.5 * chatter_.v * chatter_.v + eta_ * impulse - chatter.loss;
+  const BouncingSlide end = with_energy(mechanics_, {moved_reference(model_, reference, chatter), chatter.v}, wanted);
+  const double energy = slide_energy(mechanics_, end.slide) + 0.5 * end.v * end.v, missing = wanted - energy;
+  // at rest on a crest no state near by has the energy: the loss, or before that falls below zero the work, has the rest
+  const double lost = std::fmax(0.0, loss + missing), gained = eta_ == 0.0 ? 0.0 : (lost - (loss + missing)) / eta_;
+  return {end.slide, end.v, lost, sequence_impulse_ + impulse + gained, energy};
 }
 
 // Right after a bounce the tip is faster than the average of its chatter. The holder of a hammer has given the impulse
@@ -68,8 +69,8 @@ Account Tip::account_at_begin() const {
 Account Tip::account_at(double s, const Chatter& chatter) const {
   if (mode_ == Mode::chattering) {
     const SequenceState r = sequence_state(s, chatter);
-    const double bounce = bounce_impulse(r.moved, chatter.v), energy = r.energy + eta_ * bounce;
-    return {now_, r.impulse + bounce, chatter_loss(chatter.v, r.gain), energy, static_cast<std::uint64_t>(chatter.n)};
+    const double bounce = bounce_impulse(r.moved, r.v), energy = r.energy + eta_ * bounce;
+    return {now_, r.impulse + bounce, r.loss, energy, static_cast<std::uint64_t>(chatter.n)};
   }
   if (mode_ == Mode::sliding) {
     return {now_, slide_impulse(s), 0.0, slide_energy(mechanics_, contact_.at(s)), 0};
@@ -120,8 +121,8 @@ Account Tip::account_at_end() const {
     const bool lands = landing_.outcome == SearchOutcome::impact;
     return lands ? flight_account(landing_.jet.state) : account_at(landing_.s, {});
   }
-  Chatter chatter = chatter_run_.chatter;
-  if (chatter_run_.end == ChatterEnd::died) chatter.v = 0.0;
+  const Chatter chatter =
+      chatter_run_.end == ChatterEnd::died ? settled(chatter_run_.chatter) : chatter_run_.chatter;
   Account end = account_at(chatter_run_.s, chatter);
   end.count = whole_count(chatter.n);
   return end;

@@ -13,9 +13,9 @@ void Tip::drag(double eta) {
   SlideState<double> reference{state.phase, state.X, state.u};
   if (mode_ == Mode::chattering) {
     const Chatter chatter = chatter_now();
-    reference = leave_reference(now_ - start_, chatter);
+    const SequenceState sequence = leave_reference(now_ - start_, chatter);
     eta_ = eta;
-    start_chatter(reference, {chatter.v, chatter.n});
+    start_chatter(sequence.moved, {sequence.v, chatter.n});
     return split_account();
   }
   eta_ = eta;
@@ -55,10 +55,10 @@ void Tip::set_parameters(const Model& model) {
   SlideState<double> reference{state.phase, state.X, state.u};
   if (mode_ == Mode::chattering) {
     const Chatter chatter = chatter_now();
-    reference = leave_reference(now_ - start_, chatter);
+    const SequenceState sequence = leave_reference(now_ - start_, chatter);
     set_laws(model);
-    refer_to(reference, kSlideBits);
-    chatter_ = {chatter.v, chatter.n};
+    refer_to(sequence.moved, kSlideBits);
+    chatter_ = {sequence.v, chatter.n};
     chatter_run_ = {ChatterEnd::exits, 0.0, chatter_};
     return split_account();
   }

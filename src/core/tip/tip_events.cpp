@@ -14,39 +14,35 @@ Outcome Tip::land() {
   return Outcome::impact;
 }
 
-// The energy that the bounces of a sequence have lost: the fall of v^2/2 since its begin, and `gain` (SequenceState).
-double Tip::chatter_loss(double v, double gain) const {
-  return 0.5 * (sequence_normal_speed_ - v) * (sequence_normal_speed_ + v) + gain;
-}
-
 // True: only a Taylor series of the reference slide ends, not the sequence.
 bool Tip::sequence_goes_on() const {
   return mode_ == Mode::chattering && chatter_run_.end == ChatterEnd::time && !slide_releases_;
 }
 
 // To the state that the chatter has displaced from the reference slide.
-SlideState<double> Tip::leave_reference(double s, const Chatter& chatter) {
+Tip::SequenceState Tip::leave_reference(double s, const Chatter& chatter) {
   const SequenceState r = sequence_state(s, chatter);
-  sequence_gain_ = r.gain;
+  sequence_loss_ = r.loss;
   sequence_impulse_ = r.impulse;
-  return r.moved;
+  return r;
 }
 
 Outcome Tip::end_chatter() {
   const ChatterRun run = chatter_run_;
   if (sequence_goes_on()) {
-    start_chatter(leave_reference(run.s, run.chatter), {run.chatter.v, run.chatter.n});
+    const SequenceState now = leave_reference(run.s, run.chatter);
+    start_chatter(now.moved, {now.v, run.chatter.n});
     return Outcome::flying;
   }
-  const SlideState<double> reference = leave_reference(run.s, run.chatter);
   const bool died = run.end == ChatterEnd::died;
-  const TipState bounce = leave_surface(model_, reference, died ? 0.0 : run.chatter.v);
+  const SequenceState end = leave_reference(run.s, died ? settled(run.chatter) : run.chatter);
+  const TipState bounce = leave_surface(model_, end.moved, end.v);
   const Projection projected_tip = project_onto_surface(model_, bounce);
   last_impact_ = {now_,
                   bounce.phase,
                   sequence_normal_speed_,
                   projected_tip.tangential_velocity,
-                  chatter_loss(died ? 0.0 : run.chatter.v, sequence_gain_),
+                  end.loss,
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
   fly(bounce);

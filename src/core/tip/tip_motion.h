@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "afm/chatter.h"
 #include "afm/contact.h"
 #include "afm/impact_search.h"
 
@@ -15,6 +16,13 @@ constexpr double kMinFlight = 1e-12;
 // The count of a chatter sequence that has ended: at least its first bounce.
 inline std::uint32_t whole_count(double n) {
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), 4294967295.0)));
+}
+
+// Chatter that has died: what is left of its normal speed is lost.
+inline Chatter settled(Chatter chatter) {
+  chatter.loss += 0.5 * chatter.v * chatter.v;
+  chatter.v = 0.0;
+  return chatter;
 }
 
 // What the record of an impact keeps of its reflection.
@@ -39,6 +47,13 @@ void slide_from(const Mechanics<double>& mechanics, double eta, const SlideState
 SlideState<double> slide_at(const SlideSegment<double>& slide, double s);
 double release_of(const SlideSegment<double>& slide);  // the time of release [tau]; negative: none in this segment
 double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);  // kinetic energy and that of the springs
+// A tip that bounces along a slide with the normal speed v.
+struct BouncingSlide {
+  SlideState<double> slide;
+  double v;
+};
+// The state of the energy `energy` nearest to `at`. If none is near, a state of another energy.
+BouncingSlide with_energy(const Mechanics<double>& m, const BouncingSlide& at, double energy);
 double extension_integral(const SlideSegment<double>& slide, double s);        // of x - xc over the first s [a tau]
 
 }  // namespace afm

@@ -54,8 +54,9 @@ TipSnapshot Tip::snapshot() const {
   s.phase = TipSnapshot::Phase::chatter;
   s.state = {wrap_phase(sequence.moved.phase), sequence.moved.X, sequence.moved.u, 0.0, 0.0};
   s.sequence_normal_speed = sequence_normal_speed_;
-  s.sequence_gain = sequence.gain;
-  s.chatter_speed = chatter.v;
+  const double v0 = sequence_normal_speed_, v = sequence.v;
+  s.sequence_gain = sequence.loss - 0.5 * (v0 - v) * (v0 + v);
+  s.chatter_speed = sequence.v;
   s.chatter_count = chatter.n;
   return s;
 }
@@ -71,7 +72,8 @@ Tip::Tip(const Model& model, double eta, const TipSnapshot& start, double contac
   if (start.phase == TipSnapshot::Phase::contact) slide(reference);
   if (start.phase != TipSnapshot::Phase::chatter) return;
   sequence_normal_speed_ = start.sequence_normal_speed;
-  sequence_gain_ = start.sequence_gain;
+  const double v0 = start.sequence_normal_speed, v = start.chatter_speed;
+  sequence_loss_ = std::fmax(0.0, start.sequence_gain + 0.5 * (v0 - v) * (v0 + v));
   start_chatter(reference, {start.chatter_speed, start.chatter_count});
   split_account();
 }

@@ -189,7 +189,10 @@ TEST_P(Snapshots, ChangeTheNextEventLittle) {
     afm::Run split = run;
     const Snapshot snapshot = split.split();
     afm::Run whole = run;
-    const double slowest = snapshot.tip.phase == Phase::chatter ? 0.1 * std::min(1.0, std::abs(GetParam().eta)) : 0.0;
+    // Chatter: at the next impact proper. In a heated run at the end of the sequence: from there on kicks meet bounces
+    // in flight, and bounces made one by one enlarge a change of 1e-10 to 1e-3 by that impact.
+    const bool is_cold_chatter = snapshot.tip.phase == Phase::chatter && GetParam().temperature == 0.0;
+    const double slowest = is_cold_chatter ? 0.1 * std::min(1.0, std::abs(GetParam().eta)) : 0.0;
     const Impact expected = next_event(slowest, whole), found = next_event(0.99 * slowest, split);
     off[snapshot.tip.phase].push_back(expected.kind == found.kind ? event_distance(expected, found) : 1.0);
   }
@@ -204,7 +207,8 @@ TEST_P(Snapshots, ChangeTheNextEventLittle) {
       if (chatters) {
         EXPECT_LE(distances[distances.size() / 2], 4e-6);
       }
-      EXPECT_LE(distances[distances.size() * 95 / 100], chatters ? 2e-4 : GetParam().contact_tolerance);
+      const double most = GetParam().temperature > 0.0 ? 1e-6 : 2e-4;
+      EXPECT_LE(distances[distances.size() * 95 / 100], chatters ? most : GetParam().contact_tolerance);
     }
   }
 }

@@ -26,7 +26,7 @@ Eigen::Matrix4d projection_jacobian(const Model& model, const TipState& bounce);
 
 // Of a chatter sequence that exits: from `start`, after its first bounce, to after its last, `duration` later [tau]. It
 // is the derivative of the averaged law. Against the exact chain of bounces half of all sequences have an error below
-// 2e-4, and all, of up to 3000 bounces, below 8e-3 (test chatter_jacobian): the error of the law for each bounce adds
+// 7e-4, and all, of up to 400 bounces, below 1e-2 (test chatter_jacobian): the error of the law for each bounce adds
 // up.
 SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
                                          double duration);
