@@ -132,7 +132,7 @@ class SlowMotion(ViewTest):
         path = picture.places('path')
         for place in picture.places('impacts'):
             self.assertLess(min(math.dist(place, corner) for corner in path), EXACT)
-        self.assertEqual(picture.text('drag'), 'drag 11.255 um/s')
+        self.assertEqual(picture.text('drag'), 'drag 11255.4 nm/s')
         self.assertEqual(picture.text('eta'), 'eta 3.400')
         wait_until(self.shows_friction, 'K_f as reported')
 
