@@ -1,6 +1,7 @@
 // How far a simpler level of the model is from the full one, and what it saves; or all levels of a scene.
 #include "afm/dynamics/model_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -9,10 +10,12 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "afm/dynamics/sweep.h"
+#include "afm/units.h"
 #include "common/csv.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
@@ -122,44 +125,93 @@ void compare(const Options& o, const Point& point, int start) {
             << "\n";
 }
 
-// Parameters of the emulator by their names. A scene is flat: a name, a colon, a value, and perhaps a comment.
-std::map<std::string, std::string> read_parameters(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument("scene = " + path + ": cannot be read");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  static const std::regex entry(R"((?:^|\n)(\w+):[ ]*(\[[^\]]*\]|[^#\n]*))");
-  std::map<std::string, std::string> parameters;
-  for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) {
-    parameters[i->str(1)] = std::regex_replace(i->str(2), std::regex(R"([\[\]"\s]+)"), "");
+// Parameters of the emulator by their names: those of a scene, and where it is silent those of config/emulator.yaml.
+// Such a file is flat: a name, a colon, a value, and perhaps a comment.
+class SceneParameters {
+ public:
+  explicit SceneParameters(const std::string& scene) : scene_(scene) {
+    const std::string folder = AFM_CONFIG;
+    read(scene.find('/') == std::string::npos ? folder + "/scenes/" + scene + ".yaml" : scene);
+    read(folder + "/emulator.yaml");
   }
-  return parameters;
+
+  std::string text(const std::string& name) const {
+    const auto found = texts_.find(name);
+    return found == texts_.end() ? "" : found->second;
+  }
+  double number(const std::string& name) const {
+    std::size_t used = 0;
+    double value = 0.0;
+    try {
+      value = std::stod(text(name), &used);
+    } catch (const std::exception&) {
+    }
+    if (used == 0 || used != text(name).size()) fail(name + " = '" + text(name) + "' is not a number");
+    return value;
+  }
+  [[noreturn]] void fail(const std::string& why) const {
+    throw std::invalid_argument("scene = " + scene_ + ": " + why);
+  }
+
+ private:
+  void read(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) fail(path + " cannot be read");
+    const std::string all{std::istreambuf_iterator<char>(file), {}};
+    static const std::regex entry(R"((?:^|\n)(\w+):[ ]*(\[[^\]]*\]|[^#\n]*))");
+    for (std::sregex_iterator i(all.begin(), all.end(), entry), end; i != end; ++i) {
+      texts_.emplace(i->str(1), std::regex_replace(i->str(2), std::regex(R"([\[\]"\s]+)"), ""));
+    }
+  }
+
+  std::string scene_;
+  std::map<std::string, std::string> texts_;
+};
+
+afm::SiModel si_model(const SceneParameters& p) {
+  afm::SiModel si;
+  si.omega_v_rad_per_s = p.number("omega_v_rad_per_s");
+  si.omega_h_rad_per_s = p.number("omega_h_rad_per_s");
+  si.tip_mass_kg = p.number("tip_mass_kg");
+  si.lattice_spacing_m = p.number("lattice_spacing_m");
+  si.surface_amplitude_m = p.number("surface_amplitude_m");
+  si.restitution_gamma = p.number("restitution_gamma");
+  si.cutoff_speed = p.number("cutoff_speed");
+  si.rest_height_m = p.number("rest_height_m");
+  const afm::Lever lever{p.number("spring_constant_n_per_m"), p.number("resonance_hz"),
+                         p.number("lateral_spring_constant_n_per_m")};
+  if (lever.is_given()) {
+    for (const afm::ParameterError& fault : find_faults(lever)) p.fail(fault.what());
+    set_lever(lever, si);
+  }
+  if (p.number("load_n") != 0.0) si.rest_height_m = -p.number("load_n") / spring_constant(si);
+  for (const afm::ParameterError& fault : find_faults(si)) p.fail(fault.what());
+  return si;
+}
+
+// At most five of the drag velocities that a scene sends; else its own.
+std::vector<double> drag_velocities(const SceneParameters& p, const afm::Units& units) {
+  std::set<double> sent;
+  if (!p.text("commands_eta").empty()) {
+    for (const double eta : afm::ranges_option("commands_eta", p.text("commands_eta"))) sent.insert(std::abs(eta));
+  }
+  if (sent.empty()) sent.insert(std::abs(p.number("drag_velocity")) / units.velocity());
+  sent.erase(0.0);
+  const std::vector<double> all(sent.begin(), sent.end());
+  std::vector<double> etas;
+  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / 4)) etas.push_back(all[i]);
+  return etas;
 }
 
 struct Scene {
   explicit Scene(const std::string& name_or_file) : name(name_or_file) {
-    const std::string folder = AFM_CONFIG;
-    auto p = read_parameters(name.find('/') == std::string::npos ? folder + "/scenes/" + name + ".yaml" : name);
-    p.merge(read_parameters(folder + "/emulator.yaml"));
-    const auto number = [&](const char* key) { return std::stod(p.at(key)); };
-    if (number("quality_factor") > 0.0) {
-      throw std::invalid_argument("scene = " + name + ": it has a bath, and levels are compared without one");
-    }
-    const double speed = number("lattice_spacing_m") * number("omega_v_rad_per_s") / afm::kTwoPi;
-    afm::PointOptions at;
-    at.gamma = number("restitution_gamma");
-    at.cutoff = number("cutoff_speed") / speed;
-    at.frequency_ratio = number("omega_h_rad_per_s") / number("omega_v_rad_per_s");
-    model = afm::checked_model(at);
-    in_use.contact_tolerance = number("contact_tolerance");
-    is_stated = afm::parse(p.at("model"), in_use.kind);
-    std::set<double> sent;
-    if (!p["commands_eta"].empty()) {
-      for (const double eta : afm::ranges_option("commands_eta", p["commands_eta"])) sent.insert(std::abs(eta));
-    }
-    if (sent.empty()) sent.insert(std::abs(number("drag_velocity")) / speed);
-    sent.erase(0.0);
-    const std::vector<double> all(sent.begin(), sent.end());
-    for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / 4)) etas.push_back(all[i]);
+    const SceneParameters p(name);
+    if (p.number("quality_factor") > 0.0) p.fail("it has a bath, and levels are compared without one");
+    const afm::Units units(si_model(p));
+    model = units.to_natural(si_model(p));
+    in_use.contact_tolerance = p.number("contact_tolerance");
+    is_stated = afm::parse(p.text("model"), in_use.kind);
+    etas = drag_velocities(p, units);
   }
 
   std::string name;
