@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -15,13 +16,33 @@ namespace {
 
 constexpr double kSameParameter = 1e-6;  // relative: parameters given in SI differ in their last digits
 constexpr double kWorthwhileCost = 0.9;  // a choice: a coarser level must save a tenth
-const char kParameters[] = "# parameters:", kColumns[] = "eta,model,contact_tolerance,k_f_error,deflection_error,cost";
+const char kHead[] = "# parameters:", kColumns[] = "eta,model,contact_tolerance,k_f_error,deflection_error,cost";
 
 bool is_same(double a, double b) { return std::abs(a - b) <= kSameParameter * std::max(std::abs(a), std::abs(b)); }
 
+// What a table is measured at.
+constexpr struct {
+  const char* name;
+  double Model::*value;
+} kParameters[] = {{"gamma", &Model::gamma},
+                   {"cutoff", &Model::v_c},
+                   {"frequency_ratio", &Model::frequency_ratio},
+                   {"amplitude", &Model::H},
+                   {"rest_height", &Model::y0}};
+
 bool is_same(const Model& a, const Model& b) {
-  return is_same(a.gamma, b.gamma) && is_same(a.v_c, b.v_c) && is_same(a.frequency_ratio, b.frequency_ratio) &&
-         is_same(a.H, b.H) && is_same(a.y0, b.y0);
+  return std::all_of(std::begin(kParameters), std::end(kParameters),
+                     [&](const auto& p) { return is_same(a.*p.value, b.*p.value); });
+}
+
+// False: the text has not these parameters in this order.
+bool read(const std::string& text, Model& model) {
+  std::istringstream in(text);
+  std::string name;
+  for (const auto& p : kParameters) {
+    if (!(in >> name >> model.*p.value) || name != p.name) return false;
+  }
+  return true;
 }
 
 [[noreturn]] void fail(std::size_t line, const std::string& why) {
@@ -41,9 +62,9 @@ bool parse(const std::string& name, ToleranceOf& of) {
 }
 
 std::string LevelTable::head(const Model& m) {
-  return std::string(kParameters) + " gamma " + number_text(m.gamma) + " cutoff " + number_text(m.v_c) +
-         " frequency_ratio " + number_text(m.frequency_ratio) + " amplitude " + number_text(m.H) + " rest_height " +
-         number_text(m.y0) + "\n" + kColumns + "\n";
+  std::string text = kHead;
+  for (const auto& p : kParameters) text += std::string(" ") + p.name + " " + number_text(m.*p.value);
+  return text + "\n" + kColumns + "\n";
 }
 
 LevelTable::Row LevelTable::read_row(const std::string& text, std::size_t line) const {
@@ -69,12 +90,8 @@ LevelTable::LevelTable(std::istream& csv) {
   bool has_parameters = false, has_columns = false;
   for (std::string text; std::getline(csv, text);) {
     ++line;
-    if (text.rfind(kParameters, 0) == 0) {
-      std::istringstream in(text.substr(sizeof kParameters - 1));
-      std::string name[5];
-      in >> name[0] >> model_.gamma >> name[1] >> model_.v_c >> name[2] >> model_.frequency_ratio >> name[3] >>
-          model_.H >> name[4] >> model_.y0;
-      has_parameters = !in.fail();
+    if (text.rfind(kHead, 0) == 0) {
+      has_parameters = read(text.substr(sizeof kHead - 1), model_);
     } else if (text == kColumns) {
       has_columns = true;
     } else if (!text.empty() && text[0] != '#') {

@@ -103,6 +103,9 @@ TEST(LevelTable, SaysWhatIsWrongWithAFile) {
   const std::string head = kHead, row = "1,oscillator,0.001,0.01,0.02,1\n";
   expect_refused("", "parameters");
   expect_refused(head.substr(head.find('\n') + 1) + row, "does not say for which parameters");
+  expect_refused("# parameters: cutoff 0.05 gamma 0.7 frequency_ratio 6.25 amplitude 0.1 rest_height 0\n" +
+                     head.substr(head.find('\n') + 1) + row,
+                 "does not say for which parameters");
   expect_refused(head, "no row");
   expect_refused("eta,gamma\n1,2\n", "line 1: the head is not eta,model");
   expect_refused(head + "1,hammer,0.05\n", "line 3: '1,hammer,0.05' is not eta,model");
