@@ -43,14 +43,10 @@ struct Chain {
 
 double eta_of(const benchmark::State& state) { return 1e-2 * static_cast<double>(state.range(0)); }
 
-double sine_of(double x) { return sin_cos_turns(x).sin; }
-GapJet<double> gap_of(const Flight<double>& flight, double s) { return flight.gap(s); }
-Reflection reflection_of(const Model& model, double eta, const GapJet<double>& jet) { return reflect(model, eta, jet); }
-
 // One after the other: each angle waits for the sine before.
 void TurnSine(benchmark::State& state) {
   double x = 0.1;
-  for (auto _ : state) x = 0.3 + 0.1 * sine_of(x);
+  for (auto _ : state) x = 0.3 + 0.1 * sin_cos_turns(x).sin;
   benchmark::DoNotOptimize(x);
 }
 BENCHMARK(TurnSine);
@@ -66,7 +62,7 @@ void over(benchmark::State& state, const Chain& chain, const Verb& verb) {
 
 void Gap(benchmark::State& state) {
   const Chain chain(eta_of(state));
-  over(state, chain, [&](std::size_t i) { return gap_of(chain.flights[i], chain.times[i]).g; });
+  over(state, chain, [&](std::size_t i) { return chain.flights[i].gap(chain.times[i]).g; });
 }
 BENCHMARK(Gap)->Arg(340);
 
@@ -78,7 +74,7 @@ BENCHMARK(Search)->Arg(50)->Arg(150)->Arg(200)->Arg(250)->Arg(340)->Arg(450)->Ar
 
 void Reflect(benchmark::State& state) {
   const Chain chain(eta_of(state));
-  over(state, chain, [&](std::size_t i) { return reflection_of(chain.model, chain.eta, chain.incidents[i]).after.u; });
+  over(state, chain, [&](std::size_t i) { return reflect(chain.model, chain.eta, chain.incidents[i]).after.u; });
 }
 BENCHMARK(Reflect)->Arg(340);
 

@@ -1,6 +1,7 @@
 // One step of a tip in frictionless contact, by Gauss collocation (docs/algorithm.md, "Contact"). On the surface the
 // tip has one degree of freedom, and nothing in its motion is fast but a nearly harmonic swing. A step is up to one
-// turn of that swing. The Taylor series of contact.h is the same motion to the last digits, for chatter and derivatives.
+// turn of that swing. The Taylor series of contact.h is the same motion to the last digits, for chatter and
+// derivatives.
 #pragma once
 
 #include "afm/contact.h"
@@ -23,7 +24,6 @@ class ContactStep {
     double stiffness = 0.0;  // of the swing [1/tau^2]; 0: that at the start
   };
 
-  ContactStep() = default;
   // tolerance: error allowed at the end of the step in x [a], and in u over the rate of the swing. Precondition:
   // `start` is on the surface.
   ContactStep(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, double tolerance,

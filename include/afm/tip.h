@@ -147,7 +147,6 @@ class Tip {
   };
   // What a chatter sequence has done up to the start of its reference slide.
   struct Sequence {
-    ModelTime begin;
     double normal_speed;   // after its first bounce [a/tau]
     double gain, impulse;  // energy lost beyond the fall of v^2/2; impulse of the holder
   };
@@ -155,6 +154,9 @@ class Tip {
   struct Chattering {
     Chattering(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits)
         : reference(mechanics, eta, start, bits) {}
+    // The reference slide ends before the sequence: another one follows, and no record ends.
+    bool goes_on() const { return run.end == ChatterEnd::time && !releases; }
+
     SlideSegment<double> reference;
     bool releases = false;  // at its end the surface no longer presses
     Chatter chatter{};      // at start_

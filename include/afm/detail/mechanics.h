@@ -13,7 +13,6 @@ namespace afm {
 
 template <class T>
 struct Mechanics {
-  Mechanics() = default;
   explicit Mechanics(const Model& model)
       : is_free_along_x(afm::is_free_along_x(model)),
         ratio(is_free_along_x * T(model.frequency_ratio)),

@@ -16,8 +16,6 @@ constexpr double kMinProgress = 0.1;
 // only its fourth derivative, below 1e4 a/tau^4, so that each step is at least 1e-5 tau.
 constexpr double kNoGap = 1e-17;
 
-Landing<double> find_in_double(const Flight<double>& flight, double horizon) { return find_impact(flight, horizon); }
-
 Landing<double> rounded(const Landing<DoubleDouble>& landing) {
   const auto d = [](const DoubleDouble& x) { return static_cast<double>(x); };
   const FlightState<DoubleDouble>& q = landing.jet.state;
@@ -35,7 +33,7 @@ SearchOutcome without_end(const Landing<double>& landing) {
 }  // namespace
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
-  Landing<double> landing = find_in_double(flight, horizon);
+  Landing<double> landing = find_impact(flight, horizon);
   if (landing.outcome == SearchOutcome::undecided) {
     const Flight<DoubleDouble> finer(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
     landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));

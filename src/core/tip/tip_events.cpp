@@ -25,8 +25,7 @@ bool is_rounding(const Flight<double>& flight, double s) {
 Outcome Tip::end_phase(Segments* ended) {
   Flying* flying = std::get_if<Flying>(&phase_);
   Chattering* chattering = std::get_if<Chattering>(&phase_);
-  // a reference slide that another one follows ends no record
-  const bool goes_on = chattering != nullptr && chattering->run.end == ChatterEnd::time && !chattering->releases;
+  const bool goes_on = chattering != nullptr && chattering->goes_on();
   if (ended != nullptr && !goes_on) ended->add(segment_to(account_at_end()));
   if (flying != nullptr) return end_flight(*flying, ended);
   if (chattering != nullptr) return end_chatter(*chattering);
@@ -75,14 +74,14 @@ void Tip::begin_chatter(const TipState& bounce) {
   const Projection start = project_onto_surface(model_, bounce);
   const double v = start.normal_speed, impulse = bounce_impulse(start.reference, v);
   const double energy = slide_energy(mechanics_, start.reference) + 0.5 * v * v + eta_ * impulse;
-  chatter_along(start.reference, {v, 0.0}, {now_, v, 0.0, -impulse}, {now_, 0.0, 0.0, energy, 0});
+  chatter_along(start.reference, {v, 0.0}, {v, 0.0, -impulse}, {now_, 0.0, 0.0, energy, 0});
 }
 
 // It goes on along the next reference slide, dies, or exits into a flight.
 Outcome Tip::end_chatter(const Chattering& chattering) {
   const ChatterRun run = chattering.run;
   const SequenceState end = sequence_state(chattering, run.s, run.chatter);
-  if (run.end == ChatterEnd::time && !chattering.releases) {
+  if (chattering.goes_on()) {
     chatter_along(end.moved, {run.chatter.v, run.chatter.n}, end.sequence, Account(chattering.begin));
     return Outcome::flying;
   }

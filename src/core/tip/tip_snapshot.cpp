@@ -12,7 +12,8 @@ std::vector<ParameterError> find_faults(const TipSnapshot& s) {
   };
   require(is_possible(s.time), "time", s.time - ModelTime{}, "is no model time");
   require(s.state.phase >= 0.0 && s.state.phase < 1.0, "surface_phase", s.state.phase, "must be within [0, 1)");
-  // A choice, far beyond every run: a thousand times the fastest drag. Commands in step with the spring reach ten times.
+  // A choice, far beyond every run: a thousand times the fastest drag. Commands in step with the spring reach ten
+  // times.
   const auto require_within = [&](const char* name, double value, double most) {
     require(std::abs(value) <= most, name, value, "no run reaches it");
   };
@@ -76,7 +77,7 @@ Tip::Tip(const Model& model, double eta, const TipSnapshot& start, double contac
       break;
     case TipSnapshot::Phase::chatter:
       chatter_along(reference, {start.chatter_speed, start.chatter_count},
-                    {now_, start.sequence_normal_speed, start.sequence_gain, 0.0}, {});
+                    {start.sequence_normal_speed, start.sequence_gain, 0.0}, {});
       split_record();
   }
 }
