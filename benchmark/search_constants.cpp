@@ -1,5 +1,5 @@
-// Evaluations of the gap per impact, over many consecutive impacts at eight drag velocities. search_constants.py compiles
-// it with other constants of the search.
+// Evaluations of the gap per impact, over many consecutive impacts at eight drag velocities. search_constants.py
+// compiles it with other constants of the search.
 #include <cstdio>
 
 #include "afm/impact_search.h"

@@ -1,5 +1,5 @@
-// Long computations that can be stopped from another thread: orbits, attractors, exponents and averages look for a stop at each
-// event. It costs nothing to those who do not ask for it.
+// Long computations that can be stopped from another thread: orbits, attractors, exponents and averages look for a stop
+// at each event. It costs nothing to those who do not ask for it.
 #pragma once
 
 #include <atomic>

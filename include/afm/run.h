@@ -66,7 +66,8 @@ struct Counters {
   double worst_penetration = 0.0;  // deepest sample taken below the surface [a]
 };
 
-// Where the holder is: it moves evenly from one drag command to the next. A change to the hammer moves it above the tip.
+// Where the holder is: it moves evenly from one drag command to the next. A change to the hammer moves it above the
+// tip.
 struct HolderPath {
   ModelTime since;
   double from = 0.0;  // position then [a]
@@ -95,8 +96,8 @@ class Run {
   explicit Run(const Snapshot& snapshot);     // likewise; counters begin at zero
 
   // All settings from now() on. The state of the tip stays. What stays the same has no effect. A new drag velocity,
-  // model, level or bath restarts the friction estimate, a new window restarts its window. A new sample period takes its
-  // first sample at now(). Returns the energy that a change to the hammer drops [m a^2/tau^2] (see Tip::set_model).
+  // model, level or bath restarts the friction estimate, a new window restarts its window. A new sample period takes
+  // its first sample at now(). Returns the energy that a change to the hammer drops [m a^2/tau^2] (see Tip::set_model).
   // Precondition: settings() with these have no faults.
   double apply(const LiveSettings& live);
 

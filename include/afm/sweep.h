@@ -44,8 +44,9 @@ Model model_of(const SweepPoint& point);
 // velocity. Guarantee: a function of seed and index, so points can be computed in any order.
 TipState random_start(const SweepPoint& point, std::uint64_t seed, std::uint64_t index);
 
-// An average over time. sweep_attractor() of afm/dynamics/sweep.h knows the attractor: it gives its name and exponent, and
-// is exact where the orbit is periodic. Guarantee: a function of its arguments, to the last bit. Precondition: no faults.
+// An average over time. sweep_attractor() of afm/dynamics/sweep.h knows the attractor: it gives its name and exponent,
+// and is exact where the orbit is periodic. Guarantee: a function of its arguments, to the last bit. Precondition: no
+// faults.
 SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, const TipState& start);
 using SweepMethod = SweepResult (*)(const SweepPoint&, const SweepSettings&, const TipState&);
 

@@ -1,8 +1,8 @@
 // What a controller needs: commands that wait until they hold, and what is measured over a control period.
 //
-// In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same controller
-// gives the same bits each time. In real time the same calls measure while the clock goes on. The controller need not know
-// which it is. Header only; callbacks run inside its functions alone.
+// In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same
+// controller gives the same bits each time. In real time the same calls measure while the clock goes on. The controller
+// need not know which it is. Header only; callbacks run inside its functions alone.
 #pragma once
 
 #include <afm_emulator/Applied.h>

@@ -38,11 +38,12 @@ using Kind = Request::Kind;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
-constexpr double kSafePace = 1.2;  // of the trial run over what is needed: publishing and other programs take their part
+constexpr double kSafePace =
+    1.2;  // of the trial run over what is needed: publishing and other programs take their part
 constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
-constexpr std::chrono::microseconds kSpin{300};  // an idle processor takes 50 to 100 us to wake a thread
+constexpr std::chrono::microseconds kSpin{300};        // an idle processor takes 50 to 100 us to wake a thread
 constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
 
 std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
@@ -88,9 +89,11 @@ void report_pace(const Parameters& p) {
   const double pace = measure_pace(p);
   ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
-  ROS_WARN("this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = %.1g, "
-           "a lower sample_rate_hz, a contact_tolerance up to 1e-2, or model = hammer",
-           p.time_scale, pace, 0.7 * pace);
+  ROS_WARN(
+      "this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = "
+      "%.1g, "
+      "a lower sample_rate_hz, a contact_tolerance up to 1e-2, or model = hammer",
+      p.time_scale, pace, 0.7 * pace);
 }
 
 void report_run(const Parameters& p, const std::string& scheduler) {
@@ -135,9 +138,9 @@ class EmulatorNode {
       Answer unused;
       return ask(change, unused);
     });
-    publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, free_bytes_, [this](const Live& live) {
-                                                              live_server_->applied(live);
-                                                            }});
+    publisher_.emplace(node, parameters,
+                       Publisher::Sources{queue_, recorder_, refusals_, free_bytes_,
+                                          [this](const Live& live) { live_server_->applied(live); }});
     runner_.start();
     report_run(parameters, runner_.scheduler());
     advertise(node);
@@ -244,7 +247,9 @@ class EmulatorNode {
     Answer answer;
     if (fault.empty()) {
       Request period(Kind::control);
-      period.cause = !std::isnan(request.drag_velocity) ? "drag_velocity" : !std::isnan(request.rest_height) ? "rest_height" : "";
+      period.cause = !std::isnan(request.drag_velocity) ? "drag_velocity"
+                     : !std::isnan(request.rest_height) ? "rest_height"
+                                                        : "";
       period.drag_velocity = request.drag_velocity;
       period.rest_height = request.rest_height;
       period.tau = request.duration / Units(parameters_.si).time();
@@ -269,7 +274,7 @@ class EmulatorNode {
 
   // The recording begins with a snapshot that is taken for it.
   bool on_start_recording(afm_emulator::StartRecording::Request& request,
-                                        afm_emulator::StartRecording::Response& response) {
+                          afm_emulator::StartRecording::Response& response) {
     const Recorder::Reply reply = recorder_.start(request.name);
     response.path = reply.path;
     if (!reply.success) return respond(response, reply.message, "");
@@ -332,7 +337,8 @@ class EmulatorNode {
 constexpr unsigned kSpinnerThreads = 3;
 // How soon a shutdown by ROS (rosnode kill) is noticed.
 constexpr std::chrono::milliseconds kShutdownPoll{100};
-constexpr int kLargeBuffer = 256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
+constexpr int kLargeBuffer =
+    256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 
 std::atomic<bool> g_running{false}, g_stop{false};
 Semaphore g_signalled;

@@ -22,10 +22,14 @@ class LiveServer {
   // Returns why the change did not take effect, or nothing when it has.
   using Apply = std::function<std::string(const Live&)>;
 
-  // The server begins with the values of the parameter server, cut to the ranges of its sliders: its first call puts those
-  // in force back. It holds its mutex whenever it calls.
+  // The server begins with the values of the parameter server, cut to the ranges of its sliders: its first call puts
+  // those in force back. It holds its mutex whenever it calls.
   LiveServer(const ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply)
-      : start_(parameters), refusals_(refusals), apply_(std::move(apply)), in_force_(parameters), server_(server_mutex_, node) {
+      : start_(parameters),
+        refusals_(refusals),
+        apply_(std::move(apply)),
+        in_force_(parameters),
+        server_(server_mutex_, node) {
     server_.setCallback([this](Config& config, std::uint32_t level) {
       constexpr std::uint32_t kFirstCall = ~0u;
       if (level != kFirstCall) change(config);

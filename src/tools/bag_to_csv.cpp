@@ -39,7 +39,8 @@ const char kDescription[] =
     "  commands    a row for everything that took effect: all that is in force from there on\n"
     "Lost messages show as gaps in the running index.";
 const char kExitCodes[] =
-    "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag cannot\n"
+    "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag "
+    "cannot\n"
     "be read: stderr says what, and what there is is written.";
 
 constexpr int kIncomplete = 3;
@@ -114,15 +115,24 @@ struct FrictionField {
 };
 
 // Not those that are others in natural units.
-#define AFM_FIELD(name, quantity) {{#name, quantity}, &afm_emulator::Friction::name}
-const std::vector<FrictionField> kFrictionFields{
-    AFM_FIELD(drag_velocity, Q::velocity), AFM_FIELD(eta, Q::number), AFM_FIELD(force, Q::force),
-    AFM_FIELD(force_std_error, Q::force), AFM_FIELD(k_f, Q::friction), AFM_FIELD(k_f_std_error, Q::friction),
-    AFM_FIELD(energy_loss, Q::energy), AFM_FIELD(window_force, Q::force), AFM_FIELD(window_k_f, Q::friction),
-    AFM_FIELD(window_k_f_std_error, Q::friction), AFM_FIELD(mean_lateral_force, Q::force),
-    AFM_FIELD(mean_lateral_force_std_error, Q::force), AFM_FIELD(k_f_work, Q::friction),
-    AFM_FIELD(k_f_work_std_error, Q::friction), AFM_FIELD(mean_normal_force, Q::force),
-    AFM_FIELD(heat_to_bath, Q::energy)};
+#define AFM_FIELD(name, quantity) \
+  { {#name, quantity}, &afm_emulator::Friction::name }
+const std::vector<FrictionField> kFrictionFields{AFM_FIELD(drag_velocity, Q::velocity),
+                                                 AFM_FIELD(eta, Q::number),
+                                                 AFM_FIELD(force, Q::force),
+                                                 AFM_FIELD(force_std_error, Q::force),
+                                                 AFM_FIELD(k_f, Q::friction),
+                                                 AFM_FIELD(k_f_std_error, Q::friction),
+                                                 AFM_FIELD(energy_loss, Q::energy),
+                                                 AFM_FIELD(window_force, Q::force),
+                                                 AFM_FIELD(window_k_f, Q::friction),
+                                                 AFM_FIELD(window_k_f_std_error, Q::friction),
+                                                 AFM_FIELD(mean_lateral_force, Q::force),
+                                                 AFM_FIELD(mean_lateral_force_std_error, Q::force),
+                                                 AFM_FIELD(k_f_work, Q::friction),
+                                                 AFM_FIELD(k_f_work_std_error, Q::friction),
+                                                 AFM_FIELD(mean_normal_force, Q::force),
+                                                 AFM_FIELD(heat_to_bath, Q::energy)};
 #undef AFM_FIELD
 
 std::uint64_t write_friction(const Recording& recording, const Target& to) {
@@ -179,8 +189,8 @@ afm::Units units_of(const Recording& recording) {
   std::optional<afm::Units> units;
   const auto add = [&](const afm_emulator::Configuration& configuration) {
     const afm::Units found(afm::node::to_parameters(configuration).si);
-    if (units && (units->length() != found.length() || units->time() != found.time() ||
-                  units->friction() != found.friction())) {
+    if (units &&
+        (units->length() != found.length() || units->time() != found.time() || units->friction() != found.friction())) {
       throw Problem(recording.name() + ": holds runs with different lattice spacings, frequencies or tip masses");
     }
     units = found;

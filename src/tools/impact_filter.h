@@ -17,8 +17,8 @@ extern const std::vector<Column> kImpactColumns;  // the inputs, then the output
 std::string impact_input_header(const TableUnits& units = TableUnits::plain());
 std::string impact_output_header(const TableUnits& units = TableUnits::plain());
 
-// A row for each of the table's, without the header, both in these units; nan where one cannot be computed, reported as name:LINE in
-// `complaints`. Whether every row could be computed.
+// A row for each of the table's, without the header, both in these units; nan where one cannot be computed, reported as
+// name:LINE in `complaints`. Whether every row could be computed.
 bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, std::ostream& out,
                     std::ostream& complaints, const TableUnits& units = TableUnits::plain());
 

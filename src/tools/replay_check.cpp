@@ -27,8 +27,8 @@ constexpr int kIdentical = 0, kDifferent = 1, kCannotBeChecked = 3;
 
 void print(const Extent& e, double wall_seconds) {
   std::cout << "compared: " << e.batches << " batches (" << e.deflections << " of deflection with " << e.samples
-            << " samples, " << e.impact_arrays << " with " << e.impacts << " impacts), " << e.commands << " commands and "
-            << e.snapshots << " snapshots of " << e.epochs << " epochs\n";
+            << " samples, " << e.impact_arrays << " with " << e.impacts << " impacts), " << e.commands
+            << " commands and " << e.snapshots << " snapshots of " << e.epochs << " epochs\n";
   std::printf("simulated: %.6g s of model time in %.3g s\n", e.model_seconds, wall_seconds);
 }
 

@@ -112,7 +112,8 @@ void check_scene(const Parameters& p, Check& check) {
                 "commands_hold_s", p.commands_hold_s, "must be " + from_a_batch_on(batch));
 }
 
-// The core checks its settings in natural units: what is left to it is reported with the names and values that were given.
+// The core checks its settings in natural units: what is left to it is reported with the names and values that were
+// given.
 void check_settings(const Parameters& p, Check& check, Faults& faults) {
   check.within("friction_window_tau", p.friction_window_tau, kLeastFrictionWindow, kMostFrictionWindow);
   check.within("impact_budget", static_cast<double>(p.impact_budget), 1.0, kMaxImpactBudget);

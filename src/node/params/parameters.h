@@ -1,13 +1,13 @@
 // The parameters of the node: read once, checked as a whole. table.h lists them by name.
 #pragma once
 
+#include <ros/node_handle.h>
+
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <ros/node_handle.h>
 
 #include "afm/level_table.h"
 #include "afm/run.h"
@@ -21,7 +21,8 @@ constexpr double kMaxSampleRate = 1e6;       // [1/s]: ten samples a turn of the
 constexpr double kMaxWallSampleRate = 1e7;   // [1/s]: at time scales above 1, what subscribers can take
 constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
 
-// What may change while the emulator runs, and the constants beside it: plain values, which travel through lock-free queues.
+// What may change while the emulator runs, and the constants beside it: plain values, which travel through lock-free
+// queues.
 struct Live {
   SiModel si;
   SiBath bath;

@@ -20,8 +20,9 @@
 
 namespace afm::node {
 
-// The messages of a topic that roscpp still holds for its subscribers. It says neither how full the queue of a subscriber is
-// nor what it drops from one; but it lets go of the bytes of a message when the last subscriber has them, or has lost them.
+// The messages of a topic that roscpp still holds for its subscribers. It says neither how full the queue of a
+// subscriber is nor what it drops from one; but it lets go of the bytes of a message when the last subscriber has them,
+// or has lost them.
 class Outstanding {
  public:
   // The same message, whose bytes report when they are let go.
@@ -49,8 +50,8 @@ class Outstanding {
 
  private:
   struct State {
-    // Each subscriber gets its messages in order, and the one that is being sent is held: what is let go before an older
-    // one was dropped.
+    // Each subscriber gets its messages in order, and the one that is being sent is held: what is let go before an
+    // older one was dropped.
     void let_go(std::uint64_t number) {
       const std::lock_guard<std::mutex> lock(mutex);
       if (*held.begin() < number) ++lost;
@@ -92,7 +93,8 @@ class Channel {
     recorder_.record(bag_topic_, bytes, role_);
   }
 
-  // Messages that a slow subscriber did not get, as its queue here was full. What waited for one that has left is not lost.
+  // Messages that a slow subscriber did not get, as its queue here was full. What waited for one that has left is not
+  // lost.
   std::uint64_t lost() {
     const std::uint32_t subscribers = publisher_.getNumSubscribers();
     const std::uint64_t lost = outstanding_.take_lost();
@@ -101,8 +103,8 @@ class Channel {
   }
 
  private:
-  // roscpp counts by itself and would write over our numbers, unless it does not know of the header: what is on the wire
-  // is what is in a bag, to the byte.
+  // roscpp counts by itself and would write over our numbers, unless it does not know of the header: what is on the
+  // wire is what is in a bag, to the byte.
   static ros::Publisher advertise(ros::NodeHandle& node, const char* name, unsigned queue_size, bool latched) {
     ros::AdvertiseOptions options;
     options.init<Message>(name, queue_size);

@@ -1,5 +1,5 @@
-// Between the core's figures in natural units and messages in SI: the only place, so that a replay gets the same bytes as
-// the node. Pure functions; times, phases and indices pass as they are. Sequence numbers are the publisher's.
+// Between the core's figures in natural units and messages in SI: the only place, so that a replay gets the same bytes
+// as the node. Pure functions; times, phases and indices pass as they are. Sequence numbers are the publisher's.
 #pragma once
 
 #include <afm_emulator/Applied.h>
@@ -47,8 +47,8 @@ afm_emulator::Snapshot to_snapshot(const Snapshot& snapshot, const afm_emulator:
                                    const afm_emulator::Applied& applied, const Label& label);
 Snapshot from_message(const afm_emulator::Snapshot& message);
 
-// Applies it to the parameters in force. Returns the settings of the run from there on. Throws std::invalid_argument if there is no such
-// model.
+// Applies it to the parameters in force. Returns the settings of the run from there on. Throws std::invalid_argument if
+// there is no such model.
 LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied);
 
 // What was measured over a control period.

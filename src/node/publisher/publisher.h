@@ -88,7 +88,8 @@ class Publisher {
   }
 
   void publish(Report& report) {
-    if (report.kind == Report::Kind::epoch && !latest_clock_.isZero()) epoch_begin_ = latest_clock_ + ros::Duration(0, 1);
+    if (report.kind == Report::Kind::epoch && !latest_clock_.isZero())
+      epoch_begin_ = latest_clock_ + ros::Duration(0, 1);
     const Label label{stamp_of(report), report.state.epoch};
     status_tracker_.observe(report);
     live_of(parameters_) = report.in_force.live;
@@ -134,8 +135,8 @@ class Publisher {
     clock_.publish(message);
   }
 
-  // While time stands still, whoever is new gets the time too. Not latched: roscpp sends what is latched at once, and then
-  // what it published before, so that the clock of a new subscriber could go back.
+  // While time stands still, whoever is new gets the time too. Not latched: roscpp sends what is latched at once, and
+  // then what it published before, so that the clock of a new subscriber could go back.
   void publish_clock_to_new_subscribers() {
     const std::uint32_t subscribers = clock_ ? clock_.getNumSubscribers() : 0;
     if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) publish_clock(latest_clock_ + ros::Duration(0, 1));

@@ -6,8 +6,8 @@
 namespace afm::node {
 namespace {
 
-constexpr double kMarkTau = 100.0;              // impacts are counted over so long: some hundreds of them
-constexpr std::chrono::seconds kRecently{10};   // troubles that come and go are reported for so long
+constexpr double kMarkTau = 100.0;             // impacts are counted over so long: some hundreds of them
+constexpr std::chrono::seconds kRecently{10};  // troubles that come and go are reported for so long
 
 constexpr double kTroublingLag = 0.5;        // [s]: what a person notices
 constexpr double kHopelessLag = 2.0;         // [s]
@@ -86,7 +86,8 @@ void diagnose_pace(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
   out.summary(Severity::OK, status.paused ? "paused" : "running");
   if (status.lag > kHopelessLag) {
-    out.mergeSummaryf(Severity::ERROR, "%.1f s behind the wall clock: the machine is too slow for this run", status.lag);
+    out.mergeSummaryf(Severity::ERROR, "%.1f s behind the wall clock: the machine is too slow for this run",
+                      status.lag);
   } else if (status.lag > kTroublingLag) {
     out.mergeSummaryf(Severity::WARN, "%.1f s behind the wall clock", status.lag);
   }

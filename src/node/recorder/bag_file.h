@@ -26,8 +26,8 @@ class BagFile {
     ++messages_;
   }
 
-  // Why so many bytes cannot be written: no room beside the reserve, or the file is gone. Empty: they can be. It asks the
-  // disk only now and then, as that takes a system call.
+  // Why so many bytes cannot be written: no room beside the reserve, or the file is gone. Empty: they can be. It asks
+  // the disk only now and then, as that takes a system call.
   std::string check_space(std::uint64_t bytes);
 
   std::string close();  // returns what went wrong, with what to do about it, or nothing

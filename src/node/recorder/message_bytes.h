@@ -1,5 +1,5 @@
-// A message as the bytes that ROS sends and rosbag stores. It is serialized once; published, recorded and compared bytes
-// are the same.
+// A message as the bytes that ROS sends and rosbag stores. It is serialized once; published, recorded and compared
+// bytes are the same.
 #pragma once
 
 #include <ros/message_traits.h>

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
 
-// What is wrong with a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken for
-// another kind of file.
+// What is wrong with a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken
+// for another kind of file.
 std::string find_name_fault(const std::string& name) {
   constexpr std::size_t kMaxLength = 200;  // file systems take 255 bytes, and endings are added
   static const std::regex good("[A-Za-z0-9]([A-Za-z0-9_.+-]*[A-Za-z0-9])?"), active(".*\\.active");
@@ -41,7 +41,9 @@ std::string bag_base(const std::string& directory, const std::string& name) {
   char text[64];
   std::strftime(text, sizeof text, "afm_%Y-%m-%d-%H-%M-%S", &local);
   const std::string base = place / text;
-  const auto is_taken = [](const std::string& path) { return fs::exists(path + ".bag") || fs::exists(path + ".bag.active"); };
+  const auto is_taken = [](const std::string& path) {
+    return fs::exists(path + ".bag") || fs::exists(path + ".bag.active");
+  };
   std::string free = base;
   for (int i = 1; is_taken(free); ++i) free = base + "-" + std::to_string(i);
   return free;

@@ -35,8 +35,8 @@ class Recorder {
     std::string message, path;
   };
   struct Status {
-    std::string recording;  // path of the bag being written, or empty
-    std::string error;      // why the last recording ended early, or empty
+    std::string recording;                     // path of the bag being written, or empty
+    std::string error;                         // why the last recording ended early, or empty
     std::uint64_t dropped_messages = 0;        // since the node began
     std::uint64_t dropped_from_recording = 0;  // the present or last one
   };

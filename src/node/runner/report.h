@@ -1,5 +1,5 @@
-// Requests to the running thread and its reports: plain values, which travel through lock-free queues. Whoever waits for
-// an answer waits on a future, which the publisher fulfils when all that the answer stands for is published.
+// Requests to the running thread and its reports: plain values, which travel through lock-free queues. Whoever waits
+// for an answer waits on a future, which the publisher fulfils when all that the answer stands for is published.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct Request {
   explicit Request(Kind of_kind = Kind::flush) : kind(of_kind) {}
 
   Kind kind;
-  const char* cause = "";                                // of a command, as `applied` reports it
+  const char* cause = "";                                 // of a command, as `applied` reports it
   double drag_velocity = kAsItIs, rest_height = kAsItIs;  // [m/s], [m]; of a command and a control period
   double tau = 0.0;                                       // to advance, by a step or in a control period
   std::uint64_t impacts = 0;                              // of a step, if tau is 0

@@ -143,7 +143,8 @@ Answer Runner::serve(const Request& request) {
       break;
     case Kind::step:
       if (!is_held()) return answer("the emulator is running: pause it first");
-      return request.tau > 0.0 ? step(run_.now() + request.tau, kNoLimit) : step(run_.now() + kMaxStepTau, request.impacts);
+      return request.tau > 0.0 ? step(run_.now() + request.tau, kNoLimit)
+                               : step(run_.now() + kMaxStepTau, request.impacts);
     case Kind::control:
       return control(request);
     case Kind::flush:
@@ -247,8 +248,8 @@ void Runner::run_batch_to(const ModelTime& limit, std::uint64_t impacts) {
   run_batch(true, [&](Batch& batch) { return run_.advance(limit, impacts, batch); });
 }
 
-// Behind, as after the process was stopped, we may be faster than the publisher: then lag grows rather than that a batch
-// is lost.
+// Behind, as after the process was stopped, we may be faster than the publisher: then lag grows rather than that a
+// batch is lost.
 template <class Advance>
 Outcome Runner::run_batch(bool unhurried, Advance advance) {
   Batch* batch = queue_.acquire();
@@ -284,7 +285,8 @@ void Runner::update_state() {
   state_.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
   if (lockstep_) return;
   // an unfinished batch is late already when its deadline is past
-  const double overdue = state_.paused ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
+  const double overdue =
+      state_.paused ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
   state_.lag = std::max(pacer_.lag(), overdue);
   state_.worst_lag = std::max({state_.worst_lag, state_.lag, pacer_.worst_lag()});
 }

@@ -1,5 +1,5 @@
-// The running thread: advances the run batch by batch at absolute deadlines, serves requests between batches, and reports
-// everything. It blocks to wait for the next deadline, or for room to report, and neither locks nor allocates.
+// The running thread: advances the run batch by batch at absolute deadlines, serves requests between batches, and
+// reports everything. It blocks to wait for the next deadline, or for room to report, and neither locks nor allocates.
 #pragma once
 
 #include <atomic>
@@ -61,7 +61,8 @@ class Runner {
   // One batch: advanced by what is given, and reported. An unhurried one may wait for slow subscribers.
   template <class Advance>
   Outcome run_batch(bool unhurried, Advance advance);
-  void run_batch_to(const ModelTime& limit, std::uint64_t impacts);  // unhurried; it ends at the next boundary at the latest
+  void run_batch_to(const ModelTime& limit,
+                    std::uint64_t impacts);  // unhurried; it ends at the next boundary at the latest
 
   bool is_held() const { return state_.paused || lockstep_; }  // it may be stepped
   Report make_report(Report::Kind kind);

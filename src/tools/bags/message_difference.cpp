@@ -13,8 +13,8 @@ struct Field {
   bool is_element() const { return !path.empty() && path.back() == ']'; }
 };
 
-// ROS prints a field a line, "    phase: 0.5", deeper than what it lies in. An array has a heading, "impacts[]", and below
-// it "impacts[0]: ".
+// ROS prints a field a line, "    phase: 0.5", deeper than what it lies in. An array has a heading, "impacts[]", and
+// below it "impacts[0]: ".
 std::vector<Field> fields_of(const std::string& text) {
   struct Outer {
     std::size_t depth;

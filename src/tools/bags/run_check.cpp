@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
-#include "afm/units.h"
 #include "afm/fingerprint.h"
+#include "afm/units.h"
 #include "node/publisher/messages.h"
 #include "node/publisher/topics.h"
 #include "node/recorder/message_bytes.h"
@@ -203,7 +203,8 @@ void RunCheck::take_snapshot(const Mark& mark) {
   run_to(snapshot.time, snapshot.next_impact);
   settle();
   if (difference_) return;
-  compare(snapshot, node::to_snapshot(run_->split(), configuration_, applied_, {snapshot.header.stamp, applied_.epoch}));
+  compare(snapshot,
+          node::to_snapshot(run_->split(), configuration_, applied_, {snapshot.header.stamp, applied_.epoch}));
   ++extent_.snapshots;
 }
 
@@ -236,7 +237,7 @@ void RunCheck::check_batch() {
   if (!follows) run_to(recorded->begin, recorded->first_impact);
   advance(*recorded);
   const Units units(in_force_.si);
-    const node::Label label{{}, applied_.epoch};
+  const node::Label label{{}, applied_.epoch};
   if (deflection) compare(*deflection, node::to_deflection(batch_, in_force_, units, label));
   if (impacts) compare(*impacts, node::to_impacts(batch_, units, label));
   compare(*recorded, node::to_friction(batch_, in_force_, units, label));

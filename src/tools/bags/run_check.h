@@ -44,8 +44,8 @@ class RunCheck {
  public:
   using Progress = std::function<void(std::size_t done, std::size_t all)>;  // batches
 
-  // Throws Problem where nothing can be compared. A time further away than most_gap [tau] is a fault of its message rather
-  // than a gap: by default 44 hours at the paper's frequency, a choice.
+  // Throws Problem where nothing can be compared. A time further away than most_gap [tau] is a fault of its message
+  // rather than a gap: by default 44 hours at the paper's frequency, a choice.
   RunCheck(const Recording& recording, Progress progress, double most_gap = 1e9);
 
   // Up to the first difference. Throws what rosbag does where the bag is damaged.
@@ -110,8 +110,8 @@ class RunCheck {
   afm_emulator::Configuration configuration_;
   afm_emulator::Applied applied_;
   Batch batch_;
-  bool has_begun_ = false;     // and no batch was compared since
-  bool is_doubtful_ = false;   // a command or a snapshot is lost: a difference is what it did
+  bool has_begun_ = false;    // and no batch was compared since
+  bool is_doubtful_ = false;  // a command or a snapshot is lost: a difference is what it did
 
   std::optional<Difference> difference_;
   Extent extent_;

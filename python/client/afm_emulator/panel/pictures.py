@@ -110,8 +110,8 @@ class Path:
         self.plot = Plot('Path of the tip over the surface', 'height [pm]', 'along the surface [nm]', (0.1, 20.0))
         bounds = ['&lt; %g' % above for above, _ in ENERGIES[1:]] + ['&ge; %g' % ENERGIES[-1][0]]
         self.plot.note('impacts [zJ]: ' + ' '.join(
-            '<span style="color:%s">&#9679;</span> %s' % (colour, bound) for (_, colour),
-            bound in zip(ENERGIES, bounds)))
+            '<span style="color:%s">&#9679;</span> %s' % (colour, bound)
+            for (_, colour), bound in zip(ENERGIES, bounds)))
         self._surface = self.plot.line('#777777', fillLevel=-1e6, brush=pg.mkBrush('#e4e4e4'))
         self._line = self.plot.line(BLUE)
         self._spots = pg.ScatterPlotItem(size=8, pen=pg.mkPen('w', width=0.5), pxMode=True)
