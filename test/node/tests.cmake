@@ -67,7 +67,7 @@ if(TARGET afm_python_module)
 endif()
 
 # node/NAME_test.cpp: parts of the node that need no master
-foreach(name diagnosis)
+foreach(name diagnosis recorder)
   afm_add_gtest(${name}_test node/${name}_test.cpp)
   target_include_directories(afm_${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
   target_link_libraries(afm_${name}_test afm_emulator_ros)
@@ -102,7 +102,7 @@ set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOS
 if(NOT AFM_SANITIZE)
   add_test(NAME my_controller
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/my_controller_test.sh ${PROJECT_SOURCE_DIR} ${CATKIN_DEVEL_PREFIX})
-  set_tests_properties(my_controller PROPERTIES TIMEOUT 300)
+  set_tests_properties(my_controller PROPERTIES TIMEOUT 600)
 
   # it stands between the program and its allocator itself
   afm_add_gtest(stepping_path_test node/stepping_path_test.cpp)

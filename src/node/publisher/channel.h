@@ -77,8 +77,9 @@ class Channel {
         bag_topic_(make_bag_topic(publisher_.getTopic(), latched_)),
         recorder_(recorder) {}
 
-  // unhurried: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all.
-  void send(Message message, bool unhurried = false) {
+  // unhurried: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all, and
+  // for room in the recording.
+  void send(Message message, bool unhurried) {
     message.header.seq = sequence_++;
     const MessageBytes bytes = to_bytes(message);
     if (latched_) {
@@ -90,7 +91,7 @@ class Channel {
           bag_topic_->name, [tracked = outstanding_.track(bytes.message)] { return tracked; }, unused);
       lost();
     }
-    recorder_.record(bag_topic_, bytes, role_);
+    recorder_.record(bag_topic_, bytes, role_, unhurried);
   }
 
   // Messages that a slow subscriber did not get, as its queue here was full. What waited for one that has left is not

@@ -96,15 +96,15 @@ class Publisher {
     switch (report.kind) {
       case Report::Kind::epoch:
         latest_configuration_ = to_configuration(parameters_, AFM_EMULATOR_VERSION, fingerprint_, label);
-        configuration_.send(latest_configuration_);
+        configuration_.send(latest_configuration_, report.unhurried);
         break;
       case Report::Kind::applied:
         latest_applied_ = to_applied(report, parameters_, label);
-        applied_.send(latest_applied_);
+        applied_.send(latest_applied_, report.unhurried);
         sources_.on_applied(report.in_force.live);
         break;
       case Report::Kind::snapshot:
-        snapshot_.send(to_snapshot(report.snapshot, latest_configuration_, latest_applied_, label));
+        snapshot_.send(to_snapshot(report.snapshot, latest_configuration_, latest_applied_, label), report.unhurried);
         break;
       case Report::Kind::batch:
         deflection_.send(to_deflection(*report.batch, report.in_force.live, units_, label), report.unhurried);
@@ -147,7 +147,8 @@ class Publisher {
     publish_clock_to_new_subscribers();
     if (is_due(status_due_, kStatusPeriod)) {
       status_.send(status_tracker_.update_status(sources_.recorder.status(), sources_.refusals.summary(),
-                                                 deflection_.lost() + impacts_.lost() + friction_.lost()));
+                                                 deflection_.lost() + impacts_.lost() + friction_.lost()),
+                   false);
     }
     if (is_due(diagnostics_due_, kDiagnosticsPeriod)) {
       status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), sources_.free_bytes,

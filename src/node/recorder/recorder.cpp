@@ -125,24 +125,28 @@ Recorder::Status Recorder::status() const {
   return {bag_ ? path_ : "", error_, dropped_messages_, dropped_messages_ - dropped_before_};
 }
 
-void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role,
+                      bool unhurried) {
+  std::unique_lock<std::mutex> lock(mutex_);
   const Message message{topic, bytes};
   if (role == Role::configuration) configuration_ = message;
   if (role == Role::applied) applied_ = message;
   if (!bag_ || stopping_) return;
   if (role == Role::snapshot) {
     begun_ = true;
-    push({message, {}, configuration_, applied_});
+    push(lock, {message, {}, configuration_, applied_}, unhurried);
   } else if (begun_) {
-    push({message, {}, {}, {}});
+    push(lock, {message, {}, {}, {}}, unhurried);
   }
 }
 
 // Stamps in the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by them.
-void Recorder::push(Item item) {
+void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried) {
   const std::size_t bytes = item.message.bytes.size();
-  if (queue_bytes_ + bytes > kMaxQueueBytes) {
+  const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= kMaxQueueBytes; };
+  if (unhurried) room_.wait(lock, [&] { return has_room() || stopping_; });
+  if (stopping_ || !begun_) return;  // or it was stopped while we waited
+  if (!has_room()) {
     ++dropped_messages_;
     return;
   }
@@ -166,6 +170,7 @@ void Recorder::write_loop() {
     const Item item = std::move(queue_.front());
     queue_.pop_front();
     queue_bytes_ -= item.message.bytes.size();
+    room_.notify_one();
     lock.unlock();
     std::string error = write(item);
     lock.lock();
@@ -220,6 +225,7 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
   stopping_ = true;  // nothing more is queued while we close
   queue_.clear();
   queue_bytes_ = 0;
+  room_.notify_one();
   if (bag_) {
     lock.unlock();
     const std::string close_error = bag_->close();

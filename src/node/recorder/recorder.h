@@ -49,8 +49,8 @@ class Recorder {
   Reply stop();
   Status status() const;
 
-  // Never waits for the disk. What finds no room in the queue is counted.
-  void record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role);
+  // What finds no room in the queue, as the disk is slow, is counted; unhurried, it waits for room instead.
+  void record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role, bool unhurried);
 
  private:
   struct Message {
@@ -64,7 +64,7 @@ class Recorder {
     bool is_snapshot() const { return configuration.topic != nullptr; }
   };
 
-  void push(Item item);
+  void push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried);
   void write_loop();
   std::string write(const Item& item);  // returns why the recording must end, or nothing
   void write(const Message& message, const ros::Time& stamp);
@@ -77,7 +77,7 @@ class Recorder {
   const std::function<void()> ask_for_snapshot_;
   mutable std::mutex mutex_;
   std::mutex starting_;  // one start at a time, as opening a bag takes its time
-  std::condition_variable work_, closed_;
+  std::condition_variable work_, room_, closed_;
   Message configuration_, applied_;  // the latest
   std::deque<Item> queue_;
   std::size_t queue_bytes_ = 0;

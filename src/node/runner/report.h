@@ -86,7 +86,7 @@ struct Report {
   InForce in_force;
   RunnerState state;
   Batch* batch = nullptr;  // of kind batch; it belongs to the receiver, who gives it back
-  bool unhurried = false;  // made while stepping: it may wait for slow subscribers
+  bool unhurried = false;  // made while paused or in lockstep: it may wait for slow subscribers and a slow disk
   Snapshot snapshot;       // of kind snapshot
   Answer answer;           // of kind answer
   Reply reply;             // to be fulfilled when this is published

@@ -60,7 +60,7 @@ void Runner::loop() {
     if (state_.paused || stopping_ || (lockstep_ && !may_advance())) continue;
     stop_drag_without_commands();
     play_commands();
-    const Outcome outcome = run_batch(lockstep_, [this](Batch& batch) { return run_.advance(batch); });
+    const Outcome outcome = run_batch([this](Batch& batch) { return run_.advance(batch); });
     // A batch cut short by its budget is reported, but its period is not over: the rest follows at once, and lag grows.
     if (outcome != Outcome::budget_spent) pacer_.batch_done(monotonic_now());
   }
@@ -245,13 +245,13 @@ Answer Runner::answer(const char* fault) const {
 }
 
 void Runner::run_batch_to(const ModelTime& limit, std::uint64_t impacts) {
-  run_batch(true, [&](Batch& batch) { return run_.advance(limit, impacts, batch); });
+  run_batch([&](Batch& batch) { return run_.advance(limit, impacts, batch); });
 }
 
 // Behind, as after the process was stopped, we may be faster than the publisher: then lag grows rather than that a
 // batch is lost.
 template <class Advance>
-Outcome Runner::run_batch(bool unhurried, Advance advance) {
+Outcome Runner::run_batch(Advance advance) {
   Batch* batch = queue_.acquire();
   for (; batch == nullptr && !stopping_; batch = queue_.acquire()) sleep_until(monotonic_now() + kRoomPoll);
   if (batch == nullptr) return Outcome::time_limit;
@@ -260,7 +260,6 @@ Outcome Runner::run_batch(bool unhurried, Advance advance) {
   measured_.add(*batch);
   Report report = make_report(Report::Kind::batch);
   report.batch = batch;
-  report.unhurried = unhurried;
   queue_.offer(report);  // there is room: requests leave it for all batches
   return outcome;
 }
@@ -269,6 +268,7 @@ Report Runner::make_report(Report::Kind kind) {
   update_state();
   Report report;
   report.kind = kind;
+  report.unhurried = is_held();
   report.wall_ns = wall_now_ns();
   report.in_force = in_force_;
   report.state = state_;

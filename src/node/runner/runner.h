@@ -58,11 +58,11 @@ class Runner {
   Answer control(const Request& request);
   Answer answer(const char* fault = "") const;
 
-  // One batch: advanced by what is given, and reported. An unhurried one may wait for slow subscribers.
+  // One batch: advanced by what is given, and reported.
   template <class Advance>
-  Outcome run_batch(bool unhurried, Advance advance);
+  Outcome run_batch(Advance advance);
   void run_batch_to(const ModelTime& limit,
-                    std::uint64_t impacts);  // unhurried; it ends at the next boundary at the latest
+                    std::uint64_t impacts);  // it ends at the next boundary at the latest
 
   bool is_held() const { return state_.paused || lockstep_; }  // it may be stepped
   Report make_report(Report::Kind kind);
