@@ -115,20 +115,7 @@ TEST(Basins, HoldEachStartOnce) {
     }
   }
   EXPECT_EQ(seen, std::vector<int>(settings.given.size(), 1));
-  EXPECT_GE(basins.size(), 2u);
-}
-
-TEST(Basins, AreTheSameWhenLookedForAgain) {
-  BasinSettings settings;
-  settings.starts = 20;
-  settings.friction_duration = 100.0;
-  const auto a = find_basins({3.75, 0.7, 0.375}, settings), b = find_basins({3.75, 0.7, 0.375}, settings);
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_GE(a.size(), 2u);  // friction depends on history
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].starts, b[i].starts);
-    EXPECT_EQ(a[i].first.K_f, b[i].first.K_f);
-  }
+  EXPECT_GE(basins.size(), 2u);  // friction depends on history
 }
 
 }  // namespace

@@ -86,12 +86,6 @@ TEST(FlightJacobian, IsTheDerivativeOfTheFlight) {
   }
 }
 
-TEST(FlightJacobian, OfTwoFlightsIsTheirProduct) {
-  const Mechanics<double> m{Model()};
-  const FlowJacobian<double> both = flight_jacobian(m, 0.3) * flight_jacobian(m, 0.4);
-  EXPECT_LE((both - flight_jacobian(m, 0.7)).norm(), 1e-13 * both.norm());
-}
-
 TEST(SectionJacobian, IsTheDerivativeOfTheMap) {
   for (const Model& model : kModels) {
     Bounces bounces(model, 1);
@@ -157,19 +151,6 @@ TEST(ReflectionJacobian, OfThePaperIsThatOfTheGeneralConstruction) {
       ASSERT_NEAR(J.determinant(), law.restitution * law.slope, 1e-12);
     }
   }
-}
-
-// So the determinant is gamma^2.
-TEST(ReflectionJacobian, HasTheEigenvaluesOneAndMinusGammaTwice) {
-  const Model model = model_with(0.7, 0.0);
-  Bounces bounces(model, 4);
-  const Bounce b = bounces.next();
-  const Incidence<double> in(b.flight.mechanics(), b.eta, b.landing.jet.state, b.landing.jet.g1);
-  const Eigen::Matrix4d J = local_reflection_jacobian(model, in, 1.0);
-  const Eigen::Matrix4d I = Eigen::Matrix4d::Identity();
-  EXPECT_NEAR((J - I).determinant(), 0.0, 1e-12);
-  EXPECT_NEAR((J + 0.7 * I).determinant(), 0.0, 1e-12);
-  EXPECT_NEAR(J.trace(), 2.0 - 2.0 * 0.7, 1e-12);
 }
 
 TEST(SectionJacobian, FollowsTheChainRuleOverManyImpacts) {

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "afm/tip.h"
-#include "support/quad_impacts.h"
-#include "trials/random_launches.h"
 
 namespace afm {
 namespace {
@@ -31,19 +29,6 @@ TEST(PoincareMap, IsTheTipFromImpactToImpact) {
     ASSERT_NEAR(step.energy_loss, tip.last_impact().energy_loss, 1e-12);
     ASSERT_NEAR(step.normal_speed, tip.last_impact().normal_speed, 1e-13);
     ASSERT_NEAR(step.tangential_velocity, tip.last_impact().tangential_velocity, 1e-13);
-  }
-}
-
-TEST(PoincareMap, HasTheJacobianOfItsStep) {
-  RandomLaunches launches(3);
-  for (int i = 0; i < 200; ++i) {
-    const double eta = launches.within(-9.0, 9.0);
-    const TipState start = launches.next(eta, -2.0, 1.0);
-    const MapStep step = PoincareMap(Model(), eta)(start);
-    ASSERT_EQ(step.outcome, MapOutcome::impact);
-    QuadImpacts exact(Model(), eta);
-    const auto map = [&](const QuadPoint& p) { return exact.next(p, step.dt); };
-    ASSERT_LE(relative_distance(step.J, quad_differences<4>(map, quad_point(start), Quad(1e-13))), 1e-9);
   }
 }
 

@@ -9,8 +9,6 @@
 #include <limits>
 #include <random>
 
-#include "afm/model.h"
-
 namespace afm {
 namespace {
 
@@ -36,11 +34,6 @@ TEST(NumberText, GivesTheSameNumberBack) {
     if (!std::isfinite(value)) continue;
     ASSERT_EQ(std::strtod(number_text(value).c_str(), nullptr), value);
   }
-}
-
-TEST(NumberText, IsThatOfAFault) {
-  EXPECT_STREQ(ParameterError("gamma", 1.1, "the restitution must be between 0 and 1").what(),
-               "gamma = 1.1: the restitution must be between 0 and 1");
 }
 
 }  // namespace

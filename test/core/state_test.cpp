@@ -79,12 +79,6 @@ TEST(ModelTime, SamplesStandOnTheirGridHoweverLongTheRun) {
   }
 }
 
-TEST(ModelTime, SamplesFollowOneAnother) {
-  for (std::uint64_t n = 10000000000; n < 10000001000; ++n) {
-    ASSERT_NEAR(multiply(n + 1, 0.03) - multiply(n, 0.03), 0.03, 0x1p-51);
-  }
-}
-
 TEST(TipState, ThereAndBackIsTheSamePlace) {
   const double H = 0.05 / 0.52;
   std::mt19937_64 random(3);

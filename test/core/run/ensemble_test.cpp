@@ -1,5 +1,4 @@
-// Many tips together give bit for bit what each gives alone: in lanes of any number, on any number of threads, however
-// the advance is split.
+// Many tips together give bit for bit what each gives alone: on any number of threads, however the advance is split.
 #include "afm/ensemble.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "support/recorded_run.h"
+
 namespace {
 
 using namespace afm;
@@ -19,15 +20,9 @@ constexpr int kEvents = 1000;
 
 bool identical(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-bool identical(const Impact& a, const Impact& b) {
-  return a.time == b.time && identical(a.surface_phase, b.surface_phase) && identical(a.normal_speed, b.normal_speed) &&
-         identical(a.tangential_velocity, b.tangential_velocity) && identical(a.energy_loss, b.energy_loss) &&
-         a.kind == b.kind && a.count == b.count;
-}
-
 bool identical(const Tip& a, const Tip& b) {
   const TipState p = a.tip_state(), q = b.tip_state();
-  return a.now() == b.now() && a.in_contact() == b.in_contact() && identical(a.last_impact(), b.last_impact()) &&
+  return a.now() == b.now() && a.in_contact() == b.in_contact() && same_bits(a.last_impact(), b.last_impact()) &&
          identical(p.phase, q.phase) && identical(p.X, q.X) && identical(p.u, q.u) && identical(p.g, q.g) &&
          identical(p.g1, q.g1);
 }
@@ -78,7 +73,7 @@ Ensemble together(const std::vector<Tip>& tips, int threads) {
 void expect_identical(Ensemble& ensemble, const std::vector<Impact>& log, const Runs& runs) {
   ASSERT_EQ(log.size(), runs.impacts.size());
   for (std::size_t i = 0; i < log.size(); ++i) {
-    ASSERT_TRUE(identical(log[i], runs.impacts[i]))
+    ASSERT_TRUE(same_bits(log[i], runs.impacts[i]))
         << "record " << i % kEvents << " of eta " << runs.tips[i / kEvents].eta();
   }
   for (std::size_t i = 0; i < runs.tips.size(); ++i) {

@@ -145,23 +145,6 @@ TEST(Run, EndsABatchAlsoWhereAllItsSamplesAreTaken) {
   EXPECT_GT(between, 3);
 }
 
-TEST(Run, TheSameCommandsGiveTheSameBits) {
-  const double drags[] = {3.4, -2.0, 2.0, 2.0, 7.0, 3.4};
-  RecordedRun runs[2];
-  for (RecordedRun& recorded : runs) {
-    afm::Run run(settings_at(3.4, 300));
-    Batch batch;
-    for (int i = 0; i < 60; ++i) {
-      if (i % 10 == 5) drag(run, drags[i / 10]);
-      run.advance(batch);
-      recorded.append(batch);
-    }
-  }
-  EXPECT_EQ(runs[0].vertical.size(), 18000u);
-  EXPECT_EQ(runs[0].impacts.size(), runs[1].impacts.size());
-  expect_first_of(runs[0], runs[1]);
-}
-
 TEST(Run, ADragCommandStartsTheFrictionAgain) {
   afm::Run run(settings_at(2.0, 3000));
   Batch batch;

@@ -118,21 +118,6 @@ TEST_P(ImpactSearchAtEta, AHorizonBeforeTheImpactIsReachedOrTheImpactIsSeenBeyon
 
 INSTANTIATE_TEST_SUITE_P(DragSpeeds, ImpactSearchAtEta, testing::Values(0.0, 0.2, 1.01, -3.4, 3.4, 9.0, 50.0));
 
-// Of fast launches and of chatter, as the tip leaves bounds for later.
-TEST(ImpactSearch, BoundsThatAreLeftForLaterChangeNothing) {
-  RandomLaunches launches(8);
-  for (int i = 0; i < 2000; ++i) {
-    const double eta = launches.within(-9.0, 9.0);
-    const TipState start = i % 2 == 0 ? launches.next(eta) : launches.next(eta, -6.0, -1.0);
-    const Landing<double> known = find_landing(kMica, Flight<double>(kMechanics, eta, start), kHorizon);
-    Flight<double> flight(kMechanics, eta, start);
-    const Landing<double> later = find_landing(kMica, flight, kHorizon);
-    ASSERT_EQ(later.outcome, known.outcome) << i;
-    ASSERT_EQ(later.s, known.s) << i;
-    ASSERT_EQ(later.jet.g1, known.jet.g1) << i;
-  }
-}
-
 TEST(ImpactSearch, AMicroBounceIsRightToItsLastDigits) {
   RandomLaunches launches(4);
   int bounces = 0;

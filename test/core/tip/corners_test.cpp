@@ -126,20 +126,5 @@ TEST(Corners, WithoutACutoffTheBurstEndsAtTheAccumulationPoint) {
   }
 }
 
-TEST(Corners, OnTheGlideNothingIsLost) {
-  for (const double eta : {1.0, -1.0}) {
-    for (const double gamma : {0.0, 0.7, 1.0}) {
-      Model model;
-      model.gamma = gamma;
-      Tip tip(model, eta, FreeState{0.0, 0.0, model.H, eta, 0.0});
-      double lost = 0.0;
-      int events = 0;
-      while (tip.advance({1000, 0.0}) != Outcome::time_limit) ++events, lost += tip.last_impact().energy_loss;
-      EXPECT_LE(events, 1) << gamma;  // contact
-      EXPECT_LE(std::abs(lost), 1e-12);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace afm

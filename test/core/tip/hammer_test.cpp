@@ -110,24 +110,6 @@ TEST(Hammer, IsDraggedOverAtRestAndWakesUp) {
   EXPECT_GE(tip.tip_state().g, 0.0);
 }
 
-TEST(Hammer, NoCommandThrowsItOffBeforeItCame) {
-  RandomLaunches random(3);
-  Tip tip(hammer(), 0.0, FreeState{0.25, 0.0, 0.2, 0.0, 0.0});
-  int thrown = 0;
-  for (int i = 0; i < 20000; ++i) {
-    ModelTime last = tip.now();
-    const ModelTime limit = last + random.within(0.0, tip.eta() == 0.0 ? 100.0 : 0.5);
-    const bool rides = tip.in_contact();
-    for (Outcome o = tip.advance(limit); o != Outcome::time_limit; o = tip.advance(limit)) {
-      ASSERT_FALSE(tip.last_impact().time < last) << i;
-      thrown += rides && o == Outcome::released;
-      last = tip.last_impact().time;
-    }
-    tip.drag(i % 2 == 0 ? 0.3 : 0.0);
-  }
-  EXPECT_GT(thrown, 300);
-}
-
 // The second takes back what the first has done, before any time has passed; a blow alone is not taken back.
 TEST(Hammer, OfTwoCommandsAtOneTimeTheLastCounts) {
   RandomLaunches random(4);

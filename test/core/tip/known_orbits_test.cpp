@@ -78,20 +78,5 @@ TEST(KnownOrbits, TheMapReturnsThePeriodOneOrbitOfThePaper) {
   EXPECT_NEAR(K_f, 0.22902622884216517, 1e-13);
 }
 
-TEST(KnownOrbits, AtEvenEtaTheImpactsAreThoseOfTheClosedForm) {
-  const Model model;
-  const double s = kTwoPi * model.H;
-  for (const double eta : {2.0, 4.0, 6.0, 8.0}) {
-    Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
-    for (int i = 0; i < 2000; ++i) tip.advance(kNever);
-    const Impact& impact = tip.last_impact();
-    EXPECT_NEAR(impact.surface_phase, 0.75, 1e-9) << eta;
-    EXPECT_NEAR(impact.normal_speed, 2.0 * eta * s / ((1.0 - model.gamma) * std::sqrt(1.0 + s * s)), 1e-9 * eta);
-    const ModelTime before = tip.now();
-    tip.advance(kNever);
-    EXPECT_NEAR(tip.now() - before, 0.5, 1e-12) << eta;
-  }
-}
-
 }  // namespace
 }  // namespace afm

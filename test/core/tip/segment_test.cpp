@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "afm/tip.h"
+#include "support/recorded_run.h"
 #include "trials/random_launches.h"
 
 namespace afm {
@@ -54,15 +55,22 @@ TEST_P(SegmentsOf, EachIsInBalanceAndFollowsTheOneBefore) {
   }
 }
 
-TEST_P(SegmentsOf, LimitsChangeNoRecord) {
+// Limits of any kind: before the end of the segment, in the past, and exactly at it.
+TEST_P(SegmentsOf, LimitsChangeNoBit) {
   Tip whole = tip(), halting = tip();
   RandomLaunches random(2);
   Segments a, b;
   for (int arcs = 0; arcs < 3000; ++arcs) {
-    whole.advance_segment({1000000, 0.0}, &a);
-    while (halting.advance_segment(halting.now() + random.within(0.0, 0.5), &b) == Outcome::time_limit) {
-      ASSERT_EQ(b.begin(), b.end());
+    const Outcome outcome = whole.advance_segment({1000000, 0.0}, &a);
+    Outcome halted = Outcome::time_limit;
+    for (int i = 0; halted == Outcome::time_limit; ++i) {
+      const ModelTime limit = i % 5 == 4 ? whole.now() : halting.now() + random.within(-0.1, 0.5);
+      halted = halting.advance_segment(limit, &b);
+      ASSERT_TRUE(halted != Outcome::time_limit || b.begin() == b.end()) << arcs;
     }
+    ASSERT_EQ(halted, outcome) << arcs;
+    ASSERT_EQ(halting.now(), whole.now()) << arcs;
+    ASSERT_TRUE(same_bits(halting.last_impact(), whole.last_impact())) << arcs;
     ASSERT_EQ(a.end() - a.begin(), b.end() - b.begin());
     for (const Segment *s = a.begin(), *t = b.begin(); s != a.end(); ++s, ++t) {
       ASSERT_EQ(s->impulse, t->impulse);

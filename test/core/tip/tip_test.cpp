@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "afm/surface.h"
 
@@ -23,16 +22,6 @@ Model model_at(double eta) {
 
 Tip tip_at(double eta) { return {model_at(eta), eta, start_at(eta)}; }
 
-void expect_same(const Impact& a, const Impact& b) {
-  EXPECT_TRUE(a.time == b.time) << a.time.tau << " " << a.time.phase << " and " << b.time.tau << " " << b.time.phase;
-  EXPECT_EQ(a.surface_phase, b.surface_phase);
-  EXPECT_EQ(a.normal_speed, b.normal_speed);
-  EXPECT_EQ(a.tangential_velocity, b.tangential_velocity);
-  EXPECT_EQ(a.energy_loss, b.energy_loss);
-  EXPECT_EQ(a.kind, b.kind);
-  EXPECT_EQ(a.count, b.count);
-}
-
 void run_to(Tip& tip, const ModelTime& time) {
   Outcome outcome;
   do outcome = tip.advance(time);
@@ -40,26 +29,6 @@ void run_to(Tip& tip, const ModelTime& time) {
 }
 
 bool is_event(Outcome outcome) { return outcome != Outcome::time_limit && outcome != Outcome::flying; }
-
-TEST(Tip, LimitsDoNotChangeBits) {
-  for (const double eta : kDragSpeeds) {
-    Tip whole = tip_at(eta), pieces = tip_at(eta);
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> ahead(-0.1, 0.5);
-    for (int event = 0; event < 1500; ++event) {
-      const Outcome outcome = whole.advance(kNever);
-      Outcome piece = Outcome::time_limit;
-      // any limits at all, the time of the event among them, until the same event has happened
-      for (int i = 0; !is_event(piece); ++i) {
-        piece = pieces.advance(i % 5 == 4 ? whole.now() : pieces.now() + ahead(random));
-      }
-      ASSERT_EQ(piece, outcome) << "eta " << eta << " event " << event;
-      ASSERT_TRUE(pieces.now() == whole.now()) << "eta " << eta << " event " << event;
-      expect_same(pieces.last_impact(), whole.last_impact());
-      ASSERT_FALSE(HasFailure()) << "eta " << eta << " event " << event;
-    }
-  }
-}
 
 TEST(Tip, AnEventAtTheLimitStillHappens) {
   Tip scout = tip_at(3.4), tip = tip_at(3.4);
@@ -79,17 +48,6 @@ TEST(Tip, TimeNeverRunsBackwards) {
   const ModelTime now = tip.now();
   EXPECT_EQ(tip.advance({0, 0.05}), Outcome::time_limit);
   EXPECT_TRUE(tip.now() == now);
-}
-
-TEST(Tip, ItNeverSinksIntoTheSurface) {
-  for (const double eta : kDragSpeeds) {
-    Tip tip = tip_at(eta);
-    ModelTime t;
-    for (int sample = 0; sample < 20000; t = t + 0.0037, ++sample) {
-      while (!(t < tip.segment_end())) tip.advance_segment(t);
-      ASSERT_GE(tip.deflection(t).gap, -1e-13) << "eta " << eta << " at " << t.tau << " + " << t.phase;
-    }
-  }
 }
 
 TEST(Tip, TheDeflectionIsThatOfTheState) {
@@ -123,18 +81,6 @@ TEST(Tip, ADragCommandMovesNothing) {
       ASSERT_NEAR(after.y, before.y, 1e-15);
       ASSERT_NEAR(after.w, before.w, 1e-13);
     }
-  }
-}
-
-TEST(Tip, TheSameDragAgainOnlySplitsTheFlight) {
-  for (const double eta : {2.25, 3.4, 8.0}) {
-    Tip whole = tip_at(eta), split = tip_at(eta);
-    ASSERT_EQ(whole.advance(kNever), Outcome::impact);
-    split.advance(ModelTime{} + 0.5 * (whole.now() - ModelTime{}));
-    split.drag(std::nextafter(eta, 0.0));
-    ASSERT_EQ(split.advance(kNever), Outcome::impact);
-    EXPECT_NEAR(split.now() - whole.now(), 0.0, 1e-14) << eta;
-    EXPECT_NEAR(split.last_impact().normal_speed, whole.last_impact().normal_speed, 1e-12 * eta);
   }
 }
 

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""The tools of the laboratory: their tables, and what they refuse.
+
+Usage: studies_test.py DIRECTORY_OF_THE_TOOLS
+"""
+import csv
+import math
+import os
+import sys
+import tempfile
+import unittest
+
+from tables import run_tool
+
+TOOLS = None
+SLOPE = 2.0 * math.pi * 0.05 / 0.52
+ORBITS = ['--trajectory', '20000', '--guesses', '200']
+SHORT = ['--starts', '1', '--duration', '200', '--transient', '200']
+
+# tool: (what it names, arguments)
+REFUSED = {
+    'attractors': [('gamma = 1.5', '--gamma 1.5'), ('eta = 1:2', '--eta 1:2'), ('eta = 2000', '--eta 2000'),
+                   ('cutoff = -1', '--cutoff -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
+    'bifurcations': [('1:2', '--range 1:2'), ('mass', '--vary mass'), ('left', '--sweep left'),
+                     ('anvil', '--model anvil')],
+    'continue_orbits': [('mass', '--vary mass --to 1'), ('eta = 0', '--eta 0 --to 1'), ('to', '')],
+    'model_error': [('eta = 0', '--eta 0'), ('eta = 1:2', '--eta 1:2'), ('gamma = 2', '--gamma 2'),
+                    ('frequency_ratio = -1', '--frequency-ratio -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
+    'periodic_orbits': [('gamma = 1.5', '--gamma 1.5'), ('cutoff = -1', '--cutoff -1'), ('eta = ', '--eta inf'),
+                        ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'), ('model = anvil', '--model anvil')],
+    'symbolic_dynamics': [('gamma = 7', '--gamma 7'), ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'),
+                          ('model = oscillator', '--model oscillator')]}
+
+
+def run(tool, *arguments):
+    return run_tool(os.path.join(TOOLS, tool), *arguments)
+
+
+class Refusals(unittest.TestCase):
+    def test_bad_input_is_named(self):
+        for tool, cases in REFUSED.items():
+            for words, arguments in cases:
+                with self.subTest(tool=tool, arguments=arguments):
+                    code, rows, complaint = run(tool, *arguments.split())
+                    self.assertEqual((code, rows), (2, []))
+                    self.assertIn(words, complaint)
+
+    def test_a_table_that_cannot_be_written(self):
+        self.assertEqual(run('symbolic_dynamics', '--impacts', '2000', '--section', '/no/such/place')[0], 1)
+
+
+class Attractors(unittest.TestCase):
+    def test_two_attractors_at_one_drag_velocity(self):
+        code, rows, _ = run('attractors', '--eta', '3.75', '--cutoff', '0.375', '--starts', '40', '--friction-duration',
+                            '200')
+        self.assertEqual(code, 0)
+        self.assertGreaterEqual(len(rows), 2)
+        self.assertAlmostEqual(sum(float(row['basin']) for row in rows), 1.0, delta=1e-12)
+        self.assertIn('period-1', [row['attractor'] for row in rows])
+        exponents = [float(row['lyapunov_1']) for row in rows]
+        self.assertLess(min(exponents), -0.01)
+        self.assertGreater(max(exponents), 0.01)
+        self.assertGreater(len({row['k_f'] for row in rows}), 1)
+
+    def test_any_number_of_threads_gives_the_same_table(self):
+        grid = ['--eta', '1:3:0.5', '--gamma', '0.6:0.7:0.1', '--starts', '2', '--friction-duration', '50',
+                '--relative-cutoff', '--cutoff', '0.1']
+        one = run('attractors', *grid, '--threads', '1')
+        self.assertEqual(one, run('attractors', *grid, '--threads', '3'))
+        self.assertGreaterEqual(len(one[1]), 10)
+        self.assertEqual(float(one[1][0]['cutoff']), 0.1)
+
+
+class Orbits(unittest.TestCase):
+    def test_orbits_at_the_papers_parameters(self):
+        code, rows, report = run('periodic_orbits', '--eta', '3.4', '--gamma', '0.7', '--max-length', '4', *ORBITS)
+        self.assertEqual(code, 0)
+        self.assertEqual([row['length'] for row in rows], ['1', '1', '3', '4'])
+        self.assertEqual(list(rows[0])[:9], 'length,cells,period,k_f,residual,phase,extension,u,w'.split(','))
+        self.assertEqual(len(rows[0]), 17)
+        for column, value in (('k_f', 0.22902622884216517), ('w', 2.0880897958488404),
+                              ('multiplier_1_re', -0.5274355542), ('multiplier_1_im', 1.396024991)):
+            self.assertAlmostEqual(float(rows[1][column]), value, delta=1e-9)
+        for row in rows:
+            sizes = [abs(complex(float(row['multiplier_%d_re' % i]), float(row['multiplier_%d_im' % i])))
+                     for i in range(1, 5)]
+            self.assertTrue(all(a > b * (1 - 1e-9) for a, b in zip(sizes, sizes[1:])))
+        self.assertIn('length 2: ', report)
+
+    def test_the_orbit_at_eta_2_dies_in_a_graze(self):
+        code, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'gamma', '--to', '0.1', '--guesses', '100')
+        self.assertEqual(code, 0)
+        graze, = [row for row in rows if row['event'] == 'grazing']
+        self.assertAlmostEqual(float(graze['value']), 0.305677576, delta=1e-8)
+        self.assertEqual(rows[-1]['event'], 'end: grazing')
+
+    def test_bifurcations_on_a_period_one(self):
+        code, rows, _ = run('bifurcations', '--range', '1.9:2:0.05', '--impacts', '5')
+        self.assertEqual((code, len(rows)), (0, 15))
+        self.assertEqual({row['attractor'] for row in rows}, {'period-1'})
+        self.assertAlmostEqual(float(rows[-1]['phase']), 0.75, delta=1e-9)
+
+    def test_the_nearest_return_is_at_the_fixed_point(self):
+        code, rows, _ = run('return_scan', '--points', '40', '--depth', '36')
+        self.assertEqual((code, len(rows)), (0, 1600))
+        nearest = min(rows, key=lambda row: float(row['distance']))
+        self.assertAlmostEqual(float(nearest['phase']), 0.529, delta=0.02)
+        self.assertAlmostEqual(float(nearest['w']), 2.088, delta=0.2)
+
+    def test_every_tool_takes_the_hammer(self):
+        hammer = ['--model', 'hammer']
+        _, rows, _ = run('attractors', '--eta', '2', '--starts', '5', '--friction-duration', '200', *hammer)
+        self.assertEqual((rows[0]['attractor'], rows[0]['lyapunov_3']), ('period-1', '-inf'))
+        _, rows, _ = run('periodic_orbits', '--eta', '4', '--max-length', '1', *hammer, *ORBITS)
+        even = min(rows, key=lambda row: abs(float(row['phase']) - 0.75))
+        self.assertEqual((even['extension'], even['multiplier_3_re']), ('0', '0'))
+        _, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'gamma', '--to', '0.6', '--guesses', '50', *hammer)
+        self.assertEqual(rows[-1]['event'], 'end: target')
+        self.assertAlmostEqual(float(rows[-1]['multiplier_1_re']), 0.6, delta=1e-6)
+        _, rows, _ = run('bifurcations', '--range', '2:2:1', '--impacts', '5', *hammer)
+        self.assertEqual({row['extension'] for row in rows}, {'0'})
+        _, rows, _ = run('return_scan', '--eta', '2.7', '--points', '20', '--length', '1', *hammer)
+        self.assertEqual(len(rows), 400)
+
+
+class ModelErrors(unittest.TestCase):
+    def errors(self, *arguments):
+        code, rows, _ = run('model_error', *arguments, *SHORT)
+        self.assertEqual(code, 0)
+        return [{key: text if key in ('model', 'attractor', 'reference_attractor') else float(text)
+                 for key, text in row.items()} for row in rows]
+
+    def test_of_the_reference_itself_there_is_none(self):
+        rows = self.errors('--model', 'oscillator', '--contact-tolerance', '1e-5', '--eta', '2:3.4:1.4')
+        self.assertEqual(len(rows), 2)
+        for row in rows:
+            self.assertEqual((row['k_f_error'], row['deflection_error']), (0.0, 0.0))
+            self.assertLess(row['tracking_error'], 1e-9)
+            self.assertEqual(row['attractor'], row['reference_attractor'])
+
+    def test_of_the_hammer_at_even_eta_is_the_closed_form(self):
+        row, = self.errors('--eta', '4')
+        self.assertAlmostEqual(row['k_f_error'], SLOPE * SLOPE, delta=1e-9)  # 1 + s^2 times the oscillator's
+        self.assertGreater(row['tracking_error'], 0.01)
+        self.assertGreater(row['deflection_error'], 0.01)
+        self.assertGreater(row['stretch_max'], row['stretch_rms'])
+
+    def test_of_bursts_is_within_their_tolerance(self):
+        row, = self.errors('--model', 'oscillator', '--eta', '3', '--cutoff', '0.15', '--reference-tolerance', '0')
+        self.assertLess(abs(row['k_f_error']), 1e-2)
+        self.assertGreater(row['cost_ratio'], 0.0)
+
+
+class Symbols(unittest.TestCase):
+    def test_words_orbits_and_section_agree(self):
+        with tempfile.TemporaryDirectory() as directory:
+            paths = {name: os.path.join(directory, name) for name in ('orbits', 'section', 'forbidden')}
+            outputs = [word for name in paths for word in ('--' + name, paths[name])]
+            code, rows, report = run('symbolic_dynamics', '--eta', '3.2', '--impacts', '50000', '--max-length', '4',
+                                     '--guesses', '200', *outputs)
+            tables = {}
+            for name, path in paths.items():
+                with open(path) as file:
+                    tables[name] = list(csv.DictReader(file))
+        self.assertEqual(code, 0)
+        self.assertIn('exponent of an impact: 0.2', report)
+        self.assertEqual(int(rows[0]['words']), 4)
+        forbidden, section = [row['word'] for row in tables['forbidden']], tables['section']
+        self.assertEqual(len(forbidden), sum(int(row['forbidden']) for row in rows))
+        self.assertEqual(len(section), 20000)
+        letters = ''.join(row['letter'] for row in section)
+        self.assertFalse([word for word in forbidden if word in letters])
+        self.assertEqual(section[0]['phase_next'], section[1]['phase'])
+        attractor = [row for row in tables['orbits'] if float(row['approach']) < 0.1]
+        self.assertEqual([row['length'] for row in attractor], ['1', '3', '4'])
+        self.assertEqual({row['orbits_with_it'] for row in attractor}, {'1'})
+
+
+if __name__ == '__main__':
+    TOOLS = sys.argv.pop(1)
+    unittest.main()
