@@ -16,7 +16,7 @@ from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
 from topics import wait_until
 
 NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status', 'panel')
-ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 3
+ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 1
 LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0
 

@@ -44,15 +44,6 @@ class RecordingFaults(NodeTest):
         lost = seen - bags.read(str(path))['deflection'][-1].first_sample
         self.assertLess(16 * lost, 2 * CHUNK_BYTES)
 
-    def test_no_directory_can_be_made(self):
-        file = Path(self.temporary_directory()) / 'file'
-        file.write_text('in the way')
-        emulator = self.emulator_with(bag_directory=str(file / 'bags'))
-        answer = emulator.call('start_recording', StartRecording, name='run')
-        self.assertFalse(answer.success)
-        self.assertIn(str(file), answer.message)
-        self.end(emulator)
-
     def test_a_directory_without_permission(self):
         directory = self.temporary_directory()
         os.chmod(directory, 0o500)
@@ -92,7 +83,6 @@ class RecordingFaults(NodeTest):
         self.end(emulator)
         self.assertEqual((directory / 'run_001.bag').read_text(), 'mine')
         checks.assert_identical(self, str(directory / 'run.bag'))
-
 
 
 if __name__ == '__main__':

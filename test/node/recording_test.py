@@ -69,31 +69,27 @@ class Recording(NodeTest):
         status = published['status'].wait_for_next(lambda m: not m.recording, 'no longer recording')
         self.assertEqual(status.recorder_error, '')
 
-    def test_paths_are_refused(self):
-        for name in ('/tmp/away.bag', '../away.bag', 'sub/away.bag', '..', '.', 'sub/'):
+    def test_refuses_what_makes_no_sense(self):
+        """Names that lead elsewhere, a file that is there, a second recording, and the end of none."""
+        kept = os.path.join(self.directory, 'kept.bag')
+        with open(kept, 'w') as file:
+            file.write('mine')
+        for name in ('/tmp/away.bag', '../away.bag', 'sub/away.bag', '..', '.', 'sub/', 'kept.bag'):
             answer = self.begin(name)
             self.assertFalse(answer.success, name)
             self.assertTrue(answer.message, name)
-        self.assertEqual(os.listdir(self.directory), [])
-
-    def test_names_itself_and_refuses_what_makes_no_sense(self):
+        with open(kept) as file:
+            self.assertEqual(file.read(), 'mine')
+        self.assertEqual(os.listdir(self.directory), ['kept.bag'])
         self.assertFalse(self.end().success)
-        first = self.begin()
-        self.assertTrue(first.success, first.message)
-        self.assertEqual(os.path.dirname(os.path.realpath(first.path)), os.path.realpath(self.directory))
+        named_by_itself = self.begin()
+        self.assertTrue(named_by_itself.success, named_by_itself.message)
         self.assertFalse(self.begin('second.bag').success)
         self.assertTrue(self.end().success)
         self.assertFalse(self.end().success)
-        self.assertEqual(os.listdir(self.directory), [os.path.basename(first.path)])
-        self.assertEqual(bags.info_exit_code(first.path), 0)
-
-    def test_does_not_overwrite(self):
-        path = os.path.join(self.directory, 'kept.bag')
-        with open(path, 'w') as kept:
-            kept.write('mine')
-        self.assertFalse(self.begin('kept.bag').success)
-        with open(path) as kept:
-            self.assertEqual(kept.read(), 'mine')
+        self.assertEqual(set(os.listdir(self.directory)), {'kept.bag', os.path.basename(named_by_itself.path)})
+        self.assertEqual(os.path.realpath(os.path.dirname(named_by_itself.path)), os.path.realpath(self.directory))
+        self.assertEqual(bags.info_exit_code(named_by_itself.path), 0)
 
 
 class OtherNames(NodeTest):
@@ -106,7 +102,7 @@ class OtherNames(NodeTest):
         self.assertEqual(node.stop(), 0)
         path, = (os.path.join(directory, name) for name in os.listdir(directory))
         checks.assert_identical(self, path)
-        answer = checks.Answer('bag_to_csv', path, '--topic', 'friction')
+        answer = checks.call('bag_to_csv', path, '--topic', 'friction')
         self.assertEqual(answer.code, 0, answer.text)
         self.assertGreater(len(answer.text.splitlines()), 100)
 

@@ -120,15 +120,6 @@ class Repeats(NodeTest):
         self.assertEqual(lost.code, checks.SOUND, lost.text)
         self.assertEqual(lost.text.count('IDENTICAL'), 2)
 
-    def test_the_hammer_too(self):
-        self.run_emulator(record=True, model='hammer')
-        for eta in 30 * (5.0, 0.0):
-            self.emulator.drag(eta * SPEED_UNIT)
-            time.sleep(0.02)  # on its way to rest; nothing is waited for
-        self.step_through()
-        self.deflection.wait_for_more(100)
-        checks.assert_identical(self, *self.end())
-
     def record_with_rosbag(self, path):
         recorder = self.start(Process(['rosbag', 'record', '-a', '-O', path]))
         wait_until(lambda: os.path.exists(path + '.active'), 'rosbag records')

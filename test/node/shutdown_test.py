@@ -25,7 +25,8 @@ WITHIN_S = 1.5  # of its start a node is stopped
 
 
 class Shutdown(NodeTest):
-    def assert_leaves_a_good_bag(self, with_signal):
+    def test_sigterm_leaves_a_good_bag(self):
+        """As SIGINT does, with which all tests of recordings end the emulator: roscpp handles only that by itself."""
         directory = Path(self.temporary_directory())
         emulator = self.start(Emulator({'record': True, 'bag_directory': str(directory)}))
         deflection, status = Topic('deflection'), Topic('status')
@@ -33,19 +34,13 @@ class Shutdown(NodeTest):
         deflection.wait_for(lambda m: m.first_sample >= 40000, 'a fifth of a second')
         emulator.assert_alive()
         seen = deflection.messages[-1].first_sample
-        self.assertEqual(emulator.stop(with_signal), 0)
+        self.assertEqual(emulator.stop(signal.SIGTERM), 0)
         paths = list(directory.iterdir())
         self.assertEqual([path.suffix for path in paths], ['.bag'])
         recorded = bags.assert_sound(self, str(paths[0]))['deflection']
         self.assertEqual(recorded[0].first_sample, 0)
         self.assertGreaterEqual(recorded[-1].first_sample, seen)
         checks.assert_identical(self, str(paths[0]))
-
-    def test_sigint(self):
-        self.assert_leaves_a_good_bag(signal.SIGINT)
-
-    def test_sigterm(self):
-        self.assert_leaves_a_good_bag(signal.SIGTERM)
 
     def start_scene(self, scene, name):
         parameters = yaml.safe_load(scene.read_text())

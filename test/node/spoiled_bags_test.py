@@ -61,15 +61,14 @@ class SpoiledBags(SpoiledBag):
              lambda: self.remove(self.of('applied')[1])))
 
     def test_times_that_are_not_of_this_run(self):
-        places = (('friction', 'time'), ('friction', 'begin'), ('deflection', 'time'), ('snapshot', 'time'))
-        wrong = ((10**15, 0.5), (-1, 0.5), (5, 1.5), (5, float('nan')))
-        for i, (topic, field) in enumerate(places):
-            for tau, phase in (wrong[i], wrong[0]):
-                with self.subTest(topic=topic, field=field, tau=tau, phase=phase):
-                    self.setUp()
-                    self.of(topic)[80 if topic != 'snapshot' else 0].edit_time(field, tau=tau, phase=phase)
-                    answer = checks.replay_check(self.write())
-                    self.assertIn(answer.code, (DIFFERS, UNCHECKED), answer.text)
+        for topic, index, field, tau, phase in (
+                ('friction', 80, 'time', 10**15, 0.5), ('friction', 80, 'begin', -1, 0.5),
+                ('deflection', 80, 'time', 5, 1.5), ('snapshot', 0, 'time', 5, float('nan'))):
+            with self.subTest(topic=topic, field=field):
+                self.setUp()
+                self.of(topic)[index].edit_time(field, tau=tau, phase=phase)
+                answer = checks.replay_check(self.write())
+                self.assertIn(answer.code, (DIFFERS, UNCHECKED), answer.text)
 
     def test_another_arithmetic(self):
         configuration = self.of('snapshot')[0].message().configuration

@@ -7,21 +7,16 @@ function(afm_add_rostest name)
 endfunction()
 
 set(node_tests
-  bad_parameters
   commands
   diagnostics
   ending
-  full_disk
   lever
   lockstep
-  loopback
   panel
   publishes
   replay
-  reset_pause_step
   scenes
-  shipped_files
-  shutdown)
+  shipped_files)
 foreach(name IN LISTS node_tests)
   afm_add_rostest(${name} afm_emulator_node)
 endforeach()
@@ -51,10 +46,8 @@ set(recording_tests
   levels
   load
   recording
-  recording_faults
   repeats
-  spoiled_bags
-  steering)
+  spoiled_bags)
 foreach(name IN LISTS recording_tests)
   afm_add_rostest(${name} afm_emulator_node afm_replay_check afm_bag_to_csv)
 endforeach()
@@ -67,7 +60,7 @@ if(TARGET afm_python_module)
 endif()
 
 # node/NAME_test.cpp: parts of the node that need no master
-foreach(name diagnosis recorder)
+foreach(name diagnosis parameters recorder)
   afm_add_gtest(${name}_test node/${name}_test.cpp)
   target_include_directories(afm_${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
   target_link_libraries(afm_${name}_test afm_emulator_ros)

@@ -1,0 +1,93 @@
+// What the node refuses on the parameter server: every fault at once, each with name, value and reason.
+#include "node/params/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace afm::node {
+namespace {
+
+using Given = std::map<std::string, XmlRpc::XmlRpcValue>;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+
+XmlRpc::XmlRpcValue list(double first, const XmlRpc::XmlRpcValue& second) {
+  XmlRpc::XmlRpcValue values;
+  values.setSize(2);
+  values[0] = first;
+  values[1] = second;
+  return values;
+}
+
+// The faults as the node reports them, a line each.
+std::string refusal(const Given& given) {
+  XmlRpc::XmlRpcValue tree;
+  for (const auto& [name, value] : given) tree[name] = value;
+  Faults faults;
+  read_parameters(tree, faults);
+  return describe(faults);
+}
+
+bool is_blamed(const std::string& name, const std::string& faults) {
+  return ('\n' + faults).find('\n' + name + " = ") != std::string::npos;
+}
+
+TEST(Parameters, EveryFaultIsReportedAtOnce) {
+  const Given given{{"restitution_gamma", 1.5}, {"tip_mass_kg", -408e-12},     {"omega_v_rad_per_s", kNaN},
+                    {"time_scale", 0.0},        {"batch_rate_hz", "fast"},     {"sample_rate_hz", kInfinity},
+                    {"gama", 0.7},              {"friction_window_tau", -1.0}, {"model", "spring"},
+                    {"record", "yes please"},   {"bag_directory", 5},          {"max_drag_velocity", -1.0},
+                    {"paused", "no"},           {"commands_eta", list(3.4, 99.0)}};
+  const std::string faults = refusal(given);
+  for (const auto& [name, value] : given) EXPECT_TRUE(is_blamed(name, faults)) << name << " in\n" << faults;
+}
+
+TEST(Parameters, AFaultSaysWhatIsWrong) {
+  const Given lever_and_mass{{"spring_constant_n_per_m", 0.2},
+                             {"resonance_hz", 13e3},
+                             {"lateral_spring_constant_n_per_m", 88.2},
+                             {"tip_mass_kg", 3e-11}};
+  const Given automatic{{"model", "auto"}, {"tolerance", 0.02}, {"level_table", "/no/such/file"}};
+  Given other_quantity = automatic;
+  other_quantity["tolerance_of"] = "speed";
+  const std::vector<std::pair<Given, std::string>> table{
+      {{{"tip_mass_kg", "heavy"}}, "tip_mass_kg = \"heavy\": must be a number"},
+      {{{"record", 1}}, "record = 1: must be true or false"},
+      {{{"drag_speed", 1e-5}}, "drag_speed = 1e-05: there is no such parameter"},
+      {{{"time_scale", 200.0}}, "time_scale = 200: must be between 1e-06 and 100"},
+      {{{"rest_height_m", 0.06e-9}}, "rest_height_m = 6e-11: "},
+      {{{"commands_eta", list(1.0, "fast")}}, "element 1: must be a number"},
+      {{{"drag_velocity", -2e-5}, {"max_drag_velocity", 1e-5}}, "drag velocity at start, drag_velocity = -2e-05"},
+      {lever_and_mass, "tip_mass_kg = 3e-11: is given beside the spring constants and the resonance"},
+      {{{"load_n", 1e-9}, {"rest_height_m", -1e-9}}, "rest_height_m = -1e-09: is given beside load_n"},
+      {{{"load_n", -1e-9}}, "rest_height_m = 1.53"},
+      {{{"model", "pendulum"}}, "use oscillator, hammer or auto"},
+      {{{"model", "auto"}, {"tolerance", 0.02}}, "level_table = \"\": model auto takes its levels from this file"},
+      {automatic, "level_table = \"/no/such/file\": cannot be read: No such file"},
+      {other_quantity, "tolerance_of = \"speed\": there is no such quantity"}};
+  for (const auto& [given, words] : table) EXPECT_NE(refusal(given).find(words), std::string::npos) << refusal(given);
+  for (const double tolerance : {0.0, -0.1, kInfinity, kNaN}) {
+    Given none = automatic;
+    none["tolerance"] = tolerance;
+    EXPECT_NE(refusal(none).find("must be above 0 and finite"), std::string::npos) << tolerance;
+  }
+}
+
+TEST(Parameters, OnlyWhatIsFaultyIsBlamed) {
+  for (const double limit : {-1.0, kNaN, 1e-6}) {
+    const std::string faults = refusal({{"max_drag_velocity", limit}});
+    EXPECT_TRUE(is_blamed("max_drag_velocity", faults)) << limit;
+    EXPECT_FALSE(is_blamed("drag_velocity", faults)) << faults;
+  }
+  const std::string faults = refusal({{"resonance_hz", 13e3}, {"spring_constant_n_per_m", -0.2}});
+  EXPECT_TRUE(is_blamed("spring_constant_n_per_m", faults) && is_blamed("lateral_spring_constant_n_per_m", faults));
+  EXPECT_FALSE(is_blamed("resonance_hz", faults)) << faults;
+  EXPECT_EQ(refusal({}), "");
+}
+
+}  // namespace
+}  // namespace afm::node
