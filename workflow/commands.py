@@ -229,6 +229,8 @@ def commands(quick):
     add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
     add("topic_rates_run", "benchmark/topic_rates.py --output {out}/topic_rates.csv --seconds", choose(2, 10),
         sides=["topic_rates"])
+    add("panel_load_run", "benchmark/panel_load.py --output {out}/panel_load.csv --seconds", choose(2, 20),
+        sides=["panel_load"])
     add("durations_run", "benchmark/durations.py --output {out}/durations.csv", choose("--only import", "--builds"),
         sides=["durations"])
     add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000),

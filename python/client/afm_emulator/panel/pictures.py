@@ -50,7 +50,9 @@ class Plot(pg.PlotWidget):
         self.showGrid(True, True, 0.15)
         self.getPlotItem().getAxis('left').setWidth(58)  # one place for all, so that axes stand under each other
         for side in ('left', 'bottom'):
-            self.getPlotItem().getAxis(side).enableAutoSIPrefix(False)
+            axis = self.getPlotItem().getAxis(side)
+            axis.enableAutoSIPrefix(False)
+            axis.setCacheMode(pg.AxisItem.DeviceCoordinateCache)  # else drawn with its grid at every frame
         self.disableAutoRange()
         self._scales = [Scale(span, patience) for span in least_span]
         self._is_live = True

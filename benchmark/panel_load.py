@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""What the front panel takes of a core, and how often it draws: starts an X server, a master and an emulator of its
+own, at the default sample rate and at the greatest. Writes the table of docs/interface.md.
+
+usage: panel_load.py [--seconds S] [--output FILE]     (default: 20, docs/data/panel_load.csv)"""
+import argparse
+import os
+import signal
+import subprocess
+import time
+import xmlrpc.client
+from pathlib import Path
+
+from loop_delay import binary, wait_for
+from record_throughput import free_port
+
+RATES = (200e3, 1e6)  # the default, and the greatest
+ETA_3_4 = 1.1255437575458838e-05  # m/s on mica: the chaotic motion of the paper
+WARM_UP_S = 5.0
+PICTURES = ('scope.vertical', 'scope.lateral', 'path.plot')  # drawn at every frame
+
+
+def watch(seconds):
+    """(frames a second of the slowest picture, share of a core of the whole process)."""
+    import rospy
+    from PyQt5 import QtCore, QtWidgets
+    from afm_emulator.panel.link import Link
+    from afm_emulator.panel.pictures import friction_curve
+    from afm_emulator.panel.window import Window
+
+    class Paints(QtCore.QObject):
+        count = 0
+
+        def eventFilter(self, _, event):
+            self.count += event.type() == QtCore.QEvent.Paint
+            return False
+
+    application = QtWidgets.QApplication.instance() or QtWidgets.QApplication(['panel_load'])
+    if not rospy.core.is_initialized():
+        rospy.init_node('panel_load', anonymous=True, disable_rostime=True)
+    window = Window(Link('/afm'), friction_curve())
+    window.show()
+    paints = []
+    for name in PICTURES:
+        part = window
+        for attribute in name.split('.'):
+            part = getattr(part, attribute)
+        paints.append(Paints())
+        part.viewport().installEventFilter(paints[-1])
+
+    def pass_time(duration):
+        QtCore.QTimer.singleShot(round(1e3 * duration), application.quit)
+        application.exec_()
+
+    pass_time(WARM_UP_S)
+    before, cpu, begin = [paint.count for paint in paints], time.process_time(), time.monotonic()
+    pass_time(seconds)
+    cpu, elapsed = time.process_time() - cpu, time.monotonic() - begin
+    window.close()
+    window.link.close()
+    return min(paint.count - count for paint, count in zip(paints, before)) / elapsed, cpu / elapsed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--seconds', type=float, default=20.0)
+    parser.add_argument('--output', type=Path,
+                        default=Path(__file__).resolve().parent.parent / 'docs/data/panel_load.csv')
+    arguments = parser.parse_args()
+    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
+    display = subprocess.Popen(['Xvfb', '-displayfd', '1', '-screen', '0', '1000x700x24', '-nolisten', 'tcp'],
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    os.environ['DISPLAY'] = ':' + display.stdout.readline().strip()
+    master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])
+    lines = ['sample rate / Hz,frames a second,CPU seconds per second']
+    try:
+        server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
+        wait_for(server)
+        for rate in RATES:
+            server.setParam('panel_load', '/afm', {'sample_rate_hz': rate, 'drag_velocity': ETA_3_4})
+            emulator = subprocess.Popen([binary('emulator_node'), '__name:=afm'])
+            try:
+                lines.append('%g,%.1f,%.3f' % ((rate,) + watch(arguments.seconds)))
+            finally:
+                emulator.send_signal(signal.SIGINT)
+                emulator.wait()
+    finally:
+        master.kill()
+        display.kill()
+    arguments.output.write_text('\n'.join(lines) + '\n')
+    print('\n'.join(lines))
+
+
+if __name__ == '__main__':
+    main()
