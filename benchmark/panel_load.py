@@ -5,14 +5,11 @@ own, at the default sample rate and at the greatest. Writes the table of docs/in
 usage: panel_load.py [--seconds S] [--output FILE]     (default: 20, docs/data/panel_load.csv)"""
 import argparse
 import os
-import signal
 import subprocess
 import time
-import xmlrpc.client
 from pathlib import Path
 
-from loop_delay import binary, wait_for
-from record_throughput import free_port
+from emulator import DATA, emulator, master, write_table
 
 RATES = (200e3, 1e6)  # the default, and the greatest
 ETA_3_4 = 1.1255437575458838e-05  # m/s on mica: the chaotic motion of the paper
@@ -64,31 +61,20 @@ def watch(seconds):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--seconds', type=float, default=20.0)
-    parser.add_argument('--output', type=Path,
-                        default=Path(__file__).resolve().parent.parent / 'docs/data/panel_load.csv')
+    parser.add_argument('--output', type=Path, default=DATA / 'panel_load.csv')
     arguments = parser.parse_args()
-    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
     display = subprocess.Popen(['Xvfb', '-displayfd', '1', '-screen', '0', '1000x700x24', '-nolisten', 'tcp'],
                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     os.environ['DISPLAY'] = ':' + display.stdout.readline().strip()
-    master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])
     lines = ['sample rate / Hz,frames a second,CPU seconds per second']
     try:
-        server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
-        wait_for(server)
-        for rate in RATES:
-            server.setParam('panel_load', '/afm', {'sample_rate_hz': rate, 'drag_velocity': ETA_3_4})
-            emulator = subprocess.Popen([binary('emulator_node'), '__name:=afm'])
-            try:
-                lines.append('%g,%.1f,%.3f' % ((rate,) + watch(arguments.seconds)))
-            finally:
-                emulator.send_signal(signal.SIGINT)
-                emulator.wait()
+        with master() as server:
+            for rate in RATES:
+                with emulator(server, {'sample_rate_hz': rate, 'drag_velocity': ETA_3_4}):
+                    lines.append('%g,%.1f,%.3f' % ((rate,) + watch(arguments.seconds)))
     finally:
-        master.kill()
         display.kill()
-    arguments.output.write_text('\n'.join(lines) + '\n')
-    print('\n'.join(lines))
+    write_table(arguments.output, lines)
 
 
 if __name__ == '__main__':

@@ -5,20 +5,13 @@ its own, prints the share of a core of each thread and the memory in use, then s
 usage: record_throughput.py DIRECTORY [SECONDS]     (0.02 GB a second go into DIRECTORY, and are left there)"""
 import glob
 import os
-import signal
-import socket
 import subprocess
 import sys
 import time
-import xmlrpc.client
+
+from emulator import emulator, master
 
 PARAMETERS = {'record': True, 'sample_rate_hz': 1e6, 'batch_rate_hz': 1000.0}
-
-
-def free_port():
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        return free.getsockname()[1]
 
 
 def threads(pid):
@@ -53,28 +46,13 @@ def main():
     if len(sys.argv) < 2 or sys.argv[1].startswith('-'):
         sys.exit(__doc__)
     directory, seconds = os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 600.0
-    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
-    master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])
-    try:
-        server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
-        while True:
-            try:
-                server.setParam('throughput', '/afm', dict(PARAMETERS, bag_directory=directory))
-                break
-            except OSError:
-                time.sleep(0.1)
-        binary = subprocess.check_output(['catkin_find', '--first-only', 'afm_emulator', 'emulator_node'], text=True)
-        node = subprocess.Popen([binary.strip(), '__name:=afm'])
+    with master() as server, emulator(server, dict(PARAMETERS, bag_directory=directory)) as node:
         time.sleep(2.0)
         watch(node.pid, seconds)
-        node.send_signal(signal.SIGINT)
-        code = node.wait()
-    finally:
-        master.kill()
     bags = sorted(glob.glob(directory + '/*.bag'))
     print('%.2f GB in %d bags' % (sum(os.path.getsize(bag) for bag in bags) / 1e9, len(bags)), flush=True)
     checked = subprocess.call(['rosrun', 'afm_emulator', 'bag_check'] + bags)
-    sys.exit(code or checked)
+    sys.exit(node.returncode or checked)
 
 
 if __name__ == '__main__':

@@ -4,15 +4,10 @@ and an emulator of its own for each. Writes the table of docs/interface.md.
 
 usage: topic_rates.py [--seconds S] [--output FILE]     (default: 10, docs/data/topic_rates.csv)"""
 import argparse
-import os
-import signal
-import subprocess
 import time
-import xmlrpc.client
 from pathlib import Path
 
-from loop_delay import binary, wait_for
-from record_throughput import free_port
+from emulator import DATA, emulator, master, write_table
 
 # eta = 3.4 of mica, the chaotic motion of the paper
 SCENE = {'drag_velocity': 1.1255437575458838e-05, 'publish_clock': True}
@@ -66,29 +61,15 @@ def rows(default, greatest):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--seconds', type=float, default=10.0)
-    parser.add_argument('--output', type=Path,
-                        default=Path(__file__).resolve().parent.parent / 'docs/data/topic_rates.csv')
+    parser.add_argument('--output', type=Path, default=DATA / 'topic_rates.csv')
     arguments = parser.parse_args()
-    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % free_port()
-    master = subprocess.Popen(['rosmaster', '--core', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]])
     heard = {}
-    try:
-        server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
-        wait_for(server)
+    with master() as server:
         for name, settings in SETTINGS.items():
-            server.setParam('topic_rates', '/afm', dict(SCENE, **settings))
-            emulator = subprocess.Popen([binary('emulator_node'), '__name:=afm'])
-            try:
+            with emulator(server, dict(SCENE, **settings)):
                 heard[name] = listen(arguments.seconds)
-            finally:
-                emulator.send_signal(signal.SIGINT)
-                emulator.wait()
-    finally:
-        master.kill()
     lines = ['topic,messages a second,bytes a message,kB/s,kB/s at 1 MHz of samples and 1000 batches a second']
-    lines += rows(heard['default'], heard['greatest'])
-    arguments.output.write_text('\n'.join(lines) + '\n')
-    print('\n'.join(lines))
+    write_table(arguments.output, lines + list(rows(heard['default'], heard['greatest'])))
 
 
 if __name__ == '__main__':
