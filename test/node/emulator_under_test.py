@@ -61,22 +61,33 @@ class Process:
 
 
 class Launch(Process):
-    """roslaunch of a file of the package. Interrupted while it still starts a node it takes 10 to 20 s to end, so
-    stop() waits until all have started."""
+    """roslaunch. Interrupted while it still starts a node it takes 10 to 20 s to end, so stop() waits until all have
+    started."""
 
-    def __init__(self, file, arguments, env=None):
-        super().__init__(['roslaunch', PACKAGE, file] + ['%s:=%s' % item for item in arguments.items()], env)
+    def __init__(self, *arguments, env=None):
+        super().__init__(['roslaunch'] + [str(argument) for argument in arguments], env)
 
     def has_started(self):
+        """Every node that it lists is known to the master, or has ended."""
         text = self.output()
-        names = re.findall(r'^ {4}(\S+) \(', text.partition('\nNODES\n')[2], re.M)
-        started = re.findall(r'process\[(?:\S*/)?(\S+)-\d+\]: started', text)
-        return bool(names) and set(names) <= set(started)
+        spaces = re.findall(r'^  (/\S*)\n((?:    .*\n?)*)', text.partition('\nNODES\n')[2].partition('\n\n')[0], re.M)
+        names = [space.rstrip('/') + '/' + name for space, nodes in spaces
+                 for name in re.findall(r'^    (\S+) \(', nodes, re.M)]
+        ended = re.findall(r'\[([^\s[]+)-\d+\] process has', text)
+        return bool(names) and all(name.lstrip('/') in ended or is_known(name) for name in names)
 
     def stop(self, with_signal=signal.SIGINT):
         wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes',
                    deadline_s=60.0)
         return super().stop(with_signal)
+
+
+def is_known(node):
+    """To the master, where there is one."""
+    try:
+        return xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).lookupNode('/test', node)[0] == 1
+    except OSError:
+        return False
 
 
 class Emulator(Process):
@@ -159,8 +170,9 @@ class NodeTest(unittest.TestCase):
         self.addCleanup(process.clean_up)
         return process
 
-    def launch(self, file, **arguments):
-        return self.start(Launch(file, arguments))
+    def launch(self, file, env=None, **arguments):
+        """A file of the package."""
+        return self.start(Launch(PACKAGE, file, *('%s:=%s' % item for item in arguments.items()), env=env))
 
     def temporary_directory(self):
         directory = tempfile.TemporaryDirectory()
