@@ -5,19 +5,14 @@
 #include <cmath>
 
 #include "afm/dynamics/basins.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
 
-Model model_with(double v_c) {
-  Model model;
-  model.v_c = v_c;
-  return model;
-}
-
 Attractor from_above(double eta, double v_c) {
-  const Model model = model_with(v_c);
-  return find_attractor(model, eta, to_tip_state(model.H, {0.25, 0.0, 0.2, eta, 0.0}));
+  const Model model = model_with_cutoff(v_c);
+  return find_attractor(model, eta, to_tip_state(model.H, start_at(eta)));
 }
 
 TEST(Attractor, PeriodOneLocksToTheSurface) {
@@ -85,12 +80,12 @@ TEST(Attractor, WithoutDragThereIsRest) { EXPECT_EQ(from_above(0.0, 0.05).name()
 TEST(Attractor, WithTooSmallABudgetIsUndecided) {
   AttractorSettings settings;
   settings.most_events = 100;
-  EXPECT_EQ(find_attractor(model_with(0.34), 3.4, {0.5, 0.0, 3.4, 0.1, 1.0}, settings).name(), "undecided");
+  EXPECT_EQ(find_attractor(model_with_cutoff(0.34), 3.4, {0.5, 0.0, 3.4, 0.1, 1.0}, settings).name(), "undecided");
 }
 
 // Near a bifurcation the tip comes to its orbit too slowly to be seen coming back: Newton's method tells where it goes.
 TEST(Attractor, SlowlyAttractingOrbitsAreFound) {
-  const Model model = model_with(0.05);
+  const Model model = model_with_cutoff(0.05);
   AttractorSettings settings;
   settings.transient = 200.0;
   settings.duration = 100.0;

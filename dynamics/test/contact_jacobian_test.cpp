@@ -7,18 +7,13 @@
 #include <vector>
 
 #include "afm/tip.h"
+#include "support/models.h"
 #include "support/quad_impacts.h"
 
 namespace afm {
 namespace {
 
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-
-Model model_with(double v_c) {
-  Model model;
-  model.v_c = v_c;
-  return model;
-}
 
 // One contact of a running tip, the flight after it, and the impact that ends that.
 struct Dwell {
@@ -31,7 +26,7 @@ struct Dwell {
 std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
   std::vector<Dwell> found;
   constexpr double kTolerance = 1e-8;  // so that the tip is released at the exact time
-  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, kTolerance);
+  Tip tip(model, eta, start_at(eta), kTolerance);
   for (int i = 0; i < 200000 && found.size() < wanted; ++i) {
     if (tip.advance(kNever) != Outcome::contact) continue;
     const TipState s = tip.tip_state();
@@ -88,7 +83,7 @@ constexpr double kEtas[] = {0.5, 3.0, 5.0};
 
 TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
   for (const double eta : kEtas) {
-    const Model model = model_with(0.05);
+    const Model model = model_with_cutoff(0.05);
     for (const Dwell& dwell : dwells(model, eta, 6)) {
       QuadContact exact(model, dwell);
       const auto slide = [&](const std::array<Quad, 3>& q) { return exact.slide(q, dwell.slide); };
@@ -100,7 +95,7 @@ TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
 }
 
 TEST(SlideJacobian, CarriesTheDirectionOfTheSlideAlongIt) {
-  const Model model = model_with(0.05);
+  const Model model = model_with_cutoff(0.05);
   for (const Dwell& dwell : dwells(model, 3.0, 20)) {
     const Eigen::Matrix3d J = slide_jacobian(model, 3.0, dwell.begin, dwell.slide);
     const Eigen::Vector3d before = slide_velocity(model, 3.0, dwell.begin);
@@ -114,7 +109,7 @@ TEST(SlideJacobian, CarriesTheDirectionOfTheSlideAlongIt) {
 // lost.
 TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
   for (const double eta : kEtas) {
-    const Model model = model_with(0.05);
+    const Model model = model_with_cutoff(0.05);
     for (const Dwell& dwell : dwells(model, eta, 6)) {
       QuadContact exact(model, dwell);
       const auto map = [&](const std::array<Quad, 3>& q) { return exact.slide_and_fly(q); };

@@ -6,19 +6,12 @@
 
 #include "afm/dynamics/lyapunov.h"
 #include "afm/dynamics/poincare_map.h"
+#include "support/models.h"
 #include "support/quad_impacts.h"
 #include "trials/random_launches.h"
 
 namespace afm {
 namespace {
-
-Model hammer(double gamma, double v_c) {
-  Model model;
-  model.kind = ModelKind::hammer;
-  model.gamma = gamma;
-  model.v_c = v_c;
-  return model;
-}
 
 // above, around and below the cutoff; with the fold of the law (gamma < 1/2); elastic
 const Model kModels[] = {hammer(0.7, 0.0), hammer(0.7, 0.5), hammer(0.7, 20.0), hammer(0.3, 5.0), hammer(1.0, 0.05)};
@@ -81,7 +74,7 @@ TEST(HammerJacobian, HasTwoExponentsThatSumUpToWhatTheRestitutionTakes) {
     LyapunovSettings settings;
     settings.duration = 500.0;
     settings.contact_tolerance = 0.0;
-    const LyapunovSpectrum s = lyapunov(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, settings);
+    const LyapunovSpectrum s = lyapunov(model, eta, start_at(eta), settings);
     ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta;
     ASSERT_EQ(s.rank, 2);
     EXPECT_EQ(s.exponents[2], -INFINITY);
@@ -91,14 +84,14 @@ TEST(HammerJacobian, HasTwoExponentsThatSumUpToWhatTheRestitutionTakes) {
 
 // On the orbit of even eta both multipliers are gamma, over half a tau.
 TEST(HammerJacobian, ExponentsAtEvenEtaAreThoseOfTheRestitution) {
-  const LyapunovSpectrum s = lyapunov(hammer(0.7, 0.05), 4.0, FreeState{0.25, 0.0, 0.2, 4.0, 0.0});
+  const LyapunovSpectrum s = lyapunov(hammer(0.7, 0.05), 4.0, start_at(4.0));
   EXPECT_NEAR(s.exponents[0], 2.0 * std::log(0.7), 1e-6);
   EXPECT_NEAR(s.exponents[1], 2.0 * std::log(0.7), 1e-6);
 }
 
 // In contact the hammer has no freedom left.
 TEST(HammerJacobian, AfterContactNothingIsLeft) {
-  const LyapunovSpectrum s = lyapunov(hammer(0.7, 1.4), 7.0, FreeState{0.25, 0.0, 0.2, 7.0, 0.0});
+  const LyapunovSpectrum s = lyapunov(hammer(0.7, 1.4), 7.0, start_at(7.0));
   ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
   EXPECT_EQ(s.rank, 0);
   EXPECT_EQ(s.exponents[0], -INFINITY);

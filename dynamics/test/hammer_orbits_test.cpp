@@ -7,16 +7,10 @@
 #include "afm/dynamics/basins.h"
 #include "afm/dynamics/continuation.h"
 #include "afm/dynamics/orbit_search.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
-
-Model hammer(double gamma = 0.7) {
-  Model model;
-  model.kind = ModelKind::hammer;
-  model.gamma = gamma;
-  return model;
-}
 
 // One impact in c cells at any eta: the flight is the same backwards, so that w = 2 pi y tan(pi T) at both its ends,
 // and the impact turns it round where tan(2 pi x) = -q, q = tan(pi T) (1-gamma) / (eta (1+gamma)), T = c / eta.

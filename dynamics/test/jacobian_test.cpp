@@ -8,19 +8,13 @@
 
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "support/models.h"
 #include "support/paper_jacobians.h"
 #include "support/quad_impacts.h"
 #include "trials/random_launches.h"
 
 namespace afm {
 namespace {
-
-Model model_with(double gamma, double v_c) {
-  Model model;
-  model.gamma = gamma;
-  model.v_c = v_c;
-  return model;
-}
 
 // above, around and below the cutoff; with the fold of the law (gamma < 1/2); elastic
 const Model kModels[] = {model_with(0.7, 0.0), model_with(0.7, 0.5), model_with(0.7, 20.0), model_with(0.3, 5.0),

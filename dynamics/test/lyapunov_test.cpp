@@ -6,28 +6,21 @@
 #include <numeric>
 
 #include "afm/surface.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
-
-Model model_with(double v_c) {
-  Model model;
-  model.v_c = v_c;
-  return model;
-}
-
-FreeState above_crest(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
 
 double sum(const LyapunovSpectrum& s) { return std::accumulate(s.exponents.begin(), s.exponents.end(), 0.0); }
 
 // What volumes do is known from the impacts alone.
 TEST(Lyapunov, SumsUpToWhatTheRestitutionTakes) {
   for (const double eta : {1.0, 2.75, 3.0, 3.4, 5.0}) {
-    const Model model = model_with(0.1 * eta);
+    const Model model = model_with_cutoff(0.1 * eta);
     LyapunovSettings settings;
     settings.duration = 500.0;
     settings.contact_tolerance = 0.0;
-    const LyapunovSpectrum s = lyapunov(model, eta, above_crest(eta), settings);
+    const LyapunovSpectrum s = lyapunov(model, eta, start_at(eta), settings);
     ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta;
     ASSERT_EQ(s.rank, 4);
     EXPECT_NEAR(sum(s), s.volume_rate, 1e-8 * (1.0 + std::abs(s.volume_rate))) << eta;
@@ -53,9 +46,9 @@ double growth_of(const Tip& tip, const Model& model, double duration) {
 // Two neighbours on the attractor part at the largest exponent: no Jacobian in it. Fresh displacements need a few
 // impacts to turn, so what counts is the growth from 4 tau to 8.
 TEST(Lyapunov, IsHowFastNeighboursPart) {
-  const Model model = model_with(0.34);
-  const LyapunovSpectrum s = lyapunov(model, 3.4, above_crest(3.4));
-  Tip tip(model, 3.4, above_crest(3.4));
+  const Model model = model_with_cutoff(0.34);
+  const LyapunovSpectrum s = lyapunov(model, 3.4, start_at(3.4));
+  Tip tip(model, 3.4, start_at(3.4));
   double growth = 0.0;
   constexpr int kSpans = 4000;
   for (int i = 1; i <= kSpans; ++i) {
@@ -68,19 +61,19 @@ TEST(Lyapunov, IsHowFastNeighboursPart) {
 
 // Contact and bursts taken as a whole do not change what is measured where they are rare.
 TEST(Lyapunov, HoldsAcrossBursts) {
-  const Model model = model_with(0.1);
+  const Model model = model_with_cutoff(0.1);
   LyapunovSettings whole, single;
   whole.duration = single.duration = 4000.0;
   single.contact_tolerance = 0.0;
-  const LyapunovSpectrum a = lyapunov(model, 3.4, above_crest(3.4), whole);
-  const LyapunovSpectrum b = lyapunov(model, 3.4, above_crest(3.4), single);
+  const LyapunovSpectrum a = lyapunov(model, 3.4, start_at(3.4), whole);
+  const LyapunovSpectrum b = lyapunov(model, 3.4, start_at(3.4), single);
   EXPECT_NEAR(a.exponents[0], b.exponents[0], 4.0 * std::hypot(a.std_errors[0], b.std_errors[0]));
   EXPECT_NEAR(a.exponents[1], b.exponents[1], 4.0 * std::hypot(a.std_errors[1], b.std_errors[1]));
 }
 
 TEST(Lyapunov, AcrossContactTwoDirectionsAreLost) {
-  const Model model = model_with(0.02);
-  const LyapunovSpectrum s = lyapunov(model, 3.0, above_crest(3.0));
+  const Model model = model_with_cutoff(0.02);
+  const LyapunovSpectrum s = lyapunov(model, 3.0, start_at(3.0));
   ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
   EXPECT_EQ(s.rank, 2);
   EXPECT_EQ(s.exponents[2], -INFINITY);
@@ -94,7 +87,7 @@ TEST(Lyapunov, IsANumberWhereBurstsBeginAboveTheCutoff) {
   settings.duration = 1000.0;
   for (const double v_c : {0.003, 0.01, 0.02}) {
     for (const double eta : {2.95, 4.7, 5.0, 6.95, 9.0}) {
-      const LyapunovSpectrum s = lyapunov(model_with(v_c), eta, above_crest(eta), settings);
+      const LyapunovSpectrum s = lyapunov(model_with_cutoff(v_c), eta, start_at(eta), settings);
       ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta << ", cutoff " << v_c;
       EXPECT_FALSE(std::isnan(s.exponents[0])) << eta << ", cutoff " << v_c;
     }
@@ -106,8 +99,8 @@ TEST(Lyapunov, DoesNotDependOnTheToleranceOfBursts) {
   LyapunovSettings coarse, fine;
   coarse.duration = fine.duration = 4000.0;
   fine.contact_tolerance = 1e-5;
-  const LyapunovSpectrum a = lyapunov(model_with(0.01), 5.0, above_crest(5.0), coarse);
-  const LyapunovSpectrum b = lyapunov(model_with(0.01), 5.0, above_crest(5.0), fine);
+  const LyapunovSpectrum a = lyapunov(model_with_cutoff(0.01), 5.0, start_at(5.0), coarse);
+  const LyapunovSpectrum b = lyapunov(model_with_cutoff(0.01), 5.0, start_at(5.0), fine);
   ASSERT_EQ(a.outcome, LyapunovOutcome::measured);
   ASSERT_EQ(b.outcome, LyapunovOutcome::measured);
   EXPECT_NEAR(a.exponents[0], b.exponents[0], 4.0 * std::hypot(a.std_errors[0], b.std_errors[0]));
@@ -117,7 +110,7 @@ TEST(Lyapunov, DoesNotDependOnTheToleranceOfBursts) {
 TEST(Lyapunov, TellsWhenItsBudgetIsSpent) {
   LyapunovSettings settings;
   settings.most_events = 1000;
-  EXPECT_EQ(lyapunov(model_with(0.34), 3.4, above_crest(3.4), settings).outcome, LyapunovOutcome::budget_spent);
+  EXPECT_EQ(lyapunov(model_with_cutoff(0.34), 3.4, start_at(3.4), settings).outcome, LyapunovOutcome::budget_spent);
 }
 
 }  // namespace

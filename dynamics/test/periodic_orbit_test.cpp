@@ -5,19 +5,14 @@
 #include <cmath>
 
 #include "afm/dynamics/orbit_search.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
 
-Model model_with(double v_c) {
-  Model model;
-  model.v_c = v_c;
-  return model;
-}
-
 // eta = 3.4, gamma = 0.7, computed in 128-bit floats.
 TEST(PeriodicOrbit, ThePapersOrbitComesOutToAllDigits) {
-  const Model model = model_with(0.05);
+  const Model model = model_with_cutoff(0.05);
   const OrbitResult r = find_orbit(PoincareMap(model, 3.4), {{0.53, 0.0, 3.2, 0.0, 2.5}});
   ASSERT_EQ(r.outcome, OrbitOutcome::found);
   const PeriodicOrbit& orbit = r.orbit;
@@ -40,7 +35,7 @@ TEST(PeriodicOrbit, ThePapersOrbitComesOutToAllDigits) {
 // Two impacts per tau at the rising flank, each the same: K_f = 4 (1+gamma)/(1-gamma) s^2/(1+s^2).
 TEST(PeriodicOrbit, AtEvenEtaIsTheClosedForm) {
   for (const double eta : {2.0, 4.0, 6.0}) {
-    const Model model = model_with(0.05);
+    const Model model = model_with_cutoff(0.05);
     const double s = kTwoPi * model.H, N = std::sqrt(1.0 + s * s);
     const double before = 2.0 * eta * s / (0.3 * N);  // normal speed
     const TipState guess{0.75, 0.0, eta - s * 0.7 * before / N + 0.01, 0.0, 0.7 * before * N + 0.01};
@@ -55,7 +50,7 @@ TEST(PeriodicOrbit, AtEvenEtaIsTheClosedForm) {
 // The horizontal frequency is not in the closed form: it bends the flights, not the impacts.
 TEST(PeriodicOrbit, AtEvenEtaDoesNotKnowTheHorizontalFrequency) {
   for (const double ratio : {4.3, 5.1, 6.25, 7.3, 9.7}) {
-    Model model = model_with(0.05);
+    Model model = model_with_cutoff(0.05);
     model.frequency_ratio = ratio;
     const double s = kTwoPi * model.H, N = std::sqrt(1.0 + s * s), before = 2.0 * 4.0 * s / (0.3 * N);
     const double U = -s * 1.7 * before / (2.0 * N), omega = kTwoPi * ratio;
@@ -74,7 +69,7 @@ TEST(PeriodicOrbit, MultipliersMultiplyToTheRestitutions) {
   settings.longest = 5;
   settings.trajectory = 20000;
   settings.guesses = 100;
-  const Model model = model_with(0.05);
+  const Model model = model_with_cutoff(0.05);
   for (const FoundOrbit& found : search_orbits(PoincareMap(model, 3.4), settings).orbits) {
     ASSERT_GE(found.orbit.slowest_impact, model.v_c);
     const double volume = std::pow(model.gamma, 2.0 * static_cast<double>(found.orbit.length()));
@@ -88,7 +83,7 @@ TEST(PeriodicOrbit, IsTheSameFromAnyOfItsPoints) {
   settings.longest = 3;
   settings.trajectory = 20000;
   settings.guesses = 200;
-  const PoincareMap map(model_with(0.05), 3.4);
+  const PoincareMap map(model_with_cutoff(0.05), 3.4);
   const OrbitSearchResult found = search_orbits(map, settings);
   PeriodicOrbit three = found.orbits.back().orbit;
   ASSERT_EQ(three.length(), 3u);
@@ -106,7 +101,7 @@ TEST(PeriodicOrbit, IsTheSameFromAnyOfItsPoints) {
 }
 
 TEST(PeriodicOrbit, BouncesWithoutSpeedAreNone) {
-  const OrbitResult r = find_orbit(PoincareMap(model_with(0.05), 3.4), {{0.5, 0.0, 3.4, 0.0, 1e-12}});
+  const OrbitResult r = find_orbit(PoincareMap(model_with_cutoff(0.05), 3.4), {{0.5, 0.0, 3.4, 0.0, 1e-12}});
   EXPECT_NE(r.outcome, OrbitOutcome::found);
 }
 
@@ -117,7 +112,7 @@ TEST(OrbitSearch, FindsTheSameOrbitsFromOtherGuesses) {
     settings.trajectory = 30000;
     settings.guesses = 300;
     settings.seed = seed;
-    const OrbitSearchResult found = search_orbits(PoincareMap(model_with(0.05), 3.4), settings);
+    const OrbitSearchResult found = search_orbits(PoincareMap(model_with_cutoff(0.05), 3.4), settings);
     std::vector<std::size_t> lengths;
     for (const FoundOrbit& orbit : found.orbits) {
       lengths.push_back(orbit.orbit.length());

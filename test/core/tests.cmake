@@ -35,11 +35,9 @@ set(core_tests
   search/first_fall
   search/flight
   search/grazing
-  search/hard_starts
   search/impact_search
   search/reference_flights
   search/reflection
-  search/short_bounce
   search/slow_departure
   search/surface
   search/turns
@@ -81,6 +79,3 @@ add_test(NAME reference_digest
     ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
     $<TARGET_FILE:afm_reference_digest> $<TARGET_FILE:afm_reference_digest_portable>)
 set_tests_properties(reference_digest PROPERTIES TIMEOUT 120)
-
-add_test(NAME no_ros_in_core COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/no_ros_test.sh)
-set_tests_properties(no_ros_in_core PROPERTIES TIMEOUT 30)

@@ -192,5 +192,110 @@ TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
   }
 }
 
+// Under a surface that presses: a few thousandths to an eighth of the fastest turn long.
+struct ShortBounce {
+  double eta;
+  TipState start;
+};
+
+class ShortBounces {
+ public:
+  explicit ShortBounces(unsigned seed) : launches_(seed) {}
+
+  ShortBounce next() {
+    for (;;) {
+      const double eta = launches_.sign() * launches_.power(-2.0, 1.2);
+      const TipState start = launches_.next(eta, -4.0, 0.5);
+      const Flight<double> flight(kMechanics, eta, start);
+      const double turns = -2.0 * start.g1 / flight.start().g2 * flight.bounds().fastest;  // of the parabola
+      if (start.g1 > 0.0 && turns > 0.002 && turns < kSmallTurn) return {eta, start};
+    }
+  }
+
+ private:
+  RandomLaunches launches_;
+};
+
+// Times and gap rates to a few ulp of the forces that cancel in them; and in few evaluations.
+TEST(ShortBounce, LandsWhereQuadDoesInFewEvaluations) {
+  constexpr int kFlights = 3000;
+  ShortBounces bounces(12);
+  int evaluations = 0;
+  for (int i = 0; i < kFlights; ++i) {
+    const ShortBounce b = bounces.next();
+    const Flight<double> flight(kMechanics, b.eta, b.start);
+    const Landing<double> landing = find_landing(kMica, flight, 1.0);
+    const Landing<Quad> exact = find_impact(Flight<Quad>(kQuadMechanics, b.eta, b.start), Quad(1.0));
+    ASSERT_EQ(landing.outcome, SearchOutcome::impact);
+    ASSERT_EQ(exact.outcome, SearchOutcome::impact);
+    const double error = static_cast<double>(abs(exact.s - landing.s)), rate = -static_cast<double>(exact.jet.g1);
+    const double rounding = 5e-15 * (b.start.g1 + flight.bounds().second * landing.s);  // of the gap rate
+    ASSERT_LE(std::abs(landing.jet.g1 + rate), rounding) << i;
+    ASSERT_LE(error, 2e-16 * landing.s + rounding / rate * landing.s) << i;
+    evaluations += landing.evaluations;
+  }
+  EXPECT_LT(evaluations, 6.0 * kFlights);
+}
+
+// Its stiff spring turns within the interval that holds the root, where no series of the gap converges.
+TEST(HardStart, ATipOnAStiffSpringEndsOnTheSurface) {
+  Model model;
+  model.frequency_ratio = 1000.0;
+  const Mechanics<double> mechanics(model);
+  RandomLaunches random(12);
+  for (int i = 0; i < 20000; ++i) {
+    TipState start = random.next(2.0, -2.0, 1.0);
+    start.X *= std::pow(10.0, random.within(-6.0, 0.0));
+    start.u = 2.0 + random.within(-1.0, 1.0) * mechanics.omega_h * std::abs(start.X);
+    const Flight<double> f(mechanics, 2.0, start);
+    const Landing<double> landing = find_landing(model, f, kHorizon);
+    ASSERT_EQ(landing.outcome, SearchOutcome::impact) << i;
+    const GapJet<double> there = f.gap(landing.s);
+    const double late = 4.0 * kEps * landing.s * (std::abs(there.g1) + mechanics.omega_h);
+    ASSERT_LT(std::abs(there.g), 4.0 * f.gap_error(landing.s) + late) << i;
+    ASSERT_NEAR(landing.jet.state.U, there.state.U, 1e-9 * (1.0 + mechanics.omega_h * f.amplitude_X())) << i;
+  }
+}
+
+// There the gap swings by itself, however little, and what it swings by may be far below the rounding of places.
+TEST(HardStart, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
+  for (const ModelKind kind : {ModelKind::oscillator, ModelKind::hammer}) {
+    Model model;
+    model.kind = kind;
+    const Mechanics<double> mechanics(model);
+    for (const double g1 : {1e-7, 1e-15}) {
+      const Flight<double> flight(mechanics, -1.0, TipState{0.25591284509951961, 0.0, -1.0, 0.0, g1});
+      const Landing<double> landing = find_landing(model, flight, kSearchHorizon);
+      ASSERT_EQ(landing.outcome, SearchOutcome::impact) << g1;
+      EXPECT_NEAR(landing.s, 0.5, 1e-6) << g1;
+    }
+  }
+}
+
+// It would land a quarter of a turn later. Until then the gap has only its fourth derivative, so the steps are short.
+TEST(HardStart, OnTheGlideAGapHoweverSmallExhaustsNoSearch) {
+  Model model;
+  model.kind = ModelKind::hammer;
+  model.H = 0.83993305622109515;
+  const Mechanics<double> mechanics(model);
+  for (const double gap : {1e-21, 1.2e-20, 1e-19, 1e-18, 9e-18, 1.1e-17, 1e-16, 1e-14}) {
+    const Flight<double> flight(mechanics, -1.0, TipState{0.53955942957884762, 0.0, -1.0, gap, 0.0});
+    const Landing<double> landing = find_landing(model, flight, kSearchHorizon);
+    EXPECT_NE(landing.outcome, SearchOutcome::cap) << gap;
+    EXPECT_LE(landing.s, 0.25 + 1e-6) << gap;
+  }
+}
+
+// It falls without an acceleration, and would land after 2.6e302 tau.
+TEST(HardStart, ALandingBeyondAllTimeIsNone) {
+  Model model;
+  model.H = 0.096153846153846159;
+  const double u = 3.7580843034835234e-308, g = 5.8310409491468441e-06, g1 = -2.2704557726318621e-308;
+  const Flight<double> flight(Mechanics<double>(model), u, TipState{0.74999034839449363, 0.0, u, g, g1});
+  const Landing<double> landing = find_landing(model, flight, kHorizon);
+  EXPECT_EQ(landing.outcome, SearchOutcome::clear);
+  EXPECT_EQ(landing.s, kHorizon);
+}
+
 }  // namespace
 }  // namespace afm

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "support/models.h"
 #include "trials/quad.h"
 
 namespace afm {
@@ -44,13 +45,6 @@ class Incidents {
  private:
   std::mt19937_64 random_;
 };
-
-Model model_with(double gamma, double v_c) {
-  Model model;
-  model.gamma = gamma;
-  model.v_c = v_c;
-  return model;
-}
 
 const Model kModels[] = {model_with(0.7, 0.05), model_with(0.7, 0.0),  model_with(0.0, 0.05),
                          model_with(0.0, 0.0),  model_with(1.0, 0.05), model_with(0.3, 3.0)};

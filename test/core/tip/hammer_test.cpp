@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "afm/tip.h"
+#include "support/models.h"
 #include "trials/random_launches.h"
 #include "trials/tip_watch.h"
 
@@ -11,14 +12,6 @@ namespace afm {
 namespace {
 
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-
-Model hammer(double gamma = 0.7, double v_c = 0.05) {
-  Model model;
-  model.kind = ModelKind::hammer;
-  model.gamma = gamma;
-  model.v_c = v_c;
-  return model;
-}
 
 // At even eta and y0 = 0: two impacts a tau, each on the rising flank at mid-height, with w = s eta (1 + gamma)/(1 -
 // gamma) after.

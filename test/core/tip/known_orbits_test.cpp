@@ -5,21 +5,16 @@
 
 #include "afm/surface.h"
 #include "afm/tip.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
 
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 
-Model mica_with_cutoff(double v_c) {
-  Model model;
-  model.v_c = v_c;
-  return model;
-}
-
 // K_f over `impacts` impacts after a transient. On an orbit of one impact that is a whole number of its periods.
 double simulated_K_f(const Model& model, double eta, int transient, int impacts) {
-  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  Tip tip(model, eta, start_at(eta));
   for (int i = 0; i < transient; ++i) tip.advance(kNever);
   const ModelTime begin = tip.now();
   double energy = 0.0;
@@ -54,7 +49,7 @@ const Known kKnown[] = {
 TEST(KnownOrbits, TheSimulatedFrictionIsTheKnownOne) {
   for (const double cutoff_share : {0.05, 0.1}) {
     for (const Known& known : kKnown) {
-      const double K_f = simulated_K_f(mica_with_cutoff(cutoff_share * known.eta), known.eta, 2000, 500);
+      const double K_f = simulated_K_f(model_with_cutoff(cutoff_share * known.eta), known.eta, 2000, 500);
       EXPECT_NEAR(K_f, known.K_f, 1e-9 * known.K_f) << "eta " << known.eta << ", v_c " << cutoff_share << " eta";
     }
   }

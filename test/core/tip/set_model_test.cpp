@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/models.h"
 #include "support/recorded_run.h"
 #include "trials/energy_balance.h"
 #include "trials/random_launches.h"
@@ -12,14 +13,6 @@ namespace {
 
 constexpr double kTolerances[] = {0.0, 1e-5, 1e-4, 1e-3, 1e-2};
 
-Model model_with(double v_c) {
-  Model model;
-  model.v_c = v_c;
-  return model;
-}
-
-FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
-
 struct Run {
   double eta, v_c;
 };
@@ -27,7 +20,7 @@ class Relevel : public testing::TestWithParam<Run> {};
 
 TEST_P(Relevel, AnotherToleranceConservesEnergy) {
   RandomLaunches random(3);
-  const Model model = model_with(GetParam().v_c);
+  const Model model = model_with_cutoff(GetParam().v_c);
   Tip tip(model, GetParam().eta, start_at(GetParam().eta));
   EnergyBalance balance(tip);
   int bursts = 0, contacts = 0;
@@ -54,7 +47,7 @@ TEST_P(Relevel, AnotherToleranceConservesEnergy) {
 TEST_P(Relevel, AnotherModelDropsWhatItSays) {
   RandomLaunches random(5);
   const double eta = GetParam().eta;
-  const Model model = model_with(GetParam().v_c);
+  const Model model = model_with_cutoff(GetParam().v_c);
   Tip tip(model, eta, start_at(eta));
   int contacts = 0;
   double dropped = 0.0;
@@ -95,7 +88,7 @@ TEST_P(Relevel, AnotherModelDropsWhatItSays) {
 TEST_P(Relevel, EventsAreToldOnce) {
   RandomLaunches random(8);
   const double eta = GetParam().eta;
-  Tip tip(model_with(GetParam().v_c), eta, start_at(eta));
+  Tip tip(model_with_cutoff(GetParam().v_c), eta, start_at(eta));
   int begun = 0, ended = 0;
   const auto book = [&](Outcome outcome) {
     if (outcome == Outcome::contact) ++begun;
@@ -122,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Runs, Relevel,
 
 TEST(RelevelTip, TheSameLevelInFlightChangesNextToNothing) {
   RandomLaunches random(6);
-  Tip tip(model_with(0.05), 2.2, start_at(2.2));
+  Tip tip(model_with_cutoff(0.05), 2.2, start_at(2.2));
   int flights = 0;
   for (int i = 0; i < 500; ++i) {
     const ModelTime next = tip.now() + random.within(0.0, 1.0);

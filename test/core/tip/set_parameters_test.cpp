@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/models.h"
 #include "trials/energy_balance.h"
 #include "trials/random_launches.h"
 
@@ -17,14 +18,6 @@ Model random_model(RandomLaunches& random, double v_c) {
   model.y0 = random.within(-0.3, 0.09);
   return model;
 }
-
-Model small_cutoff() {
-  Model model;
-  model.v_c = 0.005;
-  return model;
-}
-
-FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
 
 void advance_to(Tip& tip, const ModelTime& time) {
   while (tip.advance(time) != Outcome::time_limit) {
@@ -55,9 +48,7 @@ TEST(Retune, InFlightTheTipIsAsIfLaunchedThere) {
 
 TEST(Retune, KeepsTheHammerAboveTheSurface) {
   RandomLaunches random(9);
-  Model hammer = small_cutoff();
-  hammer.kind = ModelKind::hammer;
-  Tip tip(hammer, 0.5, start_at(0.5));
+  Tip tip(hammer(0.7, 0.005), 0.5, start_at(0.5));
   int contacts = 0;
   for (int i = 0; i < 3000; ++i) {
     const ModelTime next = tip.now() + random.within(0.0, 0.5);
@@ -137,7 +128,7 @@ TEST(RetuneContact, GoesOnExactlyWhereTheSurfaceStillPresses) {
   RandomLaunches random(3);
   int stayed = 0, left = 0;
   while (stayed + left < 2000) {
-    Tip tip = slow_bounce(random, small_cutoff(), 0.5);
+    Tip tip = slow_bounce(random, model_with_cutoff(0.005), 0.5);
     const ModelTime patience = tip.now() + 1.0;
     for (Outcome o = Outcome::flying; o != Outcome::contact && o != Outcome::time_limit;) o = tip.advance(patience);
     if (!tip.in_contact()) continue;
@@ -162,7 +153,7 @@ TEST(RetuneContact, GoesOnExactlyWhereTheSurfaceStillPresses) {
 TEST(RetuneBurst, EndsWithTheBounceItIsAt) {
   RandomLaunches random(5);
   for (int bursts = 0; bursts < 1000;) {
-    Tip tip = slow_bounce(random, small_cutoff(), 0.5);
+    Tip tip = slow_bounce(random, model_with_cutoff(0.005), 0.5);
     if (!is_bursting(tip)) continue;
     advance_within_arc(random, tip);
     Tip changed = tip;

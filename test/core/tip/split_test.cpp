@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "afm/tip.h"
+#include "support/models.h"
 #include "support/slides.h"
 #include "trials/random_launches.h"
 
@@ -16,11 +17,7 @@ namespace {
 constexpr double kUlp = 2.220446049250313e-16;
 constexpr ModelTime kZero{};
 
-Model model_at(double eta) {
-  Model model;
-  model.v_c = 0.1 * std::abs(eta);
-  return model;
-}
+Model model_at(double eta) { return model_with_cutoff(0.1 * std::abs(eta)); }
 
 class Split : public testing::TestWithParam<double> {
  protected:
@@ -116,7 +113,7 @@ TEST_P(Split, InABurstChangesItByTheErrorOfItsSteps) {
 }
 
 TEST_P(Split, ByThePresentVelocityChangesNoBit) {
-  Tip whole(model_at(eta()), eta(), FreeState{0.25, 0.0, 0.2, eta(), 0.0}), split = whole;
+  Tip whole(model_at(eta()), eta(), start_at(eta())), split = whole;
   for (int i = 0; i < 1000; ++i) {
     const Outcome outcome = whole.advance({100000, 0.0});
     const ModelTime command = between(split.now(), whole.now());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "afm/surface.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
@@ -12,13 +13,7 @@ namespace {
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 constexpr double kDragSpeeds[] = {0.5, 2.0, 2.25, 3.4, -3.4, 4.5, 9.0, 50.0};
 
-FreeState start_at(double eta) { return {0.25, 0.0, 0.2, eta, 0.0}; }
-
-Model model_at(double eta) {
-  Model model;
-  model.v_c = 0.1 * std::abs(eta);
-  return model;
-}
+Model model_at(double eta) { return model_with_cutoff(0.1 * std::abs(eta)); }
 
 Tip tip_at(double eta) { return {model_at(eta), eta, start_at(eta)}; }
 
