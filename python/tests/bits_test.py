@@ -124,12 +124,6 @@ class Within(Bits):
         self.assertGreater(shared, 1000)
         np.testing.assert_array_equal(mine.events[:shared], run.impacts[:shared])
 
-    def test_no_time_is_split(self):
-        whole, parts = afm.Tip(), afm.Tip()
-        events = [parts.advance(0.37 * i) for i in range(1, 101)] + [parts.advance(afm.ModelTime(50, 0.25))]
-        np.testing.assert_array_equal(whole.advance((50, 0.25)), np.concatenate(events))
-        self.assertEqual(whole.state, parts.state)
-
     def test_a_run_goes_on_as_one_made_from_its_snapshot(self):
         run = afm.Run(afm.Model(cutoff=0.005), eta=0.05, bath=afm.Bath(0, 1e6), samples_per_batch=100)
         phases = set()

@@ -96,12 +96,6 @@ class Errors(unittest.TestCase):
                 self.assertIsInstance(caught.exception, (TypeError, afm.ParameterError))
         self.assertRaisesRegex(TypeError, 'Model has no argument colour', afm.Model, colour=1)
 
-    def test_numbers_are_those_that_people_write(self):
-        with self.assertRaisesRegex(afm.ParameterError, '^gamma = 1.1: '):
-            afm.Model(gamma=1.1)
-        with self.assertRaisesRegex(afm.ParameterError, '^eta = 2000: '):
-            afm.Tip(eta=2000)
-
     def test_all_faults_of_a_call_are_there(self):
         with self.assertRaises(afm.ParameterError) as caught:
             afm.Model(gamma=-1, cutoff=-1, amplitude=-1)
@@ -184,21 +178,13 @@ class Arrays(unittest.TestCase):
         self.assertEqual(copy.deepcopy(units).model, units.model)
         self.assertEqual(copy.deepcopy(units).force, units.force)
 
-    def test_a_copy_goes_on_with_the_same_bits(self):
-        bath = afm.Bath(0.926, 100)
-        for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=bath),
+    def test_a_copy_of_a_tip_goes_on_with_the_same_bits(self):
+        for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=afm.Bath(0.926, 100)),
                     afm.Tip(afm.Model(kind='hammer'))):
             tip.advance(123.456)
             other = copy.deepcopy(tip)
             np.testing.assert_array_equal(tip.advance(500), other.advance(500))
             self.assertEqual(tip.state, other.state)
-        run = afm.Run(eta=2.0, bath=bath)
-        run.advance(50)
-        other = copy.deepcopy(run)
-        a, b = run.advance(200), other.advance(200)
-        np.testing.assert_array_equal(a.vertical, b.vertical)
-        np.testing.assert_array_equal(a.impacts, b.impacts)
-        self.assertEqual(str(a.friction), str(b.friction))
 
     def test_what_is_pickled_goes_on_with_the_same_motion(self):
         for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=afm.Bath(0.926, 100)),

@@ -13,7 +13,7 @@ import checks
 from emulator_under_test import Emulator, NodeTest, run
 from topics import Topic
 
-DISK_MB, RESERVE_MB = 24, 16  # a second of the run takes 3 MB
+DISK_MB, RESERVE_MB = 24, 16  # a second of the run takes 16 MB
 
 
 class FullDisk(NodeTest):
@@ -27,7 +27,8 @@ class FullDisk(NodeTest):
             rospy.logwarn(untested)  # rosunit counts a skipped test as passed and does not tell why
             self.skipTest(untested)
         self.addCleanup(subprocess.run, ['umount', '--lazy', self.disk], check=True)
-        self.emulator = self.start(Emulator({'bag_directory': self.disk, 'disk_reserve_mb': float(RESERVE_MB)}))
+        self.emulator = self.start(Emulator({'bag_directory': self.disk, 'disk_reserve_mb': float(RESERVE_MB),
+                                             'sample_rate_hz': 1e6}))
         self.status, self.deflection = Topic('status'), Topic('deflection')
 
     def tearDown(self):

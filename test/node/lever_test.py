@@ -7,7 +7,7 @@ import roslib.packages
 import yaml
 from afm_emulator.srv import Control
 
-from emulator_under_test import PACKAGE, Launch, NodeTest, call_service, run
+from emulator_under_test import PACKAGE, NodeTest, call_service, run
 from topics import Topic
 
 CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
@@ -59,8 +59,7 @@ class LeverTest(NodeTest):
     def test_a_lever_of_ones_own(self):
         lever = Path(self.temporary_directory()) / 'mine.yaml'
         lever.write_text('{spring_constant_n_per_m: 0.1, resonance_hz: 9000, lateral_spring_constant_n_per_m: 50.0}')
-        launch = self.start(Launch('emulator.launch',
-                                   {'name': 'mine', 'lever': lever, 'load_n': '1e-9', 'pace': 'lockstep'}))
+        launch = self.launch('emulator.launch', name='mine', lever=lever, load_n='1e-9', pace='lockstep')
         c = Topic('/mine/configuration').wait_for()
         self.assertAlmostEqual(c.rest_height_m, -1e-8, delta=1e-20)
         self.advance('mine', 0.0)  # it has begun, and said so; what it said is written when it ends

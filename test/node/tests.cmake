@@ -8,7 +8,6 @@ endfunction()
 
 set(node_tests
   commands
-  diagnostics
   ending
   lever
   lockstep
@@ -22,7 +21,7 @@ foreach(name IN LISTS node_tests)
 endforeach()
 
 # of the picture
-set(view_tests interface pair view)
+set(view_tests pair view)
 foreach(name IN LISTS view_tests)
   afm_add_rostest(${name} afm_emulator_node afm_view_node)
 endforeach()
@@ -41,9 +40,7 @@ endforeach()
 
 # of the tools that read recordings
 set(recording_tests
-  bag_to_csv
   faults
-  levels
   load
   recording
   repeats
@@ -85,7 +82,7 @@ foreach(script IN LISTS scripts)
 endforeach()
 
 # a short form; scripts/soak alone runs for an hour
-set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 12 --part 6 --rate 50)
+set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 6 --part 3 --rate 50)
 if(AFM_SANITIZE)
   list(APPEND soak --any-memory)
 endif()

@@ -9,7 +9,7 @@ import rospy
 from afm_emulator.msg import Applied, EmulatorStatus, Friction, Impact
 from visualization_msgs.msg import MarkerArray
 
-from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, EmulatorTest, Launch, NodeTest, run
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, run
 from pictures import CELLS, CONTACT_RED, Picture, Told, View, luminance, open_rviz, surface
 from topics import Topic, wait_until
 
@@ -218,7 +218,7 @@ class Launched(NodeTest):
         self.assertEqual(nowhere.returncode, 0)
         self.assertIn('install', nowhere.stdout)
         environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
-        play = self.start(Launch('emulator.launch', {'view': 'true'}, environment))
+        play = self.launch('emulator.launch', environment, view='true')
         markers, deflection = Topic('/afm_view/markers', MarkerArray), Topic('deflection')
         markers.wait_for(lambda m: Picture(m).has('tip'), 'the tip')
         wait_until(lambda: 'so there is no window' in play.output(), 'why there is no window')
@@ -232,7 +232,7 @@ class Launched(NodeTest):
         self.assertEqual(emulator.stop(), 0)
         environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
         bag = next(Path(directory).glob('*.bag'))
-        replay = self.start(Launch('replay.launch', {'view': 'true', 'bag': bag}, environment))
+        replay = self.launch('replay.launch', environment, view='true', bag=bag)
         markers = Topic('/afm_view/markers', MarkerArray)
         drawn = markers.wait_for(lambda m: Picture(m).has('tip') and Picture(m).has('positions'), 'the tip')
         self.assertTrue(Picture(drawn).has('surface'))

@@ -27,7 +27,7 @@ if(AFM_DYNAMICS)
 endif()
 
 # a short form; for longer ones give the program more --seconds
-add_test(NAME stress COMMAND afm_stress --seconds 15)
+add_test(NAME stress COMMAND afm_stress --seconds 3)
 add_test(NAME stress_shipped COMMAND afm_stress --shipped --tau 100000 --scenes 3)
 set_tests_properties(stress stress_shipped PROPERTIES TIMEOUT 120)
 
