@@ -2,6 +2,7 @@
 #include "afm/run.h"
 #include "bytes.h"
 #include "node/params/parameters.h"
+#include "node/params/table.h"
 #include "target.h"
 
 namespace {
@@ -10,51 +11,17 @@ using afm::fuzz::Bytes;
 using afm::fuzz::require;
 using Value = XmlRpc::XmlRpcValue;
 
-const char* const kNames[] = {"omega_v_rad_per_s",
-                              "omega_h_rad_per_s",
-                              "tip_mass_kg",
-                              "lattice_spacing_m",
-                              "surface_amplitude_m",
-                              "rest_height_m",
-                              "restitution_gamma",
-                              "cutoff_speed",
-                              "model",
-                              "drag_velocity",
-                              "max_drag_velocity",
-                              "initial_phase",
-                              "initial_extension",
-                              "initial_height",
-                              "initial_u",
-                              "initial_w",
-                              "time_scale",
-                              "batch_rate_hz",
-                              "sample_rate_hz",
-                              "impact_budget",
-                              "contact_tolerance",
-                              "record",
-                              "bag_directory",
-                              "disk_reserve_mb",
-                              "friction_window_tau",
-                              "compression",
-                              "split_size_mb",
-                              "split_duration_s",
-                              "diagnostic_period",
-                              "temperature_k",
-                              "quality_factor",
-                              "lateral_quality_factor",
-                              "kicks_per_tau",
-                              "seed",
-                              "tolerance",
-                              "tolerance_of",
-                              "level_table",
-                              "pace",
-                              "wait_for",
-                              "command_wait_s",
-                              "publish_clock",
-                              "commands_eta",
-                              "commands_hold_s",
-                              "paused",
-                              "command_timeout_s"};
+// All that there are, and one that only diagnostic_updater reads. The inputs that are kept mean them by their order.
+const std::vector<std::string>& names() {
+  static const auto all = [] {
+    std::vector<std::string> found;
+    afm::node::Parameters parameters;
+    afm::node::for_each_parameter(parameters, [&](const char* name, auto&) { found.emplace_back(name); });
+    found.emplace_back("diagnostic_period");
+    return found;
+  }();
+  return all;
+}
 
 std::string text_of(Bytes& bytes) {
   const char* const known[] = {"oscillator", "hammer", "none", "lz4", "lockstep", "command", "deflection", "", "1e-4"};
@@ -88,12 +55,11 @@ Value value_of(Bytes& bytes, int depth) {
 }
 
 Value tree_of(Bytes& bytes) {
-  constexpr std::size_t kCount = sizeof kNames / sizeof kNames[0];
   if (bytes.below(32) == 0) return value_of(bytes, 0);
   Value tree;
   while (!bytes.empty()) {
-    const std::size_t name = bytes.below(kCount + 1);
-    tree[name < kCount ? std::string(kNames[name]) : bytes.text(20)] = value_of(bytes, 0);
+    const std::size_t name = bytes.below(names().size() + 1);
+    tree[name < names().size() ? names()[name] : bytes.text(20)] = value_of(bytes, 0);
   }
   return tree;
 }
