@@ -7,8 +7,9 @@ import math
 from registry import picture
 
 from . import style
+from .paths import STATE, surface, turned
 
-INPUTS = ["eta", "gamma", "cutoff", "phase", "extension", "u", "w"]
+INPUTS = ["eta", "gamma", "cutoff", *STATE]
 TWO_PI = style.TWO_PI
 SCENE, START = [3.4, 0.7, 0.05], [0.25, 0.0, 3.4, 1.0]  # eta, gamma, cutoff; the state after the impact before
 GAP_AGREES = 1e-12  # [a] the impacts lie on the surface that is drawn
@@ -19,10 +20,6 @@ AFTER = dict(color=style.ORANGE, linestyle="-", linewidth=2.2)
 SURFACE = dict(color="#444444", linewidth=1.5)
 NORMAL_COLOUR = style.GREEN
 DT = r"$\Delta t$"
-
-
-def surface(x):
-    return style.AMPLITUDE * math.cos(TWO_PI * x)
 
 
 def slope(x):
@@ -60,15 +57,8 @@ class Flight:
         return Flight(row, round(end - self.row["phase_next"]))
 
 
-def turned(x, v, frequency, t):
-    """Eq. 9, the frequency in turns a tau."""
-    omega = TWO_PI * frequency
-    c, s = math.cos(omega * t), math.sin(omega * t)
-    return x * c + v * s / omega, v * c - omega * x * s
-
-
 def after_impact(row):
-    return [row[name] for name in ("phase_next", "extension_next", "u_next", "w_next")]
+    return [row[name + "_next"] for name in STATE]
 
 
 def next_impact(values):

@@ -11,9 +11,10 @@ def surface(x):
 
 
 def turned(x, v, frequency, t):
+    """Position and velocity of a spring (Eq. 9), its frequency in turns a tau."""
     omega = style.TWO_PI * frequency
     c, s = math.cos(omega * t), math.sin(omega * t)
-    return x * c + v * s / omega
+    return x * c + v * s / omega, v * c - omega * x * s
 
 
 def flight(state, eta, dt, points=60):
@@ -22,8 +23,8 @@ def flight(state, eta, dt, points=60):
     xs, ys = [], []
     for i in range(points + 1):
         t = dt * i / points
-        xs.append(phase + eta * t + turned(X, u - eta, style.RATIO, t) - X)
-        ys.append(turned(surface(phase), w, 1.0, t))
+        xs.append(phase + eta * t + turned(X, u - eta, style.RATIO, t)[0] - X)
+        ys.append(turned(surface(phase), w, 1.0, t)[0])
     return xs, ys
 
 
