@@ -13,8 +13,6 @@
 namespace afm {
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-
 // One contact of a running tip, the flight after it, and the impact that ends that.
 struct Dwell {
   double eta;
@@ -28,13 +26,13 @@ std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
   constexpr double kTolerance = 1e-8;  // so that the tip is released at the exact time
   Tip tip(model, eta, start_at(eta), kTolerance);
   for (int i = 0; i < 200000 && found.size() < wanted; ++i) {
-    if (tip.advance(kNever) != Outcome::contact) continue;
+    if (tip.advance(kEndOfTime) != Outcome::contact) continue;
     const TipState s = tip.tip_state();
     const ModelTime begun = tip.now();
-    if (tip.advance(kNever) != Outcome::released) continue;
+    if (tip.advance(kEndOfTime) != Outcome::released) continue;
     const ModelTime released = tip.now();
     const TipState release = tip.tip_state();
-    tip.advance(kNever);
+    tip.advance(kEndOfTime);
     if (tip.last_impact().kind != ImpactKind::impact) continue;
     found.push_back({eta, {s.phase, s.X, s.u}, released - begun, tip.now() - released, release});
   }

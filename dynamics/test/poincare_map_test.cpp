@@ -9,8 +9,6 @@
 namespace afm {
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-
 TEST(PoincareMap, IsTheTipFromImpactToImpact) {
   const Model model;
   const double eta = 3.4;
@@ -19,7 +17,7 @@ TEST(PoincareMap, IsTheTipFromImpactToImpact) {
   TipState now = tip.tip_state();
   for (int i = 0; i < 500; ++i) {
     const ModelTime before = tip.now();
-    ASSERT_EQ(tip.advance(kNever), Outcome::impact);
+    ASSERT_EQ(tip.advance(kEndOfTime), Outcome::impact);
     const MapStep step = map(now);
     ASSERT_EQ(step.outcome, MapOutcome::impact);
     now = tip.tip_state();

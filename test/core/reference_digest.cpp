@@ -66,39 +66,36 @@ bool wanted(const std::string& line) {
   return parts.empty() || std::any_of(parts.begin(), parts.end(), in_line);
 }
 
-void print_run(double eta, double cutoff, double contact_tolerance, ModelKind kind = ModelKind::oscillator) {
-  char name[100];
-  std::snprintf(name, sizeof name, "%seta %g cutoff %g contact_tolerance %g",
-                kind == ModelKind::hammer ? "hammer, " : "", eta, cutoff, contact_tolerance);
+void print_run(const char* name, double eta, RunSettings settings) {
   if (!wanted(name)) return;
-  RunSettings settings;
-  settings.model.kind = kind;
-  settings.eta = eta;
-  settings.model.v_c = cutoff;
-  settings.initial.u = eta;
+  settings.eta = settings.initial.u = eta;
   settings.samples_per_batch = 1000;
-  settings.contact_tolerance = contact_tolerance;
   Run run(settings);
   Digest digest;
   follow(run, eta, digest);
   std::printf("%s: %s\n", name, to_text(digest).c_str());
 }
 
+void print_cold(double eta, double cutoff, double contact_tolerance, ModelKind kind = ModelKind::oscillator) {
+  char name[100];
+  std::snprintf(name, sizeof name, "%seta %g cutoff %g contact_tolerance %g",
+                kind == ModelKind::hammer ? "hammer, " : "", eta, cutoff, contact_tolerance);
+  RunSettings settings;
+  settings.model.kind = kind;
+  settings.model.v_c = cutoff;
+  settings.contact_tolerance = contact_tolerance;
+  print_run(name, eta, settings);
+}
+
 void print_bath(double eta, double temperature, double quality_factor, ModelKind kind) {
   char name[100];
   std::snprintf(name, sizeof name, "bath: %s, eta %g temperature %g quality_factor %g", afm::name(kind), eta,
                 temperature, quality_factor);
-  if (!wanted(name)) return;
   RunSettings settings;
   settings.model.kind = kind;
-  settings.eta = settings.initial.u = eta;
-  settings.samples_per_batch = 1000;
   settings.bath.temperature = temperature;
   settings.bath.quality_factor = quality_factor;
-  Run run(settings);
-  Digest digest;
-  follow(run, eta, digest);
-  std::printf("%s: %s\n", name, to_text(digest).c_str());
+  print_run(name, eta, settings);
 }
 
 // The records of segments, and the mean lateral force that comes of them.
@@ -155,10 +152,10 @@ void print_together(const std::string& name, int threads, afm::Bath bath = {}) {
 
 int main(int argc, char** argv) {
   parts.assign(argv + 1, argv + argc);
-  for (const double eta : {0.0, 0.5, 1.0, 2.0, 3.0, 3.4, 5.0, 7.5, 30.0}) print_run(eta, 0.05, 1e-4);
-  print_run(3.0, 0.3, 0.0);   // every bounce by itself
-  print_run(3.4, 0.0, 1e-3);  // the same restitution at every speed
-  for (const double eta : {0.5, 3.4}) print_run(eta, 0.05, 1e-3, ModelKind::hammer);
+  for (const double eta : {0.0, 0.5, 1.0, 2.0, 3.0, 3.4, 5.0, 7.5, 30.0}) print_cold(eta, 0.05, 1e-4);
+  print_cold(3.0, 0.3, 0.0);   // every bounce by itself
+  print_cold(3.4, 0.0, 1e-3);  // the same restitution at every speed
+  for (const double eta : {0.5, 3.4}) print_cold(eta, 0.05, 1e-3, ModelKind::hammer);
   print_segments(0.5, 0.01, ModelKind::oscillator);  // flights, bursts, contact
   print_segments(-0.3, 0.02, ModelKind::hammer);
   print_together("96 tips one after another", 1);

@@ -1,4 +1,4 @@
-// Short commands to a run, and room for its batches.
+// Short commands to a run.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,5 @@ inline Outcome advance_to(const ModelTime& time, Run& run, Batch& batch) {
 
 // To the n-th next impact, or to the next batch boundary.
 inline Outcome advance_impacts(std::uint64_t n, Run& run, Batch& batch) { return run.advance(kEndOfTime, n, batch); }
-
-inline Batch preallocated_batch(const RunSettings& settings) {
-  Batch batch;
-  batch.vertical.reserve(settings.samples_per_batch);
-  batch.lateral.reserve(settings.samples_per_batch);
-  batch.impacts.reserve(settings.impact_budget);
-  return batch;
-}
 
 }  // namespace afm

@@ -15,7 +15,6 @@ namespace {
 
 using namespace afm;
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 constexpr int kEvents = 1000;
 
 bool identical(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -146,7 +145,7 @@ TEST(Ensemble, NothingAskedIsNothingDone) {
   empty.advance({10, 0.0});
   Ensemble ensemble(1);
   ensemble.add(Tip(Model{}, 3.4, FreeState{0.25, 0.0, 0.2, 3.4, 0.0}));
-  ensemble.advance(0, kNever);
+  ensemble.advance(0, kEndOfTime);
   EXPECT_EQ(ensemble.tip(0).now(), ModelTime{});
   ensemble.advance({3, 0.25});
   EXPECT_EQ(ensemble.tip(0).now(), (ModelTime{3, 0.25}));

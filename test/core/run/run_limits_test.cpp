@@ -1,30 +1,13 @@
-// What a run does at its limits: a spent budget, a faulty parameter, memory.
+// What a run does at its limits: a spent budget, a faulty parameter.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <limits>
-#include <new>
 #include <set>
 #include <string>
 
 #include "afm/run.h"
 #include "support/commands.h"
 #include "support/recorded_run.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size != 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new[](std::size_t size) { return operator new(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace afm {
 namespace {
@@ -105,29 +88,6 @@ TEST(RunLimits, ATipThatRingsOverACrestStaysWithinTheDefaultBudget) {
     Batch batch;
     for (int i = 0; i < 5; ++i) ASSERT_EQ(run.advance(batch), Outcome::time_limit) << u;
   }
-}
-
-TEST(RunLimits, ABatchNeverAllocatesOnceItHasRoom) {
-  for (const double eta : {3.0, 3.4, 0.5}) {
-    RunSettings settings = chattering();
-    settings.eta = eta;
-    afm::Run run(settings);
-    Batch batch = preallocated_batch(settings);
-    const std::size_t before = allocations;
-    for (int i = 0; i < 50; ++i) run.advance(batch);
-    drag(run, -eta);
-    for (int i = 0; i < 50; ++i) run.advance(batch);
-    advance_impacts(5, run, batch);
-    advance_to(run.now() + 1e-3, run, batch);
-    for (int i = 0; i < 50; ++i) {
-      advance_impacts(1, run, batch);
-      if (run.can_split()) run.split();
-    }
-    EXPECT_EQ(allocations, before) << eta;
-  }
-  const std::size_t before = allocations;
-  const std::string text(1000, 'x');
-  EXPECT_EQ(allocations, before + 1) << "the counter does not count";
 }
 
 TEST(RunLimits, EveryFaultIsListedAtOnce) {

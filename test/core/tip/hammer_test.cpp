@@ -11,8 +11,6 @@
 namespace afm {
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-
 // At even eta and y0 = 0: two impacts a tau, each on the rising flank at mid-height, with w = s eta (1 + gamma)/(1 -
 // gamma) after.
 FreeState even_orbit(const Model& model, double eta) {
@@ -29,7 +27,7 @@ TEST(Hammer, AtEvenEtaItsFrictionIsTheClosedForm) {
       Tip tip(model, eta, start);
       double energy = 0.0;
       for (int i = 0; i < 4; ++i) {
-        ASSERT_EQ(tip.advance(kNever), Outcome::impact);
+        ASSERT_EQ(tip.advance(kEndOfTime), Outcome::impact);
         energy += tip.last_impact().energy_loss;
       }
       const double s = kTwoPi * model.H, K_f = energy / (eta * eta * (tip.now() - ModelTime{}));
@@ -61,7 +59,7 @@ TEST(Hammer, ThrownOffByACommandItIsThrownThenAndNoUlpSooner) {
     while (tip.advance(command) != Outcome::time_limit) continue;
     if (!tip.in_contact()) continue;
     tip.drag(3.4);
-    ASSERT_NE(tip.advance(kNever), Outcome::time_limit);
+    ASSERT_NE(tip.advance(kEndOfTime), Outcome::time_limit);
     ASSERT_FALSE(tip.last_impact().time < command);
     ++thrown;
   }
@@ -78,7 +76,7 @@ TEST(Hammer, AnImpactTakesWhatTheGapRateLosesAndTheHolderGivesTheRest) {
   Tip tip(model, 3.4, FreeState{0.25, 0.0, 0.2, 3.4, 0.0}, 0.0);
   for (int i = 0; i < 5000; ++i) {
     const FreeState before = tip.state();
-    ASSERT_EQ(tip.advance(kNever), Outcome::impact);
+    ASSERT_EQ(tip.advance(kEndOfTime), Outcome::impact);
     const Impact& impact = tip.last_impact();
     const TipState after = tip.tip_state();
     const double r = impact.normal_speed, r_after = after.g1;

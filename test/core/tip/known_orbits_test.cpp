@@ -10,16 +10,14 @@
 namespace afm {
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
-
 // K_f over `impacts` impacts after a transient. On an orbit of one impact that is a whole number of its periods.
 double simulated_K_f(const Model& model, double eta, int transient, int impacts) {
   Tip tip(model, eta, start_at(eta));
-  for (int i = 0; i < transient; ++i) tip.advance(kNever);
+  for (int i = 0; i < transient; ++i) tip.advance(kEndOfTime);
   const ModelTime begin = tip.now();
   double energy = 0.0;
   for (int i = 0; i < impacts; ++i) {
-    tip.advance(kNever);
+    tip.advance(kEndOfTime);
     energy += tip.last_impact().energy_loss;
   }
   return energy / ((tip.now() - begin) * eta * eta);
@@ -62,7 +60,7 @@ TEST(KnownOrbits, TheMapReturnsThePeriodOneOrbitOfThePaper) {
   const double height = surface_jet(model.H, phase).h;
   const FreeState start{phase, 0.0036110865500110, height, 3.1709737711578348, 2.0880897958488404};
   Tip tip(model, eta, start);
-  ASSERT_EQ(tip.advance(kNever), Outcome::impact);
+  ASSERT_EQ(tip.advance(kEndOfTime), Outcome::impact);
   EXPECT_NEAR(tip.now() - ModelTime{}, 2.0 / 3.4, 1e-14);
   const FreeState after = tip.state();
   EXPECT_NEAR(after.phase, start.phase, 1e-14);

@@ -16,35 +16,10 @@ constexpr double kTolerances[] = {0.0, 1e-5, 1e-4, 1e-3, 1e-2};
 struct Run {
   double eta, v_c;
 };
-class Relevel : public testing::TestWithParam<Run> {};
-
-TEST_P(Relevel, AnotherToleranceConservesEnergy) {
-  RandomLaunches random(3);
-  const Model model = model_with_cutoff(GetParam().v_c);
-  Tip tip(model, GetParam().eta, start_at(GetParam().eta));
-  EnergyBalance balance(tip);
-  int bursts = 0, contacts = 0;
-  for (int changes = 0; changes < 3000; ++changes) {
-    const ModelTime next = tip.now() + random.within(0.0, 1.0);
-    for (int arcs = 0; tip.now() < next && arcs < 500; ++arcs) {
-      ASSERT_NE(balance.advance_segment(tip, next), Outcome::search_failed);
-    }
-    bursts += tip.in_chatter();
-    contacts += tip.in_contact();
-    const FreeState before = tip.state();
-    const double tolerance = kTolerances[static_cast<std::size_t>(random.within(0.0, 4.999))];
-    balance.command(tip, [&] { ASSERT_EQ(tip.set_model(ModelKind::oscillator, tolerance), 0.0); });
-    ASSERT_NEAR(tip.state().y, before.y, 1e-4);
-    ASSERT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << changes;
-  }
-  EXPECT_GT(balance.lost(), 0.0);
-  if (GetParam().v_c < 0.004) {  // elsewhere it is rarely caught in a burst
-    EXPECT_GT(bursts + contacts, 20);
-  }
-}
+class SetModelAt : public testing::TestWithParam<Run> {};
 
 // What is dropped on the way to the hammer is what is missing; on the way back nothing is.
-TEST_P(Relevel, AnotherModelDropsWhatItSays) {
+TEST_P(SetModelAt, AnotherModelDropsWhatItSays) {
   RandomLaunches random(5);
   const double eta = GetParam().eta;
   const Model model = model_with_cutoff(GetParam().v_c);
@@ -85,7 +60,7 @@ TEST_P(Relevel, AnotherModelDropsWhatItSays) {
 
 // A change of level that ends a burst or a contact tells of it, once, at its time; commands at the same time lose
 // nothing.
-TEST_P(Relevel, EventsAreToldOnce) {
+TEST_P(SetModelAt, EventsAreToldOnce) {
   RandomLaunches random(8);
   const double eta = GetParam().eta;
   Tip tip(model_with_cutoff(GetParam().v_c), eta, start_at(eta));
@@ -110,10 +85,10 @@ TEST_P(Relevel, EventsAreToldOnce) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs, Relevel,
+INSTANTIATE_TEST_SUITE_P(Runs, SetModelAt,
                          testing::Values(Run{3.4, 0.3}, Run{0.5, 0.005}, Run{-0.2, 0.002}, Run{3.0, 0.03}));
 
-TEST(RelevelTip, TheSameLevelInFlightChangesNextToNothing) {
+TEST(SetModel, TheSameLevelInFlightChangesNextToNothing) {
   RandomLaunches random(6);
   Tip tip(model_with_cutoff(0.05), 2.2, start_at(2.2));
   int flights = 0;

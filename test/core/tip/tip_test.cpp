@@ -10,7 +10,6 @@
 namespace afm {
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 constexpr double kDragSpeeds[] = {0.5, 2.0, 2.25, 3.4, -3.4, 4.5, 9.0, 50.0};
 
 Model model_at(double eta) { return model_with_cutoff(0.1 * std::abs(eta)); }
@@ -28,7 +27,7 @@ bool is_event(Outcome outcome) { return outcome != Outcome::time_limit && outcom
 TEST(Tip, AnEventAtTheLimitStillHappens) {
   Tip scout = tip_at(3.4), tip = tip_at(3.4);
   for (int i = 0; i < 100; ++i) {
-    ASSERT_EQ(scout.advance(kNever), Outcome::impact);
+    ASSERT_EQ(scout.advance(kEndOfTime), Outcome::impact);
     const ModelTime before = scout.now() + -1e-9;
     ASSERT_EQ(tip.advance(before), Outcome::time_limit);
     ASSERT_TRUE(tip.now() == before);
@@ -84,8 +83,8 @@ TEST(Tip, AfterADragCommandItFliesAsIfStartedThere) {
   run_to(tip, {5, 0.3});
   tip.drag(-2.25);
   Tip fresh(model_at(3.4), -2.25, tip.state());
-  ASSERT_EQ(tip.advance(kNever), Outcome::impact);
-  ASSERT_EQ(fresh.advance(kNever), Outcome::impact);
+  ASSERT_EQ(tip.advance(kEndOfTime), Outcome::impact);
+  ASSERT_EQ(fresh.advance(kEndOfTime), Outcome::impact);
   EXPECT_NEAR(tip.now() - (ModelTime{5, 0.3}), fresh.now() - ModelTime{}, 1e-13);
   EXPECT_NEAR(tip.last_impact().normal_speed, fresh.last_impact().normal_speed, 1e-11);
 }
@@ -96,7 +95,7 @@ TEST(Tip, DraggedTheOtherWayItIsItsMirrorImage) {
     Tip right(model, eta, FreeState{0.25, 0.01, 0.2, eta, 0.3});
     Tip left(model, -eta, FreeState{0.75, -0.01, 0.2, -eta, 0.3});
     for (int i = 0; i < 3000; ++i) {
-      ASSERT_EQ(right.advance(kNever), left.advance(kNever));
+      ASSERT_EQ(right.advance(kEndOfTime), left.advance(kEndOfTime));
       const Impact &r = right.last_impact(), &l = left.last_impact();
       ASSERT_NEAR(right.now() - left.now(), 0.0, 1e-9) << eta << " impact " << i;
       ASSERT_NEAR(r.surface_phase, wrap_phase(-l.surface_phase), 1e-9) << eta << " impact " << i;
@@ -110,7 +109,7 @@ TEST(Tip, AnImpactIsWhatTheStatesOnEitherSideSay) {
   const Model model = model_at(3.4);
   Tip tip = tip_at(3.4);
   for (int i = 0; i < 1000; ++i) {
-    ASSERT_TRUE(is_event(tip.advance(kNever)));
+    ASSERT_TRUE(is_event(tip.advance(kEndOfTime)));
     const Impact& impact = tip.last_impact();
     const TipState after = tip.tip_state();
     ASSERT_TRUE(impact.time == tip.now());
