@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# rosrun completes and finds the tools in a shell that has nothing but devel/setup.bash.
+# In a shell that has nothing but devel/setup.bash, rosrun finds the tools, and the tab key completes their names and
+# options.
 #
 # usage: rosrun_test.sh PREFIX [TOOL...]
 set -euo pipefail
@@ -11,47 +12,56 @@ if [[ ! -x $prefix/lib/afm_emulator/emulator_node ]]; then
 fi
 home=$(mktemp -d)
 trap 'rm -rf "$home"' EXIT
+failed=0
 
+# usage: clean_shell SCRIPT WORD...: with the words as its arguments
 clean_shell() {
-  env -i HOME="$home" PATH=/usr/bin:/bin:/usr/sbin:/sbin bash --norc --noprofile -c "source '$prefix/setup.bash' && $1"
+  local script=$1
+  shift
+  env -i HOME="$home" PATH=/usr/bin:/bin:/usr/sbin:/sbin bash --norc --noprofile -c "source \"\$0/setup.bash\"; $script" \
+    "$prefix" "$@"
 }
 
-failed=0
+# usage: completed WORD...: what the tab key offers for the last of the words, a line each, by the function that bash
+# would call
+completed() {
+  clean_shell '
+    COMP_WORDS=("$@")
+    COMP_CWORD=$(($# - 1))
+    function=$(complete -p "${1##*/}" | sed -E "s/.* -F ([^ ]+) .*/\1/")
+    previous=${COMP_WORDS[COMP_CWORD - 1]}
+    "$function" "$1" "${COMP_WORDS[COMP_CWORD]}" "$previous" && printf "%s\n" "${COMPREPLY[@]}"' "$@"
+}
+
+# usage: expect OFFERED WORD...: it is among what is offered for the words
+expect() {
+  local wanted=$1 offered
+  shift
+  offered=$(completed "$@" || true)
+  if ! grep -qx -- "$wanted" <<<"$offered"; then
+    echo "$*<TAB> does not offer $wanted, but:"
+    echo "$offered"
+    failed=1
+  fi
+}
+
+expect --temperature rosrun afm_emulator friction_curve --te
+expect --si rosrun afm_emulator friction_curve --eta 2 --
+expect --topic rosrun afm_emulator bag_to_csv run.bag --t
+expect --gamma "$prefix/lib/afm_emulator/periodic_orbits" --g
+if [[ -n $(completed rosrun afm_emulator friction_curve --no-such) ]]; then
+  echo "an option is offered that does not exist"
+  failed=1
+fi
 for tool in "$@"; do
-  if ! clean_shell "rosrun afm_emulator $tool --help" >"$home/help" 2>&1; then
+  if ! clean_shell 'rosrun afm_emulator "$1" --help' "$tool" >"$home/help" 2>&1; then
     echo "rosrun afm_emulator $tool --help fails:"
     cat "$home/help"
     failed=1
   fi
-done
-
-completions=
-for file in /usr/share/bash-completion/completions/rosbash /opt/ros/noetic/share/rosbash/rosbash; do
-  if [[ -f $file ]]; then
-    completions=$file
-  fi
-done
-if [[ -z $completions ]]; then
-  echo "rosbash is not installed: completion is not tested"
-  exit "$failed"
-fi
-
-# usage: completed PREFIX_OF_WORD: what the tab key offers after `rosrun afm_emulator`, a line each
-completed() {
-  clean_shell "source '$completions' && COMP_WORDS=(rosrun afm_emulator '$1') COMP_CWORD=2 && _roscomplete_exe;
-    printf '%s\n' \"\${COMPREPLY[@]}\""
-}
-
-offered=$(completed '')
-for tool in emulator_node "$@"; do
-  if ! grep -qx "$tool" <<<"$offered"; then
-    echo "rosrun afm_emulator <TAB> does not offer $tool, but:"
-    echo "$offered"
-    failed=1
-  fi
-  if [[ $(completed "${tool:0:-1}") != *"$tool"* ]]; then
-    echo "rosrun afm_emulator ${tool:0:-1}<TAB> does not complete $tool"
-    failed=1
+  # by rosbash, where it is installed
+  if [[ -f /usr/share/bash-completion/completions/rosbash || -f /opt/ros/noetic/share/rosbash/rosbash ]]; then
+    expect "$tool" rosrun afm_emulator "${tool:0:-1}"
   fi
 done
 exit "$failed"

@@ -3,34 +3,22 @@
 rounding; what is missing it names, and writes what there is."""
 import csv
 import subprocess
-from pathlib import Path
 
 import roslib.packages
 from afm_emulator.msg import Friction
 
 import bags
 from checks import UNCHECKED, USAGE
-from emulator_under_test import ENERGY_UNIT, FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest, run
+from emulator_under_test import ENERGY_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeTest, run
 from spoiled_bag import SpoiledBag
 from topics import PATIENCE, Topic
 
 LENGTH_UNIT = 0.52e-9
-IMPACT = {'surface_phase': ('surface_phase', 1), 'normal_speed': ('normal_speed_m_per_s', SPEED_UNIT),
-          'tangential_velocity': ('tangential_velocity_m_per_s', SPEED_UNIT),
-          'energy_loss': ('energy_loss_j', ENERGY_UNIT), 'kind': ('kind', 1), 'count': ('count', 1)}
-FRICTION_SUFFIX = {'eta': '', 'impact_count': '', 'drag_velocity': '_m_per_s', 'energy_loss': '_j',
-                   'heat_to_bath': '_j', 'force': '_n', 'force_std_error': '_n', 'window_force': '_n',
-                   'mean_lateral_force': '_n',
-                   'mean_lateral_force_std_error': '_n', 'mean_normal_force': '_n'}  # all others: _kg_per_s
-NOT_IN_TABLE = ('header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'k_f_natural', 'window_k_f_natural',
-                'k_f_work_natural')
-APPLIED = {'drag_velocity_m_per_s': 'drag_velocity', 'restitution_gamma': 'restitution_gamma',
-           'cutoff_speed_m_per_s': 'cutoff_speed', 'rest_height_m': 'rest_height_m',
-           'sample_rate_per_s': 'sample_rate_hz', 'friction_window_tau': 'friction_window_tau',
-           'temperature_k': 'temperature_k', 'quality_factor': 'quality_factor',
-           'lateral_quality_factor': 'lateral_quality_factor', 'kicks_per_tau': 'kicks_per_tau',
-           'contact_tolerance': 'contact_tolerance', 'first_impact': 'first_impact', 'number': 'number', 'tau': None,
-           'phase': None}
+UNITS = ('_m_per_s', '_kg_per_s', '_per_s', '_j', '_n', '_m')  # in the names of columns
+OTHER_NAMES = {'sample_rate': 'sample_rate_hz'}
+OF_THE_ROW = {'epoch', 'index', 'tau', 'phase', 'time_s'}  # the others are fields of the message
+NOT_IN_TABLE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'k_f_natural', 'window_k_f_natural',
+                'k_f_work_natural'}
 
 
 def call(*arguments):
@@ -47,21 +35,16 @@ def table(paths, *options):
     return rows
 
 
-def same(text, value):
-    """The same double; NaN is itself."""
-    return float(text) == value or (float(text) != float(text) and value != value)
+def field_of(column, message):
+    """The name of the field that a column shows: with a unit behind it, unless the field has one itself."""
+    names = [column] + [column[:-len(unit)] for unit in UNITS if column.endswith(unit)]
+    return next(name for name in (OTHER_NAMES.get(name, name) for name in names) if hasattr(message, name))
 
 
 class BagToCsv(NodeTest):
-    @staticmethod
-    def merged(paths, topic):
-        found = {message.header.seq: message for path in paths for message in bags.read(path)[topic]}
-        return [found[seq] for seq in sorted(found)]
-
     def test_a_split_recording_topic_by_topic(self):
-        directory = Path(self.temporary_directory())
-        emulator = self.start(Emulator(dict(record=True, bag_directory=str(directory), sample_rate_hz=20000.0,
-                                            temperature_k=300.0, quality_factor=100.0, split_duration_s=0.4)))
+        emulator = self.record(record=True, sample_rate_hz=20000.0, temperature_k=300.0, quality_factor=100.0,
+                               split_duration_s=0.4)
         applied, friction = Topic('applied'), Topic('friction')
         friction.wait_for()
         emulator.drag(2 * SPEED_UNIT)
@@ -69,43 +52,48 @@ class BagToCsv(NodeTest):
         emulator.publisher('rest_height').publish(-1e-11)
         applied.wait_for(lambda m: m.rest_height_m == -1e-11)
         friction.wait_for_more(60)
-        self.assertEqual(emulator.stop(), 0)
-        paths = sorted(str(path) for path in directory.iterdir())
-        self.assertGreater(len(paths), 1)
-        self.check_impacts(paths)
-        self.check_deflection(paths)
-        self.check_friction(paths)
-        self.check_commands(paths)
-        code, rows, complaint = call(*paths[::-1], '--topic', 'friction')
+        self.paths = self.end(emulator)
+        self.assertGreater(len(self.paths), 1)
+        self.check_impacts()
+        self.check_deflection()
+        self.check_friction()
+        self.check_commands()
+        code, rows, complaint = call(*self.paths[::-1], '--topic', 'friction')
         self.assertEqual((code, rows), (USAGE, []))
         self.assertIn('does not go on where', complaint)
 
-    def check_impacts(self, paths):
-        found = [(batch, batch.first_index + i, impact) for batch in self.merged(paths, 'impacts')
+    def tables(self, topic):
+        """In SI, and in natural units: table_writer_test.cpp tests how these follow from those."""
+        return table(self.paths, '--topic', topic), table(self.paths, '--topic', topic, '--natural')
+
+    def recorded(self, topic):
+        found = {message.header.seq: message for path in self.paths for message in bags.read(path)[topic]}
+        return [found[seq] for seq in sorted(found)]
+
+    def assert_row(self, row, message):
+        """Every column has the value of its field, to the bit."""
+        self.assertEqual((int(row['tau']), float(row['phase'])), (message.time.tau, message.time.phase))
+        self.assertAlmostEqual(float(row['time_s']) / TAU_S, message.time.tau + message.time.phase, delta=1e-9)
+        for column in set(row) - OF_THE_ROW:
+            value = getattr(message, field_of(column, message))
+            self.assertEqual(repr(type(value)(row[column])), repr(value), column)  # nan is nan
+
+    def check_impacts(self):
+        found = [(batch.first_index + i, impact) for batch in self.recorded('impacts')
                  for i, impact in enumerate(batch.impacts)]
-        rows, natural = (table(paths, '--topic', 'impacts', *more) for more in ((), ('--natural',)))
+        rows, natural = self.tables('impacts')
         self.assertGreater(len(rows), 1000)
         self.assertEqual((len(rows), len(natural)), (len(found), len(found)))
-        for row, other, (batch, index, impact) in zip(rows, natural, found):
-            self.assertEqual((int(row['epoch']), int(row['index']), int(row['tau']), float(row['phase'])),
-                             (batch.epoch, index, impact.time.tau, impact.time.phase))
-            self.assertAlmostEqual(float(row['time_s']) / TAU_S, impact.time.tau + impact.time.phase, delta=1e-9)
-            for field, (column, unit) in IMPACT.items():
-                value = getattr(impact, field)
-                self.assertTrue(same(row[column], value), (column, row, impact))
-                self.assertAlmostEqual(float(other[self.natural_name(column)]), value / unit,
-                                       delta=1e-14 * abs(value / unit))
+        for row, other, (index, impact) in zip(rows, natural, found):
+            self.assertEqual((int(row['epoch']), int(row['index'])), (0, index))
+            self.assert_row(row, impact)
+            self.assertAlmostEqual(float(other['energy_loss_m_tip_a2_per_tau2']), impact.energy_loss / ENERGY_UNIT,
+                                   delta=1e-14 * impact.energy_loss / ENERGY_UNIT)
 
-    def natural_name(self, column):
-        for si, natural in (('_m_per_s', '_a_per_tau'), ('_j', '_m_tip_a2_per_tau2'), ('_m', '_a')):
-            if column.endswith(si):
-                return column[:-len(si)] + natural
-        return column
-
-    def check_deflection(self, paths):
-        rows, natural = (table(paths, '--topic', 'deflection', *more) for more in ((), ('--natural',)))
+    def check_deflection(self):
         found = [(b.first_sample + i, (b.time.tau + b.time.phase) * TAU_S + i * b.sample_period, v, w)
-                 for b in self.merged(paths, 'deflection') for i, (v, w) in enumerate(zip(b.vertical, b.lateral))]
+                 for b in self.recorded('deflection') for i, (v, w) in enumerate(zip(b.vertical, b.lateral))]
+        rows, natural = self.tables('deflection')
         self.assertEqual(len(rows), len(found))
         for row, other, (index, time, vertical, lateral) in zip(rows, natural, found):
             self.assertEqual((int(row['index']), float(row['vertical_m']), float(row['lateral_m'])),
@@ -114,33 +102,23 @@ class BagToCsv(NodeTest):
             self.assertAlmostEqual(float(other['vertical_a']), vertical / LENGTH_UNIT, delta=1e-15)
             self.assertAlmostEqual(float(other['time_tau']), time / TAU_S, delta=1e-8)
 
-    def check_friction(self, paths):
-        found = self.merged(paths, 'friction')
-        rows, natural = (table(paths, '--topic', 'friction', *more) for more in ((), ('--natural',)))
+    def check_friction(self):
+        found, (rows, natural) = self.recorded('friction'), self.tables('friction')
+        self.assertEqual({field_of(column, found[0]) for column in set(rows[0]) - OF_THE_ROW},
+                         set(Friction.__slots__) - NOT_IN_TABLE)
         self.assertEqual(len(rows), len(found))
         for row, other, message in zip(rows, natural, found):
-            self.assertEqual((int(row['tau']), float(row['phase'])), (message.time.tau, message.time.phase))
-            for field in Friction.__slots__:  # a field that the table lacks is a KeyError
-                if field not in NOT_IN_TABLE:
-                    column = field + FRICTION_SUFFIX.get(field, '_kg_per_s')
-                    self.assertTrue(same(row[column], getattr(message, field)), (column, row, message))
+            self.assert_row(row, message)
             if message.k_f == message.k_f:
                 self.assertAlmostEqual(float(other['k_f_m_tip_per_tau']), message.k_f_natural,
                                        delta=1e-13 * abs(message.k_f_natural))
-                self.assertAlmostEqual(float(other['k_f_m_tip_per_tau']) * FRICTION_UNIT, float(row['k_f_kg_per_s']),
-                                       delta=1e-16)
 
-    def check_commands(self, paths):
-        rows, found = table(paths, '--topic', 'commands'), self.merged(paths, 'applied')
-        self.assertEqual(len(found), 3)
-        self.assertEqual(len(rows), len(found))
+    def check_commands(self):
+        found, (rows, natural) = self.recorded('applied'), self.tables('commands')
+        self.assertEqual((len(rows), len(found)), (3, 3))
         for row, message in zip(rows, found):
-            for column, field in APPLIED.items():
-                value = getattr(message, field) if field else getattr(message.time, column)
-                self.assertEqual(float(row[column]), value, column)
-            self.assertEqual((row['model'], row['cause']), (message.model, message.cause))
-        self.assertAlmostEqual(float(table(paths, '--topic', 'commands', '--natural')[-1]['drag_velocity_a_per_tau']),
-                               2, delta=1e-14)
+            self.assert_row(row, message)
+        self.assertAlmostEqual(float(natural[-1]['drag_velocity_a_per_tau']), 2, delta=1e-14)
 
 
 class Incomplete(SpoiledBag):

@@ -43,18 +43,18 @@ def count(topics):
     return {name: len(topic.raw) for name, topic in topics.items()}
 
 
-def assert_no_gaps(test, messages):
-    """messages: of read()."""
-    for name, first, content in (('deflection', 'first_sample', 'vertical'), ('impacts', 'first_index', 'impacts')):
-        test.assertGreater(len(messages[name]), 1, name)
-        for message, following in zip(messages[name], messages[name][1:]):
-            test.assertEqual(getattr(message, first) + len(getattr(message, content)), getattr(following, first), name)
+def assert_no_gap(test, messages, first='first_sample', content='vertical'):
+    """In the running index of a topic."""
+    test.assertGreater(len(messages), 1)
+    for message, following in zip(messages, messages[1:]):
+        test.assertEqual(getattr(message, first) + len(getattr(message, content)), getattr(following, first))
 
 
 def assert_sound(test, path):
     """A closed bag that holds a run without a gap, and its configuration. Returns what read() does."""
     test.assertEqual(info_exit_code(path), 0)
     messages = read(path)
-    assert_no_gaps(test, messages)
+    assert_no_gap(test, messages['deflection'])
+    assert_no_gap(test, messages['impacts'], 'first_index', 'impacts')
     test.assertTrue(messages['configuration'] and messages['applied'])
     return messages

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 import xmlrpc.client
+from pathlib import Path
 
 import roslib.packages
 import rospy
@@ -80,6 +81,18 @@ class Launch(Process):
         wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes',
                    deadline_s=60.0)
         return super().stop(with_signal)
+
+
+class Emulators(Launch):
+    """One for each of these arguments of emulator.launch."""
+
+    def __init__(self, each):
+        self.file = tempfile.NamedTemporaryFile('w', suffix='.launch')
+        arguments = (''.join('<arg name="%s" value="%s"/>' % item for item in one.items()) for one in each)
+        self.file.write('<launch>%s</launch>' % ''.join(
+            '<include file="$(find %s)/launch/emulator.launch">%s</include>' % (PACKAGE, one) for one in arguments))
+        self.file.flush()
+        super().__init__(self.file.name)
 
 
 def is_known(node):
@@ -173,6 +186,17 @@ class NodeTest(unittest.TestCase):
     def launch(self, file, env=None, **arguments):
         """A file of the package."""
         return self.start(Launch(PACKAGE, file, *('%s:=%s' % item for item in arguments.items()), env=env))
+
+    def record(self, environment=(), **parameters):
+        """An emulator that may record, or does with record=True, into self.directory."""
+        self.directory = Path(self.temporary_directory())
+        return self.start(Emulator(dict(parameters, bag_directory=str(self.directory)), **dict(environment)))
+
+    def end(self, emulator):
+        """It is alive, and ends well. Returns its bags."""
+        emulator.assert_alive()
+        self.assertEqual(emulator.stop(), 0)
+        return sorted(str(path) for path in self.directory.iterdir())
 
     def temporary_directory(self):
         directory = tempfile.TemporaryDirectory()

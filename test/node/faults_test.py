@@ -11,6 +11,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from std_srvs.srv import SetBool
 
+import bags
 import checks
 from emulator_under_test import PACKAGE, Emulator, NodeTest, run, set_parameters
 from master import Master
@@ -22,23 +23,11 @@ MODEL_RATE = 40e3 / (2 * 3.141592653589793)  # tau in a second
 
 class Faults(NodeTest):
     def recording_emulator(self, **environment):
-        self.directory = Path(self.temporary_directory())
-        emulator = self.start(Emulator({'record': True, 'bag_directory': str(self.directory)}, **environment))
+        emulator = self.record(environment, record=True)
         self.status, self.deflection = Topic('status'), Topic('deflection')
         self.deflection.wait_for_connection()
         self.status.wait_for(lambda m: m.recording and m.time.tau > 1000, 'recording')
         return emulator
-
-    def end(self, emulator):
-        emulator.assert_alive()
-        self.assertEqual(emulator.stop(), 0)
-        path, = self.directory.iterdir()
-        checks.assert_identical(self, str(path))
-
-    def assert_no_sample_lost(self):
-        messages = self.deflection.messages
-        for message, following in zip(messages, messages[1:]):
-            self.assertEqual(message.first_sample + len(message.vertical), following.first_sample)
 
     def assert_keeps_up(self):
         """Over half a second of wall time."""
@@ -79,7 +68,7 @@ class Faults(NodeTest):
         for step in (self.time_without_a_clock, self.subscribers_are_killed, self.the_wall_clock_jumps,
                      self.it_jumps_in_a_pause):
             step()
-            self.assert_no_sample_lost()
+            bags.assert_no_gap(self, self.deflection.messages)
         self.assertEqual(self.status.wait_for_next().dropped_messages, 0)
         self.stop_for(1.0)
         self.stop_for(3.0)  # more than the queue to the publishing thread holds
@@ -87,7 +76,7 @@ class Faults(NodeTest):
         self.status.wait_for_next()
         counted, seen = self.status.wait_for_next().dropped_messages, [m.header.seq for m in self.deflection.messages]
         self.assertEqual(seen[-1] - seen[0] + 1 - len(seen), counted)
-        self.end(self.emulator)
+        checks.assert_identical(self, *self.end(self.emulator))
 
     def time_without_a_clock(self):
         self.assertLess(abs(self.status.wait_for_next().header.stamp.to_sec() - time.time()), 60.0)

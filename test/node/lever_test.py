@@ -7,12 +7,13 @@ import roslib.packages
 import yaml
 from afm_emulator.srv import Control
 
-from emulator_under_test import PACKAGE, NodeTest, call_service, run
+from emulator_under_test import PACKAGE, Emulators, NodeTest, call_service, run
 from topics import Topic
 
 CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
-LOAD = 0.4e-9  # [N], in lever.test
+LOAD = 0.4e-9  # [N]
 BOLTZMANN = 1.380649e-23
+LEVERS = sorted((CONFIG / 'levers').glob('*.yaml'))
 
 
 def settings(kind, name):
@@ -20,6 +21,15 @@ def settings(kind, name):
 
 
 class LeverTest(NodeTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.emulators = Emulators([dict(name=path.stem, lever=path.stem, surface='nacl', load_n=LOAD, temperature_k=300,
+                                        quality_factor=20, pace='lockstep') for path in LEVERS])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.emulators.clean_up()
+
     def advance(self, name, seconds):
         answer = call_service('/%s/control' % name, Control, drag_velocity=math.nan, rest_height=math.nan,
                               duration=seconds)
@@ -28,7 +38,7 @@ class LeverTest(NodeTest):
 
     def test_every_shipped_lever(self):
         surface = settings('surfaces', 'nacl')
-        for path in sorted((CONFIG / 'levers').glob('*.yaml')):
+        for path in LEVERS:
             name, lever = path.stem, settings('levers', path.stem)
             with self.subTest(lever=name):
                 c = Topic('/%s/configuration' % name).wait_for()

@@ -6,12 +6,11 @@ import random
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import rospy
 
 import checks
-from emulator_under_test import SPEED_UNIT, TAU_S, Emulator, NodeTest, run
+from emulator_under_test import SPEED_UNIT, TAU_S, NodeTest, run
 from tcpros import BareSubscriber, Drain
 from topics import Topic, wait_until
 
@@ -21,8 +20,7 @@ COMMANDS, RATE_HZ, SUBSCRIBERS = 1000, 200, 20
 class Load(NodeTest):
     def setUp(self):
         super().setUp()
-        self.directory = Path(self.temporary_directory())
-        self.emulator = self.start(Emulator({'record': True, 'bag_directory': str(self.directory)}))
+        self.emulator = self.record(record=True)
         self.status, self.applied = Topic('status'), Topic('applied')
         self.applied.wait_for_connection()
         self.emulator.drag(SPEED_UNIT)
@@ -59,10 +57,7 @@ class Load(NodeTest):
         self.assertGreater(status.worst_lag, 0.0)
         for s, count in drain.bytes.items():
             self.assertGreater(count - before[s], 1000000, 'a subscriber got less than a third of a second')
-        self.emulator.assert_alive()
-        self.assertEqual(self.emulator.stop(), 0)
-        path, = self.directory.iterdir()
-        checks.assert_identical(self, str(path))
+        checks.assert_identical(self, *self.end(self.emulator))
 
 
 if __name__ == '__main__':

@@ -15,7 +15,7 @@ from std_srvs.srv import SetBool, Trigger
 import afm
 import bags
 import checks
-from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
+from emulator_under_test import SPEED_UNIT, NodeTest, run
 from topics import Topic, wait_until
 
 EXAMPLE = Path(os.path.realpath(__file__)).parents[2] / 'examples' / 'python' / 'read_bag.py'
@@ -23,8 +23,7 @@ EXAMPLE = Path(os.path.realpath(__file__)).parents[2] / 'examples' / 'python' / 
 
 class PythonModule(NodeTest):
     def run_emulator(self, **parameters):
-        self.directory = Path(self.temporary_directory())
-        self.emulator = self.start(Emulator(dict(parameters, bag_directory=str(self.directory))))
+        self.emulator = self.record(record=True, **parameters)
         self.deflection, self.applied = Topic('deflection'), Topic('applied')
         self.deflection.wait_for()
 
@@ -41,11 +40,6 @@ class PythonModule(NodeTest):
             self.assertTrue(self.emulator.call('step', Step, **how_far).success)
             self.command(2.0, 3.0)
         self.assertTrue(self.emulator.call('pause', SetBool, data=False).success)
-
-    def end(self):
-        self.emulator.assert_alive()
-        self.assertEqual(self.emulator.stop(), 0)
-        return sorted(str(path) for path in self.directory.iterdir())
 
     def assert_repeats(self, paths, epoch):
         """Samples and impacts that the bags hold are those of the module, in SI, bit for bit. Returns how many."""
@@ -72,13 +66,13 @@ class PythonModule(NodeTest):
         return recording, samples, len(impacts)
 
     def test_commands_steps_and_resets(self):
-        self.run_emulator(record=True)
+        self.run_emulator()
         self.command(2.0, -3.0, 0.0, 5.0, 1.0)
         self.step_through()
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         self.command(3.4, 2.5)
         self.deflection.wait_for_more(30)
-        path, = self.end()
+        path, = self.end(self.emulator)
         checks.assert_identical(self, path)
         epochs = afm.from_bag(path).epochs
         self.assertEqual(len(epochs), 2)
@@ -99,10 +93,10 @@ class PythonModule(NodeTest):
             self.assertTrue((Path(folder) / 'read_bag.png').exists())
 
     def test_a_split_recording(self):
-        self.run_emulator(record=True, split_duration_s=0.4)
+        self.run_emulator(split_duration_s=0.4)
         self.command(*[2.0, -3.0, 5.0] * 15)
         self.deflection.wait_for_more(50)
-        paths = self.end()
+        paths = self.end(self.emulator)
         self.assertGreaterEqual(len(paths), 3)
         recording, samples, _ = self.assert_repeats(paths, 0)
         self.assertEqual(len(recording.commands), 1 + 45)
@@ -113,7 +107,7 @@ class PythonModule(NodeTest):
         self.assertRaises(ValueError, afm.from_bag, [])
 
     def test_live_parameters_heat_and_a_command_after_the_last_batch(self):
-        self.run_emulator(record=True, sample_rate_hz=50000.0)
+        self.run_emulator(sample_rate_hz=50000.0)
         self.command(2.0)
         self.emulator.set(restitution_gamma=0.5, cutoff_speed=3e-7)
         self.command(3.0)
@@ -124,7 +118,7 @@ class PythonModule(NodeTest):
         # it takes effect, but no batch shows it: the run ends with the batch before
         self.assertTrue(self.emulator.call('pause', SetBool, data=True).success)
         self.command(5.0)
-        path, = self.end()
+        path, = self.end(self.emulator)
         recording, samples, _ = self.assert_repeats([path], 0)
         self.assertGreater(samples, 5000)
         self.assertEqual(recording.commands['drag_velocity'][-1], 5.0 * SPEED_UNIT)

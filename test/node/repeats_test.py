@@ -12,7 +12,7 @@ from afm_emulator.srv import StartRecording, Step
 from std_srvs.srv import SetBool, Trigger
 
 import checks
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, run
+from emulator_under_test import PACKAGE, SPEED_UNIT, NodeTest, Process, connected_to, run
 from topics import NAMESPACE, Topic, wait_until
 
 ETAS = [0.0, 1.0, 1.0, 2.0, -3.0, 3.4, 5.0, 5.0, 7.5, -1.0]  # contact, chatter, chaos, both directions
@@ -21,16 +21,10 @@ LEVELS = os.path.join(roslib.packages.get_pkg_dir(PACKAGE), 'config', 'levels.cs
 
 class Repeats(NodeTest):
     def run_emulator(self, **parameters):
-        self.directory = Path(self.temporary_directory())
         self.random = random.Random(5)
-        self.emulator = self.start(Emulator(dict(parameters, bag_directory=str(self.directory))))
+        self.emulator = self.record(**parameters)
         self.deflection, self.applied = Topic('deflection'), Topic('applied')
         self.deflection.wait_for()
-
-    def end(self):
-        self.emulator.assert_alive()
-        self.assertEqual(self.emulator.stop(), 0)
-        return sorted(str(path) for path in self.directory.iterdir())
 
     def command(self, count, pause_s=0.0):
         """Returns when all of them are applied."""
@@ -86,7 +80,7 @@ class Repeats(NodeTest):
         self.call('reset')
         self.step_through()
         self.deflection.wait_for_more(300)
-        paths = self.end()
+        paths = self.end(self.emulator)
         self.assertGreater(len(paths), 2)
         checks.assert_identical(self, *paths)
 
@@ -110,7 +104,7 @@ class Repeats(NodeTest):
         self.command(20, 0.01)
         self.deflection.wait_for_more(100)
         self.call('stop_recording')
-        paths = self.end()
+        paths = self.end(self.emulator)
         self.assertGreaterEqual(len(paths), 3)
         self.assertEqual([Path(path).name for path in paths],
                          ['part.bag'] + ['part_%03d.bag' % i for i in range(1, len(paths))])
@@ -148,7 +142,7 @@ class Repeats(NodeTest):
         self.deflection.wait_for_more(100)
         for recorder in recorders:
             recorder.stop(signal.SIGINT)
-        self.end()
+        self.end(self.emulator)
         answer = checks.replay_check(first)
         self.assertEqual(answer.code, checks.SOUND, answer.text)
         answer = checks.replay_check(late)  # of the first epoch it holds the last command alone

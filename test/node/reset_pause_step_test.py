@@ -5,6 +5,7 @@ import math
 
 from afm_emulator.srv import Step
 
+import bags
 from emulator_under_test import SPEED_UNIT, EmulatorTest, run
 from tcpros import BareSubscriber
 from topics import key, tau_between, wait_until
@@ -99,11 +100,6 @@ class ResetPauseStep(EmulatorTest):
         self.assertEqual(len(times()), 208)
         self.assertEqual([times()[0], times()[7], times()[207]], [key(time) for time in reached])
 
-    def assert_no_gap(self):
-        messages = self.topics['deflection'].messages
-        for message, following in zip(messages, messages[1:]):
-            self.assertEqual(message.first_sample + len(message.vertical), following.first_sample)
-
     def test_samples_go_on_without_gap_through_steps(self):
         self.topics['deflection'].wait_for()
         self.pause(True)
@@ -112,7 +108,7 @@ class ResetPauseStep(EmulatorTest):
         self.pause(False)
         self.topics['deflection'].wait_for_next()
         self.topics['deflection'].wait_for_more(10)
-        self.assert_no_gap()
+        bags.assert_no_gap(self, self.topics['deflection'].messages)
 
     def test_three_long_steps_lose_nothing(self):
         dropped = self.status_now().dropped_messages
@@ -127,7 +123,7 @@ class ResetPauseStep(EmulatorTest):
             return deflection.messages[-1].first_sample + len(deflection.messages[-1].vertical)
         wait_until(lambda: deflection.messages and last() >= due, 'every sample', deadline_s=60.0)
         self.assertEqual(deflection.messages[0].first_sample, 0)
-        self.assert_no_gap()
+        bags.assert_no_gap(self, self.topics['deflection'].messages)
         self.assertEqual(self.status_now().dropped_messages, dropped)
 
     def test_what_a_stopped_subscriber_loses_is_counted(self):
@@ -139,7 +135,7 @@ class ResetPauseStep(EmulatorTest):
             self.stepped(LONG_TAU)
         self.status_now()
         lost = self.status_now().dropped_messages - dropped
-        self.assert_no_gap()  # who listens has all
+        bags.assert_no_gap(self, self.topics['deflection'].messages)  # who listens has all
         last, got = self.topics['deflection'].messages[-1].header.seq, [deaf.read_message().header.seq]
         while got[-1] < last:
             got.append(deaf.read_message().header.seq)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every shipped scene has the parameters of its file and shows what that says one sees. scenes.test starts all of them
-paused; they are stepped, faster than time passes and with nothing lost."""
+"""Every shipped scene has the parameters of its file and shows what that says one sees. All are started paused, and
+stepped: faster than time passes, and with nothing lost."""
 import math
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from afm_emulator.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
-from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeTest, call_service, run
+from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulators, NodeTest, call_service, run
 from topics import TOPICS, Topic, key, wait_until
 
 SCENES = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes'
@@ -21,6 +21,15 @@ MOST_TAU = 10000  # of a step
 
 
 class Scenes(NodeTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.emulators = Emulators([dict(scene=path.stem, name=path.stem, paused='true')
+                                   for path in sorted(SCENES.glob('*.yaml'))])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.emulators.clean_up()
+
     def play(self, scene):
         self.scene, self.parameters = scene, yaml.safe_load((SCENES / (scene + '.yaml')).read_text())
         self.topics = {name: Topic('/%s/%s' % (scene, name)) for name in TOPICS}

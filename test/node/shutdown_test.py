@@ -15,7 +15,7 @@ import yaml
 
 import bags
 import checks
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
+from emulator_under_test import PACKAGE, NodeTest, Process, run
 from topics import PATIENCE, Topic
 
 SCENES = sorted((Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes').glob('*.yaml'))
@@ -27,15 +27,14 @@ WITHIN_S = 1.5  # of its start a node is stopped
 class Shutdown(NodeTest):
     def test_sigterm_leaves_a_good_bag(self):
         """As SIGINT does, with which all tests of recordings end the emulator: roscpp handles only that by itself."""
-        directory = Path(self.temporary_directory())
-        emulator = self.start(Emulator({'record': True, 'bag_directory': str(directory)}))
+        emulator = self.record(record=True)
         deflection, status = Topic('deflection'), Topic('status')
         status.wait_for(lambda m: m.recording, 'recording')
         deflection.wait_for(lambda m: m.first_sample >= 40000, 'a fifth of a second')
         emulator.assert_alive()
         seen = deflection.messages[-1].first_sample
         self.assertEqual(emulator.stop(signal.SIGTERM), 0)
-        paths = list(directory.iterdir())
+        paths = list(self.directory.iterdir())
         self.assertEqual([path.suffix for path in paths], ['.bag'])
         recorded = bags.assert_sound(self, str(paths[0]))['deflection']
         self.assertEqual(recorded[0].first_sample, 0)
