@@ -15,9 +15,8 @@ target_link_libraries(afm_sweep_test afm_emulator_sweep)
 
 # afm_add_study_test(NAME ARGUMENT...): NAME_test.py with these arguments
 function(afm_add_study_test name)
-  add_test(NAME ${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/tools
+  afm_add_test(${name} 180 ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR}/tools
     ${PYTHON_EXECUTABLE} ${here}/${name}_test.py ${ARGN})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 180)
 endfunction()
 afm_add_study_test(studies $<TARGET_FILE_DIR:afm_continue_orbits>)
 afm_add_study_test(scene_levels $<TARGET_FILE:afm_model_error> ${PROJECT_SOURCE_DIR}/config/scenes)

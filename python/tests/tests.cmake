@@ -1,10 +1,9 @@
 # The module as a user has it: in the folder that setup.bash puts on PYTHONPATH.
 if(TARGET afm_python_module AND AFM_DYNAMICS)
   function(afm_add_python_test name)
-    add_test(NAME python_${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${afm_python_path} PYTHONDONTWRITEBYTECODE=1
+    afm_add_test(python_${name} 300 ${CMAKE_COMMAND} -E env PYTHONPATH=${afm_python_path} PYTHONDONTWRITEBYTECODE=1
       AFM_MODULE=$<TARGET_FILE:afm_python_module> ${PYTHON_EXECUTABLE}
       ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})
-    set_tests_properties(python_${name} PROPERTIES TIMEOUT 300)
   endfunction()
   afm_add_python_test(interface)
   afm_add_python_test(interrupt)
@@ -18,7 +17,6 @@ endif()
 
 # the signals of the panel need no module
 if(catkin_FOUND)
-  add_test(NAME panel_signals COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${PYTHON_EXECUTABLE}
+  afm_add_test(panel_signals 60 ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 ${PYTHON_EXECUTABLE}
     ${PROJECT_SOURCE_DIR}/python/tests/panel_signals_test.py ${PROJECT_SOURCE_DIR}/python/client)
-  set_tests_properties(panel_signals PROPERTIES TIMEOUT 60)
 endif()

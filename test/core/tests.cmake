@@ -74,8 +74,6 @@ foreach(program afm_reference_digest afm_reference_digest_portable)
   target_include_directories(${program} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src)
   add_dependencies(tests ${program})
 endforeach()
-add_test(NAME reference_digest
-  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/reference_digest_test.sh
+afm_add_test(reference_digest 120 ${CMAKE_CURRENT_SOURCE_DIR}/core/reference_digest_test.sh
     ${CMAKE_CURRENT_SOURCE_DIR}/data/reference_digest.txt
     $<TARGET_FILE:afm_reference_digest> $<TARGET_FILE:afm_reference_digest_portable>)
-set_tests_properties(reference_digest PROPERTIES TIMEOUT 120)

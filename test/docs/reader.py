@@ -10,6 +10,8 @@ from shell import Shell
 NEEDS_EMULATOR = re.compile(r'\b(rostopic|rosservice|dynparam|emulator:=)')
 OWN_MASTER = re.compile(r'\broslaunch afm_emulator (?!view)|scripts/run|benchmark/')
 BUILDS = re.compile(r'scripts/(run|build)')
+# what stands in several documents and does the same in each
+ONCE = re.compile(r'scripts/(run|build|install_dependencies)|^until_interrupted')
 # for ROS's scripts end with 0 where they have not found something
 BAD_NEWS = re.compile(r"\bERROR\b|^(\S+: )?[Ee]rror:|[Cc]ouldn't find|command not found|No such file|Traceback|"
                       r"process has died", re.M)
@@ -25,6 +27,7 @@ class Reader:
 
     def __init__(self, root, build, prefix, tables):
         self.root, self.build, self.prefix, self.tables, self.faults = root, build, prefix, tables, []
+        self.done = set()
         programs = [p.name for p in (prefix / 'lib/afm_emulator').iterdir()]
         self.tools = sorted({name for name in programs if re.fullmatch(r'\w+', name)})
 
@@ -67,6 +70,11 @@ class Reader:
             self.check_options(shell, command)
             return
         begin, text = time.monotonic(), self.tables.shortened(without_comments(command.text))
+        if ONCE.search(text):
+            if text in self.done:
+                print('%s: run already, for another document: %s' % (command.place, command.text))
+                return
+            self.done.add(text)
         missing = self.missing_here(text)
         if missing:
             print('%s: not run, built without %s: %s' % (command.place, missing, command.text))

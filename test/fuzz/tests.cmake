@@ -19,9 +19,8 @@ function(afm_add_fuzz_target name mutated)
     add_dependencies(tests ${program})
   endforeach()
   # some seconds of new inputs in every run, the same ones each time
-  add_test(NAME fuzz_${name} COMMAND afm_replay_fuzz_${name} ${PROJECT_SOURCE_DIR}/test/data/fuzz/${name} --mutated
+  afm_add_test(fuzz_${name} 60 afm_replay_fuzz_${name} ${PROJECT_SOURCE_DIR}/test/data/fuzz/${name} --mutated
     ${mutated})
-  set_tests_properties(fuzz_${name} PROPERTIES TIMEOUT 60)
 endfunction()
 
 afm_add_fuzz_target(tip 1000 afm_emulator_core)

@@ -85,9 +85,8 @@ add_test(NAME soak COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${soak})
 set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOSTNAME=localhost")
 
 if(NOT AFM_SANITIZE)
-  add_test(NAME my_controller
-    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/my_controller_test.sh ${PROJECT_SOURCE_DIR} ${CATKIN_DEVEL_PREFIX})
-  set_tests_properties(my_controller PROPERTIES TIMEOUT 600)
+  afm_add_test(my_controller 600 ${CMAKE_CURRENT_SOURCE_DIR}/my_controller_test.sh ${PROJECT_SOURCE_DIR}
+    ${CATKIN_DEVEL_PREFIX})
 
   # it stands between the program and its allocator itself
   afm_add_gtest(stepping_path_test node/stepping_path_test.cpp)

@@ -4,52 +4,40 @@ if(catkin_FOUND)
   afm_add_gtest(message_difference_test tools/message_difference_test.cpp)
   target_link_libraries(afm_message_difference_test afm_bags)
 
-  add_test(NAME plot_run
-    COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
-      ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
-  set_tests_properties(plot_run PROPERTIES TIMEOUT 180)
+  afm_add_test(plot_run 180 ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
+    ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
 endif()
 
-add_test(NAME next_impact
-  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
-    $<TARGET_FILE:afm_next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
-set_tests_properties(next_impact PROPERTIES TIMEOUT 120)
+afm_add_test(next_impact 120 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
+  $<TARGET_FILE:afm_next_impact> ${CMAKE_CURRENT_SOURCE_DIR}/data)
 
-add_test(NAME friction_curve
-  COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
-    $<TARGET_FILE:afm_friction_curve>)
-set_tests_properties(friction_curve PROPERTIES TIMEOUT 180)
+afm_add_test(friction_curve 180 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
+  $<TARGET_FILE:afm_friction_curve>)
 
 if(AFM_DYNAMICS)
-  add_test(NAME si COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py
+  afm_add_test(si 120 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py
     $<TARGET_FILE_DIR:afm_friction_curve>)
-  set_tests_properties(si PROPERTIES TIMEOUT 120)
 endif()
 
 # a short form; for longer ones give the program more --seconds
-add_test(NAME stress COMMAND afm_stress --seconds 3)
-add_test(NAME stress_shipped COMMAND afm_stress --shipped --tau 100000 --scenes 3)
-set_tests_properties(stress stress_shipped PROPERTIES TIMEOUT 120)
+afm_add_test(stress 120 afm_stress --seconds 3)
+afm_add_test(stress_shipped 120 afm_stress --shipped --tau 100000 --scenes 3)
 
 if(TARGET afm_stability_matrix)
   # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first
   # instant
-  add_test(NAME stability COMMAND afm_stability_matrix --quick --methods exact)
-  set_tests_properties(stability PROPERTIES TIMEOUT 120)
+  afm_add_test(stability 120 afm_stability_matrix --quick --methods exact)
 endif()
 
-add_test(NAME arrows COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
-set_tests_properties(arrows PROPERTIES TIMEOUT 30)
+afm_add_test(arrows 30 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
 
-add_test(NAME package COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py
+afm_add_test(package 30 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/package_test.py
   ${PROJECT_SOURCE_DIR})
-set_tests_properties(package PROPERTIES TIMEOUT 30)
 
 # every program answers --help, and refuses an option that it does not have
 get_property(tools GLOBAL PROPERTY AFM_COMMAND_LINES)
 list(TRANSFORM tools REPLACE "(.+)" "$<TARGET_FILE:afm_\\1>")
-add_test(NAME help COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/help_test.py ${tools})
-set_tests_properties(help PROPERTIES TIMEOUT 60)
+afm_add_test(help 60 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/help_test.py ${tools})
 
 # common/NAME_test.cpp: what tools share
 foreach(name command_line table_writer)
@@ -67,13 +55,13 @@ if(NOT AFM_SANITIZE AND AFM_DYNAMICS)
     add_dependencies(tests afm_example_${name})
     list(APPEND examples $<TARGET_FILE:afm_example_${name}>)
   endforeach()
+  # not by afm_add_test, which would drop an empty argument
   add_test(NAME consumer COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/consumer_test.sh ${PROJECT_BINARY_DIR}
     "${CATKIN_DEVEL_PREFIX}"
     ${PROJECT_SOURCE_DIR}/examples/cpp ${examples})
   set_tests_properties(consumer PROPERTIES TIMEOUT 300)
-  add_test(NAME neighbours COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/neighbours_test.sh ${PROJECT_SOURCE_DIR}
+  afm_add_test(neighbours 300 ${CMAKE_CURRENT_SOURCE_DIR}/neighbours_test.sh ${PROJECT_SOURCE_DIR}
     ${catkin_EXTRAS_DIR}/..)
-  set_tests_properties(neighbours PROPERTIES TIMEOUT 300)
 endif()
 
 # a tree that is without ROS itself proves it by being built
@@ -83,6 +71,5 @@ if(NOT AFM_SANITIZE AND catkin_FOUND)
   if(TARGET afm_python_module)
     list(APPEND without_ros ${PYTHON_EXECUTABLE})
   endif()
-  add_test(NAME without_ros COMMAND ${without_ros})
-  set_tests_properties(without_ros PROPERTIES TIMEOUT 600)
+  afm_add_test(without_ros 600 ${without_ros})
 endif()
