@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed. None
-stalls the node, not even rest and the speeds at which other methods stall; one that cannot be is counted and changes
-nothing."""
+"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed. One
+that cannot be is counted and changes nothing. scripts/soak sends thousands, of every size."""
 import math
 
 from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, EmulatorTest, run
@@ -12,8 +11,6 @@ K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed fo
 SETTLED_TAU = 10000
 MOST = 1e-4  # max_drag_velocity [m/s]
 JUNK = [math.nan, math.inf, -math.inf, 1.0000001 * MOST, -1.0000001 * MOST, 1e300, -1e300]
-ETAS = (0.0, 0.2, 0.34, 1.0, 3.0, 5.0, -3.4, 1e-4)
-EACH_TAU = 1600  # about a quarter of a second
 LATTICE_M = 0.52e-9
 
 
@@ -58,35 +55,6 @@ class Commands(EmulatorTest):
             expected = (start + 3.4 * SPEED_UNIT * (m.time.tau + m.time.phase) * TAU_S if before else
                         turned - 1.3 * SPEED_UNIT * tau_between(applied.time, m.time) * TAU_S)
             self.assertAlmostEqual(m.holder_position / LATTICE_M, expected / LATTICE_M, delta=1e-6)
-
-    def test_none_stalls(self):
-        status = self.topics['status']
-        for eta in ETAS:
-            begin = self.drag(eta).time
-            later = status.wait_for_next(lambda m: tau_between(begin, m.time) > EACH_TAU,
-                                         'time goes on at eta = %g' % eta)
-            for counter in ('budget_exhausted', 'search_failures'):
-                self.assertEqual(getattr(later, counter), 0, '%s at eta = %g' % (counter, eta))
-            self.assertLessEqual(later.worst_penetration, 1e-15 * LATTICE_M)
-            reported = self.friction.wait_for_next(lambda m: m.drag_velocity == eta * SPEED_UNIT,
-                                                   'friction at eta = %g' % eta)
-            self.assertAlmostEqual(reported.eta, eta, delta=1e-12)
-        # a busy machine may hold it up for a while: it catches up
-        status.wait_for_next(lambda m: m.real_time_factor > 0.99, 'real time')
-
-    def test_stands_and_wakes_up(self):
-        self.drag(0.0)
-        standing = self.friction.wait_for_next(lambda m: m.drag_velocity == 0.0, 'standing')
-        self.assertEqual((standing.force, standing.eta), (0.0, 0.0))
-        for name in ('k_f', 'k_f_natural', 'k_f_work', 'k_f_work_natural', 'window_k_f', 'window_k_f_natural'):
-            self.assertTrue(math.isnan(getattr(standing, name)), name)
-        now = self.deflection.wait_for_next()
-        later = self.deflection.wait_for(lambda m: m.first_sample >= now.first_sample + 20 * len(now.vertical),
-                                         'batches go on')
-        self.assertTrue(all(map(math.isfinite, later.vertical + later.lateral)))
-        self.drag(2.0)
-        moving = self.friction.wait_for_next(lambda m: m.impact_count > 100 and m.drag_velocity > 0.0, 'moving')
-        self.assertGreater(moving.force, 0.0)
 
     def test_junk_is_counted_and_changes_nothing(self):
         before = self.status_now().refused_commands

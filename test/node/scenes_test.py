@@ -131,7 +131,9 @@ class Scenes(NodeTest):
     def test_rest_waits_and_wakes(self):
         self.play('rest')
         resting = self.after(1.0)
-        self.assertTrue(math.isnan(resting.k_f) and resting.force == 0.0)
+        self.assertEqual((resting.force, resting.eta), (0.0, 0.0))
+        for name in ('k_f', 'k_f_natural', 'k_f_work', 'k_f_work_natural', 'window_k_f', 'window_k_f_natural'):
+            self.assertTrue(math.isnan(getattr(resting, name)), name)
         self.assertEqual(self.events(0.5), [])
         deflection = self.topics['deflection'].messages[-1]
         self.assertEqual(len(set(deflection.vertical) | set(deflection.lateral)), 2)  # not a digit moves
