@@ -13,12 +13,6 @@ inline double drag(Run& run, double eta) {
   return run.apply(live);
 }
 
-inline double set_level(Run& run, const Level& level) {
-  LiveSettings live = live_settings(run.settings());
-  live.level = level;
-  return run.apply(live);
-}
-
 inline Outcome advance_to(const ModelTime& time, Run& run, Batch& batch) {
   return run.advance(time, run.settings().impact_budget, batch);
 }

@@ -95,7 +95,7 @@ class SameBytes(Case):
     def test_a_line_cut_short(self):
         for sweep in ('fresh', 'up'):
             whole = self.table([*MAP, '--sweep', sweep], 'cut.csv')
-            for size in (0, 30, 150, 400, 1000, 2500):
+            for size in (0, 150, 400, 2500):
                 with open(self.path('cut.csv'), 'r+b') as table:
                     table.truncate(size)
                 self.assertEqual(self.table([*MAP, '--sweep', sweep], 'cut.csv'), whole)
