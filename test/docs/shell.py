@@ -3,11 +3,14 @@ master."""
 import os
 import shutil
 import signal
-import socket
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'node'))
+from ports import free_port  # noqa: E402
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
 DEADLINE_S = 120 * PATIENCE
@@ -18,12 +21,6 @@ PRELUDE = '''source "$0/setup.bash" || exit
 until_interrupted() { %s/until_interrupted.py "$@"; }
 set -eo pipefail
 ''' % Path(__file__).resolve().parent
-
-
-def free_port():
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        return free.getsockname()[1]
 
 
 def clean_environment(home, **more):
@@ -85,14 +82,16 @@ class Shell:
                  str(self.prefix)], env=self.environment, stdin=subprocess.DEVNULL, stdout=log,
                  stderr=subprocess.STDOUT,
                 start_new_session=True)
-        end = time.monotonic() + DEADLINE_S
-        while time.monotonic() < end and not self.is_emulator_alive():
-            pass  # each attempt waits for a message
+        self.is_emulator_alive()
 
     def is_emulator_alive(self):
-        return self.emulator.poll() is None and self.run(
-            # advertised last
-            'timeout 10 rostopic echo -n 1 /afm/status && rosservice type /afm/stop_recording')[1] == 0
+        """Whether a message of it comes, and its services are there; waits for both."""
+        end = time.monotonic() + DEADLINE_S
+        while time.monotonic() < end and self.emulator.poll() is None:
+            answered = self.run('timeout 30 rostopic echo -n 1 /afm/status && rosservice type /afm/stop_recording')[1]
+            if answered == 0:
+                return True
+        return False
 
     def close(self):
         if self.emulator and self.emulator.poll() is None:

@@ -1,15 +1,9 @@
 """A ROS master of a test's own, to take away."""
-import socket
 import xmlrpc.client
 
 from emulator_under_test import Process
+from ports import free_port
 from topics import wait_until
-
-
-def free_port():
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        return free.getsockname()[1]
 
 
 class Master(Process):
