@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The averaged law of chatter (include/afm/detail/chatter_rates.h) as a series, by computer algebra (python3-sympy).
+"""The averaged law of chatter as a series (docs/algorithm.md, src/core/contact/chatter_law.h), by computer algebra
+(python3-sympy).
 
 One bounce under P(t) and K is a map of the normal speed and of the time. The law is the vector field whose flow, over one
 unit of the number of bounces, is that map; it is found order by order. In local units, w for the speed and

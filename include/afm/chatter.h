@@ -1,12 +1,11 @@
 // Chatter: many short bounces under a pressing surface, computed as one sequence instead of one by one. The averaged
-// law of chatter_rates.h runs along the reference slide, the slide that the tip would make without bouncing. At whole n
-// it agrees with the bounces (docs/algorithm.md, "Chatter"). Below the cutoff the restitution law (paper, section III)
-// makes the loss of a bounce proportional to its speed, so a bounce-by-bounce computation would not end.
+// law (docs/algorithm.md, "Chatter") runs along the reference slide, the slide that the tip would make without
+// bouncing. Below the cutoff the restitution law (paper, section III) makes the loss of a bounce proportional to its
+// speed, so a bounce-by-bounce computation would not end.
 #pragma once
 
 #include <cstdint>
 
-#include "afm/detail/chatter_rates.h"
 #include "contact.h"
 #include "flight.h"
 #include "model.h"
@@ -14,16 +13,40 @@
 
 namespace afm {
 
+template <class T>
+struct ChatterOf {
+  T v;               // normal speed after a bounce [a/tau]
+  T n;               // bounces since the sequence began; whole at a bounce
+  T sigma = T(0.0);  // displacement from the reference slide along the surface, at a bounce [a]
+  T p = T(0.0);      // speed along the surface beyond that of the reference slide [a/tau]
+  T drift = T(0.0);  // time integral of x minus that of the reference slide, bounces included [a tau]
+  T loss = T(0.0);   // energy lost in the impacts; never falls [m a^2/tau^2]
+};
+using Chatter = ChatterOf<double>;
+
 enum class ChatterEnd : std::uint8_t {
   time,  // the time asked for was reached; the sequence goes on
   died,  // the normal speed has fallen to the threshold: contact begins
   exits  // at a whole n the bounces become too long for the law: the tip flies on bounce by bounce
 };
 
-struct ChatterRun {
+template <class T>
+struct ChatterRunOf {
   ChatterEnd end;
-  double s;         // time of the end, since the start of the reference slide [tau]
-  Chatter chatter;  // at that time
+  T s;                   // time of the end, since the start of the reference slide [tau]
+  ChatterOf<T> chatter;  // at that time
+};
+using ChatterRun = ChatterRunOf<double>;
+
+// The constants of the law, with the symbols of docs/algorithm.md.
+struct ChatterConstants {
+  double threshold;        // normal speeds up to it are contact [a/tau]
+  bool constant_loss;      // no cutoff above the threshold: every bounce loses the same part w of v
+  double max_entry_speed;  // of a bounce that may begin a sequence, by w and the cutoff [a/tau]
+  double dw_dv;            // below the cutoff: (1 - gamma)/v_c [tau/a]
+  double w, M;             // with a constant loss
+  double fineness;         // factor of all limits: 1 at the default tolerance, less at a smaller one
+  double end_x;            // x (chatter_law.h) that the last step aims at, a little below the threshold
 };
 
 class ChatterLaw {
@@ -40,29 +63,10 @@ class ChatterLaw {
   // From the start of the reference slide to a time s before the end of the sequence.
   Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;
 
-  // True: bounces at v lose too large a part of v for the averages. They are made one by one along the reference slide.
-  bool takes_single_bounces(double v) const;
-  double max_loss() const { return max_loss_; }  // 1 - gamma
-  const ChatterRates& rates() const { return rates_; }
+  const ChatterConstants& constants() const { return constants_; }
 
  private:
-  bool loses_too_much(double v) const;
-  double adiabaticity(const ChatterSurroundings& at, double v, bool within) const;
-  double step_length(const ChatterPoint& at) const;
-  double step_towards_end(const ChatterPoint& at, double dt) const;
-  double time_until_limit(const ChatterPoint& at, double ratio) const;
-  ChatterRun follow_single_bounces(const SlideSegment<double>& reference, double from, double until,
-                                   const Chatter& start, bool exits) const;
-  ChatterRun follow(const SlideSegment<double>& reference, double from, double until, const Chatter& start,
-                    bool exits) const;
-  ChatterRun exit_at(double n, const ChatterPoint& at) const;
-  ChatterRun whole_bounce(const SlideSegment<double>& reference, const ChatterPoint& from, const ChatterPoint& to,
-                          double last_ratio) const;
-
-  double v_c_, threshold_, max_loss_;
-  ChatterRates rates_;
-  double end_x_;     // x at the threshold, or a little below it
-  double fineness_;  // factor of all step lengths, 1 or less
+  ChatterConstants constants_;
 };
 
 // The tip at a bounce without its normal velocity. The tangential velocity stays.
@@ -74,5 +78,8 @@ struct Projection {
 // Precondition of both: the tip is on the surface. They are inverse to each other.
 Projection project_onto_surface(const Model& model, const TipState& state);
 TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed);
+
+// The reference slide, displaced by what the chatter has moved the tip.
+SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
 
 }  // namespace afm

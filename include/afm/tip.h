@@ -27,7 +27,7 @@ struct Deflection {
 };
 
 // The contact tolerance: error allowed in the state at the next impact when chatter is computed as a sequence [a,
-// a/tau]. At the default half of all sequences have an error below 4e-6, and 99 in 100 below 2e-4 (docs/stability.md).
+// a/tau]. At the default half of all sequences have an error below 2e-5, and 99 in 100 below 3e-4 (docs/stability.md).
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
@@ -148,7 +148,7 @@ class Tip {
   // What a chatter sequence has done up to the start of its reference slide.
   struct Sequence {
     double normal_speed;   // after its first bounce [a/tau]
-    double gain, impulse;  // energy lost beyond the fall of v^2/2; impulse of the holder
+    double loss, impulse;  // energy lost in the bounces; impulse of the holder
   };
   // One reference slide of a chatter sequence.
   struct Chattering {
@@ -167,6 +167,7 @@ class Tip {
   // A chatter sequence at a time: the tip displaced from the reference slide, and totals since the sequence began.
   struct SequenceState {
     SlideState<double> moved;
+    double v;       // normal speed after the last bounce
     double energy;  // stored
     Sequence sequence;
   };

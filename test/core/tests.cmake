@@ -13,7 +13,6 @@ endfunction()
 
 set(core_tests
   contact/chatter
-  contact/chatter_single_bounces
   contact/chatter_end
   contact/contact
   contact/contact_energy

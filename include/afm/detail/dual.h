@@ -24,6 +24,18 @@ struct Dual {
     x.by[i] = 1.0;
     return x;
   }
+
+  // friends, so that either side may be a number
+  friend Dual operator-(const Dual& a) { return chain(-a.value, -1.0, a); }
+  friend Dual operator+(const Dual& a, const Dual& b) { return chain(a.value + b.value, 1.0, a, 1.0, b); }
+  friend Dual operator-(const Dual& a, const Dual& b) { return chain(a.value - b.value, 1.0, a, -1.0, b); }
+  friend Dual operator*(const Dual& a, const Dual& b) { return chain(a.value * b.value, b.value, a, a.value, b); }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const double q = a.value / b.value;
+    return chain(q, 1.0 / b.value, a, -q / b.value, b);
+  }
+  friend Dual& operator*=(Dual& a, const Dual& b) { return a = a * b; }
+  friend bool operator<(const Dual& a, const Dual& b) { return a.value < b.value; }
 };
 
 // f(a), given its value and derivative; f(a, b) likewise.
@@ -40,35 +52,6 @@ Dual<N> chain(double value, double by_a, const Dual<N>& a, double by_b, const Du
   return f;
 }
 
-template <std::size_t N>
-Dual<N> operator-(const Dual<N>& a) {
-  return chain(-a.value, -1.0, a);
-}
-template <std::size_t N>
-Dual<N> operator+(const Dual<N>& a, const Dual<N>& b) {
-  return chain(a.value + b.value, 1.0, a, 1.0, b);
-}
-template <std::size_t N>
-Dual<N> operator-(const Dual<N>& a, const Dual<N>& b) {
-  return chain(a.value - b.value, 1.0, a, -1.0, b);
-}
-template <std::size_t N>
-Dual<N> operator*(const Dual<N>& a, const Dual<N>& b) {
-  return chain(a.value * b.value, b.value, a, a.value, b);
-}
-template <std::size_t N>
-Dual<N> operator/(const Dual<N>& a, const Dual<N>& b) {
-  const double q = a.value / b.value;
-  return chain(q, 1.0 / b.value, a, -q / b.value, b);
-}
-template <std::size_t N>
-Dual<N>& operator*=(Dual<N>& a, const Dual<N>& b) {
-  return a = a * b;
-}
-template <std::size_t N>
-bool operator<(const Dual<N>& a, const Dual<N>& b) {
-  return a.value < b.value;
-}
 template <std::size_t N>
 Dual<N> fma(const Dual<N>& a, const Dual<N>& b, const Dual<N>& c) {
   return a * b + c;

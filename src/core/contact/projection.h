@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "afm/chatter.h"
 #include "afm/contact.h"
-#include "afm/detail/chatter_rates.h"
 #include "afm/surface.h"
 
 namespace afm {

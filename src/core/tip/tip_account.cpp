@@ -1,4 +1,6 @@
 // The energy balance of the tip (docs/algorithm.md, "Energy"). It is computed on demand.
+#include <cmath>
+
 #include "afm/surface.h"
 #include "afm/tip.h"
 #include "tip_motion.h"
@@ -34,27 +36,30 @@ Chatter Tip::chatter_now(const Chattering& chattering) const {
   return law_.at(chattering.reference, now_ - start_, chattering.chatter);
 }
 
-// At the time s of the reference slide. `gain` is the work of the drag minus the change of the energy stored in the
-// slide: the bounces lose it beyond the fall of v^2/2.
+// At the time s of the reference slide. The law gives the energy balance: work of the holder less the energy lost. The
+// displaced tip has that energy only to the order of the law, so it is moved to the nearest state that has it. The
+// holder of a hammer gives the energy that its bounces gain.
 Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SlideSegment<double>& slide = chattering.reference;
-  const SlideState<double> reference = slide.at(s), moved = moved_reference(model_, reference, chatter);
-  const double start = slide_energy(mechanics_, slide.start()), after = slide_energy(mechanics_, moved);
-  SequenceState r{moved, after + 0.5 * chatter.v * chatter.v, chattering.sequence};
-  double& gain = r.sequence.gain;
-  double& impulse = r.sequence.impulse;
-  if (mechanics_.is_free_along_x > 0.0) {
-    const double stretch = extension_integral(slide, s), force = spring_impulse(mechanics_, 1.0) * eta_;
-    gain += force * stretch;
-    gain += force * chatter.drift - (after - start) + chatter.held_work;
-    impulse = impulse + spring_impulse(mechanics_, stretch) + spring_impulse(mechanics_, chatter.drift);
-  } else {
-    const double along = slide_energy(mechanics_, reference), pressure = slide.pressure(0.0);
-    gain += chatter.held_work - (after - along);
-    impulse = impulse + held_impulse(mechanics_, eta_, slide.start(), pressure, s, along - start) +
-              held_impulse(mechanics_, eta_, slide.start(), pressure, 0.0, chatter.held_work);
+  const SlideState<double> reference = slide.at(s);
+  const double v0 = chattering.chatter.v, v = chatter.v, start = slide_energy(mechanics_, slide.start());
+  Sequence sequence = chattering.sequence;
+  sequence.loss += chatter.loss;
+  if (mechanics_.is_free_along_x == 0.0) {
+    const double along = slide_energy(mechanics_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
+    const double pressure = slide.pressure(0.0);
+    sequence.impulse += held_impulse(mechanics_, eta_, slide.start(), pressure, s, along - start) +
+                        held_impulse(mechanics_, eta_, slide.start(), pressure, 0.0, gain);
+    return {reference, v, along + 0.5 * v * v, sequence};
   }
-  return r;
+  const double impulse = spring_impulse(mechanics_, extension_integral(slide, s) + chatter.drift);
+  sequence.impulse += impulse;
+  const double wanted = start + 0.5 * v0 * v0 + eta_ * impulse - chatter.loss;
+  const BouncingSlide end = with_energy(mechanics_, {moved_reference(model_, reference, chatter), v}, wanted);
+  const double energy = slide_energy(mechanics_, end.slide) + 0.5 * end.v * end.v;
+  // at rest on a crest no state near by has that energy: the loss has the rest, and is not below zero by rounding
+  sequence.loss = std::fmax(0.0, sequence.loss + (wanted - energy));
+  return {end.slide, end.v, energy, sequence};
 }
 
 // Right after a bounce the tip is faster than the average of its chatter. The holder of a hammer has given the impulse
@@ -74,9 +79,8 @@ Account Tip::contact_account(const Sliding& sliding, double s) const {
 
 Account Tip::chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SequenceState r = sequence_state(chattering, s, chatter);
-  const double bounce = bounce_impulse(r.moved, chatter.v), energy = r.energy + eta_ * bounce;
-  const double loss = chatter_loss(r.sequence.normal_speed, chatter.v, r.sequence.gain);
-  return {now_, r.sequence.impulse + bounce, loss, energy, static_cast<std::uint64_t>(chatter.n)};
+  const double bounce = bounce_impulse(r.moved, r.v), energy = r.energy + eta_ * bounce;
+  return {now_, r.sequence.impulse + bounce, r.sequence.loss, energy, static_cast<std::uint64_t>(chatter.n)};
 }
 
 Account Tip::account_at_begin() const {
@@ -109,8 +113,8 @@ Account Tip::account_at_end() const {
   }
   if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return contact_account(*sliding, end_);
   if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
-    Chatter chatter = chattering->run.chatter;
-    if (chattering->run.end == ChatterEnd::died) chatter.v = 0.0;
+    const ChatterRun& run = chattering->run;
+    const Chatter chatter = run.end == ChatterEnd::died ? settled(run.chatter) : run.chatter;
     Account end = chatter_account(*chattering, end_, chatter);
     end.count = whole_count(chatter.n);
     return end;

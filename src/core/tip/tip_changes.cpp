@@ -11,7 +11,7 @@ void Tip::drag(double eta) {
     const Chatter chatter = chatter_now(*chattering);
     const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
     eta_ = eta;
-    chatter_along(sequence.moved, {chatter.v, chatter.n}, sequence.sequence, {});
+    chatter_along(sequence.moved, {sequence.v, chatter.n}, sequence.sequence, {});
     return split_record();
   }
   const TipState state = tip_state();
@@ -52,7 +52,7 @@ void Tip::set_parameters(const Model& model) {
     const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
     set_laws(model);
     Chattering& last = refer_to(sequence.moved, kSlideBits);
-    last.chatter = {chatter.v, chatter.n};
+    last.chatter = {sequence.v, chatter.n};
     last.sequence = sequence.sequence;
     last.run = {ChatterEnd::exits, 0.0, last.chatter};
     end_ = 0.0;

@@ -80,19 +80,18 @@ void Tip::begin_chatter(const TipState& bounce) {
 // It goes on along the next reference slide, dies, or exits into a flight.
 Outcome Tip::end_chatter(const Chattering& chattering) {
   const ChatterRun run = chattering.run;
-  const SequenceState end = sequence_state(chattering, run.s, run.chatter);
+  const bool died = run.end == ChatterEnd::died;
+  const SequenceState end = sequence_state(chattering, run.s, died ? settled(run.chatter) : run.chatter);
   if (chattering.goes_on()) {
-    chatter_along(end.moved, {run.chatter.v, run.chatter.n}, end.sequence, Account(chattering.begin));
+    chatter_along(end.moved, {end.v, run.chatter.n}, end.sequence, Account(chattering.begin));
     return Outcome::flying;
   }
-  const bool died = run.end == ChatterEnd::died;
-  const double v = died ? 0.0 : run.chatter.v;
-  const TipState bounce = leave_surface(model_, end.moved, v);
+  const TipState bounce = leave_surface(model_, end.moved, end.v);
   last_impact_ = {now_,
                   bounce.phase,
                   end.sequence.normal_speed,
                   project_onto_surface(model_, bounce).tangential_velocity,
-                  chatter_loss(end.sequence.normal_speed, v, end.sequence.gain),
+                  end.sequence.loss,
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
   died ? touch(constrained(bounce)) : fly(bounce);

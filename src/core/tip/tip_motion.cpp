@@ -1,5 +1,7 @@
 #include "tip_motion.h"
 
+#include <cmath>
+
 #include "afm/surface.h"
 
 namespace afm {
@@ -9,6 +11,25 @@ double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
   const double Y = surface.h - m.y0;
   return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
                 m.omega_v * m.omega_v * Y * Y);
+}
+
+// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed.
+BouncingSlide with_energy(const Mechanics<double>& m, const BouncingSlide& at, double energy) {
+  constexpr int kSteps = 3;  // each squares the relative error, which is 1e-4 at the start
+  SlideState<double> r = at.slide;
+  double v = at.v;
+  for (int i = 0; i < kSteps; ++i) {
+    const SurfaceJet<double> h = surface_jet(m.H, r.phase);
+    const double Y = h.h - m.y0, slope2 = 1.0 + h.h1 * h.h1;
+    const double speed2 = slope2 * r.u * r.u, wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
+    const double force = wh2 * r.X + wv2 * Y * h.h1 + h.h1 * h.h2 * r.u * r.u;  // dE/dx
+    const double left = energy - 0.5 * (speed2 + wh2 * r.X * r.X + wv2 * Y * Y + v * v);
+    const double gradient2 = speed2 + force * force / wh2 + v * v;
+    if (!(std::fabs(left) < 0.1 * gradient2)) break;
+    const double part = left / gradient2, dx = part * force / wh2;
+    r.phase += dx, r.X += dx, r.u += part * r.u, v += part * v;
+  }
+  return {r, v};
 }
 
 double extension_integral(const SlideSegment<double>& slide, double s) {

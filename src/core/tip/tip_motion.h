@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "afm/contact.h"
+#include "afm/chatter.h"
 
 namespace afm {
 
@@ -14,8 +14,20 @@ double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);
 // Of x - xc over the first s [a tau].
 double extension_integral(const SlideSegment<double>& slide, double s);
 
-// What the bounces of a chatter sequence have lost: the fall of v^2/2 from `first`, its first normal speed, and `gain`.
-inline double chatter_loss(double first, double v, double gain) { return 0.5 * (first - v) * (first + v) + gain; }
+// A tip that bounces along a slide with the normal speed v.
+struct BouncingSlide {
+  SlideState<double> slide;
+  double v;
+};
+// The state of the energy `energy` nearest to `at`. If none is near, a state of another energy.
+BouncingSlide with_energy(const Mechanics<double>& m, const BouncingSlide& at, double energy);
+
+// Chatter that has died: the rest of its normal speed is lost.
+inline Chatter settled(Chatter chatter) {
+  chatter.loss += 0.5 * chatter.v * chatter.v;
+  chatter.v = 0.0;
+  return chatter;
+}
 
 // The count of a chatter sequence that has ended: at least its first bounce.
 inline std::uint32_t whole_count(double n) {

@@ -4,6 +4,12 @@
 #include "afm/tip.h"
 
 namespace afm {
+namespace {
+
+// Of v^2/2 since the first bounce of a chatter sequence. A snapshot holds the energy lost beyond it.
+double fall_of_energy(double first, double v) { return 0.5 * (first - v) * (first + v); }
+
+}  // namespace
 
 std::vector<ParameterError> find_faults(const TipSnapshot& s) {
   std::vector<ParameterError> faults;
@@ -52,8 +58,8 @@ TipSnapshot Tip::snapshot() const {
   s.phase = TipSnapshot::Phase::chatter;
   s.state = {wrap_phase(now.moved.phase), now.moved.X, now.moved.u, 0.0, 0.0};
   s.sequence_normal_speed = now.sequence.normal_speed;
-  s.sequence_gain = now.sequence.gain;
-  s.chatter_speed = chatter.v;
+  s.sequence_gain = now.sequence.loss - fall_of_energy(now.sequence.normal_speed, now.v);
+  s.chatter_speed = now.v;
   s.chatter_count = chatter.n;
   return s;
 }
@@ -77,7 +83,9 @@ Tip::Tip(const Model& model, double eta, const TipSnapshot& start, double contac
       break;
     case TipSnapshot::Phase::chatter:
       chatter_along(reference, {start.chatter_speed, start.chatter_count},
-                    {start.sequence_normal_speed, start.sequence_gain, 0.0}, {});
+                    {start.sequence_normal_speed,
+                     start.sequence_gain + fall_of_energy(start.sequence_normal_speed, start.chatter_speed), 0.0},
+                    {});
       split_record();
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/contact/chatter_law.h"
 #include "support/chatters.h"
 
 namespace afm {
@@ -33,6 +34,7 @@ struct Comparison {
   LawError worst{};      // of any
   double worst_v = 0.0;  // absolute [a/tau]
   double longest = 0.0;  // bounce, against every change
+  double first_v = 0.0;
 };
 
 // Step by step: the law after a small part of the reference slide, and the reference slide from there on.
@@ -52,6 +54,7 @@ struct LawStep {
 // The law at up to `most` bounces: in `parts` steps from each to the next, or, where that is 0, in one run to each.
 Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most, int parts) {
   Comparison comparison;
+  comparison.first_v = chatter.v;
   Tip tip = chatter.every_bounce();
   const Chatter start{chatter.v, 0.0};
   LawStep law_step{chatter.model, chatter.reference, start};
@@ -82,16 +85,19 @@ class Chatters : public testing::TestWithParam<double> {
 
 TEST_P(Chatters, TheLawIsThatOfTheBouncesToTheSecondOrder) {
   constexpr double kRounding = 1e-9;
-  // the parts of the second order are there, but for those with a loss
-  const double part = model_.gamma >= 0.99 ? 0.02 : 15.0;
+  // What is left is of the third order in the duration of a bounce and its loss. The factor is 3.2 at most at gamma = 1,
+  // and below 0.3 for gamma <= 0.7.
+  const double loss = (1.0 - model_.gamma) / model_.v_c;
   RandomLaunches random(1);
   int short_ones = 0;
   for (int i = 0; i < 2000; ++i) {
     const Comparison c = compare(random_chatter(model_, law_, random, -4.5, -2.3), law_, 20, 4);
-    const double second_order = c.longest * c.longest;
-    ASSERT_LT(c.worst.n, part * second_order + kRounding) << i;
-    ASSERT_LT(c.worst.v, part * second_order + kRounding) << i;
-    if (c.bounces < 20 || c.longest > 4e-4) continue;
+    const double small = c.longest + loss * c.first_v;
+    // the first part is in turns: 2 pi for each of two derivatives
+    const double third_order = kTwoPi * kTwoPi * small * small * small;
+    ASSERT_LT(c.worst.n, 5.0 * third_order + kRounding) << i;
+    ASSERT_LT(c.worst.v, 5.0 * third_order + kRounding) << i;
+    if (c.bounces < 20 || c.longest > 4e-4 || loss * c.first_v > 0.05) continue;
     ++short_ones;
     ASSERT_LT(c.worst.n, 1e-5) << i;
     ASSERT_LT(c.worst.v, 1e-5) << i;
@@ -101,20 +107,19 @@ TEST_P(Chatters, TheLawIsThatOfTheBouncesToTheSecondOrder) {
 
 TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
   RandomLaunches random(4);
-  const ChatterRates rates(model_, false);
   for (int i = 0; i < 200; ++i) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
-    const ChatterPoint start = rates.begin(chatter.reference, 0.0, {chatter.v, 0.0});
-    const double fastest =
-        std::max({start.surroundings.relative_rate, kTwoPi * start.surroundings.slow_rate, std::abs(start.rate.x)});
+    const ChatterIntegration<double> integration(law_.constants(), chatter.reference);
+    const ChatterPoint<double> start = integration.begin(0.0, {chatter.v, 0.0});
+    const double rate = start.rates.x, fastest = std::max(kTwoPi * start.forces.fastest, std::abs(rate));
     for (double part = 1e-3; part > 1e-20; part *= 0.1) {
-      const double dt = part / fastest, x = rates.step(chatter.reference, start, dt).smooth.x;
-      ASSERT_NEAR(x, start.smooth.x + dt * start.rate.x, 10.0 * part * part + 1e-14) << i << ' ' << part;
+      const double dt = part / fastest, v = law_.at(chatter.reference, dt, {chatter.v, 0.0}).v;
+      ASSERT_NEAR(v, chatter.v * (1.0 + dt * rate), (10.0 * part * part + 1e-14) * chatter.v) << i << ' ' << part;
     }
   }
 }
 
-TEST_P(Chatters, AtHalfTheSpeedTheErrorIsATenthOrLess) {
+TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAnEighth) {
   RandomLaunches random(2);
   std::vector<double> n_ratios, v_ratios;
   for (int i = 0; i < 500; ++i) {
@@ -129,12 +134,13 @@ TEST_P(Chatters, AtHalfTheSpeedTheErrorIsATenthOrLess) {
   ASSERT_GT(n_ratios.size(), 100u);
   std::sort(n_ratios.begin(), n_ratios.end());
   std::sort(v_ratios.begin(), v_ratios.end());
-  EXPECT_GT(n_ratios[n_ratios.size() / 2], 10.0);
-  EXPECT_GT(v_ratios[v_ratios.size() / 2], 20.0);
+  EXPECT_GT(n_ratios[n_ratios.size() / 2], 7.0);
+  EXPECT_GT(v_ratios[v_ratios.size() / 2], 7.0);
 }
 
-// By the second order alone, with a wrong term of w^2 P', it was four times that of the speed, and five of the number.
-TEST(ChatterLaw, TellsOneBounceToAMillionth) {
+// The series end with w^3. The next terms (docs/derive_chatter_law.py) are 1.5 w^5 of the loss and 1.1 w^4 of the
+// duration: at w = 0.1 1.5e-5 and 1.1e-4. With the terms of P' the largest of these errors are 2.6e-5 and 1.1e-4.
+TEST(ChatterLaw, TellsOneBounceToTheOrderOfItsSeries) {
   const Model model = model_with(0.7);
   const ChatterLaw law(model, kThreshold);
   RandomLaunches random(7);
@@ -144,8 +150,8 @@ TEST(ChatterLaw, TellsOneBounceToAMillionth) {
     const Comparison c = compare(chatter, law, 1, 0);
     if (c.bounces < 1 || c.longest > 0.02) continue;
     ++compared;
-    ASSERT_LT(c.last.v, 1e-6) << i;
-    ASSERT_LT(c.last.n, 4e-6) << i;
+    ASSERT_LT(c.last.v, 3e-5) << i;
+    ASSERT_LT(c.last.n, 1.2e-4) << i;
   }
   EXPECT_GT(compared, 1000);
 }
@@ -160,6 +166,21 @@ TEST_P(Chatters, InOneRunTheGapRateIsGoodToTheThreshold) {
     bounces += c.bounces;
   }
   EXPECT_GT(bounces, 10000);
+}
+
+TEST(ChatterLaw, ABounceThatLosesMoreThanATenthIsFlown) {
+  const Model model = model_with(0.7);
+  const ChatterLaw law(model, kThreshold);
+  const double most = 0.1 * model.v_c / (1.0 - model.gamma);
+  RandomLaunches random(4);
+  for (int i = 0; i < 100; ++i) {
+    const RandomChatter below = random_chatter(model, law, random, -4.0, -3.1);
+    EXPECT_LE(below.v, most);
+    RandomChatter above = below;
+    above.v = 1.01 * most;
+    const Flight<double> bounce(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state());
+    EXPECT_FALSE(law.holds(bounce));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Restitutions, Chatters, testing::Values(1.0, 0.99, 0.7, 0.3, 0.0));
