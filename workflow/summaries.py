@@ -64,7 +64,7 @@ def pace_methods(tables):
         for scene, eta in (("kf_2", "2"), ("kf_3.4", "3.4"), ("kf_3", "3")):
             r = scenes.get(scene)
             line["eta = %s: error of K_f" % eta] = short(r["k_f_error"]) if r else ""
-            line["seconds a second (%s)" % eta] = short(r["seconds_per_second"]) if r else ""
+            line["CPU s per model s (%s)" % eta] = short(r["seconds_per_second"]) if r else ""
         table.append(line)
     return table
 

@@ -74,7 +74,7 @@ struct CompensatedSum {
   double value = 0.0, rest = 0.0;
 };
 
-// What an estimate is computed from.
+// The sums from which an estimate is computed.
 struct FrictionSums {
   explicit FrictionSums(double window_length) : window_tau(window_length), window(window_length) {}
 
@@ -104,7 +104,7 @@ class Friction {
   const FrictionSums& sums() const { return sums_; }
   ModelTime start() const { return sums_.start; }
 
-  // Whether an estimate that was read from elsewhere is possible at `now`.
+  // True if an estimate that was read from elsewhere is possible at `now`.
   bool is_possible(const ModelTime& now, double eta, double window_tau) const;
 
  private:

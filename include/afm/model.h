@@ -43,7 +43,7 @@ const char* name(ModelKind kind);
 // 1 for the oscillator, 0 for the hammer: a factor of every motion along x.
 inline double is_free_along_x(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
 
-// Of the section of impacts: the hammer has only its phase and gap rate.
+// The section of impacts: the hammer has only its phase and gap rate.
 inline int section_dimension(const Model& model) { return model.kind == ModelKind::hammer ? 2 : 4; }
 
 // The limits of the parameters: what scenes use, with a wide margin. The tests go up to them and not beyond.

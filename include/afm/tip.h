@@ -145,7 +145,7 @@ class Tip {
     bool releases = false;  // at its end the surface no longer presses
     Account begin;          // of the record under way
   };
-  // What a chatter sequence has done up to the start of its reference slide.
+  // Totals of a chatter sequence up to the start of its reference slide.
   struct Sequence {
     double normal_speed;   // after its first bounce [a/tau]
     double loss, impulse;  // energy lost in the bounces; impulse of the holder

@@ -1,4 +1,4 @@
-// What a controller needs: commands that wait until they hold, and what is measured over a control period.
+// A client for controllers: commands that wait until they hold, and what is measured over a control period.
 //
 // In lockstep (parameter pace) the emulator advances one period at a time and waits for the controller: the same
 // controller gives the same bits each time. In real time the same calls measure while the clock goes on. The controller
@@ -23,7 +23,7 @@
 
 namespace afm_emulator {
 
-// What did not come in time, or why the emulator refused.
+// Thrown when something did not come in time, or the emulator refused: with the reason.
 class EmulatorError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -129,7 +129,7 @@ class Client {
     }
   }
 
-  // Whether it came true in that time. Checks after every message.
+  // True if it came true in that time. Checks after every message.
   template <class Condition>
   bool comes_true(Condition is_true, double seconds) {
     const double end = ros::WallTime::now().toSec() + seconds;

@@ -40,7 +40,7 @@ py::object to_python(const ModelTime& time);   // afm.ModelTime
 py::object to_python(const FreeState& state);  // afm.State
 py::dict to_python(const FrictionEstimate& friction);
 
-// What every run begins with, unchecked; u None: the drag velocity.
+// The start of every run, unchecked; u None: the drag velocity.
 RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
                              const py::object& u, double w, double contact_tolerance);
 

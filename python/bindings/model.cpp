@@ -73,7 +73,7 @@ Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, doub
   return bath;
 }
 
-// What was pickled are the arguments, in their order.
+// The pickled values are the arguments, in their order.
 template <class T, class... Arguments, std::size_t... I>
 T unpickled(T (*make)(Arguments...), const py::tuple& t, std::index_sequence<I...>) {
   return make(t[I].template cast<std::decay_t<Arguments>>()...);

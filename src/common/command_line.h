@@ -10,7 +10,7 @@
 
 namespace afm {
 
-// What an option may be, both ends included.
+// The bounds of an option, both included.
 struct Within {
   double least, most;
 };
@@ -27,13 +27,13 @@ class CommandLine {
   template <class T>
   void option(const std::string& name, T& value, const std::string& help, Within range = kAny);
   void flag(const std::string& name, bool& value, const std::string& help);
-  // What stands without an option.
+  // The value that stands without an option.
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
   // An option, or the arguments, that must be given.
   void require(const std::string& name) { required_.push_back(name); }
-  // What the help ends with.
+  // The end of the help.
   void footer(const std::string& text) { footer_ = text; }
-  // Whether the option stands on the command line; false before run() has read it.
+  // True if the option stands on the command line; false before run() has read it.
   bool is_given(const std::string& name) const { return given_.count(name) > 0; }
 
   // Reads the options, then works. Exit code 0 for --help; 2 for a wrong option and for std::invalid_argument from the

@@ -19,7 +19,7 @@ void add_si_options(CommandLine& app, SiOptions& options);
 
 // --drag-velocity, in m/s: what a tool with --si takes in place of --eta.
 void add_drag_velocity_option(CommandLine& app, std::string& drag_velocity);
-// Whether it is given. Throws std::invalid_argument where it stands without --si, or beside --eta.
+// True if it is given. Throws std::invalid_argument where it stands without --si, or beside --eta.
 bool has_drag_velocity(const CommandLine& app, const SiOptions& options);
 
 // Throws std::invalid_argument where the scale is out of range, or given without --si.

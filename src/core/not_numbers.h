@@ -1,4 +1,4 @@
-// What arithmetic gives where there is no number.
+// The results of arithmetic where there is no number.
 #pragma once
 
 #include <limits>

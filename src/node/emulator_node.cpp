@@ -207,7 +207,7 @@ class EmulatorNode {
     ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
   }
 
-  // What is wrong, or nothing.
+  // The fault, or nothing.
   std::string find_drag_fault(double drag_velocity) const {
     const bool possible = std::abs(drag_velocity) <= parameters_.max_drag_velocity;  // false for NaN
     return possible ? "" : "must be finite and within max_drag_velocity";

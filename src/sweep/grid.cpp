@@ -12,7 +12,7 @@ const char* name_of(SweepDirection direction) {
   return direction == SweepDirection::fresh ? "fresh" : direction == SweepDirection::up ? "up" : "down";
 }
 
-// Of the faults of a point with this axis's value and defaults otherwise.
+// One of the faults of a point with this axis's value and defaults otherwise.
 void add_faults(std::vector<ParameterError>& all, const SweepPoint& point) {
   for (const ParameterError& fault : find_faults(point)) {
     if (all.size() < 10) all.push_back(fault);

@@ -184,7 +184,7 @@ const std::map<std::string, std::function<std::uint64_t(const Recording&, const 
     {"friction", write_friction},
     {"commands", write_commands}};
 
-// What its configurations and snapshots say; tables of runs in different units would mix.
+// From its configurations and snapshots; tables of runs in different units would mix.
 afm::Units units_of(const Recording& recording) {
   std::optional<afm::Units> units;
   const auto add = [&](const afm_emulator::Configuration& configuration) {

@@ -17,7 +17,7 @@ class Picture {
   visualization_msgs::MarkerArray draw(const RunView& run, ros::Time stamp);
 
  private:
-  // What one picture adds to the cloud.
+  // The points that one picture adds to the cloud.
   struct Puff {
     std::vector<Place> positions, impacts;
   };

@@ -1,5 +1,5 @@
-// What is known of a run, live or replayed. Topics come in any order: each message is kept by itself, and a picture is
-// drawn when all that it needs is of one epoch. Lengths in a, times in tau.
+// A run as far as it is known, live or replayed. Topics come in any order: each message is kept by itself, and a
+// picture is drawn when all that it needs is of one epoch. Lengths in a, times in tau.
 #pragma once
 
 #include <afm_emulator/Applied.h>

@@ -1,4 +1,4 @@
-// What the tip moves before: the surface, a scale of lengths, the key to the colours, and the figures as text.
+// The scenery of the tip: the surface, a scale of lengths, the key to the colours, and the figures as text.
 #pragma once
 
 #include "canvas.h"

@@ -109,7 +109,7 @@ inline SinCos<double> sin_cos_turns(double x) {
   return sin_cos_beside(quarters, x - (quarters - kQuarterRounder));
 }
 
-// Of a * b, reduced as in turn_product. Precondition: |a b| < 2^49.
+// The turn of a * b, reduced as in turn_product. Precondition: |a b| < 2^49.
 inline SinCos<double> sin_cos_turn_product(double a, double b) {
   using namespace turns_detail;
   const double quarters = std::fma(a, b, kQuarterRounder);

@@ -20,7 +20,7 @@ const char kHead[] = "# parameters:", kColumns[] = "eta,model,contact_tolerance,
 
 bool is_same(double a, double b) { return std::abs(a - b) <= kSameParameter * std::max(std::abs(a), std::abs(b)); }
 
-// What a table is measured at.
+// The parameters that a table is measured at.
 constexpr struct {
   const char* name;
   double Model::*value;

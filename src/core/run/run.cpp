@@ -42,7 +42,7 @@ std::vector<ParameterError> find_faults(const RunSettings& s) {
 
 namespace {
 
-// Whether the n-th time of the grid is the next one at `now`.
+// True if the n-th time of the grid is the next one at `now`.
 bool is_next(const SampleGrid& grid, std::uint64_t n, const ModelTime& now) {
   return n >= grid.first && is_possible(grid.origin) && now <= grid.time_or_end(n) &&
          grid.time_or_end(n) < kEndOfTime && (n == grid.first || grid.time(n - 1) <= now);

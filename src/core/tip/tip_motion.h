@@ -11,7 +11,7 @@ namespace afm {
 // Kinetic energy and that of the springs [m a^2/tau^2].
 double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);
 
-// Of x - xc over the first s [a tau].
+// The time integral of x - xc over the first s [a tau].
 double extension_integral(const SlideSegment<double>& slide, double s);
 
 // A tip that bounces along a slide with the normal speed v.

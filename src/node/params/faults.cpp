@@ -1,4 +1,4 @@
-// What values the parameters may have.
+// The values that the parameters may have.
 #include <algorithm>
 #include <cmath>
 

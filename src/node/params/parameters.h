@@ -21,7 +21,7 @@ constexpr double kMaxSampleRate = 1e6;       // [1/s]: ten samples a turn of the
 constexpr double kMaxWallSampleRate = 1e7;   // [1/s]: at time scales above 1, what subscribers can take
 constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
 
-// What may change while the emulator runs, and the constants beside it: plain values, which travel through lock-free
+// Live parameters, and the constants beside it: plain values, which travel through lock-free
 // queues.
 struct Live {
   SiModel si;
@@ -82,7 +82,7 @@ Parameters read_parameters(XmlRpc::XmlRpcValue tree, Faults& faults);
 // Faults of values that have the right types.
 Faults find_faults(const Parameters& parameters);
 
-// What follows from them. A batch holds whole samples, so its length gives way to the sample rate, not the other way.
+// Derived from them. A batch holds whole samples, so its length gives way to the sample rate, not the other way.
 std::uint64_t samples_per_batch(const Parameters& parameters);
 std::chrono::nanoseconds batch_period(const Parameters& parameters);  // of wall time
 RunSettings run_settings(const Parameters& parameters);

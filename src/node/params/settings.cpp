@@ -1,4 +1,4 @@
-// What follows from the parameters: the settings of a run, its batches, and the level of the model.
+// From the parameters: the settings of a run, its batches, and the level of the model.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -21,7 +21,7 @@
 
 namespace afm::node {
 
-// What every message starts with.
+// Every message starts with it.
 struct Label {
   ros::Time stamp;
   std::uint32_t epoch = 0;
@@ -30,7 +30,7 @@ struct Label {
 afm_emulator::ModelTime to_message(const ModelTime& time);
 ModelTime from_message(const afm_emulator::ModelTime& time);
 
-// Of a batch, with what is in force in it.
+// A batch, with the parameters in force in it.
 afm_emulator::Deflection to_deflection(const Batch& batch, const Live& live, const Units& units, const Label& label);
 afm_emulator::ImpactArray to_impacts(const Batch& batch, const Units& units, const Label& label);
 afm_emulator::Friction to_friction(const Batch& batch, const Live& live, const Units& units, const Label& label);
@@ -51,7 +51,7 @@ Snapshot from_message(const afm_emulator::Snapshot& message);
 // there is no such model.
 LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied);
 
-// What was measured over a control period.
+// The answer to a control period: its means.
 afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& si);
 
 }  // namespace afm::node

@@ -119,7 +119,7 @@ class Publisher {
     if (clock_ && label.stamp > latest_clock_) publish_clock(label.stamp);
   }
 
-  // Of wall time, or where the emulator publishes the clock, of the clock: model time.
+  // The stamp is wall time, or model time if the emulator publishes the clock.
   ros::Time stamp_of(const Report& report) const {
     ros::Time stamp;
     if (!clock_) return stamp.fromNSec(static_cast<std::uint64_t>(report.wall_ns));

@@ -1,4 +1,4 @@
-// What was asked of the node and refused, and why: counted, and the latest kept. Any thread.
+// Refused commands and parameters, with the reason: counted, and the latest kept. Any thread.
 #pragma once
 
 #include <chrono>

@@ -15,7 +15,7 @@
 
 namespace afm::node {
 
-// What diagnostics judge.
+// The state that diagnostics judge.
 struct Health {
   afm_emulator::EmulatorStatus status;
   double late_share = 0.0;    // of the batches since the last check

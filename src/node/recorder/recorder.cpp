@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
 
-// What is wrong with a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken
+// The fault of a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken
 // for another kind of file.
 std::string find_name_fault(const std::string& name) {
   constexpr std::size_t kMaxLength = 200;  // file systems take 255 bytes, and endings are added

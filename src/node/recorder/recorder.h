@@ -15,7 +15,7 @@
 
 namespace afm::node {
 
-// Of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
+// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
 enum class Role { ordinary, configuration, applied, snapshot };
 
 // Free on the disk on which the directory is, or would be made [bytes]; negative: unknown.
@@ -49,7 +49,7 @@ class Recorder {
   Reply stop();
   Status status() const;
 
-  // What finds no room in the queue, as the disk is slow, is counted; unhurried, it waits for room instead.
+  // A message that finds no room in the queue, as the disk is slow, is counted as dropped. An unhurried one waits.
   void record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role, bool unhurried);
 
  private:

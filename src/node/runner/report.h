@@ -69,7 +69,7 @@ struct RunnerState {
   bool timed_out = false;  // the drag was stopped as no command came
 };
 
-// What is in force since the last report of kind `applied`.
+// The settings in force since the last report of kind `applied`.
 struct InForce {
   Live live;  // to the bit as it was commanded
   Level level;

@@ -1,4 +1,4 @@
-// What a real-time thread needs of the operating system: priority, clocks and a semaphore.
+// The operating system for a real-time thread: priority, clocks and a semaphore.
 #pragma once
 
 #include <semaphore.h>

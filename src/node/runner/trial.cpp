@@ -1,4 +1,4 @@
-// What pace a run will reach, before it begins.
+// The pace that a run will reach, before it begins.
 #include "runner.h"
 
 namespace afm::node {

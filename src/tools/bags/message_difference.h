@@ -12,7 +12,7 @@ struct FieldDifference {
   std::string recorded, simulated;  // of numbers: 17 digits
 };
 
-// Of two printed messages. Where they print alike (the signs of two NaN), the field is "bytes".
+// The difference of two printed messages. Where they print alike (the signs of two NaN), the field is "bytes".
 FieldDifference first_difference(const std::string& recorded, const std::string& simulated);
 
 template <class Message>

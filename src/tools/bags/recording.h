@@ -117,7 +117,7 @@ class Recording {
   std::vector<File> files_;
 };
 
-// Of the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each
+// From the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each
 // other are one recording. Throws Problem with the reason if there is none.
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node);
 

@@ -114,7 +114,7 @@ void RunCheck::run() {
   check_end(impacts_.get());
 }
 
-// Whether it comes before the next batch.
+// True if it comes before the next batch.
 bool RunCheck::is_due(const Mark& c) const {
   const afm_emulator::Friction& batch = *batches_->get();
   const auto place = [](std::uint32_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {

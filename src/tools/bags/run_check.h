@@ -32,7 +32,7 @@ struct Difference {
   std::string last_command;  // before it
 };
 
-// What was compared.
+// Counts of what was compared.
 struct Extent {
   std::uint64_t batches = 0, deflections = 0, samples = 0, impact_arrays = 0, impacts = 0;
   std::uint64_t commands = 0, snapshots = 0, epochs = 0;
@@ -53,7 +53,7 @@ class RunCheck {
 
   const std::optional<Difference>& difference() const { return difference_; }
   const Extent& extent() const { return extent_; }
-  // What is lost, in words.
+  // The lost messages, in words.
   std::vector<std::string> missing() const;
 
  private:
