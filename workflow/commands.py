@@ -223,6 +223,8 @@ def commands(quick):
     add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"),
         may_fail=True)
 
+    add("collapse_friction", "collapse_friction", choose("--tau 100 --eta 0.3", ""))
+
     # levels, scenes, recording, control
     add("new_levels", "level_table --output {out}/levels.csv", sides=["levels"])
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep", choose("--duration 500", ""))

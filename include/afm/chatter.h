@@ -63,10 +63,16 @@ class ChatterLaw {
   // From the start of the reference slide to a time s before the end of the sequence.
   Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;
 
+  // How many bounces a sequence has that begins with the normal speed v, if contact can begin at once in its place: it
+  // moves the tip by less than `allowed` [a, a/tau], and ends while the surface presses. Otherwise 0.
+  double collapsing(const Mechanics<double>& mechanics, double eta, const SlideState<double>& at, double v,
+                    double allowed) const;
+
   const ChatterConstants& constants() const { return constants_; }
 
  private:
   ChatterConstants constants_;
+  double loss_, cutoff_;  // of the restitution: 1 - gamma, and v_c [a/tau]
 };
 
 // The tip at a bounce without its normal velocity. The tangential velocity stays.

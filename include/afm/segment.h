@@ -27,7 +27,8 @@ struct Segment {
   double imbalance() const { return work() - loss - heat - stored; }  // zero except for rounding
 };
 
-// The records that one step of Tip::advance_segment() ends: a segment of motion, and the impact or kick at its end.
+// The records that one step of Tip::advance_segment() ends: a segment of motion, and the impact or kick at its end, or
+// both.
 class Segments {
  public:
   void clear() { size_ = 0; }
@@ -36,7 +37,7 @@ class Segments {
   const Segment* end() const { return segments_.data() + size_; }
 
  private:
-  std::array<Segment, 2> segments_;
+  std::array<Segment, 3> segments_;
   std::size_t size_ = 0;
 };
 

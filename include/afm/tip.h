@@ -103,7 +103,8 @@ class Tip {
 
   // Another heat bath from now() on; a new tip has none. Every advance includes its kicks (docs/temperature.md). A kick
   // splits the phase under way at its time. In contact, a kick into the surface is an impact at once, and a kick away
-  // from it starts a flight. A chatter sequence ends with the bounce under way. Precondition: a bath without faults.
+  // from it starts a flight. Where the bounces that follow hardly move the tip, they are one event, and contact goes
+  // on. A chatter sequence ends with the bounce under way. Precondition: a bath without faults.
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 
@@ -207,6 +208,8 @@ class Tip {
   void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;
   bool stays_after(const Kick& kick) const;
+  Outcome collapse(const TipState& before, const TipState& after, const Projection& onto, double bounces,
+                   Segments* ended);
   Outcome kick(Segments* ended);
 
   // energy balance (tip_account.cpp)

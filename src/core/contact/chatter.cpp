@@ -19,10 +19,10 @@ double w_over_log(double w) {
 
 }  // namespace
 
-ChatterLaw::ChatterLaw(const Model& model, double threshold) : constants_{} {
+ChatterLaw::ChatterLaw(const Model& model, double threshold)
+    : constants_{}, loss_(1.0 - model.gamma), cutoff_(model.v_c) {
   constexpr double kLeastThreshold = 1e-300;  // a logarithm follows
   ChatterConstants& c = constants_;
-  const double max_w = 1.0 - model.gamma;
   c.threshold = std::max(threshold, kLeastThreshold);
   c.constant_loss = !(model.v_c > threshold);
   // the error of the law is of the third order in what the limits are for
@@ -31,13 +31,13 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold) : constants_{} {
   const double end_speed = ChatterLimits::kEndSpeed * c.threshold;
   if (c.constant_loss) {
     c.max_entry_speed = std::numeric_limits<double>::infinity();
-    c.w = max_w;
-    c.M = w_over_log(max_w);
+    c.w = loss_;
+    c.M = w_over_log(loss_);
     c.end_x = end_speed;
   } else {
     const double max_loss = ChatterLimits::kMaxLoss * c.fineness;
-    c.max_entry_speed = model.v_c * (max_w > max_loss ? max_loss / max_w : 1.0);
-    c.dw_dv = max_w / model.v_c;
+    c.max_entry_speed = model.v_c * (loss_ > max_loss ? max_loss / loss_ : 1.0);
+    c.dw_dv = loss_ / model.v_c;
     c.end_x = portable_log(end_speed);
   }
 }
@@ -64,6 +64,29 @@ ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, d
 
 Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Chatter& start) const {
   return ChatterIntegration<double>(constants_, reference).follow(0.0, s, start, false).chatter;
+}
+
+// The averaged law at its lowest order, with a constant reaction (docs/algorithm.md, "Collapse").
+double ChatterLaw::collapsing(const Mechanics<double>& mechanics, double eta, const SlideState<double>& at, double v,
+                              double allowed) const {
+  constexpr double kMostChange = 0.7;  // less than sqrt(3) - 1: a reaction that changes by x + x^2/2 stays above zero
+  constexpr double kLnTen = 2.302585092994046;
+  if (v <= constants_.threshold || loss_ == 0.0) return 0.0;
+  const ReferenceForces<double> f = reference_forces(mechanics, eta, at);
+  if (!(f.P > 0.0)) return 0.0;
+  // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k P t/2)
+  const double end = constants_.constant_loss ? constants_.threshold : std::min(v, cutoff_);
+  const double gamma = 1.0 - loss_, faster = 2.0 * (v - end) / (f.P * loss_);
+  double time = faster, squares = 2.0 * (v * v * v - end * end * end) / (f.P * (1.0 - gamma * gamma * gamma));
+  double bounces = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
+  if (!constants_.constant_loss) {
+    const double k = constants_.dw_dv;
+    time += 2.0 * kLnTen / (k * f.P);
+    squares += end * end / (k * f.P);
+    bounces += (1.0 / constants_.threshold - 1.0 / end) / k;
+  }
+  const double moved = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn)) * squares / (3.0 * f.P);
+  return moved <= allowed && time * f.change <= kMostChange ? std::max(bounces, 1.0) : 0.0;
 }
 
 Projection project_onto_surface(const Model& model, const TipState& state) {

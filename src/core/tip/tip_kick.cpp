@@ -3,8 +3,16 @@
 
 #include "afm/surface.h"
 #include "afm/tip.h"
+#include "tip_motion.h"
 
 namespace afm {
+namespace {
+
+// The bounces that a kick starts in contact are left out if they move the tip by less than this part of the contact
+// tolerance and of the kick: K_f is the same to a hundredth of its standard error (benchmark collapse_friction).
+constexpr double kDisplacedByKick = 10.0;
+
+}  // namespace
 
 void Tip::set_bath(const Bath& bath) {
   thermostat_.set(bath, model_.frequency_ratio, now_);
@@ -38,8 +46,38 @@ bool Tip::stays_after(const Kick& kick) const {
   return in_contact() && std::fabs(kicked(kick, tip_state()).g1) < least;
 }
 
+// The bounces of the kick are one event, after which contact goes on. Their energy is lost at once.
+Outcome Tip::collapse(const TipState& before, const TipState& after, const Projection& onto, double bounces,
+                      Segments* ended) {
+  const double v = std::fabs(onto.normal_speed), loss = 0.5 * v * v;
+  last_impact_ = {now_, before.phase, v, onto.tangential_velocity, loss, ImpactKind::burst, whole_count(bounces)};
+  if (ended != nullptr) {
+    Segment impact;
+    impact.kind = SegmentKind::impact;
+    impact.begin = impact.end = now_;
+    impact.eta = eta_;
+    // the holder of the hammer takes the impulse along x
+    if (mechanics_.is_free_along_x == 0.0) impact.impulse = -surface_jet(model_.H, before.phase).h1 * after.g1;
+    impact.loss = loss;
+    impact.stored = impact.work() - loss;
+    impact.count = last_impact_.count;
+    ended->add(segment());
+    ended->add(kick_segment(before, after));
+    ended->add(impact);
+  }
+  slide(onto.reference);
+  return Outcome::impact;
+}
+
 Outcome Tip::kick(Segments* ended) {
   const Kick kick = thermostat_.draw();
+  if (in_contact()) {
+    const TipState before = tip_state(), after = kicked(kick, before);
+    const Projection onto = project_onto_surface(model_, after);
+    const double v = std::fabs(onto.normal_speed), allowed = kDisplacedByKick * contact_tolerance_ * v;
+    const double bounces = law_.collapsing(mechanics_, eta_, onto.reference, v, allowed);
+    if (bounces > 0.0) return collapse(before, after, onto, bounces, ended);
+  }
   const bool stays = stays_after(kick);
   Outcome outcome = Outcome::flying;
   if (is_on_slide() && !stays) {

@@ -21,12 +21,14 @@ Bath bath_of(double temperature, double quality_factor, double kicks_per_tau = 2
   return bath;
 }
 
-Tip tip_of(ModelKind kind, double gamma, double v_c, double eta) {
+Tip tip_of(ModelKind kind, double gamma, double v_c, double eta, double rest_height = 0.0,
+           double contact_tolerance = kDefaultContactTolerance) {
   Model model;
   model.kind = kind;
   model.gamma = gamma;
   model.v_c = v_c;
-  return Tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+  model.y0 = rest_height;
+  return Tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, contact_tolerance);
 }
 
 // On the surface, on a slope.
@@ -38,14 +40,14 @@ Tip tip_at_rest() {
 
 struct Setting {
   ModelKind kind;
-  double gamma, v_c, eta, temperature;
+  double gamma, v_c, eta, temperature, rest_height = 0.0;
 };
 
 class Kicked : public testing::TestWithParam<Setting> {
  protected:
   Tip tip() const {
     const Setting& r = GetParam();
-    Tip tip = tip_of(r.kind, r.gamma, r.v_c, r.eta);
+    Tip tip = tip_of(r.kind, r.gamma, r.v_c, r.eta, r.rest_height);
     tip.set_bath(bath_of(r.temperature, 50.0));
     return tip;
   }
@@ -61,7 +63,7 @@ TEST_P(Kicked, WorkIsLossHeatAndStoredEnergyToRounding) {
     work += s.work(), spent += s.loss + s.heat, stored += s.stored;
     gross += std::abs(s.work()) + s.loss + std::abs(s.heat);
   };
-  while (impacts < 100000 && kicked.now() < ModelTime{50000, 0.0}) {
+  while ((impacts < 100000 || kicks < 1000) && kicked.now() < ModelTime{50000, 0.0}) {
     ASSERT_NE(kicked.advance_segment({50000, 0.0}, &ended), Outcome::search_failed);
     for (const Segment& s : ended) {
       add(s);
@@ -105,7 +107,10 @@ INSTANTIATE_TEST_SUITE_P(Runs, Kicked,
                                          Setting{kFree, 0.7, 0.05, 0.0, 0.3}, Setting{kFree, 0.0, 0.0, 3.4, 0.926},
                                          Setting{kFree, 0.0, 0.05, 0.5, 1e-6}, Setting{kFree, 1.0, 0.05, 0.0, 0.3},
                                          Setting{kHeld, 0.7, 0.05, 3.4, 0.926}, Setting{kHeld, 0.7, 0.02, 0.3, 0.1},
-                                         Setting{kHeld, 0.0, 0.05, 0.5, 0.05}, Setting{kHeld, 0.7, 0.02, -0.3, 0.0}));
+                                         Setting{kHeld, 0.0, 0.05, 0.5, 0.05}, Setting{kHeld, 0.7, 0.02, -0.3, 0.0},
+                                         Setting{kFree, 0.7, 0.05, 0.3, 0.926, -3.0},
+                                         Setting{kFree, 0.0, 0.0, 0.3, 0.926, -3.0},
+                                         Setting{kHeld, 0.7, 0.05, 0.3, 0.926, -3.0}));
 
 // At eta = 0.3 chatter, contact and flights follow each other.
 TEST(Kick, ComesInTheAirInChatterAndInContact) {
@@ -147,6 +152,47 @@ TEST(Kick, IntoTheSurfaceIsAnImpactAtOnceAndAwayFromItLeaves) {
   }
   EXPECT_GT(leaves, 5);
   EXPECT_GT(hits, 5);
+}
+
+// 1 nN on the paper's lever presses the tip down: the bounces after a kick last a thousandth of a tau.
+TEST(Kick, UnderALoadItsBouncesAreOneEventAndContactGoesOn) {
+  Tip tip = tip_of(ModelKind::oscillator, 0.7, 0.05, 0.3, -3.0);
+  tip.set_bath(bath_of(0.926, 100.0, 29.034));
+  while (tip.now() < ModelTime{100, 0.0}) tip.advance({100, 0.0});
+  int collapses = 0;
+  for (int kick = 0; kick < 200; ++kick) {
+    const ModelTime time = tip.thermostat().next();
+    const bool contact = tip.in_contact();
+    const Outcome outcome = tip.advance(time);
+    if (!contact || outcome != Outcome::impact || !tip.in_contact()) continue;
+    ++collapses;
+    const Impact& bounces = tip.last_impact();
+    EXPECT_EQ(bounces.kind, ImpactKind::burst);
+    EXPECT_GT(bounces.count, 1u);
+    EXPECT_DOUBLE_EQ(bounces.energy_loss, 0.5 * bounces.normal_speed * bounces.normal_speed);
+  }
+  EXPECT_GT(collapses, 100);
+}
+
+// At a thousandth of the tolerance the bounces are made.
+TEST(Kick, OneEventMovesTheTipAsItsBouncesDo) {
+  Tip whole = tip_of(ModelKind::oscillator, 0.7, 0.05, 0.3, -3.0);
+  Tip bounced = tip_of(ModelKind::oscillator, 0.7, 0.05, 0.3, -3.0, 1e-6);
+  for (Tip* tip : {&whole, &bounced}) {
+    tip->set_bath(bath_of(0.926, 100.0, 29.034));
+    while (tip->advance({50, 0.0}) != Outcome::time_limit) continue;
+  }
+  EXPECT_NEAR(whole.state().phase, bounced.state().phase, 1e-4);
+  EXPECT_NEAR(whole.state().u, bounced.state().u, 1e-2);
+}
+
+TEST(Kick, OnAnElasticSurfaceEveryBounceIsMade) {
+  Tip tip = tip_of(ModelKind::oscillator, 1.0, 0.05, 0.0, -3.0);
+  tip.set_bath(bath_of(0.3, 100.0, 29.034));
+  while (tip.now() < ModelTime{200, 0.0}) {
+    tip.advance({200, 0.0});
+    ASSERT_EQ(tip.last_impact().kind, ImpactKind::impact);
+  }
 }
 
 TEST(Kick, WithoutTemperatureATipAtRestStaysAtRest) {
