@@ -61,13 +61,13 @@ class ChainRunner : public Runner {
     ChainResult r;
     Stopwatch watch(most_seconds);
     while (r.tau < tau && r.impacts < most_impacts && r.finished && r.sound()) {
-      // a piece at a time: a method that crawls is stopped between them
-      const double piece = std::fmin(kPiece, tau - r.tau);
-      const rivals::Hit hit = method_->next_impact(model_, eta, state_, piece);
+      // a part at a time: a method that crawls is stopped between them
+      const double part = std::fmin(kPart, tau - r.tau);
+      const rivals::Hit hit = method_->next_impact(model_, eta, state_, part);
       r.gave_up = hit.kind == rivals::Hit::gave_up;
       r.diverged = hit.kind == rivals::Hit::diverged;
       const double before = r.tau;
-      r.tau += hit.kind == rivals::Hit::none ? piece : hit.dt;
+      r.tau += hit.kind == rivals::Hit::none ? part : hit.dt;
       if (hit.kind == rivals::Hit::impact) {
         r.energy += hit.energy_loss;
         ++r.impacts;
@@ -83,8 +83,8 @@ class ChainRunner : public Runner {
   }
 
  private:
-  static constexpr double kPiece = 8.0;  // [tau]
-  static constexpr int kStuck = 1000;    // impacts without any time between them
+  static constexpr double kPart = 8.0;  // [tau]
+  static constexpr int kStuck = 1000;   // impacts without any time between them
   Model model_;
   TipState state_;
   std::unique_ptr<rivals::Method> method_;

@@ -32,7 +32,7 @@ std::vector<TipState> impacts_of(Tip tip) {
 bool add_flight(FlightScene& scene, const TipState& start) {
   const TrueImpact truth = next_impact_in_quad(scene.model, scene.eta, start, kFlightHorizon);
   if (!truth.impact) return false;
-  const Flight<double> next(Mechanics<double>(scene.model), scene.eta, truth.after);
+  const Flight<double> next(SpringConstants<double>(scene.model), scene.eta, truth.after);
   const Landing<double> landing = find_landing(scene.model, next, kFlightHorizon);
   if (landing.outcome != SearchOutcome::impact && landing.outcome != SearchOutcome::clear) return false;
   scene.flights.push_back({start, truth, landing.s});

@@ -35,11 +35,11 @@ long print_row(const char* name, Build build, double clearance, const Options& o
 // From impact to impact.
 void print_ordinary(double eta, const Options& o) {
   afm::Model model;
-  const afm::Mechanics<double> mechanics(model);
+  const afm::SpringConstants<double> springs(model);
   afm::TipState start{0.25, 0.0, eta, 0.2, 0.0};
   long finer = 0;
   for (long i = 0; i < o.ordinary; ++i) {
-    const afm::Flight<double> flight(mechanics, eta, start);
+    const afm::Flight<double> flight(springs, eta, start);
     const auto landing = afm::find_landing(model, flight, afm::kGrazeHorizon);
     if (afm::find_impact(flight, afm::kGrazeHorizon).outcome == afm::SearchOutcome::undecided) ++finer;
     start = landing.outcome == afm::SearchOutcome::impact ? afm::reflect(model, eta, landing.jet).after

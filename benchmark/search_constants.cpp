@@ -11,10 +11,10 @@ int main() {
   for (const double eta : {0.5, 1.5, 2.0, 3.0, 3.4, 4.5, 6.0, 8.0}) {
     afm::Model model;
     model.v_c = 0.1 * eta;
-    const afm::Mechanics<double> mechanics(model);
+    const afm::SpringConstants<double> springs(model);
     afm::TipState state = to_tip_state(model.H, afm::FreeState{0.25, 0.0, 0.2, eta, 0.0});
     for (int i = -kSkipped; i < kImpacts; ++i) {
-      const afm::Flight<double> flight(mechanics, eta, state);
+      const afm::Flight<double> flight(springs, eta, state);
       const afm::Landing<double> landing = find_landing(model, flight, 1e3);
       if (landing.outcome != afm::SearchOutcome::impact) break;
       const afm::Reflection r = reflect(model, eta, landing.jet);

@@ -102,7 +102,7 @@ bool graze(double normal_speed, std::mt19937_64& random, Cases& all) {
   const double slope = surface_jet(model.H, phase).h1;
   const TipState touch{phase, within(-0.03, 0.03), -eta * within(0.7, 1.3), 0.0,
                        normal_speed * std::sqrt(1.0 + slope * slope)};
-  const Flight<Quad> back(Mechanics<Quad>(model), Quad(-eta), touch);
+  const Flight<Quad> back(SpringConstants<Quad>(model), Quad(-eta), touch);
   if (!(back.start().g2 > 1)) return false;
   const Landing<Quad> before = find_impact(back, Quad(kFlightHorizon));
   if (before.outcome != SearchOutcome::impact || before.jet.g1 > -1e-2) return false;
@@ -130,7 +130,7 @@ Cases commands(double eta_after, std::size_t count) {
   std::mt19937_64 random(3);
   for (const Flight113& f : from.flights) {
     const double until = std::uniform_real_distribution<double>(0.05, 0.95)(random) * static_cast<double>(f.truth.dt);
-    const Flight<Quad> flight(Mechanics<Quad>(model), Quad(eta), f.start);
+    const Flight<Quad> flight(SpringConstants<Quad>(model), Quad(eta), f.start);
     if (!add_flight(all.scene, flight.tip_state(Quad(until)))) continue;
     all.cases.push_back({all.scene.flights.back(), true, eta, f.start, until});
   }

@@ -1,5 +1,5 @@
-// Random models under random commands, every invariant checked after every arc: finite, never below the surface, energy
-// in balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
+// Random models under random commands, every invariant checked after every segment: finite, never below the surface,
+// energy in balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
 #include <chrono>
 #include <cstdio>
 
@@ -16,26 +16,27 @@ struct Options {
 };
 
 void add(afm::TipCount& sum, const afm::TipCount& c) {
-  sum.arcs += c.arcs;
+  sum.segments += c.segments;
   sum.impacts += c.impacts;
   sum.bounces += c.bounces;
   sum.bursts += c.bursts;
   sum.contacts += c.contacts;
   sum.commands += c.commands;
-  sum.most_arcs_in_a_tau = std::max(sum.most_arcs_in_a_tau, c.most_arcs_in_a_tau);
+  sum.most_segments_in_a_tau = std::max(sum.most_segments_in_a_tau, c.most_segments_in_a_tau);
   sum.deepest = std::max(sum.deepest, c.deepest);
   sum.worst_imbalance = std::max(sum.worst_imbalance, c.worst_imbalance);
 }
 
 void print(std::uint64_t scenes, std::int64_t tau, const afm::TipCount& c) {
   std::printf(
-      "%llu scenes of %lld tau: %llu commands, %llu arcs, %llu impacts standing for %llu bounces, %llu bursts, %llu "
+      "%llu scenes of %lld tau: %llu commands, %llu segments, %llu impacts standing for %llu bounces, %llu bursts, "
+      "%llu "
       "contacts; "
-      "most arcs in a tau %llu, deepest %.2g a, worst imbalance %.2g\n",
+      "most segments in a tau %llu, deepest %.2g a, worst imbalance %.2g\n",
       static_cast<unsigned long long>(scenes), static_cast<long long>(tau), static_cast<unsigned long long>(c.commands),
-      static_cast<unsigned long long>(c.arcs), static_cast<unsigned long long>(c.impacts),
+      static_cast<unsigned long long>(c.segments), static_cast<unsigned long long>(c.impacts),
       static_cast<unsigned long long>(c.bounces), static_cast<unsigned long long>(c.bursts),
-      static_cast<unsigned long long>(c.contacts), static_cast<unsigned long long>(c.most_arcs_in_a_tau), c.deepest,
+      static_cast<unsigned long long>(c.contacts), static_cast<unsigned long long>(c.most_segments_in_a_tau), c.deepest,
       c.worst_imbalance);
   std::fflush(stdout);
 }

@@ -1,4 +1,4 @@
-// One random model under random commands, with every invariant checked after every arc.
+// One random model under random commands, with every invariant checked after every segment.
 #pragma once
 
 #include <cstdint>

@@ -84,7 +84,7 @@ class Penalty {
     force_Y_ = -m_.omega_v * m_.omega_v * Y_ + push;
   }
 
-  afm::Mechanics<double> m_{afm::Model{}};
+  afm::SpringConstants<double> m_{afm::Model{}};
   double theta_, Q_, h_;
   long steps_;
   double k_;

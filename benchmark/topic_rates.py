@@ -20,21 +20,21 @@ def listen(seconds):
     import rospy
     if not rospy.core.is_initialized():
         rospy.init_node('topic_rates', anonymous=True, disable_rostime=True)
-    heard = {}
+    received = {}
 
     def keep(message, name):
-        heard.setdefault(name, []).append(len(message._buff))
+        received.setdefault(name, []).append(len(message._buff))
 
     subscribers = [rospy.Subscriber(name, rospy.AnyMsg, keep, name, tcp_nodelay=True, buff_size=1 << 22)
                    for name in ['/afm/' + topic for topic in TOPICS] + ['/clock', '/diagnostics']]
     end = time.monotonic() + 30.0
-    while len(heard.get('/afm/deflection', ())) < 10 and time.monotonic() < end:
+    while len(received.get('/afm/deflection', ())) < 10 and time.monotonic() < end:
         time.sleep(0.01)
-    latched = {name: sizes[:1] for name, sizes in heard.items() if name.rsplit('/')[-1] in TOPICS[4:]}
-    heard.clear()
+    latched = {name: sizes[:1] for name, sizes in received.items() if name.rsplit('/')[-1] in TOPICS[4:]}
+    received.clear()
     begin = time.monotonic()
     time.sleep(seconds)
-    elapsed, counted = time.monotonic() - begin, {name: list(sizes) for name, sizes in heard.items()}
+    elapsed, counted = time.monotonic() - begin, {name: list(sizes) for name, sizes in received.items()}
     for subscriber in subscribers:
         subscriber.unregister()
     return elapsed, counted, latched
@@ -63,13 +63,13 @@ def main():
     parser.add_argument('--seconds', type=float, default=10.0)
     parser.add_argument('--output', type=Path, default=DATA / 'topic_rates.csv')
     arguments = parser.parse_args()
-    heard = {}
+    received = {}
     with master() as server:
         for name, settings in SETTINGS.items():
             with emulator(server, dict(SCENE, **settings)):
-                heard[name] = listen(arguments.seconds)
+                received[name] = listen(arguments.seconds)
     lines = ['topic,messages a second,bytes a message,kB/s,kB/s at 1 MHz of samples and 1000 batches a second']
-    write_table(arguments.output, lines + list(rows(heard['default'], heard['greatest'])))
+    write_table(arguments.output, lines + list(rows(received['default'], received['greatest'])))
 
 
 if __name__ == '__main__':

@@ -24,14 +24,14 @@ double distance(const Quad& a, const Quad& b) { return std::abs(static_cast<doub
 }  // namespace
 
 TrueImpact next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon) {
-  const Mechanics<Quad> mechanics(model);
-  const Landing<Quad> landing = find_impact(Flight<Quad>(mechanics, Quad(eta), start), Quad(horizon));
+  const SpringConstants<Quad> springs(model);
+  const Landing<Quad> landing = find_impact(Flight<Quad>(springs, Quad(eta), start), Quad(horizon));
   TrueImpact t{};
   t.impact = landing.outcome == SearchOutcome::impact;
   t.dt = landing.s;
   if (!t.impact) return t;
   const FlightState<Quad>& q = landing.jet.state;
-  const SurfaceJet<Quad> surface = surface_jet(mechanics.H, q.phase);
+  const SurfaceJet<Quad> surface = surface_jet(springs.H, q.phase);
   const Quad n2 = 1 + surface.h1 * surface.h1, g1 = landing.jet.g1;
   const Quad speed = -g1 / sqrt(n2), e = restitution(model, speed);
   t.phase = q.phase - floor(q.phase);
@@ -50,7 +50,8 @@ double error_of(const rivals::Hit& hit, const TrueImpact& truth, const Model& mo
   const Quad w = Quad(hit.after.g1) + Quad(slope) * hit.after.u;
   Quad phase = truth.phase, X = truth.X, u = truth.u, true_w = truth.w;
   if (hit.contact > 0.0) {
-    const FlightState<Quad> q = Flight<Quad>(Mechanics<Quad>(model), Quad(eta), truth.after).at(Quad(hit.contact));
+    const FlightState<Quad> q =
+        Flight<Quad>(SpringConstants<Quad>(model), Quad(eta), truth.after).at(Quad(hit.contact));
     phase = q.phase;
     X = q.X;
     u = eta + q.U;

@@ -19,13 +19,13 @@ constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 
 // Launches and landings of consecutive impacts after a transient.
 struct Chain {
-  explicit Chain(double eta_per_cell) : eta(eta_per_cell), mechanics(model) {
+  explicit Chain(double eta_per_cell) : eta(eta_per_cell), springs(model) {
     model.v_c = 0.1 * eta;
     Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, 0.0);
     while (tip.now().tau < 300) tip.advance({300, 0.0});
     while (tip.advance(kNever) != Outcome::impact) continue;
     for (int i = 0; i < kStates; ++i) {
-      flights.emplace_back(mechanics, eta, tip.tip_state());
+      flights.emplace_back(springs, eta, tip.tip_state());
       const Landing<double> landing = find_landing(model, flights.back(), 8.0);
       times.push_back(0.9 * landing.s);
       incidents.push_back(landing.jet);
@@ -35,7 +35,7 @@ struct Chain {
 
   double eta;
   Model model;
-  Mechanics<double> mechanics;
+  SpringConstants<double> springs;
   std::vector<Flight<double>> flights;
   std::vector<double> times;
   std::vector<GapJet<double>> incidents;
@@ -107,11 +107,11 @@ BENCHMARK(MicroBounce);
 
 // The series of one piece of contact, and where it ends.
 void Slide(benchmark::State& state) {
-  const Mechanics<double> mechanics{Model{}};
+  const SpringConstants<double> springs{Model{}};
   double phase = 0.4;
-  SlideSegment<double> slide(mechanics, 3.0, {phase, 0.001, 3.0});
+  SlideSegment<double> slide(springs, 3.0, {phase, 0.001, 3.0});
   for (auto _ : state) {
-    slide = SlideSegment<double>(mechanics, 3.0, {phase, 0.001, 3.0});
+    slide = SlideSegment<double>(springs, 3.0, {phase, 0.001, 3.0});
     benchmark::DoNotOptimize(slide.find_release());
     phase = phase > 0.6 ? 0.4 : phase + 1e-3;
   }

@@ -34,7 +34,7 @@ template <class T>
 T leave(const Flight<T>& f, const T& trial) {
   using std::min;
   const T low = min(T(0.0), third_derivative_over(f, f.start(), trial).low);
-  return T(0.999) * min(trial, first_root(T(0.0), f.start().g1, T(f.start().g2 + over(T(low * trial), 3.0)), trial));
+  return T(0.999) * min(trial, first_root(T(0.0), f.start().g1, T(f.start().g2 + divide(T(low * trial), 3.0)), trial));
 }
 
 template <class T>
@@ -64,7 +64,7 @@ Hit hit_of(const Model& model, double eta, SearchOutcome outcome, double s, cons
 }
 
 Hit decide_in_double_double(const Model& model, double eta, const TipState& start, double horizon, double from) {
-  const Flight<DoubleDouble> f(Mechanics<DoubleDouble>(model), DoubleDouble(eta), start);
+  const Flight<DoubleDouble> f(SpringConstants<DoubleDouble>(model), DoubleDouble(eta), start);
   const Landing<DoubleDouble> l = find_plainly(f, DoubleDouble(horizon), DoubleDouble(from));
   const double s = static_cast<double>(l.s);
   if (l.outcome == SearchOutcome::clear) return {Hit::none, horizon, f.tip_state(DoubleDouble(horizon)), 0.0};
@@ -76,7 +76,7 @@ Hit decide_in_double_double(const Model& model, double eta, const TipState& star
 }
 
 Hit next_plainly(const Model& model, double eta, const TipState& start, double horizon) {
-  const Flight<double> f(Mechanics<double>(model), eta, start);
+  const Flight<double> f(SpringConstants<double>(model), eta, start);
   const Landing<double> l = find_plainly(f, horizon, 0.0);
   if (l.s > horizon || l.outcome == SearchOutcome::clear) return {Hit::none, horizon, f.tip_state(horizon), 0.0};
   if (l.outcome == SearchOutcome::impact) return hit_of(model, eta, l.outcome, l.s, l.jet);

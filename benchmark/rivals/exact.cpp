@@ -11,7 +11,7 @@ namespace {
 class Exact : public Method {
  public:
   Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
-    const Flight<double> flight(Mechanics<double>(model), eta, start);
+    const Flight<double> flight(SpringConstants<double>(model), eta, start);
     const Landing<double> landing = find_landing(model, flight, horizon);
     if (landing.s > horizon) return {Hit::none, horizon, flight.tip_state(horizon), 0.0};
     if (landing.outcome == SearchOutcome::impact) {

@@ -57,7 +57,7 @@ class BurstTrials {
     for (;;) {
       const TipState start{random_.within(0.0, 1.0), random_.within(-0.02, 0.02), eta_ * random_.within(0.7, 1.3), 0.0,
                            std::pow(10.0, random_.within(-2.0, 0.0))};
-      const Flight<double> flight(Mechanics<double>(model_), eta_, start);
+      const Flight<double> flight(SpringConstants<double>(model_), eta_, start);
       end_ = {kRun, 0.0};
       if (flight.start().g2 < 0.0) return {model_, eta_, start, tolerance_};
     }

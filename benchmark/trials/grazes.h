@@ -73,12 +73,12 @@ class Grazes {
       Graze graze{mica_, eta, {random_.within(0.0, 1.0), 0.0, eta, random_.within(0.0, 0.1), 0.0}, 0.0};
       graze.model.y0 = random_.within(0.2, 0.8) * mica_.H;
       graze.start.g1 = -eta * surface_jet(mica_.H, graze.start.phase).h1;  // at its highest
-      const Mechanics<double> mechanics(graze.model);
-      const Flight<double> flight(mechanics, eta, graze.start);
+      const SpringConstants<double> springs(graze.model);
+      const Flight<double> flight(springs, eta, graze.start);
       if (!(flight.start().state.Y > 0.0)) continue;
       const double lowest = graze.s = lowest_point(flight);
       if (!lower(graze, graze.start.g, clearance, std::cos(kTwoPi * graze.s)) || graze.start.g < 0.01) continue;
-      const Flight<double> lowered(mechanics, eta, graze.start);
+      const Flight<double> lowered(springs, eta, graze.start);
       if (std::abs(lowest_point(lowered) - lowest) < 0.01) return graze;
     }
   }
@@ -103,7 +103,7 @@ class Grazes {
   // gap.
   static bool lower(Graze& graze, double& start, double clearance, double effect) {
     for (int i = 0; i < 8; ++i) {
-      const Flight<Quad> flight(Mechanics<Quad>(graze.model), graze.eta, graze.start);
+      const Flight<Quad> flight(SpringConstants<Quad>(graze.model), graze.eta, graze.start);
       Quad s = graze.s;
       GapJet<Quad> jet = flight.gap(s);
       for (int k = 0; k < 12; ++k, jet = flight.gap(s)) s -= jet.g1 / jet.g2;
@@ -118,15 +118,15 @@ class Grazes {
 
   RandomLaunches random_;
   Model mica_;
-  Mechanics<double> double_{mica_};
-  Mechanics<Quad> quad_{mica_};
+  SpringConstants<double> double_{mica_};
+  SpringConstants<Quad> quad_{mica_};
 };
 
 // Is it decided as exact arithmetic on the same doubles does? Most wrong decisions are whole flights away.
 inline bool decide(const Graze& graze, GrazeCount& count) {
   const Landing<Quad> truth =
-      find_impact(Flight<Quad>(Mechanics<Quad>(graze.model), graze.eta, graze.start), Quad(kGrazeHorizon));
-  const Flight<double> flight(Mechanics<double>(graze.model), graze.eta, graze.start);
+      find_impact(Flight<Quad>(SpringConstants<Quad>(graze.model), graze.eta, graze.start), Quad(kGrazeHorizon));
+  const Flight<double> flight(SpringConstants<double>(graze.model), graze.eta, graze.start);
   const Landing<double> landing = find_landing(graze.model, flight, kGrazeHorizon);
   constexpr double kSame = 1e-6;  // [tau]: grazes shift times
   const bool right = landing.outcome == truth.outcome && std::abs(landing.s - static_cast<double>(truth.s)) < kSame;

@@ -1,5 +1,5 @@
-// A tip under watch: after every arc it must be finite, nowhere below the surface, its energy in balance, and further
-// in time.
+// A tip under watch: after every segment it must be finite, nowhere below the surface, its energy in balance, and
+// further in time.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 namespace afm {
 
 struct TipCount {
-  std::uint64_t arcs = 0, impacts = 0, bounces = 0, bursts = 0, contacts = 0, commands = 0;
+  std::uint64_t segments = 0, impacts = 0, bounces = 0, bursts = 0, contacts = 0, commands = 0;
   std::uint64_t events = 0;  // what a batch tells and its budget counts
-  std::uint64_t most_arcs_in_a_tau = 0;
+  std::uint64_t most_segments_in_a_tau = 0;
   double deepest = 0.0;          // below the surface [a], or part of what places are rounded with if more than 1 a
   double worst_imbalance = 0.0;  // of the energy turned over
 };
@@ -27,11 +27,11 @@ class TipWatch {
   TipWatch(const Model& model, double eta, const FreeState& start, double contact_tolerance)
       : model_(model), tip_(model, eta, start, contact_tolerance), balance_(tip_) {}
 
-  // One arc, or to the limit. False: what violation() tells has happened.
+  // One segment, or to the limit. False: what violation() tells has happened.
   bool advance_segment(const ModelTime& limit, Outcome& outcome) {
     const ModelTime begin = tip_.now(), segment_end = tip_.segment_end(),
                     end = segment_end < limit ? segment_end : limit;
-    if (segment_end < begin) return violated("an arc ends before it begins");
+    if (segment_end < begin) return violated("a segment ends before it begins");
     if (!check_depths(begin, end)) return false;
     outcome = balance_.advance_segment(tip_, limit);
     enter(outcome);
@@ -70,9 +70,9 @@ class TipWatch {
          << " v_c " << model_.v_c << " H " << model_.H << " y0 " << model_.y0 << " ratio " << model_.frequency_ratio
          << " eta " << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 "
          << s.g1
-         << (tip_.in_contact() ? " in contact"
+         << (tip_.in_contact()   ? " in contact"
              : tip_.in_chatter() ? " in a burst"
-                               : "");
+                                 : "");
     return text.str();
   }
 
@@ -81,7 +81,7 @@ class TipWatch {
   static constexpr double kLeastTurnover =
       1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
   static constexpr double kMostDepth = 1e-15;  // [a], times what places are rounded with if that is more than 1 a
-  static constexpr std::uint64_t kMostArcsInATau = 1000000;  // far more than any tau needs: a stall
+  static constexpr std::uint64_t kMostSegmentsInATau = 1000000;  // far more than any tau needs: a stall
 
   bool violated(const std::string& what) {
     violation_ = what;
@@ -126,12 +126,12 @@ class TipWatch {
   bool check_rate() {
     if (tip_.now().tau != tau_) arcs_this_tau_ = 0;
     tau_ = tip_.now().tau;
-    count_.most_arcs_in_a_tau = std::max(count_.most_arcs_in_a_tau, ++arcs_this_tau_);
-    return arcs_this_tau_ <= kMostArcsInATau || violated("it stalls");
+    count_.most_segments_in_a_tau = std::max(count_.most_segments_in_a_tau, ++arcs_this_tau_);
+    return arcs_this_tau_ <= kMostSegmentsInATau || violated("it stalls");
   }
 
   void enter(Outcome outcome) {
-    ++count_.arcs;
+    ++count_.segments;
     if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) ++count_.events;
     if (outcome == Outcome::contact) ++count_.contacts;
     if (outcome != Outcome::impact) return;

@@ -26,21 +26,21 @@ Dual<N> portable_log(const Dual<N>& x) {
 SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
                                          double duration) {
   const Dual4 free(is_free_along_x(model));
-  const Mechanics<Dual4> mechanics(model);
-  const ProjectedOf<Dual4> first = projected(free, mechanics.H, section_variables(start));
+  const SpringConstants<Dual4> springs(model);
+  const ProjectedOf<Dual4> first = projected(free, springs.H, section_variables(start));
   SlideState<Dual4> state = first.reference;
   ChatterRunOf<Dual4> run{ChatterEnd::time, Dual4(0.0), {first.normal_speed, Dual4(0.0)}};
   for (double left = duration;;) {
-    const SlideSegment<Dual4> reference(mechanics, Dual4(eta), state);
+    const SlideSegment<Dual4> reference(springs, Dual4(eta), state);
     const ChatterIntegration<Dual4> integration(law.constants(), reference);
     const double until = std::min(left, reference.length().value);
     run = integration.follow(Dual4(0.0), until, {run.chatter.v, run.chatter.n}, false);
     left -= until;
     const bool ends = !(left > 0.0) || run.end != ChatterEnd::time;
     if (ends) run = integration.exit_at(integration.begin(run.s, run.chatter), run.chatter.n.value);
-    state = moved_reference_of(mechanics.H, reference.at(run.s), run.chatter);
+    state = displaced_reference_of(springs.H, reference.at(run.s), run.chatter);
     if (!ends) continue;
-    const Bounce4<Dual4> end = launched(free, mechanics.H, state, run.chatter.v);
+    const Bounce4<Dual4> end = launched(free, springs.H, state, run.chatter.v);
     return without_held_directions(is_free_along_x(model), derivatives<4>({end.phase, end.X, end.u, end.g1}));
   }
 }

@@ -7,12 +7,12 @@
 namespace afm {
 
 SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s) {
-  const Mechanics<Dual3> mechanics(model);
+  const SpringConstants<Dual3> springs(model);
   SlideState<Dual3> q{Dual3::variable(start.phase, 0), Dual3::variable(start.X, 1), Dual3::variable(start.u, 2)};
   constexpr int kMaxSegments = 100000;  // a guard against an endless loop; a segment is up to 8 tau long
   double left = s;
   for (int i = 0; i < kMaxSegments && left > 0.0; ++i) {
-    const SlideSegment<Dual3> segment(mechanics, Dual3(eta), q);
+    const SlideSegment<Dual3> segment(springs, Dual3(eta), q);
     const double step = std::min(left, segment.length().value);
     q = segment.at(Dual3(step));
     left -= step;
@@ -21,7 +21,7 @@ SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<do
 }
 
 Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<double>& q) {
-  const SlideSegment<double> segment(Mechanics<double>(model), eta, q);
+  const SlideSegment<double> segment(SpringConstants<double>(model), eta, q);
   return {q.u, q.u - eta, 2.0 * segment.displacement()[2]};
 }
 

@@ -12,7 +12,7 @@ using Fine = DoubleDouble;
 
 // A flight from an impact whose state has the digits of double-double. No bound of it is used, and no turn counts as
 // small.
-Flight<Fine> flight_from(const Mechanics<Fine>& m, const Fine& eta, const FinePoint& p) {
+Flight<Fine> flight_from(const SpringConstants<Fine>& m, const Fine& eta, const FinePoint& p) {
   const SurfaceJet<Fine> surface = surface_jet(m.H, p.phase);
   GapJet<Fine> start{};
   start.state = {p.phase, p.X, p.u - eta, surface.h - m.y0, p.g1 + surface.h1 * p.u};
@@ -32,7 +32,7 @@ FineStep fine_map(const Model& model, double eta, const FinePoint& point, double
   constexpr int kNewtonSteps = 4;  // each doubles the digits: two give all 31, near a graze more are needed
   FinePoint start = point;
   if (model.kind == ModelKind::hammer) start.X = Fine(0.0), start.u = eta;
-  const Mechanics<Fine> m(model);
+  const SpringConstants<Fine> m(model);
   const Flight<Fine> flight = flight_from(m, Fine(eta), start);
   Fine s(estimate);
   for (int i = 0; i < kNewtonSteps; ++i) {

@@ -16,7 +16,7 @@ TipState PoincareMap::constrained(const TipState& start) const {
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
   if (!(start.g1 >= kMinGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
-  Flight<double> flight(mechanics_, eta_, constrained(start));
+  Flight<double> flight(springs_, eta_, constrained(start));
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
@@ -33,8 +33,8 @@ MapStep PoincareMap::operator()(const TipState& start) const {
 
 // On a grid of 32 points a turn of the fastest term of the gap, then by bisection.
 double PoincareMap::clearance(const TipState& start, double dt) const {
-  const Flight<double> flight(mechanics_, eta_, constrained(start));
-  const double turns = dt * (mechanics_.ratio + std::abs(eta_) + 1.0);
+  const Flight<double> flight(springs_, eta_, constrained(start));
+  const double turns = dt * (springs_.ratio + std::abs(eta_) + 1.0);
   const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 1; i < points; ++i) {

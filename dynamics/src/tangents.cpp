@@ -19,9 +19,9 @@ struct Bounced {
   SectionJacobian<double> jacobian;
 };
 
-void follow(const Model& model, const Mechanics<double>& mechanics, double eta, const TipState& start, double dt,
+void follow(const Model& model, const SpringConstants<double>& springs, double eta, const TipState& start, double dt,
             Bounced& bounced) {
-  const Flight<double> flight(mechanics, eta, start);
+  const Flight<double> flight(springs, eta, start);
   GapJet<double> landing = flight.gap(dt);
   landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
   const Reflection bounce = reflect(model, eta, landing);
@@ -34,7 +34,7 @@ void follow(const Model& model, const Mechanics<double>& mechanics, double eta, 
 
 // The hammer has two displacements, of phase and gap rate.
 Tangents::Tangents(const Model& model, Tip& tip)
-    : model_(model), mechanics_(model), tip_(tip), rank_(section_dimension(model)) {
+    : model_(model), springs_(model), tip_(tip), rank_(section_dimension(model)) {
   if (rank_ == 2) columns_.col(1).swap(columns_.col(3));
 }
 
@@ -46,7 +46,7 @@ bool Tangents::start(double within) {
     const Outcome outcome = tip_.advance(end);
     if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return false;
     if (outcome != Outcome::impact || tip_.last_impact().kind != ImpactKind::impact) continue;
-    const GapJet<double> landing = Flight<double>(mechanics_, tip_.eta(), launch).gap(tip_.now() - before);
+    const GapJet<double> landing = Flight<double>(springs_, tip_.eta(), launch).gap(tip_.now() - before);
     restart(reflect(model_, tip_.eta(), landing).after);
     return true;
   }
@@ -74,7 +74,7 @@ Outcome Tangents::advance(const ModelTime& limit) {
 
 void Tangents::carry_bounce(double dt) {
   Bounced bounced;
-  follow(model_, mechanics_, tip_.eta(), start_, dt, bounced);
+  follow(model_, springs_, tip_.eta(), start_, dt, bounced);
   carry(bounced.jacobian);
   const RestitutionJet<double> law = restitution_jet(model_, bounced.normal_speed);
   stretch_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounced.after.g1);
@@ -100,7 +100,7 @@ void Tangents::carry_chatter(double dt) {
     J.topRows<3>() =
         slide_jacobian(model_, tip_.eta(), project_onto_surface(model_, start_).reference, dt) * J.topRows<3>().eval();
     J.row(3).setZero();
-    J = without_held_directions(mechanics_.is_free_along_x, J);
+    J = without_held_directions(springs_.is_free_along_x, J);
     columns_ = J * columns_;
     jacobian_ = J;
   }
@@ -110,7 +110,7 @@ void Tangents::carry_chatter(double dt) {
 
 void Tangents::begin_contact() {
   const SlideState<double> reference = project_onto_surface(model_, start_).reference;
-  SectionJacobian<double> J = without_held_directions(mechanics_.is_free_along_x, projection_jacobian(model_, start_));
+  SectionJacobian<double> J = without_held_directions(springs_.is_free_along_x, projection_jacobian(model_, start_));
   J.row(3).setZero();
   const Eigen::Vector3d F = slide_velocity(model_, tip_.eta(), reference).normalized();
   columns_ = J * columns_;

@@ -28,7 +28,7 @@ std::vector<double> bounces_of(const Model& model, double eta, const TipState& s
   std::vector<double> durations;
   TipState now = start;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Flight<double> flight(Mechanics<double>(model), eta, now);
+    const Flight<double> flight(SpringConstants<double>(model), eta, now);
     const Landing<double> landing = find_landing(model, flight, 8.0);
     if (landing.outcome != SearchOutcome::impact) return {};
     durations.push_back(landing.s);
@@ -81,7 +81,7 @@ class Bursts {
       TipState start{random_.within(0.0, 1.0), random_.within(-0.02, 0.02), eta_ * random_.within(0.7, 1.3), 0.0,
                      random_.power(-2.0, 0.0)};
       if (model_.kind == ModelKind::hammer) start.X = 0.0, start.u = eta_;
-      const Flight<double> flight(Mechanics<double>(model_), eta_, start);
+      const Flight<double> flight(SpringConstants<double>(model_), eta_, start);
       if (flight.start().g2 < 0.0) return {model_, eta_, start};
     }
   }
@@ -133,7 +133,7 @@ TEST(BurstJacobian, OfTheHammerToo) { expect_derivatives(ModelKind::hammer); }
 TEST(BurstJacobian, IsThatOfAnyNumberOfItsBounces) {
   constexpr double kContact = 1e-5;  // [a/tau] slower bounces are contact, about as by default
   const Model model = model_with(0.3);
-  const Mechanics<double> mechanics(model);
+  const SpringConstants<double> springs(model);
   const double eta = 3.0;
   const ChatterLaw law(model, kContact);
   for (const double g1 : {0.002, 0.005, 0.01}) {
@@ -143,7 +143,7 @@ TEST(BurstJacobian, IsThatOfAnyNumberOfItsBounces) {
       SectionJacobian<double> truth = SectionJacobian<double>::Identity();
       double duration = 0.0;
       for (int i = 0; i < bounces; ++i) {
-        const Flight<double> flight(mechanics, eta, now);
+        const Flight<double> flight(springs, eta, now);
         const Landing<double> landing = find_landing(model, flight, 8.0);
         ASSERT_EQ(landing.outcome, SearchOutcome::impact);
         truth = section_jacobian(model, flight, landing.s, landing.jet) * truth;

@@ -39,19 +39,19 @@ std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
   return found;
 }
 
-// The slide until the pressure is nothing, in pieces a quarter as long as the series allow; then the flight to the next
+// The slide until the pressure is nothing, in parts a quarter as long as the series allow; then the flight to the next
 // impact.
 class QuadContact {
  public:
   QuadContact(const Model& model, const Dwell& dwell)
-      : mechanics_(model), impacts_(model, dwell.eta), eta_(dwell.eta), slide_(dwell.slide), flight_(dwell.flight) {}
+      : springs_(model), impacts_(model, dwell.eta), eta_(dwell.eta), slide_(dwell.slide), flight_(dwell.flight) {}
 
   std::array<Quad, 3> slide(const std::array<Quad, 3>& from, Quad left) const {
     SlideState<Quad> q{from[0], from[1], from[2]};
     while (left != 0) {
-      const SlideSegment<Quad> piece(mechanics_, eta_, q);
-      const Quad step = std::min<Quad>(left, piece.length() / 4);
-      q = piece.at(step);
+      const SlideSegment<Quad> part(springs_, eta_, q);
+      const Quad step = std::min<Quad>(left, part.length() / 4);
+      q = part.at(step);
       left -= step;
     }
     return {q.phase, q.X, q.u};
@@ -61,7 +61,7 @@ class QuadContact {
     Quad time = slide_;
     for (Quad error = 1; abs(error) > 1e-28;) {
       const std::array<Quad, 3> q = slide(from, time);
-      const auto p = SlideSegment<Quad>(mechanics_, eta_, {q[0], q[1], q[2]}).pressure_jet(0);
+      const auto p = SlideSegment<Quad>(springs_, eta_, {q[0], q[1], q[2]}).pressure_jet(0);
       error = p[0] / p[1];
       time -= error;
     }
@@ -70,7 +70,7 @@ class QuadContact {
   }
 
  private:
-  Mechanics<Quad> mechanics_;
+  SpringConstants<Quad> springs_;
   QuadImpacts impacts_;
   Quad eta_, slide_, flight_;
 };
@@ -112,7 +112,7 @@ TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
       QuadContact exact(model, dwell);
       const auto map = [&](const std::array<Quad, 3>& q) { return exact.slide_and_fly(q); };
       const auto truth = quad_differences<4>(map, quad_slide(dwell.begin), Quad(1e-12));
-      const Flight<double> flight(Mechanics<double>(model), eta, dwell.release);
+      const Flight<double> flight(SpringConstants<double>(model), eta, dwell.release);
       const SectionJacobian<double> flown = section_jacobian(model, flight, dwell.flight, flight.gap(dwell.flight));
       const Eigen::Matrix<double, 4, 3> J = flown.leftCols<3>() * slide_jacobian(model, eta, dwell.begin, dwell.slide);
       ASSERT_LE(relative_distance(J, truth), 1e-9) << "eta " << eta;

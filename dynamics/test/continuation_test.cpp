@@ -57,7 +57,7 @@ TEST(Continuation, FollowsTheClosedFormDownToWhereItGrazes) {
   const double gamma = graze->at.parameter;
   Model model;
   model.gamma = gamma;
-  const Flight<double> flight(Mechanics<double>(model), 2.0, closed_point(2.0, gamma));
+  const Flight<double> flight(SpringConstants<double>(model), 2.0, closed_point(2.0, gamma));
   double smallest = INFINITY;
   for (int i = 2000; i < 98000; ++i) smallest = std::min(smallest, flight.gap(0.5 * i / 100000.0).g);
   EXPECT_NEAR(smallest, 0.0, 1e-8);

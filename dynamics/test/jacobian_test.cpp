@@ -43,7 +43,7 @@ class Bounces {
     }
   }
   Bounce from(double eta, const TipState& start) const {
-    const Flight<double> flight(Mechanics<double>(model_), eta, start);
+    const Flight<double> flight(SpringConstants<double>(model_), eta, start);
     const Landing<double> landing = find_landing(model_, flight, 8.0);
     return {eta,
             start,
@@ -62,7 +62,7 @@ constexpr int kImpacts = 2000;  // of each model: 1e4 in all
 const Quad kStep(1e-13);
 
 TEST(FlightJacobian, IsTheDerivativeOfTheFlight) {
-  const Mechanics<Quad> m{Model()};
+  const SpringConstants<Quad> m{Model()};
   RandomLaunches random(5);
   for (int i = 0; i < 200; ++i) {
     const double s = random.within(0.0, 5.0);
@@ -74,7 +74,7 @@ TEST(FlightJacobian, IsTheDerivativeOfTheFlight) {
       return std::array<Quad, 5>{q[0] + X - q[1] + eta * s, X, eta + U * ch - q[1] * m.omega_h * sh,
                                  q[3] * cv + q[4] * sv / m.omega_v, q[4] * cv - q[3] * m.omega_v * sv};
     };
-    const FlowJacobian<double> J = flight_jacobian(Mechanics<double>(Model()), s);
+    const FlowJacobian<double> J = flight_jacobian(SpringConstants<double>(Model()), s);
     ASSERT_LE(relative_distance(J, quad_differences<5>(fly, start, kStep)), 1e-14);
     ASSERT_NEAR(J.determinant(), 1.0, 1e-13);
   }
@@ -104,7 +104,7 @@ TEST(SectionJacobian, ShrinksVolumeByTheRestitutionAlone) {
     Bounces bounces(model, 2);
     for (int i = 0; i < kImpacts; ++i) {
       const Bounce b = bounces.next();
-      const Incidence<double> in(b.flight.mechanics(), b.eta, b.landing.jet.state, b.landing.jet.g1);
+      const Incidence<double> in(b.flight.springs(), b.eta, b.landing.jet.state, b.landing.jet.g1);
       const RestitutionJet<double> law = restitution_jet(model, in.normal_speed);
       const double expected = law.slope * law.restitution * b.start.g1 / b.after.g1;
       // a determinant is good to what its largest elements leave
@@ -115,7 +115,7 @@ TEST(SectionJacobian, ShrinksVolumeByTheRestitutionAlone) {
 
 // The whole impact in the flow: Eq. 5, and turned into the frame of Eq. 13.
 Eigen::Matrix4d general_reflection(const Model& model, const Bounce& b, const Incidence<double>& in) {
-  const Mechanics<double>& m = b.flight.mechanics();
+  const SpringConstants<double>& m = b.flight.springs();
   const FlightState<double>& q = b.landing.jet.state;
   FlightState<double> after = q;
   after.U = b.after.u - b.eta;
@@ -135,7 +135,7 @@ TEST(ReflectionJacobian, OfThePaperIsThatOfTheGeneralConstruction) {
     Bounces bounces(model, 3);
     for (int i = 0; i < kImpacts; ++i) {
       const Bounce b = bounces.next();
-      const Mechanics<double>& m = b.flight.mechanics();
+      const SpringConstants<double>& m = b.flight.springs();
       const Incidence<double> in(m, b.eta, b.landing.jet.state, b.landing.jet.g1);
       const double h1 = in.surface.h1, N = std::sqrt(1.0 + h1 * h1);
       const FlowVector<double> F = flight_velocity(m, b.eta, b.landing.jet.state);

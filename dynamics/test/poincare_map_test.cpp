@@ -45,7 +45,7 @@ TEST(PoincareMap, ClearanceIsTheSmallestGapOnTheWay) {
   for (double g1 = 1.0; g1 < 6.0; g1 += 0.005) {
     const TipState start{0.5, 0.0, eta, 0.0, g1};
     const MapStep step = map(start);
-    const Flight<double> flight(Mechanics<double>(Model()), eta, start);
+    const Flight<double> flight(SpringConstants<double>(Model()), eta, start);
     double smallest = INFINITY;
     constexpr int kPoints = 4000;
     double before = 0.0, now = flight.gap(step.dt / kPoints).g;

@@ -19,7 +19,7 @@ int main() {
     std::printf("# multiplier %.17g %+.17gi\n", multiplier.real(), multiplier.imag());  // stable: all within 1
   }
 
-  const afm::Flight<double> flight(afm::Mechanics<double>(mica), eta, orbit.points.front());
+  const afm::Flight<double> flight(afm::SpringConstants<double>(mica), eta, orbit.points.front());
   std::printf("time,extension,height,gap\n");  // [tau], [a]
   for (int i = 0; i <= 100; ++i) {
     const double s = orbit.period * i / 100;

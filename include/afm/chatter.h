@@ -65,7 +65,7 @@ class ChatterLaw {
 
   // How many bounces a sequence has that begins with the normal speed v, if contact can begin at once in its place: it
   // moves the tip by less than `allowed` [a, a/tau], and ends while the surface presses. Otherwise 0.
-  double collapsing(const Mechanics<double>& mechanics, double eta, const SlideState<double>& at, double v,
+  double collapsing(const SpringConstants<double>& springs, double eta, const SlideState<double>& at, double v,
                     double allowed) const;
 
   const ChatterConstants& constants() const { return constants_; }
@@ -86,6 +86,6 @@ Projection project_onto_surface(const Model& model, const TipState& state);
 TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed);
 
 // The reference slide, displaced by what the chatter has moved the tip.
-SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
+SlideState<double> displaced_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
 
 }  // namespace afm

@@ -20,9 +20,9 @@ class SlideSegment {
  public:
   // The length is chosen so that the last terms of the series are at most three times 2^-bits up to there.
   // Precondition: `start` is on the surface.
-  SlideSegment(const Mechanics<T>& mechanics, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
-      : m_(mechanics), eta_(eta), start_(start) {
-    write_slide_series(mechanics, eta, start, series_);
+  SlideSegment(const SpringConstants<T>& springs, const T& eta, const SlideState<T>& start, int bits = kSlideBits)
+      : m_(springs), eta_(eta), start_(start) {
+    write_slide_series(springs, eta, start, series_);
     length_ = choose_length(bits);
   }
 
@@ -36,7 +36,7 @@ class SlideSegment {
   const SlideState<T>& start() const { return start_; }
   const Series<T>& displacement() const { return series_.d; }  // x - x(start)
   const T& eta() const { return eta_; }
-  const Mechanics<T>& mechanics() const { return m_; }
+  const SpringConstants<T>& springs() const { return m_; }
 
   // The first time in [0, length()] at which the reaction has fallen to -release_noise(), within a thousandth of that.
   // Negative if it does not fall so far. Guarantee: no earlier fall is passed (first_fall.h).
@@ -45,7 +45,7 @@ class SlideSegment {
  private:
   T choose_length(int bits) const;
 
-  Mechanics<T> m_;
+  SpringConstants<T> m_;
   T eta_;
   SlideState<T> start_;
   SlideSeries<T> series_;

@@ -26,7 +26,7 @@ class ContactStep {
 
   // tolerance: error allowed at the end of the step in x [a], and in u over the rate of the swing. Precondition:
   // `start` is on the surface.
-  ContactStep(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, double tolerance,
+  ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, double tolerance,
               const Hint& hint);
 
   // Guarantee: with extension_integral() the energy balances to rounding at every s in [0, length()].
@@ -43,13 +43,13 @@ class ContactStep {
   bool is_accurate() const { return is_accurate_; }  // false: no length meets the tolerance, as of a corrupted state
   Hint hint() const { return hint_; }                // for the next step
   const SlideState<double>& start() const { return start_; }
-  const Mechanics<double>& mechanics() const { return m_; }
+  const SpringConstants<double>& springs() const { return m_; }
   double eta() const { return eta_; }
 
  private:
   friend class ContactSolver;  // contact_step.cpp
 
-  Mechanics<double> m_;
+  SpringConstants<double> m_;
   double eta_ = 0.0;
   SlideState<double> start_{};
   ContactForces first_{};  // at the start

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "afm/detail/flight_bounds.h"
-#include "afm/detail/mechanics.h"
 #include "afm/detail/select.h"
+#include "afm/detail/spring_constants.h"
 #include "afm/detail/turns.h"
 #include "state.h"
 #include "surface.h"
@@ -27,10 +27,10 @@ struct GapJet {
 template <class T>
 class Flight {
  public:
-  Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start);
+  Flight(const SpringConstants<T>& springs, const T& eta, const TipState& start);
   // From a known jet and bounds. Precondition: launch() is not used.
-  Flight(const Mechanics<T>& mechanics, const T& eta, const GapJet<T>& start, const FlightBounds<T>& bounds)
-      : m_(mechanics), eta_(eta), launch_{0.0, 0.0, 0.0, 0.0, 0.0}, start_(start), bounds_(bounds) {}
+  Flight(const SpringConstants<T>& springs, const T& eta, const GapJet<T>& start, const FlightBounds<T>& bounds)
+      : m_(springs), eta_(eta), launch_{0.0, 0.0, 0.0, 0.0, 0.0}, start_(start), bounds_(bounds) {}
 
   // Error: a few ulp of the larger terms; for small turns, a few ulp of the change since the start.
   GapJet<T> gap(const T& s) const;
@@ -44,7 +44,7 @@ class Flight {
   const TipState& launch() const { return launch_; }  // the state it began with, as given
   const GapJet<T>& start() const { return start_; }
   const T& eta() const { return eta_; }
-  const Mechanics<T>& mechanics() const { return m_; }
+  const SpringConstants<T>& springs() const { return m_; }
 
   // The gap at s + step from its jet at s: faster than gap(s + step), with an error of a few ulp more.
   GapJet<T> gap_near(const GapJet<T>& jet, const T& s, const T& step) const;
@@ -52,7 +52,7 @@ class Flight {
   // True: within the time s every angle turns by at most kSmallTurn.
   auto is_small(const T& s) const { return s * bounds_.fastest <= T(kSmallTurn); }
 
-  GapJet<T> gap_by_small_turns(const T& s) const { return moved(start_, s); }
+  GapJet<T> gap_by_small_turns(const T& s) const { return advance_jet(start_, s); }
 
   const FlightBounds<T>& bounds() const { return bounds_; }
   const T& amplitude_X() const { return bounds_.X; }
@@ -67,14 +67,14 @@ class Flight {
  private:
   // The jet at a time t after `jet`. Terms that cancel are removed on paper, so the change of the gap is exact to a few
   // ulp of itself (Lemma 7). Precondition: is_small(t).
-  GapJet<T> moved(const GapJet<T>& jet, const T& t) const;
+  GapJet<T> advance_jet(const GapJet<T>& jet, const T& t) const;
   GapJet<T> jet_at(const FlightState<T>& state) const;
   T second_derivative(const T& X, const T& u, const T& Y, const T& h, const T& h1) const;
   // The same from the gap instead of Y: Y = h - y0 + g. The height h is known last, and only one product waits for it.
   T second_derivative_above(const SurfaceJet<T>& surface, const T& g, const T& X, const T& u) const;
   T third_derivative(const FlightState<T>& q, const T& u, const T& h, const T& h1) const;
 
-  Mechanics<T> m_;
+  SpringConstants<T> m_;
   T eta_;
   TipState launch_;
   GapJet<T> start_;
@@ -82,28 +82,28 @@ class Flight {
 };
 
 template <class T>
-Flight<T>::Flight(const Mechanics<T>& mechanics, const T& eta, const TipState& start)
-    : m_(mechanics), eta_(eta), launch_(start) {
-  const SurfaceJet<T> surface = surface_jet(mechanics.H, T(start.phase));
+Flight<T>::Flight(const SpringConstants<T>& springs, const T& eta, const TipState& start)
+    : m_(springs), eta_(eta), launch_(start) {
+  const SurfaceJet<T> surface = surface_jet(springs.H, T(start.phase));
   const T W = mul_add(surface.h1, T(start.u), T(start.g1));
-  const T Y = (surface.h - mechanics.y0) + T(start.g);
+  const T Y = (surface.h - springs.y0) + T(start.g);
   const T X = T(start.X), u = T(start.u);
   const T g2 = second_derivative_above(surface, T(start.g), X, u);
   const FlightState<T> state{T(start.phase), X, u - eta, Y, W};
   start_ = {T(start.g), T(start.g1), g2,        third_derivative(state, u, surface.h, surface.h1),
             state,      surface.h,   surface.h1};
-  bound_flight(mechanics, eta, start_.state, bounds_);
+  bound_flight(springs, eta, start_.state, bounds_);
 }
 
 template <class T>
 FlightState<T> Flight<T>::at(const T& s) const {
-  const Mechanics<T>& m = m_;
+  const SpringConstants<T>& m = m_;
   const FlightState<T>& o = start_.state;
   const SinCos<T> h = sin_cos_turn_product(m.ratio, s);
   const SinCos<T> v = sin_cos_turns(s);
-  const T X = mul_add(o.X, h.cos, T(m.turned(o.U, m.omega_h, m.inverse_omega_h) * h.sin));
+  const T X = mul_add(o.X, h.cos, T(m.divide_by_omega(o.U, m.omega_h, m.inverse_omega_h) * h.sin));
   const T U = mul_add(o.U, h.cos, T(-(m.omega_h * o.X) * h.sin));
-  const T Y = mul_add(o.Y, v.cos, T(m.turned(o.W, m.omega_v, m.inverse_omega_v) * v.sin));
+  const T Y = mul_add(o.Y, v.cos, T(m.divide_by_omega(o.W, m.omega_v, m.inverse_omega_v) * v.sin));
   const T W = mul_add(o.W, v.cos, T(-(m.omega_v * o.Y) * v.sin));
   return {o.phase + (turn_product(eta_, s) + (X - o.X)), X, U, Y, W};
 }
@@ -142,7 +142,7 @@ GapJet<T> Flight<T>::jet_at(const FlightState<T>& q) const {
 
 template <class T>
 GapJet<T> Flight<T>::gap(const T& s) const {
-  return is_small(s) ? moved(start_, s) : jet_at(at(s));
+  return is_small(s) ? advance_jet(start_, s) : jet_at(at(s));
 }
 
 template <class T>
@@ -150,13 +150,13 @@ GapJet<T> Flight<T>::gap_near(const GapJet<T>& jet, const T& s, const T& step) c
   using std::abs;
   const T size = abs(step);
   if (is_small(s + step)) return gap(s + step);
-  return is_small(size) ? moved(jet, step) : gap(s + step);
+  return is_small(size) ? advance_jet(jet, step) : gap(s + step);
 }
 
 // The terms linear in t combine to g1 t. The rest is of the second order, and each of its terms is exact to a few ulp.
 template <class T>
-GapJet<T> Flight<T>::moved(const GapJet<T>& jet, const T& t) const {
-  const Mechanics<T>& m = m_;
+GapJet<T> Flight<T>::advance_jet(const GapJet<T>& jet, const T& t) const {
+  const SpringConstants<T>& m = m_;
   const FlightState<T>& o = jet.state;
   const T k = two_pi<T>(), per = m.inverse_omega_v, u0 = eta_ + o.U;
   const SmallTurn<T> h = small_turn(T(m.ratio * t)), v = small_turn(t);

@@ -90,7 +90,7 @@ constexpr double kReturns = -1.6;
 template <class T>
 T descent(const Flight<T>& f, const T& reach) {
   using std::min;
-  const Mechanics<T>& m = f.mechanics();
+  const SpringConstants<T>& m = f.springs();
   return min(T(kLookahead) * reach, T(kDescent) * m.H / (m.omega_v * f.amplitude_Y()));
 }
 

@@ -129,7 +129,7 @@ class Tip {
  private:
   // The phases of motion (docs/algorithm.md). The one under way lasts from start_ for end_.
   struct Flying {
-    Flying(const Mechanics<double>& mechanics, double eta, const TipState& start) : flight(mechanics, eta, start) {}
+    Flying(const SpringConstants<double>& springs, double eta, const TipState& start) : flight(springs, eta, start) {}
     Flight<double> flight;
     Landing<double> landing{};  // at end_
   };
@@ -139,9 +139,9 @@ class Tip {
   };
   // One step in contact.
   struct Sliding {
-    Sliding(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, double tolerance,
+    Sliding(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, double tolerance,
             const ContactStep::Hint& hint)
-        : step(mechanics, eta, start, tolerance, hint) {}
+        : step(springs, eta, start, tolerance, hint) {}
     ContactStep step;
     bool releases = false;  // at its end the surface no longer presses
     Account begin;          // of the record under way
@@ -153,8 +153,8 @@ class Tip {
   };
   // One reference slide of a chatter sequence.
   struct Chattering {
-    Chattering(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start, int bits)
-        : reference(mechanics, eta, start, bits) {}
+    Chattering(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, int bits)
+        : reference(springs, eta, start, bits) {}
     // The reference slide ends before the sequence: another one follows, and no record ends.
     bool goes_on() const { return run.end == ChatterEnd::time && !releases; }
 
@@ -167,7 +167,7 @@ class Tip {
   };
   // A chatter sequence at a time: the tip displaced from the reference slide, and totals since the sequence began.
   struct SequenceState {
-    SlideState<double> moved;
+    SlideState<double> displaced;
     double v;       // normal speed after the last bounce
     double energy;  // stored
     Sequence sequence;
@@ -228,7 +228,7 @@ class Tip {
   Segment kick_segment(const TipState& before, const TipState& after) const;
 
   Model model_;
-  Mechanics<double> mechanics_;
+  SpringConstants<double> springs_;
   double eta_;
   double contact_tolerance_;
   double slowest_chatter_;  // threshold of contact [a/tau]

@@ -31,7 +31,7 @@ class PyEnsemble {
 
   std::size_t size() const { return ensemble_.size(); }
 
-  // In pieces, so that signals are seen. No bit depends on them.
+  // In chunks, so that signals are seen. No bit depends on them.
   py::array advance(const py::object& time) {
     constexpr double kAtATime = 1e5;  // tau of all tips together: about a second
     const ModelTime end = to_time(time);
@@ -42,9 +42,9 @@ class PyEnsemble {
       now = std::min(now, own);
     }
     std::vector<double> events(size(), 0.0);
-    const double piece = kAtATime / static_cast<double>(std::max<std::size_t>(1, size()));
+    const double chunk = kAtATime / static_cast<double>(std::max<std::size_t>(1, size()));
     while (now < end) {
-      now = end - now > piece ? now + piece : end;
+      now = end - now > chunk ? now + chunk : end;
       advance_to(now, events);
     }
     return to_array(std::move(events));

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "afm/detail/double_double.h"
-#include "afm/run.h"
 #include "afm/flight.h"
 #include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "afm/run.h"
 #include "afm/surface.h"
 
 namespace afm {
@@ -61,10 +61,10 @@ TipState start_of(const FlightInput& input) {
 // A search that fails on a long flight is restarted from where it is certified free of impacts.
 Landing<double> land(const Model& model, double eta, TipState start) {
   constexpr int kAttempts = 100;
-  const Mechanics<double> mechanics(model);
+  const SpringConstants<double> springs(model);
   double flown = 0.0;
   for (int attempt = 0; attempt < kAttempts && flown < kLongestFlight; ++attempt) {
-    Flight<double> flight(mechanics, eta, start);
+    Flight<double> flight(springs, eta, start);
     Landing<double> landing = find_landing(model, flight, kLongestFlight - flown);
     const double s = landing.s;
     landing.s = flown += s;

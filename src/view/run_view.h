@@ -84,7 +84,7 @@ class RunView {
   std::uint32_t legs_epoch_ = 0, samples_epoch_ = 0, impacts_epoch_ = 0;
   std::uint64_t next_sample_ = 0, next_impact_ = 0;
   bool contact_before_ = false;  // the first impact kept
-  ModelTime anchor_time_;        // the holder's position was told for this time
+  ModelTime anchor_time_;        // the holder's position was reported for this time
   double anchor_ = 0.0;          // [m]
 };
 

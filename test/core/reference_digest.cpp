@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "afm/run.h"
 #include "afm/ensemble.h"
+#include "afm/run.h"
 #include "core/run/digest.h"
 #include "support/commands.h"
 
@@ -111,7 +111,7 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
   afm::Segments ended;
   Batch batch;
   Digest digest;
-  for (int arcs = 0; arcs < 5000; ++arcs) {
+  for (int segments = 0; segments < 5000; ++segments) {
     tip.advance_segment(afm::kEndOfTime, &ended);
     for (const afm::Segment& s : ended) {
       for (const double figure : {s.impulse, s.loss, s.stored}) digest.add(figure);

@@ -1,9 +1,10 @@
 // Any model that may be run, from any start in the air, under any commands, in any heat bath: the tip stays finite,
 // above the surface, in balance with its energy, and moves on.
+#include "afm/tip.h"
+
 #include <algorithm>
 
 #include "afm/surface.h"
-#include "afm/tip.h"
 #include "bytes.h"
 #include "target.h"
 #include "trials/tip_watch.h"
@@ -13,8 +14,8 @@ namespace {
 using afm::fuzz::Bytes;
 using afm::fuzz::require;
 
-constexpr std::uint64_t kMostArcs = 400;    // of one input
-constexpr std::uint64_t kMostAtOnce = 100;  // arcs without any time passing
+constexpr std::uint64_t kMostSegments = 400;  // of one input
+constexpr std::uint64_t kMostAtOnce = 100;    // segments without any time passing
 // Of one input. The search of each takes up to 20000 evaluations in double-double: without a limit they take nine
 // tenths of the time.
 constexpr int kMostGlides = 4;
@@ -57,7 +58,7 @@ bool glides(const afm::Tip& tip) {
   return tip.in_flight() && !(s.g > 0.0) && s.g1 > 0.0 && s.g1 < 1e-14;
 }
 
-// Counts the glides. False: the input has had its arcs or its glides.
+// Counts the glides. False: the input has had its segments or its glides.
 bool run_to(afm::TipWatch& watch, const afm::ModelTime& end, bool accumulates, int& glide_count) {
   std::uint64_t at_once = 0;
   afm::Outcome outcome = afm::Outcome::flying;
@@ -67,7 +68,7 @@ bool run_to(afm::TipWatch& watch, const afm::ModelTime& end, bool accumulates, i
     if (!watch.advance_segment(end, outcome)) require(false, watch.violation());
     at_once = before < watch.tip().now() ? 0 : at_once + 1;
     if (!accumulates && at_once >= kMostAtOnce) require(false, "time stands still" + watch.violation());
-    if (watch.count().arcs >= kMostArcs || glide_count >= kMostGlides) return false;
+    if (watch.count().segments >= kMostSegments || glide_count >= kMostGlides) return false;
   }
   return true;
 }

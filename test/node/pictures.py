@@ -69,7 +69,7 @@ class Picture:
                 yield from (c.r, c.g, c.b, c.a)
 
 
-class Told:
+class Reported:
     """What the emulator has reported so far, of its present epoch, and what follows from it."""
 
     def __init__(self, topics):

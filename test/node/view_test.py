@@ -10,7 +10,7 @@ from afm_emulator.msg import Applied, EmulatorStatus, Friction, Impact
 from visualization_msgs.msg import MarkerArray
 
 from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, run
-from pictures import CELLS, CONTACT_RED, Picture, Told, View, luminance, open_rviz, surface
+from pictures import CELLS, CONTACT_RED, Picture, Reported, View, luminance, open_rviz, surface
 from topics import Topic, wait_until
 
 SLOW = {'time_scale': 3e-4, 'sample_rate_hz': 1e6, 'batch_rate_hz': 50.0}
@@ -52,7 +52,7 @@ class ViewTest(EmulatorTest):
     def picture_of_now(self):
         """And what it must show: the emulator is paused, and the view comes to where it stands."""
         def shown():
-            picture, reported = Picture(self.view.markers.messages[-1]), Told(self.topics)
+            picture, reported = Picture(self.view.markers.messages[-1]), Reported(self.topics)
             time, X, Y = reported.last_sample()
             right = (reported.centre(time) - reported.middle(time) + X, reported.height(time) + Y)
             here = picture.has('tip') and math.dist(picture.tip(), right) < EXACT
@@ -172,7 +172,7 @@ class SlowMotion(ViewTest):
 
         def slides():
             self.stepped(0.7)
-            events = Told(self.topics).events
+            events = Reported(self.topics).events
             return events and events[-1].kind == Impact.CONTACT_BEGUN
         wait_until(slides, 'contact', deadline_s=60.0)
         picture, reported, time = self.picture_of_now()

@@ -27,11 +27,11 @@ struct RandomChatter {
 // One that `law` takes: a normal speed of 10^decades(from, to) under a pressure of at least 0.5.
 inline RandomChatter random_chatter(const Model& model, const ChatterLaw& law, RandomLaunches& random, double from,
                                     double to) {
-  const Mechanics<double> mechanics(model);
+  const SpringConstants<double> springs(model);
   for (;;) {
-    const Piece slide = random_piece(random);
+    const SlidePart slide = random_part(random);
     const double v = std::pow(10.0, random.within(from, to));
-    const Flight<double> bounce(mechanics, slide.eta(), leave_surface(model, slide.start(), v));
+    const Flight<double> bounce(springs, slide.eta(), leave_surface(model, slide.start(), v));
     if (slide.pressure(0.0) > 0.5 && law.holds(bounce)) return {model, v, slide};
   }
 }

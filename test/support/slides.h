@@ -7,30 +7,31 @@
 
 namespace afm {
 
-using Piece = SlideSegment<double>;
+using SlidePart = SlideSegment<double>;
 
 // Minus what the gap's acceleration would be in free flight, over 1 + h'^2.
 template <class T>
 T pressure_of(const Model& model, const SlideState<T>& s) {
-  const Mechanics<T> m(model);
+  const SpringConstants<T> m(model);
   const SurfaceJet<T> h = surface_jet(m.H, s.phase);
   return (m.omega_v * m.omega_v * (h.h - m.y0) + h.h2 * s.u * s.u - h.h1 * m.omega_h * m.omega_h * s.X) /
          (T(1.0) + h.h1 * h.h1);
 }
 
-inline double end_of(const Piece& piece) {
-  const double release = piece.find_release();
-  return release < 0.0 ? piece.length() : release;
+inline double end_of(const SlidePart& part) {
+  const double release = part.find_release();
+  return release < 0.0 ? part.length() : release;
 }
 
 // Pressed, and moving about as fast as it is dragged.
-inline Piece random_piece(double eta, RandomLaunches& random) {
+inline SlidePart random_part(double eta, RandomLaunches& random) {
   for (;;) {
     const double u = eta * random.within(0.5, 1.5);
-    const Piece piece(Mechanics<double>(Model()), eta, {random.within(0.0, 1.0), random.within(-0.02, 0.02), u});
-    if (piece.pressure(0.0) > 0.01) return piece;
+    const SlidePart part(SpringConstants<double>(Model()), eta,
+                         {random.within(0.0, 1.0), random.within(-0.02, 0.02), u});
+    if (part.pressure(0.0) > 0.01) return part;
   }
 }
-inline Piece random_piece(RandomLaunches& random) { return random_piece(random.within(-9.0, 9.0), random); }
+inline SlidePart random_part(RandomLaunches& random) { return random_part(random.within(-9.0, 9.0), random); }
 
 }  // namespace afm

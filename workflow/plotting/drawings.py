@@ -151,16 +151,16 @@ def named(axes, names, x, top, align):
 def nodes(_):
     text = INTERFACE.read_text()
     topics = table_below(text, "direction | topic | type | latched | when")
-    heard = [row[1].strip("`") for row in topics if row[0] == "in"]
-    told = [row[1].strip("`") for row in topics if row[0] == "out"]
+    received = [row[1].strip("`") for row in topics if row[0] == "in"]
+    published = [row[1].strip("`") for row in topics if row[0] == "out"]
     services = [row[0].strip("`") for row in table_below(text, "service | type | what it does")]
-    sent = [name for name in told if name.startswith("~") and "parameter" not in name]
-    live = [name for name in told if "parameter" in name] + [name for name in services if "parameters" in name]
+    sent = [name for name in published if name.startswith("~") and "parameter" not in name]
+    live = [name for name in published if "parameter" in name] + [name for name in services if "parameters" in name]
     services = [name for name in services if name not in live]
     figure, axes = style.new(5.0)
     pale, line = "#f2f2f2", dict(arrowstyle="-|>", color=style.GREY, shrinkA=0, shrinkB=0)
     box(axes, 3.75, 0.1, 1.5, 4.8, "emulator_node\n/afm", "#cfe3f1", bold=True)
-    for y, height, who, kind, names in ((3.75, 1.15, "your controller,\nrostopic pub", "topics", heard),
+    for y, height, who, kind, names in ((3.75, 1.15, "your controller,\nrostopic pub", "topics", received),
                                         (1.55, 1.75, "your controller,\nrosservice call", "services", services),
                                         (0.1, 0.95, "rqt_reconfigure", "topics and a service", live)):
         middle = y + 0.5 * height

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics.h"
+#include "spring_constants.h"
 
 namespace afm {
 
@@ -36,7 +36,7 @@ T length_bound(const T& x, const T& y) {
 // x'' is at most (|eta| + U/2) a, and u^2 x'' at most (eta^2 + |eta| U + 0.385 U^2) a, with the largest U and a =
 // |x''|. 0.385 = 2/sqrt(27) is the maximum of sin^2 cos.
 template <class T>
-void bound_flight(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, FlightBounds<T>& b) {
+void bound_flight(const SpringConstants<T>& m, const T& eta, const FlightState<T>& o, FlightBounds<T>& b) {
   using std::abs;
   using std::max;
   const T k = two_pi<T>(), drag = abs(eta), wv2 = m.omega_v * m.omega_v;
@@ -54,8 +54,8 @@ void bound_flight(const Mechanics<T>& m, const T& eta, const FlightState<T>& o, 
 // The fourth derivative within the time S of a state: u changes by at most |x''| S, and |X| by at most
 // omega_h Xm S (Lemma 1).
 template <class T>
-T fourth_derivative_bound(const Mechanics<T>& m, const T& eta, const FlightState<T>& now, const FlightBounds<T>& b,
-                          const T& S) {
+T fourth_derivative_bound(const SpringConstants<T>& m, const T& eta, const FlightState<T>& now,
+                          const FlightBounds<T>& b, const T& S) {
   using std::abs;
   using std::min;
   const T k = two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;

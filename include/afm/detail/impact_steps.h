@@ -28,7 +28,7 @@ ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& je
   using std::max;
   using std::min;
   const T bound3 = f.third_derivative_bound(), change = f.fourth_derivative_bound(jet.state, S) * S;
-  return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + over(change, 3.0)))};
+  return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + divide(change, 3.0)))};
 }
 
 // Lemma 2: first positive root of g + g1 t + q t^2/2, or `none` if there is none. Precondition: g > 0.
@@ -50,7 +50,7 @@ T safe_step(const Flight<T>& f, const GapJet<T>& jet, const T& error, const T& t
   const T g = jet.g - error;
   if (!(g > error)) return T(0.0);
   const T low = min(T(0.0), third_derivative_over(f, jet, trial).low);
-  return min(trial, first_root(g, jet.g1, T(jet.g2 + over(T(low * trial), 3.0)), trial));
+  return min(trial, first_root(g, jet.g1, T(jet.g2 + divide(T(low * trial), 3.0)), trial));
 }
 
 // Lemma 2, backwards: the gap is certainly positive over all of the time `back` before the jet.
@@ -60,7 +60,7 @@ bool positive_behind(const Flight<T>& f, const GapJet<T>& jet, const T& error, c
   const T g = jet.g - error;
   if (!(g > T(0.0))) return false;
   const T high = max(T(0.0), third_derivative_over(f, jet, back).high);
-  const T q = jet.g2 - over(T(high * back), 3.0), end = g + back * (q * back / T(2.0) - jet.g1);
+  const T q = jet.g2 - divide(T(high * back), 3.0), end = g + back * (q * back / T(2.0) - jet.g1);
   // a parabola that opens downwards has its minimum at an end; otherwise the minimum may lie in between
   return end > T(0.0) && (!(q > T(0.0)) || jet.g1 * jet.g1 < T(2.0) * q * g || !(T(0.0) < jet.g1) || q * back < jet.g1);
 }
@@ -76,7 +76,7 @@ struct RootInterval {
 // The fourth derivative of the gap.
 template <class T>
 T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
-  const Mechanics<T>& m = f.mechanics();
+  const SpringConstants<T>& m = f.springs();
   const FlightState<T>& q = jet.state;
   const T k2 = two_pi<T>() * two_pi<T>(), wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
   const T u = f.eta() + q.U, x2 = -wh2 * q.X, x3 = -wh2 * q.U, v2 = k2 * u * u;
@@ -88,8 +88,8 @@ T fourth_derivative(const Flight<T>& f, const GapJet<T>& jet) {
 template <class T>
 T quartic_root(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
   const T g4 = fourth_derivative(f, jet);
-  const T slope = mul_add(t, mul_add(t, mul_add(t, over(g4, 6.0), T(jet.g3 / T(2.0))), jet.g2), jet.g1);
-  return t - (t * t * t) * over(mul_add(t, T(g4 / T(4.0)), jet.g3), 6.0) / slope;
+  const T slope = mul_add(t, mul_add(t, mul_add(t, divide(g4, 6.0), T(jet.g3 / T(2.0))), jet.g2), jet.g1);
+  return t - (t * t * t) * divide(mul_add(t, T(g4 / T(4.0)), jet.g3), 6.0) / slope;
 }
 
 template <class T>
@@ -111,7 +111,7 @@ RootInterval<T> certify_root(const Flight<T>& f, const GapJet<T>& jet, const T& 
   if (t < T(0.0)) return no_root<T>();
   const T d = T(kRootReach) * t + T(kRoundingReach) * error / -jet.g1, third = third_derivative_over(f, jet, d).high;
   const T slope = jet.g1 + max(T(0.0), T(jet.g2 * d + max(T(0.0), third) * d * d / T(2.0)));
-  const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + over(T(d * third), 6.0)));
+  const T end = high + d * (jet.g1 + d * (jet.g2 / T(2.0) + divide(T(d * third), 6.0)));
   return {slope < T(0.0) && end < T(0.0), clamp(quartic_root(f, jet, t), T(0.0), d), T(0.0), d};
 }
 
@@ -135,7 +135,7 @@ template <class T>
 T time_to_leave(const Flight<T>& f) {
   using std::max;
   using std::sqrt;
-  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = over(f.third_derivative_bound(), 6.0);
+  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = divide(f.third_derivative_bound(), 6.0);
   const T root = sqrt(mul_add(T(T(4.0) * a), g1, T(b * b)));
   const T first = T(0.999) * (b > T(0.0) ? T((b + root) / (a * T(2.0))) : T(T(2.0) * g1 / (root - b)));
   if (g1 > T(0.0) || b < T(-kReleaseNoise)) return first;
@@ -158,8 +158,8 @@ template <class T>
 T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
   constexpr double kMargin = 1e-5;   // [tau] three times the error of rough_turn
   constexpr double kMinStep = 1e-3;  // [tau] a choice: a hundred margins
-  const double crest = static_cast<double>(T(f.mechanics().H - f.mechanics().y0));
-  const double Y = static_cast<double>(q.Y), V = static_cast<double>(T(q.W * f.mechanics().inverse_omega_v));
+  const double crest = static_cast<double>(T(f.springs().H - f.springs().y0));
+  const double Y = static_cast<double>(q.Y), V = static_cast<double>(T(q.W * f.springs().inverse_omega_v));
   // turn from now to the top plus from the top down to the crest: the angle of a product of two complex numbers
   const double Q = std::sqrt(std::max(0.0, std::fma(V, V, std::fma(Y, Y, -crest * crest))));
   const double sine = std::fma(Y, Q, V * crest);
@@ -171,14 +171,14 @@ T time_to_crest(const Flight<T>& f, const FlightState<T>& q) {
 // Lemma 4 for a tip above the crest; otherwise 0.
 template <class T>
 T time_above_crest(const Flight<T>& f, const FlightState<T>& q) {
-  return q.Y > f.mechanics().H - f.mechanics().y0 ? time_to_crest(f, q) : T(0.0);
+  return q.Y > f.springs().H - f.springs().y0 ? time_to_crest(f, q) : T(0.0);
 }
 
 // Lemma 4 from a launch, if the tip is certainly above the crest at `s`; otherwise 0. Precondition: it is certified up
 // to `s`.
 template <class T>
 T time_above_crest_from_launch(const Flight<T>& f, const T& s) {
-  const Mechanics<T>& m = f.mechanics();
+  const SpringConstants<T>& m = f.springs();
   const FlightState<T>& q = f.start().state;
   const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * f.amplitude_Y() / T(2.0)));
   return least > m.H - m.y0 ? time_to_crest(f, q) : T(0.0);

@@ -10,8 +10,8 @@ namespace afm {
 template <class T>
 T root_step(const Flight<T>& f, const GapJet<T>& jet) {
   const T inverse = T(1.0) / jet.g1, r = jet.g * inverse, a2 = (jet.g2 / T(2.0)) * inverse, s2 = a2 * r;
-  const T s3 = (over(jet.g3, 6.0) * inverse) * r * r,
-          s4 = (over(fourth_derivative(f, jet), 24.0) * inverse) * r * (r * r);
+  const T s3 = (divide(jet.g3, 6.0) * inverse) * r * r,
+          s4 = (divide(fourth_derivative(f, jet), 24.0) * inverse) * r * (r * r);
   const T w = mul_add(s2, s2, T(-s3)), sum = mul_add(s2, s2, mul_add(a2, r, T(1.0))) + s4;
   return -r * mul_add(w, mul_add(T(5.0), s2, T(1.0)), sum);
 }
@@ -19,7 +19,7 @@ T root_step(const Flight<T>& f, const GapJet<T>& jet) {
 // The jet at a time t later, to the first order in each member. Precondition: t^2 is below the rounding of the state.
 template <class T>
 GapJet<T> nudged(const Flight<T>& f, const GapJet<T>& jet, const T& t) {
-  const Mechanics<T>& m = f.mechanics();
+  const SpringConstants<T>& m = f.springs();
   const FlightState<T>& q = jet.state;
   const T k2 = two_pi<T>() * two_pi<T>(), u = f.eta() + q.U;
   const T U = mul_add(t, T(-m.omega_h * m.omega_h * q.X), q.U), W = mul_add(t, T(-m.omega_v * m.omega_v * q.Y), q.W);

@@ -7,10 +7,10 @@ namespace afm {
 
 // x / d. For doubles a product with 1/d: faster, with an error of up to 1.5 ulp.
 template <class T>
-T over(const T& x, double d) {
+T divide(const T& x, double d) {
   return x / T(d);
 }
-inline double over(double x, double d) { return x * (1.0 / d); }
+inline double divide(double x, double d) { return x * (1.0 / d); }
 
 // a b + c. For doubles fused, which is rounded once.
 template <class T>

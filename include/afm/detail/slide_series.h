@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "mechanics.h"
+#include "spring_constants.h"
 
 namespace afm {
 
@@ -60,7 +60,7 @@ inline T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) 
 // as y' = -r u and omega_v is the surface's wave number too. Of each order these are two linear equations for x'' and
 // lambda; the hammer has x'' = 0. The coefficients of the order before, u[n] and c[n], enter last.
 template <class T>
-inline void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideState<T>& start,
+inline void write_slide_series(const SpringConstants<T>& m, const T& eta, const SlideState<T>& start,
                                SlideSeries<T>& series) {
   using std::fma;
   const SinCos<T> turn = sin_cos_turns(start.phase);
@@ -83,12 +83,12 @@ inline void write_slide_series(const Mechanics<T>& m, const T& eta, const SlideS
     const T rest = fma(-u[0], cu, fma(T(-next), inner, level));  // lambda without x''
     const T x2 = fma(r[0] * inverse_mass, rest, inverse_mass * pull);
     lambda[n] = fma(-r[0], x2, rest);
-    X = over(T(u[n] - (n == 0 ? eta : T(0.0))), next);
+    X = divide(T(u[n] - (n == 0 ? eta : T(0.0))), next);
     if (n < kSlideOrder) {
-      d[n + 1] = over(u[n], next);
-      r[n + 1] = over(cu, next);
-      u[n + 1] = over(x2, next);
-      c[n + 2] = over(T(-k2 * fma(r[0], u[n + 1], fma(u[0], r[n + 1], inner))), next + 1.0);
+      d[n + 1] = divide(u[n], next);
+      r[n + 1] = divide(cu, next);
+      u[n + 1] = divide(x2, next);
+      c[n + 2] = divide(T(-k2 * fma(r[0], u[n + 1], fma(u[0], r[n + 1], inner))), next + 1.0);
     }
   }
 }

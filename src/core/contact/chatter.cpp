@@ -48,7 +48,7 @@ bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const double v = start.g1;
   if (v <= constants_.threshold) return true;
   if (!(start.g2 < 0.0) || v > constants_.max_entry_speed) return false;
-  const Mechanics<double>& m = bounce.mechanics();
+  const SpringConstants<double>& m = bounce.springs();
   const double limit = ChatterLimits::kMaxRatioAtEntry * constants_.fineness;
   // most bounces are refused by this faster test
   if (2.0 * v * std::max(m.ratio, std::abs(launch.u)) > limit * -start.g2) return false;
@@ -67,12 +67,12 @@ Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Ch
 }
 
 // The averaged law at its lowest order, with a constant reaction (docs/algorithm.md, "Collapse").
-double ChatterLaw::collapsing(const Mechanics<double>& mechanics, double eta, const SlideState<double>& at, double v,
-                              double allowed) const {
+double ChatterLaw::collapsing(const SpringConstants<double>& springs, double eta, const SlideState<double>& at,
+                              double v, double allowed) const {
   constexpr double kMostChange = 0.7;  // less than sqrt(3) - 1: a reaction that changes by x + x^2/2 stays above zero
   constexpr double kLnTen = 2.302585092994046;
   if (v <= constants_.threshold || loss_ == 0.0) return 0.0;
-  const ReferenceForces<double> f = reference_forces(mechanics, eta, at);
+  const ReferenceForces<double> f = reference_forces(springs, eta, at);
   if (!(f.P > 0.0)) return 0.0;
   // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k P t/2)
   const double end = constants_.constant_loss ? constants_.threshold : std::min(v, cutoff_);
@@ -99,8 +99,9 @@ TipState leave_surface(const Model& model, const SlideState<double>& reference, 
   return {wrap_phase(b.phase), b.X, b.u, 0.0, b.g1};
 }
 
-SlideState<double> moved_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter) {
-  return moved_reference_of(model.H, reference, chatter);
+SlideState<double> displaced_reference(const Model& model, const SlideState<double>& reference,
+                                       const Chatter& chatter) {
+  return displaced_reference_of(model.H, reference, chatter);
 }
 
 }  // namespace afm

@@ -191,7 +191,7 @@ class ChatterIntegration {
   }
 
   ReferenceForces<T> forces_at(const T& s) const {
-    return reference_forces(reference_.mechanics(), reference_.eta(), reference_.at(s));
+    return reference_forces(reference_.springs(), reference_.eta(), reference_.at(s));
   }
 
   double step_length(const Point& at, double rest) const {

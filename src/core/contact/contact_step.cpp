@@ -69,7 +69,7 @@ inline double least_of(const AtGaussNodes& a) {
 
 // With y = h(x), Newton's equations in x and y leave x'' = -(omega_h^2 X + h' push) / (1 + h'^2), where
 // push = omega_v^2 (h - y0) + h'' x'^2; the reaction along y is (push - h' omega_h^2 X) / (1 + h'^2).
-inline ContactForces forces(const Mechanics<double>& m, const SinCos<double>& turn, double X, double u) {
+inline ContactForces forces(const SpringConstants<double>& m, const SinCos<double>& turn, double X, double u) {
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
   const double h = m.H * turn.cos, h1 = -k * m.H * turn.sin, h2 = -k2 * h, h3 = -k2 * h1, u2 = u * u;
   const double push = k2 * (h - m.y0) + h2 * u2, pull = wh2 * X, N2 = 1.0 + free * h1 * h1;
@@ -162,7 +162,7 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
   // four times larger. Beyond a contraction of a third, a shorter step is faster.
   constexpr double kFirst = 1e-4, kSafety = 16.0, kMaxContraction = 0.1;
   constexpr int kMaxEvaluations = 12;
-  const Mechanics<double>& m = s.m_;
+  const SpringConstants<double>& m = s.m_;
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
   const double u0 = s.start_.u, X0 = s.start_.X, eta = s.eta_, H = m.H, y0 = m.y0;
   const SwingTable& table = kSwing.of[free == 0.0 ? kLevels : std::min(level, kLevels)];
@@ -288,9 +288,9 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
   return !(first_fall(b, 0.0, 1.0, kHalvings) < 0.0);
 }
 
-ContactStep::ContactStep(const Mechanics<double>& mechanics, double eta, const SlideState<double>& start,
+ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
                          double tolerance, const Hint& hint)
-    : m_(mechanics), eta_(eta), start_(start) {
+    : m_(springs), eta_(eta), start_(start) {
   ContactSolver::solve(*this, tolerance, hint);
 }
 

@@ -41,7 +41,7 @@ inline Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& refer
 
 // The reference slide, displaced by sigma along the surface, and faster by p along it.
 template <class T>
-inline SlideState<T> moved_reference_of(const T& H, const SlideState<T>& reference, const ChatterOf<T>& chatter) {
+inline SlideState<T> displaced_reference_of(const T& H, const SlideState<T>& reference, const ChatterOf<T>& chatter) {
   using std::sqrt;
   const auto N = [&](const T& phase) {
     const T slope = surface_jet(H, phase).h1;

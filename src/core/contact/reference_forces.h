@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/detail/mechanics.h"
 #include "afm/detail/slide_series.h"
+#include "afm/detail/spring_constants.h"
 #include "afm/surface.h"
 
 namespace afm {
@@ -28,7 +28,7 @@ struct ReferenceForces {
 // reaction along y. The digit at the end of a name counts time derivatives. But h1 to h4 are derivatives of h by x, and
 // u2, N2 are squares.
 template <class T>
-inline ReferenceForces<T> reference_forces(const Mechanics<T>& m, const T& eta, const SlideState<T>& q) {
+inline ReferenceForces<T> reference_forces(const SpringConstants<T>& m, const T& eta, const SlideState<T>& q) {
   using std::sqrt;
   const SurfaceJet<T> h = surface_jet(m.H, q.phase);
   const T free = m.is_free_along_x, wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;

@@ -13,15 +13,15 @@ template <class Work>
 void on_threads(int threads, std::size_t n, const Work& work) {
   constexpr std::size_t kSharesPerThread = 8;  // a choice: a thread waits at most an eighth of its time
   const std::size_t all = static_cast<std::size_t>(std::max(1, threads));
-  const std::size_t piece = std::max<std::size_t>(1, n / (all * kSharesPerThread));
+  const std::size_t share = std::max<std::size_t>(1, n / (all * kSharesPerThread));
   std::atomic<std::size_t> next{0};
   const auto take_shares = [&] {
-    for (std::size_t from; (from = next.fetch_add(piece)) < n;) {
-      for (std::size_t i = from; i < std::min(from + piece, n); ++i) work(i);
+    for (std::size_t from; (from = next.fetch_add(share)) < n;) {
+      for (std::size_t i = from; i < std::min(from + share, n); ++i) work(i);
     }
   };
   std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < all && i * piece < n; ++i) helpers.emplace_back(take_shares);
+  for (std::size_t i = 1; i < all && i * share < n; ++i) helpers.emplace_back(take_shares);
   take_shares();
   for (std::thread& helper : helpers) helper.join();
 }

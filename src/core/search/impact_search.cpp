@@ -35,7 +35,7 @@ SearchOutcome without_end(const Landing<double>& landing) {
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_impact(flight, horizon);
   if (landing.outcome == SearchOutcome::undecided) {
-    const Flight<DoubleDouble> finer(Mechanics<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
+    const Flight<DoubleDouble> finer(SpringConstants<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
     landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
   }
   if (landing.outcome == SearchOutcome::undecided || landing.outcome == SearchOutcome::cap)

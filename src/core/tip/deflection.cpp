@@ -15,14 +15,14 @@ Deflection flight_deflection(const Flight<double>& flight, double s) {
     return {jet.state.Y, jet.state.X, jet.g};
   }
   const FlightState<double> q = flight.at(s);
-  const Mechanics<double>& m = flight.mechanics();
+  const SpringConstants<double>& m = flight.springs();
   return {q.Y, q.X, q.Y + m.y0 - surface_jet(m.H, q.phase).h};
 }
 
 // `slide`: a step in contact or a reference slide. `displacement`: its series; a step in contact makes it when asked.
 template <class Slide>
 Deflection slide_deflection(const Slide& slide, const Series<double>& displacement, double s) {
-  const Mechanics<double>& m = slide.mechanics();
+  const SpringConstants<double>& m = slide.springs();
   const double d = horner(displacement, s);
   return {surface_jet(m.H, slide.start().phase + d).h - m.y0, slide.start().X + (d - slide.eta() * s), 0.0};
 }

@@ -47,13 +47,13 @@ Tip::Tip(const Model& model, double eta, const FreeState& start, double contact_
 
 Tip::Tip(const Model& model, double eta, const TipState& start, double contact_tolerance)
     : model_(checked(model)),
-      mechanics_(model),
+      springs_(model),
       eta_(eta),
       contact_tolerance_(contact_tolerance),
       slowest_chatter_(contact_tolerance / kErrorGrowth),
       law_(model, slowest_chatter_),
       entry_speed_(chatter_entry_speed(contact_tolerance)),
-      phase_(std::in_place_type<Flying>, mechanics_, eta, constrained(checked(start))) {
+      phase_(std::in_place_type<Flying>, springs_, eta, constrained(checked(start))) {
   Flying& flying = std::get<Flying>(phase_);
   const TipState& launched = flying.flight.launch();
   launched.g == 0.0 && !(launched.g1 < 0.0) ? leave_or_press(flying) : find_landing(flying);
@@ -78,21 +78,21 @@ void Tip::set_tolerance(double contact_tolerance) {
 
 void Tip::set_laws(const Model& model) {
   model_ = model;
-  mechanics_ = Mechanics<double>(model);
+  springs_ = SpringConstants<double>(model);
   law_ = ChatterLaw(model, slowest_chatter_);
 }
 
 // --- A phase begins now ---
 
-// A pull within rounding is no release (mechanics.h): on the glide at eta = 1 the reaction is zero for ever.
+// A pull within rounding is no release (spring_constants.h): on the glide at eta = 1 the reaction is zero for ever.
 bool Tip::rests(const Flight<double>& flight, Leaves leaves) const {
   const TipState& start = flight.launch();
-  const double rounding = leaves == Leaves::above_rounding ? release_noise(mechanics_, start.u, start.X) : 0.0;
+  const double rounding = leaves == Leaves::above_rounding ? release_noise(springs_, start.u, start.X) : 0.0;
   return start.g == 0.0 && start.g1 == 0.0 && flight.start().g2 < rounding;
 }
 
 void Tip::fly(const TipState& start, Leaves leaves) {
-  Flying& flying = phase_.emplace<Flying>(mechanics_, eta_, constrained(start));
+  Flying& flying = phase_.emplace<Flying>(springs_, eta_, constrained(start));
   start_ = now_;
   // a hammer that one command lifts off, and a second command at the same time does not, rests
   rests(flying.flight, leaves) ? touch(flying.flight.launch()) : find_landing(flying);
@@ -118,10 +118,10 @@ void Tip::slide(const SlideState<double>& start) {
   const Sliding* before = std::get_if<Sliding>(&phase_);
   const ContactStep::Hint hint = before != nullptr ? before->step.hint() : ContactStep::Hint{};
   const SlideState<double> from{wrap_phase(start.phase), start.X, start.u};
-  Sliding& sliding = phase_.emplace<Sliding>(mechanics_, eta_, from, step_tolerance(contact_tolerance_), hint);
+  Sliding& sliding = phase_.emplace<Sliding>(springs_, eta_, from, step_tolerance(contact_tolerance_), hint);
   const double release = sliding.step.find_release();
   sliding.releases = release >= 0.0;
-  sliding.begin = {now_, 0.0, 0.0, slide_energy(mechanics_, from), 0};
+  sliding.begin = {now_, 0.0, 0.0, slide_energy(springs_, from), 0};
   start_ = now_;
   end_ = sliding.releases ? release : sliding.step.length();
 }
@@ -130,7 +130,7 @@ void Tip::slide(const SlideState<double>& start) {
 Tip::Chattering& Tip::refer_to(const SlideState<double>& start, int bits) {
   const SlideState<double> from{wrap_phase(start.phase), start.X, start.u};
   start_ = now_;
-  return phase_.emplace<Chattering>(mechanics_, eta_, from, bits);
+  return phase_.emplace<Chattering>(springs_, eta_, from, bits);
 }
 
 void Tip::chatter_along(const SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,

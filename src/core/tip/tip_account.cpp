@@ -8,18 +8,18 @@
 namespace afm {
 namespace {
 
-double energy_of(const Mechanics<double>& m, double eta, const FlightState<double>& q) {
+double energy_of(const SpringConstants<double>& m, double eta, const FlightState<double>& q) {
   const double u = q.U + eta, spring_h = m.omega_h * q.X, spring_v = m.omega_v * q.Y;
   return 0.5 * (u * u + q.W * q.W + spring_h * spring_h + spring_v * spring_v);
 }
 
 // Impulse of the horizontal spring from the time integral of its extension [a tau].
-double spring_impulse(const Mechanics<double>& m, double stretch) { return -m.omega_h * m.omega_h * stretch; }
+double spring_impulse(const SpringConstants<double>& m, double stretch) { return -m.omega_h * m.omega_h * stretch; }
 
 // The holder of a hammer balances the reaction along x. Its work is the change of energy. At rest its force is
 // constant.
-double held_impulse(const Mechanics<double>& m, double eta, const SlideState<double>& start, double pressure, double s,
-                    double work) {
+double held_impulse(const SpringConstants<double>& m, double eta, const SlideState<double>& start, double pressure,
+                    double s, double work) {
   if (eta != 0.0) return work / eta;
   return surface_jet(m.H, start.phase).h1 * pressure * s;
 }
@@ -27,9 +27,9 @@ double held_impulse(const Mechanics<double>& m, double eta, const SlideState<dou
 }  // namespace
 
 double Tip::slide_impulse(const ContactStep& step, double s) const {
-  if (mechanics_.is_free_along_x > 0.0) return spring_impulse(mechanics_, step.extension_integral(s));
-  const double work = slide_energy(mechanics_, step.at(s)) - slide_energy(mechanics_, step.start());
-  return held_impulse(mechanics_, eta_, step.start(), step.pressure(step.start()), s, work);
+  if (springs_.is_free_along_x > 0.0) return spring_impulse(springs_, step.extension_integral(s));
+  const double work = slide_energy(springs_, step.at(s)) - slide_energy(springs_, step.start());
+  return held_impulse(springs_, eta_, step.start(), step.pressure(step.start()), s, work);
 }
 
 Chatter Tip::chatter_now(const Chattering& chattering) const {
@@ -42,21 +42,21 @@ Chatter Tip::chatter_now(const Chattering& chattering) const {
 Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SlideSegment<double>& slide = chattering.reference;
   const SlideState<double> reference = slide.at(s);
-  const double v0 = chattering.chatter.v, v = chatter.v, start = slide_energy(mechanics_, slide.start());
+  const double v0 = chattering.chatter.v, v = chatter.v, start = slide_energy(springs_, slide.start());
   Sequence sequence = chattering.sequence;
   sequence.loss += chatter.loss;
-  if (mechanics_.is_free_along_x == 0.0) {
-    const double along = slide_energy(mechanics_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
+  if (springs_.is_free_along_x == 0.0) {
+    const double along = slide_energy(springs_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
     const double pressure = slide.pressure(0.0);
-    sequence.impulse += held_impulse(mechanics_, eta_, slide.start(), pressure, s, along - start) +
-                        held_impulse(mechanics_, eta_, slide.start(), pressure, 0.0, gain);
+    sequence.impulse += held_impulse(springs_, eta_, slide.start(), pressure, s, along - start) +
+                        held_impulse(springs_, eta_, slide.start(), pressure, 0.0, gain);
     return {reference, v, along + 0.5 * v * v, sequence};
   }
-  const double impulse = spring_impulse(mechanics_, extension_integral(slide, s) + chatter.drift);
+  const double impulse = spring_impulse(springs_, extension_integral(slide, s) + chatter.drift);
   sequence.impulse += impulse;
   const double wanted = start + 0.5 * v0 * v0 + eta_ * impulse - chatter.loss;
-  const BouncingSlide end = with_energy(mechanics_, {moved_reference(model_, reference, chatter), v}, wanted);
-  const double energy = slide_energy(mechanics_, end.slide) + 0.5 * end.v * end.v;
+  const BouncingSlide end = with_energy(springs_, {displaced_reference(model_, reference, chatter), v}, wanted);
+  const double energy = slide_energy(springs_, end.slide) + 0.5 * end.v * end.v;
   // at rest on a crest no state near by has that energy: the loss has the rest, and is not below zero by rounding
   sequence.loss = std::fmax(0.0, sequence.loss + (wanted - energy));
   return {end.slide, end.v, energy, sequence};
@@ -65,31 +65,31 @@ Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, c
 // Right after a bounce the tip is faster than the average of its chatter. The holder of a hammer has given the impulse
 // along x for it; the spring of the oscillator gives none.
 double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
-  return mechanics_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
+  return springs_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
 }
 
 // In a flight the impulse is the change of the lateral velocity.
 Account Tip::flight_account(const Flying& flying, const FlightState<double>& q) const {
-  return {now_, q.U - flying.flight.start().state.U, 0.0, energy_of(mechanics_, eta_, q), 0};
+  return {now_, q.U - flying.flight.start().state.U, 0.0, energy_of(springs_, eta_, q), 0};
 }
 
 Account Tip::contact_account(const Sliding& sliding, double s) const {
-  return {now_, slide_impulse(sliding.step, s), 0.0, slide_energy(mechanics_, sliding.step.at(s)), 0};
+  return {now_, slide_impulse(sliding.step, s), 0.0, slide_energy(springs_, sliding.step.at(s)), 0};
 }
 
 Account Tip::chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SequenceState r = sequence_state(chattering, s, chatter);
-  const double bounce = bounce_impulse(r.moved, r.v), energy = r.energy + eta_ * bounce;
+  const double bounce = bounce_impulse(r.displaced, r.v), energy = r.energy + eta_ * bounce;
   return {now_, r.sequence.impulse + bounce, r.sequence.loss, energy, static_cast<std::uint64_t>(chatter.n)};
 }
 
 Account Tip::account_at_begin() const {
   if (const Flying* flying = std::get_if<Flying>(&phase_)) {
-    return {start_, 0.0, 0.0, energy_of(mechanics_, eta_, flying->flight.start().state), 0};
+    return {start_, 0.0, 0.0, energy_of(springs_, eta_, flying->flight.start().state), 0};
   }
   if (const Touching* touching = std::get_if<Touching>(&phase_)) {
     const TipState& q = touching->state;
-    return {start_, 0.0, 0.0, slide_energy(mechanics_, {q.phase, q.X, q.u}), 0};
+    return {start_, 0.0, 0.0, slide_energy(springs_, {q.phase, q.X, q.u}), 0};
   }
   if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return sliding->begin;
   return std::get<Chattering>(phase_).begin;
@@ -146,9 +146,9 @@ Segment Tip::impact_segment(const Landing<double>& landing, const Flight<double>
   s.begin = s.end = now_;
   s.eta = eta_;
   // the holder of the hammer takes the impulse along x
-  if (mechanics_.is_free_along_x == 0.0) s.impulse = landing.jet.h1 * (left.g1 - landing.jet.g1);
+  if (springs_.is_free_along_x == 0.0) s.impulse = landing.jet.h1 * (left.g1 - landing.jet.g1);
   s.loss = last_impact_.energy_loss;
-  s.stored = energy_of(mechanics_, eta_, left.state) - energy_of(mechanics_, eta_, landing.jet.state);
+  s.stored = energy_of(springs_, eta_, left.state) - energy_of(springs_, eta_, landing.jet.state);
   s.count = last_impact_.count;
   return s;
 }

@@ -11,7 +11,7 @@ void Tip::drag(double eta) {
     const Chatter chatter = chatter_now(*chattering);
     const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
     eta_ = eta;
-    chatter_along(sequence.moved, {sequence.v, chatter.n}, sequence.sequence, {});
+    chatter_along(sequence.displaced, {sequence.v, chatter.n}, sequence.sequence, {});
     return split_record();
   }
   const TipState state = tip_state();
@@ -51,7 +51,7 @@ void Tip::set_parameters(const Model& model) {
     const Chatter chatter = chatter_now(*chattering);
     const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
     set_laws(model);
-    Chattering& last = refer_to(sequence.moved, kSlideBits);
+    Chattering& last = refer_to(sequence.displaced, kSlideBits);
     last.chatter = {sequence.v, chatter.n};
     last.sequence = sequence.sequence;
     last.run = {ChatterEnd::exits, 0.0, last.chatter};
@@ -77,7 +77,7 @@ double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const bool jumped = sliding != nullptr && sliding->releases && start_ + end_ <= now_;
   if (in_chatter() || jumped || (in_contact() && drops)) leave_now();
   const TipState state = tip_state();
-  const double spring = mechanics_.omega_h * state.X;
+  const double spring = springs_.omega_h * state.X;
   Model model = model_;
   model.kind = kind;
   set_tolerance(contact_tolerance);

@@ -17,7 +17,7 @@ constexpr double kMinFlight = 1e-12;
 bool is_rounding(const Flight<double>& flight, double s) {
   const TipState& start = flight.launch();
   return s * flight.bounds().fastest < kMinFlight && start.g1 > 0.0 &&
-         std::fabs(flight.start().g2) < release_noise(flight.mechanics(), start.u, start.X);
+         std::fabs(flight.start().g2) < release_noise(flight.springs(), start.u, start.X);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ Outcome Tip::land(Flying& flying, Segments* ended) {
   const Reflection r = reflect(model_, eta_, landing.jet);
   const bool rests = rounding || r.after.g1 < kMinGapRate;
   const TipState after{r.after.phase, r.after.X, r.after.u, 0.0, rests ? 0.0 : r.after.g1};
-  new (&flying.flight) Flight<double>(mechanics_, eta_, after);
+  new (&flying.flight) Flight<double>(springs_, eta_, after);
   const double loss = rests ? 0.5 * r.normal_speed * r.normal_speed : r.energy_loss;
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, loss, ImpactKind::impact, 1};
   if (ended != nullptr) ended->add(impact_segment(landing, flying.flight));
@@ -73,7 +73,7 @@ void Tip::leave_or_press(Flying& flying) {
 void Tip::begin_chatter(const TipState& bounce) {
   const Projection start = project_onto_surface(model_, bounce);
   const double v = start.normal_speed, impulse = bounce_impulse(start.reference, v);
-  const double energy = slide_energy(mechanics_, start.reference) + 0.5 * v * v + eta_ * impulse;
+  const double energy = slide_energy(springs_, start.reference) + 0.5 * v * v + eta_ * impulse;
   chatter_along(start.reference, {v, 0.0}, {v, 0.0, -impulse}, {now_, 0.0, 0.0, energy, 0});
 }
 
@@ -83,10 +83,10 @@ Outcome Tip::end_chatter(const Chattering& chattering) {
   const bool died = run.end == ChatterEnd::died;
   const SequenceState end = sequence_state(chattering, run.s, died ? settled(run.chatter) : run.chatter);
   if (chattering.goes_on()) {
-    chatter_along(end.moved, {end.v, run.chatter.n}, end.sequence, Account(chattering.begin));
+    chatter_along(end.displaced, {end.v, run.chatter.n}, end.sequence, Account(chattering.begin));
     return Outcome::flying;
   }
-  const TipState bounce = leave_surface(model_, end.moved, end.v);
+  const TipState bounce = leave_surface(model_, end.displaced, end.v);
   last_impact_ = {now_,
                   bounce.phase,
                   end.sequence.normal_speed,

@@ -23,7 +23,7 @@ void Tip::set_bath(const Bath& bath) {
 // Both velocities relative to the holder change. The hammer's lateral velocity is that of its holder and stays.
 TipState Tip::kicked(const Kick& kick, const TipState& state) const {
   const double slope = surface_jet(model_.H, state.phase).h1, w = state.g1 + slope * state.u;
-  const double du = mechanics_.is_free_along_x == 0.0 ? 0.0 : kick.lateral.change(state.u - eta_);
+  const double du = springs_.is_free_along_x == 0.0 ? 0.0 : kick.lateral.change(state.u - eta_);
   return {state.phase, state.X, state.u + du, state.g, state.g1 + (kick.vertical.change(w) - slope * du)};
 }
 
@@ -57,7 +57,7 @@ Outcome Tip::collapse(const TipState& before, const TipState& after, const Proje
     impact.begin = impact.end = now_;
     impact.eta = eta_;
     // the holder of the hammer takes the impulse along x
-    if (mechanics_.is_free_along_x == 0.0) impact.impulse = -surface_jet(model_.H, before.phase).h1 * after.g1;
+    if (springs_.is_free_along_x == 0.0) impact.impulse = -surface_jet(model_.H, before.phase).h1 * after.g1;
     impact.loss = loss;
     impact.stored = impact.work() - loss;
     impact.count = last_impact_.count;
@@ -75,7 +75,7 @@ Outcome Tip::kick(Segments* ended) {
     const TipState before = tip_state(), after = kicked(kick, before);
     const Projection onto = project_onto_surface(model_, after);
     const double v = std::fabs(onto.normal_speed), allowed = kDisplacedByKick * contact_tolerance_ * v;
-    const double bounces = law_.collapsing(mechanics_, eta_, onto.reference, v, allowed);
+    const double bounces = law_.collapsing(springs_, eta_, onto.reference, v, allowed);
     if (bounces > 0.0) return collapse(before, after, onto, bounces, ended);
   }
   const bool stays = stays_after(kick);

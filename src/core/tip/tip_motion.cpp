@@ -6,7 +6,7 @@
 
 namespace afm {
 
-double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
+double slide_energy(const SpringConstants<double>& m, const SlideState<double>& q) {
   const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
   const double Y = surface.h - m.y0;
   return 0.5 * ((1.0 + surface.h1 * surface.h1) * q.u * q.u + m.omega_h * m.omega_h * q.X * q.X +
@@ -14,7 +14,7 @@ double slide_energy(const Mechanics<double>& m, const SlideState<double>& q) {
 }
 
 // By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed.
-BouncingSlide with_energy(const Mechanics<double>& m, const BouncingSlide& at, double energy) {
+BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide& at, double energy) {
   constexpr int kSteps = 3;  // each squares the relative error, which is 1e-4 at the start
   SlideState<double> r = at.slide;
   double v = at.v;

@@ -9,7 +9,7 @@
 namespace afm {
 
 // Kinetic energy and that of the springs [m a^2/tau^2].
-double slide_energy(const Mechanics<double>& m, const SlideState<double>& q);
+double slide_energy(const SpringConstants<double>& m, const SlideState<double>& q);
 
 // The time integral of x - xc over the first s [a tau].
 double extension_integral(const SlideSegment<double>& slide, double s);
@@ -20,7 +20,7 @@ struct BouncingSlide {
   double v;
 };
 // The state of the energy `energy` nearest to `at`. If none is near, a state of another energy.
-BouncingSlide with_energy(const Mechanics<double>& m, const BouncingSlide& at, double energy);
+BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide& at, double energy);
 
 // Chatter that has died: the rest of its normal speed is lost.
 inline Chatter settled(Chatter chatter) {

@@ -56,7 +56,7 @@ TipSnapshot Tip::snapshot() const {
   const Chatter chatter = chatter_now(*chattering);
   const SequenceState now = sequence_state(*chattering, now_ - start_, chatter);
   s.phase = TipSnapshot::Phase::chatter;
-  s.state = {wrap_phase(now.moved.phase), now.moved.X, now.moved.u, 0.0, 0.0};
+  s.state = {wrap_phase(now.displaced.phase), now.displaced.X, now.displaced.u, 0.0, 0.0};
   s.sequence_normal_speed = now.sequence.normal_speed;
   s.sequence_gain = now.sequence.loss - fall_of_energy(now.sequence.normal_speed, now.v);
   s.chatter_speed = now.v;

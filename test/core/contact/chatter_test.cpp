@@ -40,13 +40,13 @@ struct Comparison {
 // Step by step: the law after a small part of the reference slide, and the reference slide from there on.
 struct LawStep {
   Model model;
-  Piece slide;
+  SlidePart slide;
   Chatter chatter;
 
   void advance(const ChatterLaw& law, double dt) {
     chatter = law.at(slide, dt, chatter);
-    const SlideState<double> moved = moved_reference(model, slide.at(dt), chatter);
-    slide = Piece(slide.mechanics(), slide.eta(), moved);
+    const SlideState<double> moved = displaced_reference(model, slide.at(dt), chatter);
+    slide = SlidePart(slide.springs(), slide.eta(), moved);
     chatter.sigma = chatter.p = 0.0;
   }
 };
@@ -178,7 +178,7 @@ TEST(ChatterLaw, ABounceThatLosesMoreThanATenthIsFlown) {
     EXPECT_LE(below.v, most);
     RandomChatter above = below;
     above.v = 1.01 * most;
-    const Flight<double> bounce(above.reference.mechanics(), above.reference.eta(), above.every_bounce().tip_state());
+    const Flight<double> bounce(above.reference.springs(), above.reference.eta(), above.every_bounce().tip_state());
     EXPECT_FALSE(law.holds(bounce));
   }
 }

@@ -26,12 +26,12 @@ Model model_of(const Lever& lever) {
 
 // Near the end of a step the tip may have left, but the equation of motion goes on.
 SlideState<Quad> exact(const Model& model, double eta, const SlideState<double>& start, double s) {
-  const Mechanics<Quad> mechanics(model);
+  const SpringConstants<Quad> springs(model);
   SlideState<Quad> q{start.phase, start.X, start.u};
   for (Quad left = s; left > 0;) {
-    const SlideSegment<Quad> piece(mechanics, Quad(eta), q);
-    const Quad step = left < piece.length() ? left : piece.length();
-    q = piece.at(step), left -= step;
+    const SlideSegment<Quad> part(springs, Quad(eta), q);
+    const Quad step = left < part.length() ? left : part.length();
+    q = part.at(step), left -= step;
   }
   return q;
 }
@@ -63,7 +63,7 @@ TEST_P(ContactStepOf, MeetsItsToleranceAtItsEndAndTenfoldWithin) {
     constexpr int kSteps = 20;
     for (int i = 0; i < kSteps; ++i) {
       const SlideState<double> start = pressed_start(GetParam(), random);
-      const ContactStep step(Mechanics<double>(model), GetParam().eta, start, tolerance, {});
+      const ContactStep step(SpringConstants<double>(model), GetParam().eta, start, tolerance, {});
       ASSERT_TRUE(step.is_accurate());
       const double rate = kTwoPi / step.length();  // at most that of the swing
       const double end = error_of(step.at(step.length()), exact(model, GetParam().eta, start, step.length()), rate);
@@ -77,14 +77,14 @@ TEST_P(ContactStepOf, MeetsItsToleranceAtItsEndAndTenfoldWithin) {
   }
 }
 
-double energy_of(const Mechanics<double>& m, const SlideState<double>& s) {
+double energy_of(const SpringConstants<double>& m, const SlideState<double>& s) {
   const SurfaceJet<double> h = surface_jet(m.H, s.phase);
   const double Y = m.omega_v * (h.h - m.y0), X = m.omega_h * s.X;
   return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
 }
 
 TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
-  const Mechanics<double> m(model_of(GetParam()));
+  const SpringConstants<double> m(model_of(GetParam()));
   const double eta = GetParam().eta;
   RandomLaunches random(2);
   for (int i = 0; i < 200; ++i) {
@@ -98,7 +98,7 @@ TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
 
 TEST_P(ContactStepOf, IsReleasedWhereTheReactionFirstVanishesAndNotBefore) {
   const Model model = model_of(GetParam());
-  const Mechanics<double> m(model);
+  const SpringConstants<double> m(model);
   RandomLaunches random(3);
   int releases = 0;
   for (int i = 0; i < 300; ++i) {
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Levers, ContactStepOf,
 
 TEST(ContactStep, OfASmallSwingIsAWholeTurn) {
   const Lever lever{21.0, -10.0, 0.2};
-  const Mechanics<double> m(model_of(lever));
+  const SpringConstants<double> m(model_of(lever));
   SlideState<double> q{0.5, 0.0, 0.2};
   ContactStep step(m, lever.eta, q, 1e-6, {});
   for (int i = 0; i < 20; ++i) step = ContactStep(m, lever.eta, step.at(step.length()), 1e-6, step.hint());
@@ -131,7 +131,7 @@ TEST(ContactStep, OfASmallSwingIsAWholeTurn) {
 // There the velocity is so small that the error of the method is a third of its energy.
 TEST(ContactStep, BalancesItsEnergyWhereASwingTurnsBackCloseToACrest) {
   constexpr double kEta = 0.05;
-  const Mechanics<double> m{Model()};
+  const SpringConstants<double> m{Model()};
   const SlideState<double> start{0.97439721479529662, -0.00023039710013049094, 0.00035161483916327293};
   const ContactStep step(m, kEta, start, 2e-7, {0, 0.0});
   for (int i = 9000; i <= 10000; ++i) {
@@ -145,7 +145,7 @@ TEST(ContactStep, EndsWhateverTheNumbers) {
   for (const double odd : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), 1e300, -1e300}) {
     for (int part = 0; part < 3; ++part) {
       const SlideState<double> start{part == 0 ? odd : 0.3, part == 1 ? odd : 0.0, part == 2 ? odd : 1.0};
-      const ContactStep step(Mechanics<double>(Model()), 1.0, start, 1e-6, {});
+      const ContactStep step(SpringConstants<double>(Model()), 1.0, start, 1e-6, {});
       EXPECT_GT(step.length(), 0.0);
       EXPECT_FALSE(step.find_release() > step.length());
     }

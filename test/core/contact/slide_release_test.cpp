@@ -8,24 +8,24 @@ namespace afm {
 namespace {
 
 const Model kMica;
-const Mechanics<double> kMechanics(kMica);
+const SpringConstants<double> kSpringConstants(kMica);
 
 TEST(SlideRelease, IsWhereThePressureEndsAndNeverLate) {
   RandomLaunches random(1);
   int releases = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Piece piece = random_piece(random);
-    const double release = piece.find_release(), end = end_of(piece);
+    const SlidePart part = random_part(random);
+    const double release = part.find_release(), end = end_of(part);
     constexpr int kSamples = 500;
     for (int k = 0; k < kSamples; ++k) {
-      const SlideState<double> at = piece.at(end * k / kSamples);
+      const SlideState<double> at = part.at(end * k / kSamples);
       ASSERT_GT(pressure_of(kMica, at), -kReleaseNoise - 1e-10) << i << " at " << end * k / kSamples << " of " << end;
     }
     if (release < 0.0) continue;
     ++releases;
-    ASSERT_NEAR(piece.pressure(release), -kReleaseNoise, 2e-12) << i;
-    ASSERT_NEAR(pressure_of(kMica, piece.at(release)), -kReleaseNoise, 1e-10) << i;
-    ASSERT_LT(piece.pressure_rate(release), 0.0) << i;
+    ASSERT_NEAR(part.pressure(release), -kReleaseNoise, 2e-12) << i;
+    ASSERT_NEAR(pressure_of(kMica, part.at(release)), -kReleaseNoise, 1e-10) << i;
+    ASSERT_LT(part.pressure_rate(release), 0.0) << i;
   }
   EXPECT_GT(releases, 300);
 }
@@ -59,15 +59,15 @@ TEST(SlideRelease, IsFollowedByAFlightHoweverLargeTheForces) {
 TEST(SlideSymmetry, AMirroredSlideIsTheMirrorImageBitForBit) {
   RandomLaunches random(2);
   for (int i = 0; i < 1000; ++i) {
-    const Piece piece = random_piece(random);
-    const SlideState<double>& start = piece.start();
-    const Piece mirrored(kMechanics, -piece.eta(), {-start.phase, -start.X, -start.u});
-    ASSERT_EQ(mirrored.length(), piece.length());
-    ASSERT_EQ(mirrored.find_release(), piece.find_release());
-    const double s = piece.length() * random.within(0.0, 1.0);
-    const SlideState<double> a = piece.at(s), b = mirrored.at(s);
+    const SlidePart part = random_part(random);
+    const SlideState<double>& start = part.start();
+    const SlidePart mirrored(kSpringConstants, -part.eta(), {-start.phase, -start.X, -start.u});
+    ASSERT_EQ(mirrored.length(), part.length());
+    ASSERT_EQ(mirrored.find_release(), part.find_release());
+    const double s = part.length() * random.within(0.0, 1.0);
+    const SlideState<double> a = part.at(s), b = mirrored.at(s);
     ASSERT_TRUE(a.phase == -b.phase && a.X == -b.X && a.u == -b.u) << i;
-    ASSERT_EQ(mirrored.pressure(s), piece.pressure(s));
+    ASSERT_EQ(mirrored.pressure(s), part.pressure(s));
   }
 }
 
@@ -76,16 +76,16 @@ TEST(SlideRest, AtACrestOrAValleyBottomStaysForEver) {
   for (const double phase : {0.0, 0.5}) {
     Model model;
     model.y0 = phase == 0.0 ? 0.0 : -0.2;
-    const Piece piece(Mechanics<double>(model), 0.0, {phase, 0.0, 0.0});
-    EXPECT_GT(piece.pressure(0.0), 1.0);
-    EXPECT_LT(piece.find_release(), 0.0);
-    for (const double s : {0.1, 1.0, piece.length()}) {
-      EXPECT_EQ(piece.at(s).phase, phase);
-      EXPECT_EQ(piece.at(s).X, 0.0);
-      EXPECT_EQ(piece.at(s).u, 0.0);
-      EXPECT_EQ(piece.pressure(s), piece.pressure(0.0));
+    const SlidePart part(SpringConstants<double>(model), 0.0, {phase, 0.0, 0.0});
+    EXPECT_GT(part.pressure(0.0), 1.0);
+    EXPECT_LT(part.find_release(), 0.0);
+    for (const double s : {0.1, 1.0, part.length()}) {
+      EXPECT_EQ(part.at(s).phase, phase);
+      EXPECT_EQ(part.at(s).X, 0.0);
+      EXPECT_EQ(part.at(s).u, 0.0);
+      EXPECT_EQ(part.pressure(s), part.pressure(0.0));
     }
-    EXPECT_GE(piece.length(), 1.0);
+    EXPECT_GE(part.length(), 1.0);
   }
 }
 

@@ -1,6 +1,4 @@
 // The slide against its equation of motion integrated in quad precision, and against what symmetry and energy say.
-#include "afm/contact.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,14 +7,15 @@
 #include <cmath>
 #include <vector>
 
-#include "trials/quad.h"
+#include "afm/contact.h"
 #include "support/slides.h"
+#include "trials/quad.h"
 
 namespace afm {
 namespace {
 
 const Model kMica;
-const Mechanics<double> kMechanics(kMica);
+const SpringConstants<double> kSpringConstants(kMica);
 
 using Motion = std::array<Quad, 3>;  // phase, X, u
 
@@ -25,7 +24,7 @@ struct Bead {
   Quad eta;
 
   void operator()(const Motion& q, Motion& rate, const Quad& /*t*/) const {
-    static const Mechanics<Quad> m(kMica);
+    static const SpringConstants<Quad> m(kMica);
     const SurfaceJet<Quad> h = surface_jet(m.H, q[0]);
     const Quad force = -m.omega_h * m.omega_h * q[1] - m.omega_v * m.omega_v * (h.h - m.y0) * h.h1;
     rate = {q[2], q[2] - eta, (force - h.h1 * h.h2 * q[2] * q[2]) / (1 + h.h1 * h.h1)};
@@ -51,26 +50,26 @@ class QuadSlide {
 
 // Along the surface and in the springs.
 double energy_of(const SlideState<double>& s) {
-  const SurfaceJet<double> h = surface_jet(kMechanics.H, s.phase);
-  const double Y = kMechanics.omega_v * (h.h - kMechanics.y0), X = kMechanics.omega_h * s.X;
+  const SurfaceJet<double> h = surface_jet(kSpringConstants.H, s.phase);
+  const double Y = kSpringConstants.omega_v * (h.h - kSpringConstants.y0), X = kSpringConstants.omega_h * s.X;
   return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
 }
 
 // Of the drag, through the spring.
-double work_of_drag(const Piece& piece, double from, double until) {
-  const auto X = [&](double s) { return piece.at(s).X; };
-  return -kMechanics.omega_h * kMechanics.omega_h * piece.eta() *
+double work_of_drag(const SlidePart& part, double from, double until) {
+  const auto X = [&](double s) { return part.at(s).X; };
+  return -kSpringConstants.omega_h * kSpringConstants.omega_h * part.eta() *
          boost::math::quadrature::gauss<double, 15>::integrate(X, from, until);
 }
 
-// The whole slide, piece by piece, up to its release.
-std::vector<Piece> pieces_of(double eta, const SlideState<double>& start) {
+// The whole slide, part by part, up to its release.
+std::vector<SlidePart> parts_of(double eta, const SlideState<double>& start) {
   constexpr std::size_t kMost = 1000;
-  std::vector<Piece> pieces{Piece(kMechanics, eta, start)};
-  while (pieces.back().find_release() < 0.0 && pieces.size() < kMost) {
-    pieces.emplace_back(kMechanics, eta, pieces.back().at(pieces.back().length()));
+  std::vector<SlidePart> parts{SlidePart(kSpringConstants, eta, start)};
+  while (parts.back().find_release() < 0.0 && parts.size() < kMost) {
+    parts.emplace_back(kSpringConstants, eta, parts.back().at(parts.back().length()));
   }
-  return pieces;
+  return parts;
 }
 
 double difference(double a, const Quad& b) { return static_cast<double>(abs(a - b)); }
@@ -80,26 +79,26 @@ class Slide : public testing::TestWithParam<double> {};
 TEST(Slide, TheIntegralOfItsDisplacementIsThat) {
   RandomLaunches random(7);
   for (int i = 0; i < 200; ++i) {
-    const Piece piece = random_piece(random);
-    const auto d = [&](double s) { return piece.at(s).phase - piece.start().phase; };
-    const double s = random.within(0.1, 1.0) * piece.length();
+    const SlidePart part = random_part(random);
+    const auto d = [&](double s) { return part.at(s).phase - part.start().phase; };
+    const double s = random.within(0.1, 1.0) * part.length();
     const double sum = boost::math::quadrature::gauss<double, 10>::integrate(d, 0.0, s);  // exact for these powers
-    EXPECT_NEAR(piece.displacement_integral(s), sum, 3e-16 * s);
+    EXPECT_NEAR(part.displacement_integral(s), sum, 3e-16 * s);
   }
 }
 
 TEST_P(Slide, IsTheSolutionOfItsEquationOfMotion) {
   RandomLaunches random(1);
   for (int dwell = 0; dwell < 20; ++dwell) {
-    const SlideState<double> start = random_piece(GetParam(), random).start();
+    const SlideState<double> start = random_part(GetParam(), random).start();
     QuadSlide truth(GetParam(), start);
-    for (const Piece& piece : pieces_of(GetParam(), start)) {
-      const double middle = 0.5 * end_of(piece);
+    for (const SlidePart& part : parts_of(GetParam(), start)) {
+      const double middle = 0.5 * end_of(part);
       for (const double s : {middle, 2.0 * middle}) {
         truth.advance(middle);
-        ASSERT_LT(difference(piece.at(s).phase, truth.state().phase), 1e-12);
-        ASSERT_LT(difference(piece.at(s).X, truth.state().X), 1e-12);
-        ASSERT_LT(difference(piece.at(s).u, truth.state().u), 1e-12);
+        ASSERT_LT(difference(part.at(s).phase, truth.state().phase), 1e-12);
+        ASSERT_LT(difference(part.at(s).X, truth.state().X), 1e-12);
+        ASSERT_LT(difference(part.at(s).u, truth.state().u), 1e-12);
       }
     }
     // let go where the true pressure has fallen to nothing
@@ -111,22 +110,22 @@ TEST_P(Slide, IsTheSolutionOfItsEquationOfMotion) {
 TEST(Slide, APieceIsGoodUpToItsLengthAndNotFarBeyond) {
   RandomLaunches random(3);
   for (int i = 0; i < 60; ++i) {
-    const Piece piece = random_piece(random);
-    QuadSlide truth(piece.eta(), piece.start());
-    truth.advance(piece.length());
-    ASSERT_LT(difference(piece.at(piece.length()).u, truth.state().u), 1e-14);
-    truth.advance(piece.length());
-    ASSERT_GT(difference(piece.at(2.0 * piece.length()).u, truth.state().u), 1e-12) << "shorter than it need be";
+    const SlidePart part = random_part(random);
+    QuadSlide truth(part.eta(), part.start());
+    truth.advance(part.length());
+    ASSERT_LT(difference(part.at(part.length()).u, truth.state().u), 1e-14);
+    truth.advance(part.length());
+    ASSERT_GT(difference(part.at(2.0 * part.length()).u, truth.state().u), 1e-12) << "shorter than it need be";
   }
 }
 
 TEST_P(Slide, KeepsTheEnergyThatTheDragDoesNotBring) {
   RandomLaunches random(2);
   for (int dwell = 0; dwell < 200; ++dwell) {
-    const std::vector<Piece> pieces = pieces_of(GetParam(), random_piece(GetParam(), random).start());
+    const std::vector<SlidePart> parts = parts_of(GetParam(), random_part(GetParam(), random).start());
     double work = 0.0;
-    for (const Piece& piece : pieces) work += work_of_drag(piece, 0.0, end_of(piece));
-    const double before = energy_of(pieces.front().start()), after = energy_of(pieces.back().at(end_of(pieces.back())));
+    for (const SlidePart& part : parts) work += work_of_drag(part, 0.0, end_of(part));
+    const double before = energy_of(parts.front().start()), after = energy_of(parts.back().at(end_of(parts.back())));
     ASSERT_NEAR(after - work, before, 1e-12 * std::max(1.0, before));
   }
 }

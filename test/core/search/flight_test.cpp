@@ -12,37 +12,37 @@ namespace afm {
 namespace {
 
 const Model kMica;
-const Mechanics<double> kMechanics(kMica);
-const Mechanics<Quad> kQuadMechanics(kMica);
+const SpringConstants<double> kSpringConstants(kMica);
+const SpringConstants<Quad> kQuadSpringConstants(kMica);
 constexpr double kEps = 2.220446049250313e-16;
 constexpr double kDragSpeeds[] = {0.0, 0.2, 1.01, 3.4, -3.4, 9.0, 50.0};
 
 // Speeds of a flight, for tolerances: what u and w reach, and what the gap rate is made of.
 double speed_scale(double eta, const Flight<double>& f) {
-  const double u = std::abs(eta) + kMechanics.omega_h * f.amplitude_X();
-  return u + kMechanics.omega_v * f.amplitude_Y();
+  const double u = std::abs(eta) + kSpringConstants.omega_h * f.amplitude_X();
+  return u + kSpringConstants.omega_v * f.amplitude_Y();
 }
 
 // The same for accelerations: those of y, of the slope's turning and of x.
 double acceleration_scale(double eta, const Flight<double>& f) {
-  const double u = std::abs(eta) + kMechanics.omega_h * f.amplitude_X(), slope = kTwoPi * kMechanics.H;
-  return kMechanics.omega_v * kMechanics.omega_v * f.amplitude_Y() +
-         slope * (kTwoPi * u * u + kMechanics.omega_h * kMechanics.omega_h * f.amplitude_X());
+  const double u = std::abs(eta) + kSpringConstants.omega_h * f.amplitude_X(), slope = kTwoPi * kSpringConstants.H;
+  return kSpringConstants.omega_v * kSpringConstants.omega_v * f.amplitude_Y() +
+         slope * (kTwoPi * u * u + kSpringConstants.omega_h * kSpringConstants.omega_h * f.amplitude_X());
 }
 
 TEST(Flight, TwoHalvesEqualOneWhole) {
   RandomLaunches launches(1);
   for (int i = 0; i < 10000; ++i) {
     const double eta = kDragSpeeds[i % 7], s = launches.within(0.0, 4.0);
-    const Flight<double> flight(kMechanics, eta, launches.next(eta));
+    const Flight<double> flight(kSpringConstants, eta, launches.next(eta));
     const TipState whole = flight.tip_state(s);
     const TipState half = flight.tip_state(s / 2.0);
-    const TipState halves = Flight<double>(kMechanics, eta, half).tip_state(s / 2.0);
+    const TipState halves = Flight<double>(kSpringConstants, eta, half).tip_state(s / 2.0);
     const double few = 40.0 * kEps, speed = speed_scale(eta, flight);
     const double apart = std::abs(halves.phase - whole.phase);
     ASSERT_LE(std::min(apart, 1.0 - apart), few * (1.0 + speed));  // a rounded phase and speed, half the time
     ASSERT_NEAR(halves.X, whole.X, few * (flight.amplitude_X() + speed));
-    ASSERT_NEAR(halves.u, whole.u, few * speed * (1.0 + kMechanics.omega_h));
+    ASSERT_NEAR(halves.u, whole.u, few * speed * (1.0 + kSpringConstants.omega_h));
     ASSERT_NEAR(halves.g, whole.g, few * (1.0 + speed));
     ASSERT_NEAR(halves.g1, whole.g1, few * (1.0 + speed) * (1.0 + speed));
   }
@@ -50,10 +50,11 @@ TEST(Flight, TwoHalvesEqualOneWhole) {
 
 TEST(Flight, KeepsTheComovingEnergy) {
   RandomLaunches launches(2);
-  const double kh = kMechanics.omega_h * kMechanics.omega_h, kv = kMechanics.omega_v * kMechanics.omega_v;
+  const double kh = kSpringConstants.omega_h * kSpringConstants.omega_h,
+               kv = kSpringConstants.omega_v * kSpringConstants.omega_v;
   for (int i = 0; i < 10000; ++i) {
     const double eta = kDragSpeeds[i % 7];
-    const Flight<double> flight(kMechanics, eta, launches.next(eta));
+    const Flight<double> flight(kSpringConstants, eta, launches.next(eta));
     const auto energy = [&](double s) {
       const FlightState<double> q = flight.gap(s).state;
       return 0.5 * (q.U * q.U + kh * q.X * q.X + q.W * q.W + kv * q.Y * q.Y);
@@ -68,9 +69,9 @@ TEST(Flight, ItsGapIsTheGapInQuadWithinItsOwnBound) {
   for (int i = 0; i < 20000; ++i) {
     const double eta = kDragSpeeds[i % 7], s = std::pow(10.0, launches.within(-9.0, 1.0));
     const TipState start = launches.next(eta);
-    const GapJet<double> jet = Flight<double>(kMechanics, eta, start).gap(s);
-    const GapJet<Quad> truth = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
-    const Flight<double> flight(kMechanics, eta, start);
+    const GapJet<double> jet = Flight<double>(kSpringConstants, eta, start).gap(s);
+    const GapJet<Quad> truth = Flight<Quad>(kQuadSpringConstants, eta, start).gap(s);
+    const Flight<double> flight(kSpringConstants, eta, start);
     ASSERT_LE(static_cast<double>(abs(jet.g - truth.g)), flight.gap_error(s)) << eta << " " << s;
     const double speed = 1.0 + speed_scale(eta, flight);
     ASSERT_LE(static_cast<double>(abs(jet.g1 - truth.g1)), 20.0 * kEps * speed * speed) << eta << " " << s;
@@ -86,9 +87,9 @@ TEST(Flight, TheBoundHoldsForASpringThatIsStretchedFar) {
     const double stretch = std::pow(10.0, launches.within(-1.0, 3.0));
     TipState start = launches.next(eta);
     start.X = launches.within(-stretch, stretch);
-    start.u += kMechanics.omega_h * launches.within(-stretch, stretch);
-    const Flight<double> flight(kMechanics, eta, start);
-    const GapJet<Quad> truth = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    start.u += kSpringConstants.omega_h * launches.within(-stretch, stretch);
+    const Flight<double> flight(kSpringConstants, eta, start);
+    const GapJet<Quad> truth = Flight<Quad>(kQuadSpringConstants, eta, start).gap(s);
     ASSERT_LE(static_cast<double>(abs(flight.gap(s).g - truth.g)), flight.gap_error(s)) << stretch << " " << s;
   }
 }
@@ -98,10 +99,10 @@ TEST(Flight, NearItsStartTheGapKeepsItsDigits) {
   for (int i = 0; i < 20000; ++i) {
     const double eta = kDragSpeeds[i % 7], s = std::pow(10.0, launches.within(-14.0, -2.5));
     const TipState start = launches.next(eta, -10.0, 1.0);
-    const GapJet<double> jet = Flight<double>(kMechanics, eta, start).gap(s);
-    const GapJet<Quad> truth = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    const GapJet<double> jet = Flight<double>(kSpringConstants, eta, start).gap(s);
+    const GapJet<Quad> truth = Flight<Quad>(kQuadSpringConstants, eta, start).gap(s);
     // the gap rate's part and the rest are each right to a few ulp
-    const double rest = 0.5 * acceleration_scale(eta, Flight<double>(kMechanics, eta, start)) * s * s;
+    const double rest = 0.5 * acceleration_scale(eta, Flight<double>(kSpringConstants, eta, start)) * s * s;
     ASSERT_LE(static_cast<double>(abs(jet.g - truth.g)), 16.0 * kEps * (start.g1 * s + rest)) << eta << " " << s;
   }
 }
@@ -111,11 +112,11 @@ TEST(Flight, TheFormForSmallTimesIsTheLongForm) {
   for (int i = 0; i < 2000; ++i) {
     const double eta = kDragSpeeds[i % 7];
     const Quad s = std::pow(10.0, launches.within(-9.0, -2.0)) / (1.0 + std::abs(eta));
-    const Flight<Quad> flight(kQuadMechanics, eta, launches.next(eta));
+    const Flight<Quad> flight(kQuadSpringConstants, eta, launches.next(eta));
     const GapJet<Quad> small = flight.gap(s);
     const FlightState<Quad> far = flight.at(s);
-    const SurfaceJet<Quad> surface = surface_jet(kQuadMechanics.H, far.phase);
-    ASSERT_LE(static_cast<double>(abs(small.g - (far.Y + kQuadMechanics.y0 - surface.h))), 1e-32);
+    const SurfaceJet<Quad> surface = surface_jet(kQuadSpringConstants.H, far.phase);
+    ASSERT_LE(static_cast<double>(abs(small.g - (far.Y + kQuadSpringConstants.y0 - surface.h))), 1e-32);
     ASSERT_LE(static_cast<double>(abs(small.g1 - (far.W - surface.h1 * (eta + far.U)))), 1e-28);
     ASSERT_LE(static_cast<double>(abs(small.state.phase - far.phase)), 1e-32);
     ASSERT_LE(static_cast<double>(abs(small.state.X - far.X)), 1e-32);
@@ -131,8 +132,8 @@ TEST(Flight, AShiftByWholeCellsChangesNothing) {
     here.phase = std::ldexp(std::floor(std::ldexp(here.phase, 40)), -40);  // with room for whole cells
     TipState there = here;
     there.phase += 1 + i % 7;
-    const GapJet<double> a = Flight<double>(kMechanics, eta, here).gap(s);
-    const GapJet<double> b = Flight<double>(kMechanics, eta, there).gap(s);
+    const GapJet<double> a = Flight<double>(kSpringConstants, eta, here).gap(s);
+    const GapJet<double> b = Flight<double>(kSpringConstants, eta, there).gap(s);
     ASSERT_EQ(a.state.X, b.state.X);
     ASSERT_EQ(a.state.U, b.state.U);
     ASSERT_EQ(a.state.Y, b.state.Y);
@@ -146,7 +147,7 @@ TEST(Flight, EachDerivativeIsTheSlopeOfTheOneBefore) {
   const Quad step(1e-13);
   for (int i = 0; i < 1000; ++i) {
     const double eta = kDragSpeeds[i % 7];
-    const Flight<Quad> flight(kQuadMechanics, eta, launches.next(eta));
+    const Flight<Quad> flight(kQuadSpringConstants, eta, launches.next(eta));
     const Quad s = launches.within(1e-4, 3.0);
     const GapJet<Quad> up = flight.gap(s + step), here = flight.gap(s), down = flight.gap(s - step);
     const double scale = static_cast<double>(flight.third_derivative_bound());
@@ -161,7 +162,7 @@ TEST(Flight, TheThirdDerivativeStaysWithinItsBound) {
   double closest = 0.0;
   for (int i = 0; i < 200; ++i) {
     const double eta = kDragSpeeds[i % 7];
-    const Flight<Quad> flight(kQuadMechanics, eta, launches.next(eta));
+    const Flight<Quad> flight(kQuadSpringConstants, eta, launches.next(eta));
     for (int k = 1; k <= 200; ++k) {
       const Quad s = Quad(k) * Quad(0.011);
       const Quad third = (flight.gap(s + step).g2 - flight.gap(s - step).g2) / (2 * step);
@@ -182,7 +183,7 @@ TEST(Flight, TheFourthDerivativeStaysWithinItsBound) {
     const double eta = kDragSpeeds[i % 7];
     TipState start = launches.next(eta);
     if (i % 2 == 0) start.X = launches.within(-12.0, 12.0);
-    const Flight<Quad> flight(kQuadMechanics, eta, start);
+    const Flight<Quad> flight(kQuadSpringConstants, eta, start);
     for (int k = 0; k <= 200; ++k) {
       const Quad s = Quad(k) * Quad(0.011);
       const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);

@@ -66,7 +66,7 @@ TEST(Grazes, AHorizonAtTheGrazeChangesNoDecision) {
   Grazes grazes(4);
   for (int i = 0; i < 300; ++i) {
     const Graze graze = grazes.after_a_flight((i % 3 - 1) * 1e-12);
-    const Flight<double> flight(Mechanics<double>(graze.model), graze.eta, graze.start);
+    const Flight<double> flight(SpringConstants<double>(graze.model), graze.eta, graze.start);
     const Landing<double> whole = find_landing(graze.model, flight, kGrazeHorizon);
     for (const double horizon : {graze.s - 1e-5, graze.s - 1e-9, graze.s, graze.s + 1e-9, graze.s + 1e-5}) {
       const Landing<double> part = find_landing(graze.model, flight, horizon);
@@ -104,7 +104,7 @@ TEST(Grazes, ATouchBelowTheDigitsOfDoubleHasAnImpactOfNoSpeed) {
   int hidden = 0;
   for (int i = 0; i < 400; ++i) {
     const Graze graze = grazes.after_a_flight(0.0);
-    const Flight<double> flight(Mechanics<double>(graze.model), graze.eta, graze.start);
+    const Flight<double> flight(SpringConstants<double>(graze.model), graze.eta, graze.start);
     if (find_impact(flight, kGrazeHorizon).outcome != SearchOutcome::undecided) continue;
     ++hidden;
     const Landing<double> landing = find_landing(graze.model, flight, kGrazeHorizon);

@@ -12,16 +12,16 @@ namespace afm {
 namespace {
 
 const Model kMica;
-const Mechanics<double> kMechanics(kMica);
-const Mechanics<DoubleDouble> kFineMechanics(kMica);
-const Mechanics<Quad> kQuadMechanics(kMica);
+const SpringConstants<double> kSpringConstants(kMica);
+const SpringConstants<DoubleDouble> kFineSpringConstants(kMica);
+const SpringConstants<Quad> kQuadSpringConstants(kMica);
 constexpr double kHorizon = 8.0;
 constexpr double kEps = 2.220446049250313e-16;
 
 double to_double(const Quad& x) { return static_cast<double>(x); }
 
 double speed_scale(const Flight<double>& f) {
-  return std::abs(f.eta()) + kMechanics.omega_h * f.amplitude_X() + kMechanics.omega_v * f.amplitude_Y();
+  return std::abs(f.eta()) + kSpringConstants.omega_h * f.amplitude_X() + kSpringConstants.omega_v * f.amplitude_Y();
 }
 
 // How far rounding the flight to T may move a landing.
@@ -64,14 +64,14 @@ TEST_P(ImpactSearchAtEta, NoImpactIsMissedAndNoneInvented) {
   int impacts = 0;
   for (int i = 0; i < 1000; ++i) {
     const TipState start = launches.next(eta);
-    const Flight<double> flight(kMechanics, eta, start);
+    const Flight<double> flight(kSpringConstants, eta, start);
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
     ASSERT_TRUE(landing.outcome == SearchOutcome::impact || landing.outcome == SearchOutcome::clear);
     const double s = landing.s;
     ASSERT_FALSE(penetrates(flight, s * (1.0 - 1e-6))) << "flight " << i << " landed at " << s;
     if (landing.outcome == SearchOutcome::clear) continue;
     ++impacts;
-    const GapJet<Quad> there = Flight<Quad>(kQuadMechanics, eta, start).gap(s);
+    const GapJet<Quad> there = Flight<Quad>(kQuadSpringConstants, eta, start).gap(s);
     ASSERT_LE(std::abs(to_double(there.g)), flight.gap_error(s) + kEps * s * std::abs(to_double(there.g1))) << i;
     ASSERT_LT(landing.jet.g1, 0.0) << i;
   }
@@ -83,10 +83,10 @@ TEST_P(ImpactSearchAtEta, IsTheSameInDoubleInTwiceTheDigitsAndInQuad) {
   const double eta = GetParam();
   for (int i = 0; i < 300; ++i) {
     const TipState start = launches.next(eta);
-    const Flight<double> flight(kMechanics, eta, start);
-    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    const Flight<double> flight(kSpringConstants, eta, start);
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadSpringConstants, eta, start), Quad(kHorizon));
     const Landing<DoubleDouble> fine =
-        find_impact(Flight<DoubleDouble>(kFineMechanics, eta, start), DoubleDouble(kHorizon));
+        find_impact(Flight<DoubleDouble>(kFineSpringConstants, eta, start), DoubleDouble(kHorizon));
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
     ASSERT_EQ(truth.outcome, fine.outcome) << i;
     ASSERT_EQ(truth.outcome, landing.outcome) << i;
@@ -101,7 +101,7 @@ TEST_P(ImpactSearchAtEta, AHorizonBeforeTheImpactIsReachedOrTheImpactIsSeenBeyon
   const double eta = GetParam();
   int cleared = 0;
   for (int i = 0; i < 300; ++i) {
-    const Flight<double> flight(kMechanics, eta, launches.next(eta));
+    const Flight<double> flight(kSpringConstants, eta, launches.next(eta));
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
     const double early = landing.s * launches.within(0.0, 0.999);
     const Landing<double> cut = find_landing(kMica, flight, early);
@@ -124,11 +124,11 @@ TEST(ImpactSearch, AMicroBounceIsRightToItsLastDigits) {
   for (int i = 0; i < 5000; ++i) {
     const double eta = launches.within(-9.0, 9.0);
     const TipState start = launches.next(eta, -15.0, -4.0);
-    const Flight<double> flight(kMechanics, eta, start);
+    const Flight<double> flight(kSpringConstants, eta, start);
     if (!(flight.start().g2 < -1.0)) continue;
     ++bounces;
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
-    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadSpringConstants, eta, start), Quad(kHorizon));
     ASSERT_EQ(landing.outcome, SearchOutcome::impact);
     ASSERT_GT(landing.s, start.g1 / -flight.start().g2) << "the impact just left was found again";
     // the pressing force is a sum of large terms, and so known to fewer digits than it has
@@ -146,11 +146,11 @@ TEST(ImpactSearch, LeavingSlowlyUnderALiftingForceIsNoImpact) {
   for (int i = 0; i < 5000; ++i) {
     const double eta = launches.within(-9.0, 9.0);
     const TipState start = launches.next(eta, -15.0, -8.0);
-    const Flight<double> flight(kMechanics, eta, start);
+    const Flight<double> flight(kSpringConstants, eta, start);
     if (!(flight.start().g2 > 1.0)) continue;
     ++lifts;
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
-    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadSpringConstants, eta, start), Quad(kHorizon));
     ASSERT_EQ(landing.outcome, truth.outcome);
     ASSERT_NEAR(landing.s, to_double(truth.s), 1e-9) << i;
   }
@@ -162,12 +162,12 @@ TEST(ImpactSearch, ComesWithTheSlopeOfTheSurfaceWhereItEnds) {
   for (const double ratio : {0.01, 6.25, 1000.0}) {
     Model model;
     model.frequency_ratio = ratio;
-    const Mechanics<double> mechanics(model);
+    const SpringConstants<double> springs(model);
     RandomLaunches random(13);
     for (int i = 0; i < 20000; ++i) {
       const double eta = random.within(-9.0, 9.0);
       const TipState start = random.next(eta, i % 2 == 0 ? -6.0 : -2.0, 1.0);
-      const Landing<double> landing = find_landing(model, Flight<double>(mechanics, eta, start), kHorizon);
+      const Landing<double> landing = find_landing(model, Flight<double>(springs, eta, start), kHorizon);
       if (landing.outcome != SearchOutcome::impact) continue;
       const Quad slope = surface_jet(Quad(model.H), Quad(landing.jet.state.phase)).h1;
       const double place = std::max(1.0, std::abs(landing.jet.state.phase));  // it is rounded too
@@ -183,9 +183,9 @@ TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
     TipState start = launches.next(eta, -3.0, 1.0);
     start.g = launches.within(1e-6, 0.5);
     if (i % 2 == 0) start.g1 = -start.g1;
-    const Flight<double> flight(kMechanics, eta, start);
+    const Flight<double> flight(kSpringConstants, eta, start);
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
-    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadMechanics, eta, start), Quad(kHorizon));
+    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadSpringConstants, eta, start), Quad(kHorizon));
     ASSERT_EQ(landing.outcome, truth.outcome);
     ASSERT_NEAR(landing.s, to_double(truth.s), 1e-9) << i;
     ASSERT_FALSE(penetrates(flight, landing.s * (1.0 - 1e-6))) << i;
@@ -206,7 +206,7 @@ class ShortBounces {
     for (;;) {
       const double eta = launches_.sign() * launches_.power(-2.0, 1.2);
       const TipState start = launches_.next(eta, -4.0, 0.5);
-      const Flight<double> flight(kMechanics, eta, start);
+      const Flight<double> flight(kSpringConstants, eta, start);
       const double turns = -2.0 * start.g1 / flight.start().g2 * flight.bounds().fastest;  // of the parabola
       if (start.g1 > 0.0 && turns > 0.002 && turns < kSmallTurn) return {eta, start};
     }
@@ -223,9 +223,9 @@ TEST(ShortBounce, LandsWhereQuadDoesInFewEvaluations) {
   int evaluations = 0;
   for (int i = 0; i < kFlights; ++i) {
     const ShortBounce b = bounces.next();
-    const Flight<double> flight(kMechanics, b.eta, b.start);
+    const Flight<double> flight(kSpringConstants, b.eta, b.start);
     const Landing<double> landing = find_landing(kMica, flight, 1.0);
-    const Landing<Quad> exact = find_impact(Flight<Quad>(kQuadMechanics, b.eta, b.start), Quad(1.0));
+    const Landing<Quad> exact = find_impact(Flight<Quad>(kQuadSpringConstants, b.eta, b.start), Quad(1.0));
     ASSERT_EQ(landing.outcome, SearchOutcome::impact);
     ASSERT_EQ(exact.outcome, SearchOutcome::impact);
     const double error = static_cast<double>(abs(exact.s - landing.s)), rate = -static_cast<double>(exact.jet.g1);
@@ -241,19 +241,19 @@ TEST(ShortBounce, LandsWhereQuadDoesInFewEvaluations) {
 TEST(HardStart, ATipOnAStiffSpringEndsOnTheSurface) {
   Model model;
   model.frequency_ratio = 1000.0;
-  const Mechanics<double> mechanics(model);
+  const SpringConstants<double> springs(model);
   RandomLaunches random(12);
   for (int i = 0; i < 20000; ++i) {
     TipState start = random.next(2.0, -2.0, 1.0);
     start.X *= std::pow(10.0, random.within(-6.0, 0.0));
-    start.u = 2.0 + random.within(-1.0, 1.0) * mechanics.omega_h * std::abs(start.X);
-    const Flight<double> f(mechanics, 2.0, start);
+    start.u = 2.0 + random.within(-1.0, 1.0) * springs.omega_h * std::abs(start.X);
+    const Flight<double> f(springs, 2.0, start);
     const Landing<double> landing = find_landing(model, f, kHorizon);
     ASSERT_EQ(landing.outcome, SearchOutcome::impact) << i;
     const GapJet<double> there = f.gap(landing.s);
-    const double late = 4.0 * kEps * landing.s * (std::abs(there.g1) + mechanics.omega_h);
+    const double late = 4.0 * kEps * landing.s * (std::abs(there.g1) + springs.omega_h);
     ASSERT_LT(std::abs(there.g), 4.0 * f.gap_error(landing.s) + late) << i;
-    ASSERT_NEAR(landing.jet.state.U, there.state.U, 1e-9 * (1.0 + mechanics.omega_h * f.amplitude_X())) << i;
+    ASSERT_NEAR(landing.jet.state.U, there.state.U, 1e-9 * (1.0 + springs.omega_h * f.amplitude_X())) << i;
   }
 }
 
@@ -262,9 +262,9 @@ TEST(HardStart, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
   for (const ModelKind kind : {ModelKind::oscillator, ModelKind::hammer}) {
     Model model;
     model.kind = kind;
-    const Mechanics<double> mechanics(model);
+    const SpringConstants<double> springs(model);
     for (const double g1 : {1e-7, 1e-15}) {
-      const Flight<double> flight(mechanics, -1.0, TipState{0.25591284509951961, 0.0, -1.0, 0.0, g1});
+      const Flight<double> flight(springs, -1.0, TipState{0.25591284509951961, 0.0, -1.0, 0.0, g1});
       const Landing<double> landing = find_landing(model, flight, kSearchHorizon);
       ASSERT_EQ(landing.outcome, SearchOutcome::impact) << g1;
       EXPECT_NEAR(landing.s, 0.5, 1e-6) << g1;
@@ -277,9 +277,9 @@ TEST(HardStart, OnTheGlideAGapHoweverSmallExhaustsNoSearch) {
   Model model;
   model.kind = ModelKind::hammer;
   model.H = 0.83993305622109515;
-  const Mechanics<double> mechanics(model);
+  const SpringConstants<double> springs(model);
   for (const double gap : {1e-21, 1.2e-20, 1e-19, 1e-18, 9e-18, 1.1e-17, 1e-16, 1e-14}) {
-    const Flight<double> flight(mechanics, -1.0, TipState{0.53955942957884762, 0.0, -1.0, gap, 0.0});
+    const Flight<double> flight(springs, -1.0, TipState{0.53955942957884762, 0.0, -1.0, gap, 0.0});
     const Landing<double> landing = find_landing(model, flight, kSearchHorizon);
     EXPECT_NE(landing.outcome, SearchOutcome::cap) << gap;
     EXPECT_LE(landing.s, 0.25 + 1e-6) << gap;
@@ -291,7 +291,7 @@ TEST(HardStart, ALandingBeyondAllTimeIsNone) {
   Model model;
   model.H = 0.096153846153846159;
   const double u = 3.7580843034835234e-308, g = 5.8310409491468441e-06, g1 = -2.2704557726318621e-308;
-  const Flight<double> flight(Mechanics<double>(model), u, TipState{0.74999034839449363, 0.0, u, g, g1});
+  const Flight<double> flight(SpringConstants<double>(model), u, TipState{0.74999034839449363, 0.0, u, g, g1});
   const Landing<double> landing = find_landing(model, flight, kHorizon);
   EXPECT_EQ(landing.outcome, SearchOutcome::clear);
   EXPECT_EQ(landing.s, kHorizon);

@@ -33,7 +33,8 @@ struct Flown {
 Flown fly(const ReferenceFlight& f) {
   const Model model = f.model();
   const TipState start = f.start();
-  const Landing<double> landing = find_landing(model, Flight<double>(Mechanics<double>(model), f.eta, start), kHorizon);
+  const Landing<double> landing =
+      find_landing(model, Flight<double>(SpringConstants<double>(model), f.eta, start), kHorizon);
   return {start, landing, reflect(model, f.eta, landing.jet)};
 }
 

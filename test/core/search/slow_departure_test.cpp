@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kHorizon = 4.0;
 const Model kMica;
-const Mechanics<double> kMechanics(kMica);
-const Mechanics<Quad> kQuadMechanics(kMica);
+const SpringConstants<double> kSpringConstants(kMica);
+const SpringConstants<Quad> kQuadSpringConstants(kMica);
 
 struct Departure {
   double eta;
@@ -41,7 +41,9 @@ class Departures {
   }
 
  private:
-  static double pull(double eta, const TipState& start) { return Flight<double>(kMechanics, eta, start).start().g2; }
+  static double pull(double eta, const TipState& start) {
+    return Flight<double>(kSpringConstants, eta, start).start().g2;
+  }
 
   RandomLaunches random_;
 };
@@ -62,9 +64,9 @@ TEST(SlowDeparture, NothingLiesBeforeTheImpact) {
   int landed = 0;
   for (int i = 0; i < 1200; ++i) {
     const Departure d = departures.next();
-    const Landing<double> landing = find_landing(kMica, Flight<double>(kMechanics, d.eta, d.start), kHorizon);
+    const Landing<double> landing = find_landing(kMica, Flight<double>(kSpringConstants, d.eta, d.start), kHorizon);
     ASSERT_TRUE(landing.outcome == SearchOutcome::impact || landing.outcome == SearchOutcome::clear);
-    const Flight<Quad> exact(kQuadMechanics, d.eta, d.start);
+    const Flight<Quad> exact(kQuadSpringConstants, d.eta, d.start);
     ASSERT_GT(lowest_gap(exact, landing.s), 0.0) << d.eta << " " << d.start.phase << " " << d.start.X;
     if (landing.outcome != SearchOutcome::impact) continue;
     ++landed;
@@ -79,7 +81,7 @@ TEST(SlowDeparture, AStretchedTipTakesSomeTensOfEvaluations) {
   int looks = 0, most = 0, flights = 0;
   while (flights < 2000) {
     const Departure d = departures.next();
-    const Flight<double> flight(kMechanics, d.eta, d.start);
+    const Flight<double> flight(kSpringConstants, d.eta, d.start);
     if (std::abs(d.start.X) < 3.0 || !(flight.start().g3 > 0.0)) continue;
     const Landing<double> landing = find_landing(kMica, flight, kHorizon);
     ++flights, looks += landing.evaluations, most = std::max(most, landing.evaluations);

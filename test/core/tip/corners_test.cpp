@@ -45,8 +45,8 @@ std::vector<Corner> corners() {
 }
 
 // Runs on, with its energy balance; false where it goes on for ever.
-bool run(Tip& tip, EnergyBalance& balance, const ModelTime& end, long most_arcs) {
-  for (long arcs = 0; arcs < most_arcs; ++arcs) {
+bool run(Tip& tip, EnergyBalance& balance, const ModelTime& end, long most_segments) {
+  for (long segments = 0; segments < most_segments; ++segments) {
     const ModelTime begin = tip.now();
     const ModelTime middle = begin + 0.5 * ((tip.segment_end() < end ? tip.segment_end() : end) - begin);
     const Deflection d = tip.deflection(middle);
@@ -68,25 +68,25 @@ void expect_balance(const EnergyBalance& balance, const Tip& tip) {
 
 TEST(Corners, EachKeepsItsEnergyBalanceAndItsTime) {
   constexpr int kTau = 30;
-  constexpr long kMostArcsATau = 20000;
+  constexpr long kMostSegmentsATau = 20000;
   for (const Corner& c : corners()) {
     SCOPED_TRACE(c.name);
     Tip tip(c.model, c.eta, FreeState{0.25, 0.003, 0.2, c.eta, 0.0});
     EnergyBalance balance(tip);
-    ASSERT_TRUE(run(tip, balance, {kTau, 0.0}, kTau * kMostArcsATau));
+    ASSERT_TRUE(run(tip, balance, {kTau, 0.0}, kTau * kMostSegmentsATau));
     expect_balance(balance, tip);
     balance.command(tip, [&] { tip.drag(-2.0); });
-    ASSERT_TRUE(run(tip, balance, {2 * kTau, 0.0}, kTau * kMostArcsATau));
+    ASSERT_TRUE(run(tip, balance, {2 * kTau, 0.0}, kTau * kMostSegmentsATau));
     expect_balance(balance, tip);
   }
 }
 
 TEST(Corners, ATipAtRestStaysAtRestCostsNothingAndWakesUp) {
   Tip tip(Model(), 0.0, TipState{0.0, 0.0, 0.0, 0.0, 0.0});
-  long arcs = 0;
-  while (tip.advance_segment({100000, 0.0}) != Outcome::time_limit) ++arcs;
+  long segments = 0;
+  while (tip.advance_segment({100000, 0.0}) != Outcome::time_limit) ++segments;
   EXPECT_TRUE(tip.in_contact());
-  EXPECT_LE(arcs, 100000 / 7);
+  EXPECT_LE(segments, 100000 / 7);
   const FreeState rest = tip.state();
   EXPECT_EQ(rest.phase, 0.0);
   EXPECT_EQ(rest.X, 0.0);

@@ -36,13 +36,13 @@ TEST_P(SegmentsOf, EachIsInBalanceAndFollowsTheOneBefore) {
   Segments ended;
   ModelTime last = tip.now();
   int kinds[4] = {};
-  for (int arcs = 0; arcs < 30000; ++arcs) {
+  for (int segments = 0; segments < 30000; ++segments) {
     const Outcome outcome = tip.advance_segment({1000000, 0.0}, &ended);
     ASSERT_NE(outcome, Outcome::search_failed);
     for (const Segment& s : ended) {
-      ASSERT_EQ(s.begin, last) << arcs;
+      ASSERT_EQ(s.begin, last) << segments;
       last = s.end;
-      ASSERT_LE(std::abs(s.imbalance()), 3e-14 * scale_of(tip)) << arcs;
+      ASSERT_LE(std::abs(s.imbalance()), 3e-14 * scale_of(tip)) << segments;
       ASSERT_EQ(s.eta, GetParam().eta);
       ++kinds[static_cast<int>(s.kind)];
     }
@@ -60,17 +60,17 @@ TEST_P(SegmentsOf, LimitsChangeNoBit) {
   Tip whole = tip(), halting = tip();
   RandomLaunches random(2);
   Segments a, b;
-  for (int arcs = 0; arcs < 3000; ++arcs) {
+  for (int segments = 0; segments < 3000; ++segments) {
     const Outcome outcome = whole.advance_segment({1000000, 0.0}, &a);
     Outcome halted = Outcome::time_limit;
     for (int i = 0; halted == Outcome::time_limit; ++i) {
       const ModelTime limit = i % 5 == 4 ? whole.now() : halting.now() + random.within(-0.1, 0.5);
       halted = halting.advance_segment(limit, &b);
-      ASSERT_TRUE(halted != Outcome::time_limit || b.begin() == b.end()) << arcs;
+      ASSERT_TRUE(halted != Outcome::time_limit || b.begin() == b.end()) << segments;
     }
-    ASSERT_EQ(halted, outcome) << arcs;
-    ASSERT_EQ(halting.now(), whole.now()) << arcs;
-    ASSERT_TRUE(same_bits(halting.last_impact(), whole.last_impact())) << arcs;
+    ASSERT_EQ(halted, outcome) << segments;
+    ASSERT_EQ(halting.now(), whole.now()) << segments;
+    ASSERT_TRUE(same_bits(halting.last_impact(), whole.last_impact())) << segments;
     ASSERT_EQ(a.end() - a.begin(), b.end() - b.begin());
     for (const Segment *s = a.begin(), *t = b.begin(); s != a.end(); ++s, ++t) {
       ASSERT_EQ(s->impulse, t->impulse);
@@ -131,7 +131,7 @@ TEST_P(OscillatorSegments, TheImpulseIsTheTimeIntegralOfTheLateralForce) {
   Tip tip = SegmentsOf::tip();
   Segments ended;
   const double omega_h = kTwoPi * tip.model().frequency_ratio;
-  for (int arcs = 0; arcs < 3000; ++arcs) {
+  for (int segments = 0; segments < 3000; ++segments) {
     const ModelTime begin = tip.now();
     const double duration = tip.segment_end() - begin;
     const auto X = [&](double s) { return tip.deflection(begin + s).lateral; };
@@ -140,7 +140,7 @@ TEST_P(OscillatorSegments, TheImpulseIsTheTimeIntegralOfTheLateralForce) {
     if (ended.begin() == ended.end() || duration > 1.0) continue;
     const Segment& s = *ended.begin();
     if (s.kind != SegmentKind::flight && s.kind != SegmentKind::contact) continue;
-    ASSERT_NEAR(s.impulse, -omega_h * omega_h * integral, 1e-9 * scale_of(tip)) << arcs;
+    ASSERT_NEAR(s.impulse, -omega_h * omega_h * integral, 1e-9 * scale_of(tip)) << segments;
   }
 }
 
@@ -163,7 +163,7 @@ TEST(Segment, AtRestTheHolderHoldsWithoutWork) {
   const SurfaceJet<double> surface = surface_jet(model.H, tip.state().phase);
   const double force = surface.h1 * kTwoPi * kTwoPi * (surface.h - model.y0);
   Segments ended;
-  for (int arcs = 0; arcs < 10; ++arcs) {
+  for (int segments = 0; segments < 10; ++segments) {
     tip.advance_segment({1000000, 0.0}, &ended);
     for (const Segment& s : ended) {
       EXPECT_EQ(s.work(), 0.0);

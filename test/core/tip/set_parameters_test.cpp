@@ -83,7 +83,7 @@ class EnergyOfChanges : public testing::TestWithParam<Run> {
     int bursts = 0, contacts = 0;
     for (int changes = 0; changes < 3000; ++changes) {
       const ModelTime next = tip.now() + random.within(0.0, 1.0);
-      for (int arcs = 0; tip.now() < next && arcs < 500; ++arcs) {
+      for (int segments = 0; tip.now() < next && segments < 500; ++segments) {
         ASSERT_NE(balance.advance_segment(tip, next), Outcome::search_failed);
       }
       bursts += tip.in_chatter();
@@ -148,7 +148,7 @@ TEST(SetParameters, InContactItGoesOnExactlyWhereTheSurfaceStillPresses) {
     Tip changed = tip;
     const Model model = random_model(random, 0.005);
     changed.set_parameters(model);
-    const double pull = Flight<double>(Mechanics<double>(model), tip.eta(), tip.tip_state()).start().g2;
+    const double pull = Flight<double>(SpringConstants<double>(model), tip.eta(), tip.tip_state()).start().g2;
     const Outcome outcome = changed.advance(tip.now());
     ASSERT_EQ(outcome, pull < 0.0 ? Outcome::time_limit : Outcome::released) << pull;
     ASSERT_EQ(changed.in_contact(), pull < 0.0);

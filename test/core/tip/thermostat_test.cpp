@@ -106,24 +106,24 @@ TEST(Bath, ReportsEveryFaultByName) {
 // Springs that touch nothing, kicked.
 class FreeSprings {
  public:
-  FreeSprings(const Bath& bath, const FlightState<double>& start) : mechanics_(Model{}), state_(start) {
+  FreeSprings(const Bath& bath, const FlightState<double>& start) : springs_(Model{}), state_(start) {
     thermostat_.set(bath, Model{}.frequency_ratio, {});
     period_ = 1.0 / bath.kicks_per_tau;
   }
   void step() {
-    const Flight<double> flight(mechanics_, 0.0, TipState{0.0, state_.X, state_.U, state_.Y - Model{}.H, state_.W});
+    const Flight<double> flight(springs_, 0.0, TipState{0.0, state_.X, state_.U, state_.Y - Model{}.H, state_.W});
     state_ = flight.at(period_);
     const Kick kick = thermostat_.draw();
     state_.U += kick.lateral.change(state_.U);
     state_.W += kick.vertical.change(state_.W);
   }
   const FlightState<double>& state() const { return state_; }
-  double lateral_energy() const { return 0.5 * (state_.U * state_.U + square(mechanics_.omega_h * state_.X)); }
-  double vertical_energy() const { return 0.5 * (state_.W * state_.W + square(mechanics_.omega_v * state_.Y)); }
+  double lateral_energy() const { return 0.5 * (state_.U * state_.U + square(springs_.omega_h * state_.X)); }
+  double vertical_energy() const { return 0.5 * (state_.W * state_.W + square(springs_.omega_v * state_.Y)); }
 
  private:
   static double square(double x) { return x * x; }
-  Mechanics<double> mechanics_;
+  SpringConstants<double> springs_;
   FlightState<double> state_;
   Thermostat thermostat_;
   double period_;

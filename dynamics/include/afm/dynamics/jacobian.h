@@ -35,7 +35,7 @@ Eigen::Matrix<T, N, N> without_held_directions(const T& is_free_along_x, const E
 
 // A flight of duration s [tau] (Eq. 9-10). Its determinant is 1.
 template <class T>
-FlowJacobian<T> flight_jacobian(const Mechanics<T>& m, const T& s) {
+FlowJacobian<T> flight_jacobian(const SpringConstants<T>& m, const T& s) {
   const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s)), v = sin_cos_turns(s);
   FlowJacobian<T> J = FlowJacobian<T>::Identity();
   J(0, 1) = h.cos - T(1.0);
@@ -50,7 +50,7 @@ FlowJacobian<T> flight_jacobian(const Mechanics<T>& m, const T& s) {
 
 // The velocity in phase space during a flight.
 template <class T>
-FlowVector<T> flight_velocity(const Mechanics<T>& m, const T& eta, const FlightState<T>& q) {
+FlowVector<T> flight_velocity(const SpringConstants<T>& m, const T& eta, const FlightState<T>& q) {
   FlowVector<T> F;
   F << eta + q.U, q.U, -m.omega_h * m.omega_h * q.X, q.W, -m.omega_v * m.omega_v * q.Y;
   return F;
@@ -86,7 +86,7 @@ struct Incidence {
   T normal_speed;         // -n.v > 0; of the hammer the gap rate
   T tangential_velocity;  // t.v; of the hammer u
 
-  Incidence(const Mechanics<T>& m, const T& eta, const FlightState<T>& q, const T& g1)
+  Incidence(const SpringConstants<T>& m, const T& eta, const FlightState<T>& q, const T& g1)
       : surface(surface_jet(m.H, q.phase)) {
     using std::sqrt;
     const T slope = m.is_free_along_x * surface.h1, N = sqrt(T(1.0) + slope * slope), u = eta + q.U;
@@ -150,7 +150,7 @@ Eigen::Matrix<T, 4, 5> to_section(const SurfaceJet<T>& surface, const T& u) {
 // state `landing`. The determinant (of the hammer: of dx and dg1) is slope * restitution * g1(start) / g1(after).
 template <class T>
 SectionJacobian<T> section_jacobian(const Model& model, const Flight<T>& flight, const T& s, const GapJet<T>& landing) {
-  const Mechanics<T>& m = flight.mechanics();
+  const SpringConstants<T>& m = flight.springs();
   const FlightState<T>&start = flight.start().state, &end = landing.state;
   const Incidence<T> in(m, flight.eta(), end, landing.g1);
   const T u_start = flight.eta() + start.U, u_end = flight.eta() + end.U, h1 = in.surface.h1;

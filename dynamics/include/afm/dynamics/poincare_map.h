@@ -34,7 +34,7 @@ struct MapStep {
 class PoincareMap {
  public:
   // Precondition: the model has no faults.
-  PoincareMap(const Model& model, double eta) : model_(model), mechanics_(model), eta_(eta) {}
+  PoincareMap(const Model& model, double eta) : model_(model), springs_(model), eta_(eta) {}
 
   // Guarantee: the first impact, never a later one (impact_search.h).
   MapStep operator()(const TipState& start) const;
@@ -50,7 +50,7 @@ class PoincareMap {
   TipState constrained(const TipState& start) const;
 
   Model model_;
-  Mechanics<double> mechanics_;
+  SpringConstants<double> springs_;
   double eta_;
 };
 

@@ -45,7 +45,7 @@ class Tangents {
   void orthonormalize();
 
   const Model model_;
-  const Mechanics<double> mechanics_;
+  const SpringConstants<double> springs_;
   Tip& tip_;
   TipState start_;  // of the segment under way
   ModelTime since_;

@@ -12,8 +12,8 @@
 namespace afm {
 
 template <class T>
-struct Mechanics {
-  explicit Mechanics(const Model& model)
+struct SpringConstants {
+  explicit SpringConstants(const Model& model)
       : is_free_along_x(afm::is_free_along_x(model)),
         ratio(is_free_along_x * T(model.frequency_ratio)),
         omega_v(two_pi<T>()),
@@ -24,7 +24,7 @@ struct Mechanics {
         inverse_omega_h(afm::is_free_along_x(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
 
   // w / omega, exact beyond the last digit. With a rounded 1 / omega every turn of a spring would add or remove energy.
-  static T turned(const T& w, const T& omega, const T& per) {
+  static T divide_by_omega(const T& w, const T& omega, const T& per) {
     return mul_add(w, per, T((w * per) * mul_add(T(-omega), per, T(1.0))));
   }
 
@@ -39,7 +39,7 @@ struct Mechanics {
 constexpr double kReleaseNoise = 1e-9;
 
 template <class T>
-T release_noise(const Mechanics<T>& m, const T& u, const T& X) {
+T release_noise(const SpringConstants<T>& m, const T& u, const T& X) {
   using std::abs;
   using std::max;
   constexpr double kRelativeNoise = 1e-13;  // of the terms: each sum of a slide's series has an error of 3e-14
