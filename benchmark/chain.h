@@ -1,4 +1,4 @@
-// A run of a method from impact to impact, with its books: time, energy, impacts, what it cost.
+// A run of a method from impact to impact, with its totals: time, energy, impacts, and what it cost.
 #pragma once
 
 #include <memory>

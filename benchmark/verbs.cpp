@@ -105,7 +105,7 @@ void MicroBounce(benchmark::State& state) {
 }
 BENCHMARK(MicroBounce);
 
-// The series of one piece of contact, and where it ends.
+// The series of one segment of a slide, and where it ends.
 void Slide(benchmark::State& state) {
   const SpringConstants<double> springs{Model{}};
   double phase = 0.4;

@@ -40,7 +40,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-// What this process holds now [bytes], from the kernel's books.
+// The memory that this process holds now [bytes], from the kernel.
 double resident_bytes() {
   long pages = 0, resident = 0;
   std::FILE* file = std::fopen("/proc/self/statm", "r");

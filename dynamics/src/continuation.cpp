@@ -9,7 +9,7 @@
 namespace afm {
 namespace {
 
-// What ends a branch. All are choices.
+// A branch ends at these limits. All are choices.
 constexpr double kGrazingGap = 1e-5;    // [a] least gap of a flight on the way
 constexpr double kGrazingSpeed = 1e-3;  // [a/tau] normal speed of an impact over 1 + |eta|
 // [turns] distance of the horizontal spring's turns in a period from a whole number

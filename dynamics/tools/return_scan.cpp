@@ -35,7 +35,7 @@ constexpr double kNoReturn = std::numeric_limits<double>::infinity();
 
 std::array<double, 4> coordinates(const afm::TipState& s) { return {s.phase, s.X, s.u, s.g1}; }
 
-// Of a long run; where the attractor lies across the crest the box is the whole cell.
+// The box of a long run. Where the attractor lies across the crest it is the whole cell.
 Box find_box(const afm::PoincareMap& map) {
   constexpr int kTransient = 1000, kRun = 100000;
   Box box;

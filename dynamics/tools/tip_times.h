@@ -1,4 +1,4 @@
-// What it costs to compute tips, for tools that compare levels of the model.
+// The time that it takes to compute tips, for tools that compare levels of the model.
 #pragma once
 
 #include <vector>

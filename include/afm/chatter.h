@@ -85,7 +85,7 @@ struct Projection {
 Projection project_onto_surface(const Model& model, const TipState& state);
 TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed);
 
-// The reference slide, displaced by what the chatter has moved the tip.
+// The reference slide, displaced along the surface by chatter.sigma and faster by chatter.p.
 SlideState<double> displaced_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
 
 }  // namespace afm

@@ -31,7 +31,7 @@ ModelKind checked_kind(const std::string& name);
 // Throws std::invalid_argument with every fault, by the names of the options.
 Model checked_model(const PointOptions& options);
 
-// What an option holds: numbers as parse_range() knows them; or several such, with commas between. Throw
+// The numbers of an option: a range as parse_range() knows it, or several with commas between. Both throw
 // std::invalid_argument with name and text of the option, and the reason.
 std::vector<double> range_option(const std::string& name, const std::string& text);
 std::vector<double> ranges_option(const std::string& name, const std::string& text);

@@ -73,7 +73,8 @@ class LiveServer {
     return in_force_;
   }
 
-  // What the client did not ask for is as it was shown, cut to the range of its slider; another value may be in force.
+  // A value that the client did not change is as it was shown, cut to the range of its slider. Another value may be in
+  // force.
   void change(const Config& config) {
     Config untouched = shown_;
     untouched.__clamp__();

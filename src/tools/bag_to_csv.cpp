@@ -147,7 +147,7 @@ std::uint64_t write_friction(const Recording& recording, const Target& to) {
   });
 }
 
-// Of a parameter. Its name ends in its unit, which the table gives its own way.
+// The column of a parameter, whose name ends in its unit. The table gives units in its own way.
 Column column_of(std::string name) {
   const auto take_end = [&](const std::string& end) {
     const bool found = name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;

@@ -1,4 +1,4 @@
-// What every marker is drawn on: the plane x-z of one frame, lengths of the surface and of the tip's way to one scale.
+// Every marker is drawn on a canvas: the plane x-z of one frame. Surface and path of the tip have one scale.
 #pragma once
 
 #include <std_msgs/ColorRGBA.h>

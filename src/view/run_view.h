@@ -61,7 +61,7 @@ class RunView {
     ModelTime time;
     double X, Y;  // tip minus holder
   };
-  // Of even motion of the holder, in SI but for the time: messages may come before the units.
+  // A part of the run with a steady holder. In SI except for the time, as messages may come before the units.
   struct Leg {
     ModelTime begin;
     double travelled = 0.0;  // since the first of them [m tau/s]

@@ -22,10 +22,10 @@ struct ChatterLimits {
   static constexpr double kMaxRatioWithin = 0.08;    // the same within a sequence
   static constexpr double kDefaultThreshold = 1e-5;  // [a/tau] below it the limits above and the steps are smaller
 
-  static constexpr double kAccepted = 1.05;     // ratio over its limit, at which a sequence may exit
+  static constexpr double kAccepted = 1.05;     // ratio over its limit, up to which a sequence may exit
   static constexpr double kMaxFall = 2.0;       // fall of ln v in a step
   static constexpr double kStep = 0.5;          // step over the time in which P changes, or v falls to zero
-  static constexpr double kMaxChange = 1.6;     // step over the first of these times at its end, or it is halved
+  static constexpr double kMaxChange = 1.6;     // step over the time in which P changes at its end, or it is halved
   static constexpr double kEndSpeed = 0.9;      // v over the threshold that the last step aims at
   static constexpr double kNearlyWhole = 1e-3;  // bounces: so near a whole n the rates count as constant
 };
@@ -179,7 +179,7 @@ class ChatterIntegration {
   // The last whole n of a step before the adiabaticity ratio reaches its limit, or the first whole n of the step. Near
   // the zero of the reaction the ratio grows like 1/(t_end - t)^2, so its inverse root is linear in time.
   double last_whole(const Point& from, double first, Point to, double dt) const {
-    constexpr int kMaxTries = 4;  // one is enough but where P passes its maximum
+    constexpr int kMaxTries = 4;  // one is enough, except where P passes its maximum
     for (int i = 0; i < kMaxTries; ++i) {
       const double last = ratio_over_limit(c_, to);
       if (last <= ChatterLimits::kAccepted) return std::max(whole_after(from), std::floor(value(to.y.n)));
@@ -204,8 +204,8 @@ class ChatterIntegration {
     return rest <= dt ? rest : rest < 2.0 * dt ? 0.5 * rest : dt;  // the last two steps are equal
   }
 
-  // False: the step is to be halved. Its length comes from the rates at its start. At rest on a crest they do not show
-  // the motion of a holder that has just started.
+  // False: the step must be halved. Its length comes from the rates at its start. On a crest, under a holder that has
+  // just started, these rates do not show the motion that follows.
   bool fits(const Point& from, double dt, const Point& next) const {
     // with a constant loss n is like -ln v, with its pole at v = 0
     const double least_v = c_.constant_loss ? 0.5 * (1.0 - ChatterLimits::kStep) * value(from.chatter.v) : 0.0;

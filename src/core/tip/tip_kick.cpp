@@ -8,8 +8,9 @@
 namespace afm {
 namespace {
 
-// The bounces that a kick starts in contact are left out if they move the tip by less than this part of the contact
-// tolerance and of the kick: K_f is the same to a hundredth of its standard error (benchmark collapse_friction).
+// The bounces that a kick starts in contact are one event if they move the tip by less than this times the contact
+// tolerance times the normal speed of the kick. K_f by work then changes by less than a standard error (measured:
+// benchmark collapse_friction).
 constexpr double kDisplacedByKick = 10.0;
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace afm {
 namespace {
 
-// Of v^2/2 since the first bounce of a chatter sequence. A snapshot holds the energy lost beyond it.
+// The fall of v^2/2 since the first bounce of a chatter sequence. A snapshot holds the energy lost beyond it.
 double fall_of_energy(double first, double v) { return 0.5 * (first - v) * (first + v); }
 
 }  // namespace

@@ -150,7 +150,7 @@ std::string describe(const Faults& faults) {
   return text;
 }
 
-// What others are checked by stands at its default where it is faulty itself, so that all faults are found at once.
+// A faulty value that others are checked against is replaced by its default, so that all faults are found at once.
 Faults find_faults(const Parameters& parameters) {
   Parameters p = parameters;
   Faults faults, faults_of_rates;

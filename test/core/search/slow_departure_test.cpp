@@ -1,5 +1,5 @@
-// Flights that hardly leave the surface, as after a dwell: springs and surface are nearly in balance, and stretched far
-// the tip may become a hundred times faster than it is.
+// Flights that hardly leave the surface, as after a contact episode: springs and surface are nearly in balance. Where
+// the springs are stretched far, the tip may become a hundred times faster than it is.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The hammer (section IX): the tip held along x. Closed forms, the books, and the limit of a stiff horizontal spring.
+// The hammer (section IX): the tip held along x. Closed forms, the energy balance, and the limit of a stiff horizontal
+// spring.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,7 +67,7 @@ TEST(Hammer, ThrownOffByACommandItIsThrownThenAndNoUlpSooner) {
   EXPECT_GT(thrown, 300);
 }
 
-// Of the gap rate v and the height alone: the holder's part is left out of these books.
+// The energy of the height and of the vertical velocity alone, without the holder's part.
 double vertical_energy(const Model& m, const FreeState& s) {
   return 0.5 * (s.w * s.w + kTwoPi * kTwoPi * (s.y - m.y0) * (s.y - m.y0));
 }

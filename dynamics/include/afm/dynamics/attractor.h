@@ -30,8 +30,8 @@ struct AttractorSettings {
 
 struct Attractor {
   AttractorKind kind = AttractorKind::undecided;
-  // Of one period, 0 if the orbit is not periodic. Impacts: chatter that dies counts as one. Cells: lattice cells that
-  // the holder passes, so the period is cells / |eta| tau.
+  // Counts over one period, 0 if the orbit is not periodic. Impacts: chatter that dies counts as one. Cells: lattice
+  // cells that the holder passes, so the period is cells / |eta| tau.
   int impacts = 0;
   int cells = 0;
   double contact_share = 0.0;     // part of the time in contact, in chatter or in bounces below 0.01 a/tau

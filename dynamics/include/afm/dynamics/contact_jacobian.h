@@ -24,10 +24,10 @@ Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<
 // The derivative of project_onto_surface() (chatter.h), the reference slide and the normal speed, by dx, dX, du, dg1.
 Eigen::Matrix4d projection_jacobian(const Model& model, const TipState& bounce);
 
-// Of a chatter sequence that exits: from `start`, after its first bounce, to after its last, `duration` later [tau]. It
-// is the derivative of the averaged law. The error of the law for each bounce adds up: against the exact chain of up to
-// 400 bounces half of all sequences have an error below 1.4e-4 (the hammer: 8.4e-4), and all below 8e-3 (test
-// chatter_jacobian).
+// The derivative of a chatter sequence that exits: from `start`, after its first bounce, to after its last, `duration`
+// later [tau]. It is the derivative of the averaged law. The error of the law for each bounce adds up. Against the
+// exact chain of up to 400 bounces half of all sequences have an error below 1.4e-4 (the hammer: 8.4e-4), and all below
+// 8e-3 (test chatter_jacobian).
 SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
                                          double duration);
 

@@ -95,7 +95,7 @@ struct Incidence {
   }
 };
 
-// Of the hammer: w -> w - (1 + restitution) r with r = w - h'(x) u; u is that of the holder.
+// The reflection of the hammer: w -> w - (1 + restitution) r with r = w - h'(x) u; u is that of the holder.
 template <class T>
 FlowJacobian<T> hammer_reflection_derivative(const RestitutionJet<T>& law, const Incidence<T>& in) {
   const T gain = T(1.0) + law.slope;

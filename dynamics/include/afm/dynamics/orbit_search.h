@@ -23,8 +23,8 @@ struct FoundOrbit {
   double approach = 0.0;  // smallest distance of the long run from its first point: small on the attractor [a, a/tau]
 };
 
-// Of one length: numbers of first estimates that led to an orbit of that length, to a repeated shorter orbit, or to
-// none.
+// The search for orbits of one length: how many first estimates led to an orbit of that length, to a repeated shorter
+// orbit, or to none.
 struct LengthReport {
   int length = 0;
   int prime = 0, repeats = 0, none = 0;

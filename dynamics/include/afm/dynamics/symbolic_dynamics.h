@@ -36,7 +36,7 @@ Partition find_partition(const std::vector<TipState>& points, double gap = 0.05)
 
 std::string word_of(const Partition& partition, const std::vector<TipState>& points);
 
-// Of a periodic orbit: the first rotation in alphabetical order, so it does not depend on the first point.
+// The word of a periodic orbit: the first rotation in alphabetical order, so it does not depend on the first point.
 std::string cyclic_word(const Partition& partition, const std::vector<TipState>& points);
 
 struct WordCount {
@@ -53,8 +53,8 @@ struct WordSpread {
 };
 WordSpread word_spread(const std::string& letters, const std::vector<TipState>& points, int length);
 
-// Of every length up to `longest`. A word occurs if it is found once. Precondition: the run is long against the number
-// of words.
+// Counts words of every length up to `longest`. A word occurs if it is found once. Precondition: the run is long
+// against the number of words.
 std::vector<WordCount> count_words(const std::string& letters, std::size_t alphabet, int longest);
 
 }  // namespace afm

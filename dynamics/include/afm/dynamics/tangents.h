@@ -30,7 +30,7 @@ class Tangents {
   Outcome advance(const ModelTime& limit);
 
   const Stretch& stretch() const { return stretch_; }  // of the last advance
-  // Of the last event, on the section; in contact its first three rows and columns are those of the slide.
+  // Derivative of the last event, on the section. In contact its first three rows and columns are those of the slide.
   const SectionJacobian<double>& jacobian() const { return jacobian_; }
   ModelTime carried_to() const { return since_; }
   int rank() const { return rank_; }
