@@ -50,7 +50,7 @@ TEST(HammerJacobian, IsTheDerivativeOfTheMap) {
   }
 }
 
-// Of phase and gap rate: the area shrinks by restitution and slope of the law, over the rates at which the flow
+// The area of phase and gap rate shrinks by restitution and slope of the law, over the rates at which the flow
 // crosses.
 TEST(HammerJacobian, ShrinksAreaByTheRestitutionAlone) {
   for (const Model& model : kModels) {

@@ -11,7 +11,7 @@
 namespace afm {
 namespace {
 
-// What volumes do is known from the impacts alone. Of the hammer's four directions two are held.
+// The change of volumes is known from the impacts alone. Two of the hammer's four directions are held.
 TEST(Lyapunov, SumsUpToWhatTheRestitutionTakes) {
   for (const ModelKind kind : {ModelKind::oscillator, ModelKind::hammer}) {
     const bool is_free = kind == ModelKind::oscillator;
@@ -62,8 +62,8 @@ TEST(Lyapunov, IsHowFastNeighboursPart) {
   EXPECT_NEAR(s.exponents[0], 0.6, 0.1);
 }
 
-// Bursts taken as a whole, or others of a hundredth of the tolerance, change nothing: where they are rare, and where
-// many begin above the cutoff.
+// The exponents do not depend on the contact tolerance. The first case compares with every bounce by itself, where
+// chatter sequences are rare. The second compares with a hundredth of the tolerance, where many begin above the cutoff.
 TEST(Lyapunov, DoesNotDependOnTheToleranceOfBursts) {
   const double cases[][3] = {{3.4, 0.1, 0.0}, {5.0, 0.01, 1e-5}};
   for (const auto& [eta, v_c, tolerance] : cases) {

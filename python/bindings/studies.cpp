@@ -19,7 +19,7 @@
 namespace afm::python {
 namespace {
 
-// Of each start at each point the point, its attractor (a row of the table), and the start.
+// For each start at each point: the point, its attractor (a row of the table), and the start.
 py::array labels(const std::vector<SweepPoint>& grid, const std::vector<std::vector<Basin>>& basins,
                  const BasinSettings& settings) {
   constexpr std::size_t kColumns = 7;

@@ -45,7 +45,7 @@ SweepDirection direction_of(const std::string& name) {
   throw py::value_error("sweep = " + name + ": must be fresh, up or down");
 }
 
-// Of axes (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio).
+// The curve over the axes (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio).
 py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std::string& kind,
                          const std::string& sweep, double duration, double transient, const Bath& bath,
                          std::uint64_t seed, int threads, const py::object& progress) {
@@ -74,8 +74,8 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   return rows.result(curve_columns());
 }
 
-// Of rows of (eta, gamma, cutoff, phase, extension, u, w, rest_height, amplitude, frequency_ratio). Returns the eight
-// results of each, one row after the other, NaN where it has none; and number and fault of the first such row.
+// A row of the input is (eta, gamma, cutoff, phase, extension, u, w, rest_height, amplitude, frequency_ratio). Returns
+// the eight results of each row, NaN where it has none; and number and fault of the first such row.
 py::tuple next_impact(const Numbers& inputs, const std::string& kind, int threads) {
   constexpr std::size_t kInputs = 10, kResults = 8, kRowsAtATime = 1000;
   const std::size_t n = static_cast<std::size_t>(inputs.size()) / kInputs;

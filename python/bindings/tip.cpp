@@ -54,7 +54,7 @@ void repeat(const Step& step) {
   }
 }
 
-// Of one call: where long quiet flights or slides are cut, so that signals are seen. No bit depends on it.
+// The end of one call. Long quiet flights and slides are cut here, so that signals are seen. No bit depends on it.
 ModelTime next_stop(const Tip& tip, const ModelTime& end) {
   constexpr double kLongest = 1000.0;  // [tau]
   const ModelTime stop = tip.now() + kLongest;
