@@ -38,8 +38,9 @@ using Kind = Request::Kind;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
-constexpr double kSafePace =
-    1.2;  // of the trial run over what is needed: publishing and other programs take their part
+// pace of the trial run over what is needed: publishing and other programs take their part
+constexpr double kSafePace = 1.2;
+constexpr double kSlowBath = 100.0, kSlowBathKicks = 11.09;  // from that Q on so many suffice (docs/levers.md)
 constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
@@ -89,11 +90,11 @@ void report_pace(const Parameters& p) {
   const double pace = measure_pace(p);
   ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
+  const bool slow_bath = p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > kSlowBathKicks;
   ROS_WARN(
       "this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = "
-      "%.1g, "
-      "a lower sample_rate_hz, a contact_tolerance up to 1e-2, or model = hammer",
-      p.time_scale, pace, 0.7 * pace);
+      "%.1g, a lower sample_rate_hz, a contact_tolerance up to 1e-2,%s or model = hammer",
+      p.time_scale, pace, 0.7 * pace, slow_bath ? " kicks_per_tau = 11.09," : "");
 }
 
 void report_run(const Parameters& p, const std::string& scheduler) {
