@@ -9,7 +9,7 @@ from .pictures import PATH_CELLS, PICO, SPANS, Curve, Loop, Path, Scope
 from .signals import FINE_SAMPLES, TRIGGER_SEARCH, FrictionLoop, Motion, Recent, Trail
 
 FRAME_MS = 33
-SLOW_FRAMES = 3     # the numbers and the curve follow every third frame: who could read them faster
+SLOW_FRAMES = 6     # the numbers, the curve and the loop follow every sixth frame: who could read them faster
 SLOW_TAU = 2.0      # per frame: slower than that an eye follows, and the newest is shown instead of what was triggered
 GONE_S, DOUBT_S = 1.5, 0.3  # of silence: a status comes 10 times a second
 LAG_S = 0.1         # a lamp goes yellow
@@ -38,7 +38,7 @@ class Window(QtWidgets.QWidget):
         self._lay_out()
         self.resize(1000, 700)
         self.refresh()
-        self._timer = QtCore.QTimer(self, interval=FRAME_MS, timeout=self.refresh)
+        self._timer = QtCore.QTimer(self, interval=FRAME_MS, timerType=QtCore.Qt.PreciseTimer, timeout=self.refresh)
         self._timer.start()
 
     # the desk
