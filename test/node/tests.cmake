@@ -78,9 +78,6 @@ endif()
 
 # a short form; scripts/soak alone runs for an hour
 set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 6 --part 3 --rate 50)
-if(AFM_SANITIZE)
-  list(APPEND soak --any-memory)
-endif()
 add_test(NAME soak COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${soak})
 set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOSTNAME=localhost")
 
