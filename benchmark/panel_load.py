@@ -14,7 +14,6 @@ from emulator import DATA, emulator, master, write_table
 RATES = (200e3, 1e6)  # the default, and the greatest
 ETA_3_4 = 1.1255437575458838e-05  # m/s on mica: the chaotic motion of the paper
 WARM_UP_S = 5.0
-PICTURES = ('scope.vertical', 'scope.lateral', 'path.plot')  # drawn at every frame
 
 
 def watch(seconds):
@@ -38,12 +37,9 @@ def watch(seconds):
     window = Window(Link('/afm'), friction_curve())
     window.show()
     paints = []
-    for name in PICTURES:
-        part = window
-        for attribute in name.split('.'):
-            part = getattr(part, attribute)
+    for picture in (window.scope.vertical, window.scope.lateral, window.path.plot):  # drawn at every frame
         paints.append(Paints())
-        part.viewport().installEventFilter(paints[-1])
+        picture.viewport().installEventFilter(paints[-1])
 
     def pass_time(duration):
         QtCore.QTimer.singleShot(round(1e3 * duration), application.quit)

@@ -208,7 +208,6 @@ class Tip {
   void leave_now();
   void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;
-  bool stays_after(const Kick& kick) const;
   Outcome collapse(const TipState& before, const TipState& after, const Projection& onto, double bounces,
                    Segments* ended);
   Outcome kick(Segments* ended);
@@ -225,6 +224,7 @@ class Tip {
   Account contact_account(const Sliding& sliding, double s) const;
   Account chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const;
   Segment segment_to(const Account& end) const;
+  Segment impact_record(double slope, double gap_rate_change) const;
   Segment impact_segment(const Landing<double>& landing, const Flight<double>& after) const;
   Segment kick_segment(const TipState& before, const TipState& after) const;
 

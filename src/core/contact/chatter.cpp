@@ -76,8 +76,9 @@ double ChatterLaw::collapsing(const SpringConstants<double>& springs, double eta
   if (!(f.P > 0.0)) return 0.0;
   // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k P t/2)
   const double end = constants_.constant_loss ? constants_.threshold : std::min(v, cutoff_);
-  const double gamma = 1.0 - loss_, faster = 2.0 * (v - end) / (f.P * loss_);
-  double time = faster, squares = 2.0 * (v * v * v - end * end * end) / (f.P * (1.0 - gamma * gamma * gamma));
+  const double gamma = 1.0 - loss_;
+  double time = 2.0 * (v - end) / (f.P * loss_);
+  double squares = 2.0 * (v * v * v - end * end * end) / (f.P * (1.0 - gamma * gamma * gamma));
   double bounces = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
   if (!constants_.constant_loss) {
     const double k = constants_.dw_dv;

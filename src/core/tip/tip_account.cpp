@@ -138,18 +138,23 @@ Segment Tip::segment_to(const Account& end) const {
 
 Segment Tip::segment() const { return segment_to(account()); }
 
-// `after` is the flight that begins with the impact, also where the tip does not fly it.
-Segment Tip::impact_segment(const Landing<double>& landing, const Flight<double>& after) const {
-  const GapJet<double>& left = after.start();
+// The record of last_impact_ without the stored energy. The holder of the hammer takes the impulse along x.
+Segment Tip::impact_record(double slope, double gap_rate_change) const {
   Segment s;
   s.kind = SegmentKind::impact;
   s.begin = s.end = now_;
   s.eta = eta_;
-  // the holder of the hammer takes the impulse along x
-  if (springs_.is_free_along_x == 0.0) s.impulse = landing.jet.h1 * (left.g1 - landing.jet.g1);
+  if (springs_.is_free_along_x == 0.0) s.impulse = slope * gap_rate_change;
   s.loss = last_impact_.energy_loss;
-  s.stored = energy_of(springs_, eta_, left.state) - energy_of(springs_, eta_, landing.jet.state);
   s.count = last_impact_.count;
+  return s;
+}
+
+// `after` is the flight that begins with the impact, also where the tip does not fly it.
+Segment Tip::impact_segment(const Landing<double>& landing, const Flight<double>& after) const {
+  const GapJet<double>& left = after.start();
+  Segment s = impact_record(landing.jet.h1, left.g1 - landing.jet.g1);
+  s.stored = energy_of(springs_, eta_, left.state) - energy_of(springs_, eta_, landing.jet.state);
   return s;
 }
 

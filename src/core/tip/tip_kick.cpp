@@ -41,27 +41,14 @@ Segment Tip::kick_segment(const TipState& before, const TipState& after) const {
   return s;
 }
 
-// Contact goes on if the gap rate after the kick is below the threshold at which chatter becomes contact.
-bool Tip::stays_after(const Kick& kick) const {
-  const double least = std::fmax(slowest_chatter_, kMinGapRate);
-  return in_contact() && std::fabs(kicked(kick, tip_state()).g1) < least;
-}
-
 // The bounces of the kick are one event, after which contact goes on. Their energy is lost at once.
 Outcome Tip::collapse(const TipState& before, const TipState& after, const Projection& onto, double bounces,
                       Segments* ended) {
   const double v = std::fabs(onto.normal_speed), loss = 0.5 * v * v;
   last_impact_ = {now_, before.phase, v, onto.tangential_velocity, loss, ImpactKind::burst, whole_count(bounces)};
   if (ended != nullptr) {
-    Segment impact;
-    impact.kind = SegmentKind::impact;
-    impact.begin = impact.end = now_;
-    impact.eta = eta_;
-    // the holder of the hammer takes the impulse along x
-    if (springs_.is_free_along_x == 0.0) impact.impulse = -surface_jet(model_.H, before.phase).h1 * after.g1;
-    impact.loss = loss;
+    Segment impact = impact_record(surface_jet(model_.H, before.phase).h1, -after.g1);
     impact.stored = impact.work() - loss;
-    impact.count = last_impact_.count;
     ended->add(segment());
     ended->add(kick_segment(before, after));
     ended->add(impact);
@@ -72,14 +59,16 @@ Outcome Tip::collapse(const TipState& before, const TipState& after, const Proje
 
 Outcome Tip::kick(Segments* ended) {
   const Kick kick = thermostat_.draw();
+  bool stays = false;
   if (in_contact()) {
     const TipState before = tip_state(), after = kicked(kick, before);
     const Projection onto = project_onto_surface(model_, after);
     const double v = std::fabs(onto.normal_speed), allowed = kDisplacedByKick * contact_tolerance_ * v;
     const double bounces = law_.collapsing(springs_, eta_, onto.reference, v, allowed);
     if (bounces > 0.0) return collapse(before, after, onto, bounces, ended);
+    // below the threshold at which chatter becomes contact, contact goes on without an event
+    stays = std::fabs(after.g1) < std::fmax(slowest_chatter_, kMinGapRate);
   }
-  const bool stays = stays_after(kick);
   Outcome outcome = Outcome::flying;
   if (is_on_slide() && !stays) {
     end_slide_now();
