@@ -52,6 +52,7 @@ Scene scene_of(const Lever& lever, const Crystal& crystal, double load, double s
   afm::SiBath bath;
   bath.temperature_k = 300.0;
   bath.quality_factor = 100.0;
+  bath.kicks_per_tau = 11.09;  // as the files of the levers have it
   const afm::Units units(si);
   return {units.time(), units.to_natural(si), units.to_natural(bath), speed / units.velocity()};
 }
@@ -77,7 +78,7 @@ struct Summary {
 
 void print_run(const Scene& scene, const afm::Bath& bath, const Options& o, Summary& summary) {
   const afm::TimedRun timed =
-      afm::time_tip(afm::falling_tip(scene.model, scene.eta, bath, o.tolerance), o.transient, o.tau);
+      afm::time_tip(afm::tip_at_start(scene.model, scene.eta, bath, o.tolerance), o.transient, o.tau);
   const double taus = static_cast<double>(o.tau), times = scene.tau_s / timed.seconds;
   std::printf(",%.4g,%.9g,%.6g,%ld", times, timed.run.energy / (scene.eta * scene.eta * taus), timed.run.events / taus,
               timed.run.search_failures);

@@ -62,7 +62,7 @@ double slowest_tau(afm::Tip tip, const Options& o) {
 
 // Twice the same run: as a whole, and tau by tau, for which the clock is read and the tip copied in between.
 Figures measure(const Point& point, const Options& o) {
-  const afm::Tip start = afm::falling_tip(point.model, point.eta, point.bath, o.tolerance);
+  const afm::Tip start = afm::tip_at_start(point.model, point.eta, point.bath, o.tolerance);
   const afm::TimedRun timed = afm::time_tip(start, o.transient, o.tau);
   const double tau_s = afm::Units(afm::SiModel{}).time(), taus = static_cast<double>(o.tau);
   return {tau_s / timed.seconds, 1e6 * slowest_tau(start, o), timed.run.energy / (point.eta * point.eta * taus),

@@ -60,6 +60,10 @@ enum class ImpactKind : std::uint8_t { impact = 0, burst = 1, contact_begun = 2,
 TipState to_tip_state(double H, const FreeState& state);
 FreeState to_free_state(double H, const TipState& state);
 
+// At rest in a valley of the surface, the lateral spring relaxed: a tip that was lowered gently under a load. Dropped
+// onto the surface instead, it would keep the energy of its fall for good if nothing damps it.
+inline FreeState lowered_tip(double H) { return {0.5, 0.0, -H, 0.0, 0.0}; }
+
 // One entry of the impact log. Velocities are those before the impact. A burst is the event of a whole chatter sequence
 // and happens at its end: time, place and tangential velocity are those there. Its normal speed is the one with which
 // the sequence begins, after the impact that was reported before. Loss and count are those of all its bounces.

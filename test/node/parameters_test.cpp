@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -23,12 +25,16 @@ XmlRpc::XmlRpcValue list(double first, const XmlRpc::XmlRpcValue& second) {
   return values;
 }
 
-// The faults as the node reports them, a line each.
-std::string refusal(const Given& given) {
+Parameters read(const Given& given, Faults& faults) {
   XmlRpc::XmlRpcValue tree;
   for (const auto& [name, value] : given) tree[name] = value;
+  return read_parameters(tree, faults);
+}
+
+// The faults as the node reports them, a line each.
+std::string refusal(const Given& given) {
   Faults faults;
-  read_parameters(tree, faults);
+  read(given, faults);
   return describe(faults);
 }
 
@@ -87,6 +93,36 @@ TEST(Parameters, OnlyWhatIsFaultyIsBlamed) {
   EXPECT_TRUE(is_blamed("spring_constant_n_per_m", faults) && is_blamed("lateral_spring_constant_n_per_m", faults));
   EXPECT_FALSE(is_blamed("resonance_hz", faults)) << faults;
   EXPECT_EQ(refusal({}), "");
+}
+
+// Largest distance of the lateral spring from rest in 100 tau [a].
+double largest_swing(const Given& given) {
+  Faults faults;
+  const Parameters parameters = read(given, faults);
+  EXPECT_TRUE(faults.empty()) << describe(faults);
+  Run run(run_settings(parameters));
+  Batch batch = preallocated_batch(parameters);
+  double largest = 0.0;
+  while (run.now() < ModelTime{100, 0.0}) {
+    run.advance(batch);
+    for (const double x : batch.lateral) largest = std::max(largest, std::fabs(x));
+  }
+  return largest;
+}
+
+// Dropped, it would keep the energy of its fall in the swing of the lateral spring, as nothing damps it.
+TEST(Parameters, ATipUnderALoadBeginsAtRestInAValley) {
+  Given lever{{"spring_constant_n_per_m", 0.2}, {"resonance_hz", 13e3}, {"lateral_spring_constant_n_per_m", 88.2}};
+  lever["drag_velocity"] = 1e-6;
+  Given loaded = lever, pressed = lever;
+  loaded["load_n"] = 1e-9;
+  pressed["rest_height_m"] = -1e-9 / 0.2;
+  Given dropped = loaded;
+  dropped["initial_height"] = 0.21;
+  EXPECT_LT(largest_swing(loaded), 0.5 * largest_swing(dropped));
+  EXPECT_LT(largest_swing(pressed), 0.5 * largest_swing(dropped));
+  Faults faults;  // a load that does not hold it down
+  EXPECT_EQ(read({{"load_n", 1e-12}}, faults).initial.phase, Parameters().initial.phase);
 }
 
 }  // namespace

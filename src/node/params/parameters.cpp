@@ -114,6 +114,15 @@ void set_lever_and_load(Parameters& p, Faults& faults) {
   p.si.rest_height_m = -p.load_n / spring_constant(p.si);
 }
 
+// Under a load that holds the tip down in a valley it begins there, unless another initial state is given.
+void set_initial_state(Parameters& p) {
+  const FreeState usual = Parameters().initial, &given = p.initial;
+  const bool is_given = given.phase != usual.phase || given.X != usual.X || given.y != usual.y || given.u != usual.u ||
+                        given.w != usual.w;
+  if (is_given || !(p.si.rest_height_m < -p.si.surface_amplitude_m)) return;
+  p.initial = lowered_tip(p.si.surface_amplitude_m / p.si.lattice_spacing_m);
+}
+
 std::string expand_home(const std::string& path) {
   const char* home = std::getenv("HOME");
   return home != nullptr && path.compare(0, 2, "~/") == 0 ? home + path.substr(1) : path;
@@ -161,6 +170,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
     }
   }
   set_lever_and_load(parameters, faults);
+  set_initial_state(parameters);
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
   // what could not be read stands at its default here and adds no fault of its own
