@@ -27,7 +27,7 @@
 #include "node/publisher/refusals.h"
 #include "node/publisher/topics.h"
 #include "node/recorder/recorder.h"
-#include "node/runner/batch_queue.h"
+#include "node/runner/report.h"
 #include "node/runner/runner.h"
 
 namespace afm::node {

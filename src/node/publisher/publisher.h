@@ -16,7 +16,7 @@
 #include "channel.h"
 #include "messages.h"
 #include "node/recorder/recorder.h"
-#include "node/runner/batch_queue.h"
+#include "node/runner/report.h"
 #include "node/runner/threads.h"
 #include "refusals.h"
 #include "status.h"

@@ -12,7 +12,7 @@
 
 #include "afm/pacer.h"
 #include "afm/run.h"
-#include "batch_queue.h"
+#include "report.h"
 #include "node/params/parameters.h"
 #include "threads.h"
 
