@@ -53,7 +53,7 @@ cp "$work/source/one_tip.cpp" "$work/core"
 cat >"$work/core/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.16)
 project(core_alone LANGUAGES CXX)
-find_package(afm_emulator 0.1 REQUIRED)
+find_package(afm_emulator 0.2 REQUIRED)
 add_executable(one_tip one_tip.cpp)
 target_link_libraries(one_tip PRIVATE afm::core)
 END
