@@ -28,6 +28,7 @@ T horner(const Series<T>& c, const T& s) {
   using std::fma;
   const T s2 = s * s;
   T even = c[kSlideOrder], odd = c[kSlideOrder - 1];
+#pragma GCC unroll 32
   for (std::size_t k = kSlideOrder - 2; k >= 2; k -= 2) {
     even = fma(even, s2, c[k]);
     odd = fma(odd, s2, c[k - 1]);

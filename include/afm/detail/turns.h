@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace afm {
 
@@ -88,7 +89,8 @@ constexpr double kRounder = 6755399441055744.0, kQuarterRounder = 16888498602639
 // Sine and cosine of the angle r + q. `quarters`: q, a whole number of quarters of a turn, plus kQuarterRounder.
 inline SinCos<double> sin_cos_beside(double quarters, double r) {
   const double z = r * r, s = sine(r, z), c = cosine(r, z);
-  const long long k = static_cast<long long>(4.0 * (quarters - kQuarterRounder));
+  std::uint64_t k;  // its last two bits count quarters: the last bit of `quarters` is one
+  std::memcpy(&k, &quarters, sizeof k);
   const bool swap = (k & 1) != 0;
   const double sin_value = swap ? c : s, cos_value = swap ? s : c;
   return {(k & 2) != 0 ? -sin_value : sin_value, ((k + 1) & 2) != 0 ? -cos_value : cos_value};

@@ -54,7 +54,7 @@ bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (2.0 * v * std::max(m.ratio, std::abs(launch.u)) > limit * -start.g2) return false;
   const auto p = projected<double>(m.is_free_along_x, m.H, {launch.phase, launch.X, launch.u, start.g1});
   const ReferenceForces<double> f = reference_forces(m, bounce.eta(), p.reference);
-  return f.P > 0.0 && 2.0 * p.normal_speed * f.fastest <= limit * f.P;
+  return f.P > 0.0 && 2.0 * p.normal_speed * quickness(m, p.reference.u, f).fastest <= limit * f.P;
 }
 
 ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, double until,
@@ -87,7 +87,7 @@ double ChatterLaw::collapsing(const SpringConstants<double>& springs, double eta
     bounces += (1.0 / constants_.threshold - 1.0 / end) / k;
   }
   const double moved = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn)) * squares / (3.0 * f.P);
-  return moved <= allowed && time * f.change <= kMostChange ? std::max(bounces, 1.0) : 0.0;
+  return moved <= allowed && time * quickness(springs, at.u, f).change <= kMostChange ? std::max(bounces, 1.0) : 0.0;
 }
 
 Projection project_onto_surface(const Model& model, const TipState& state) {

@@ -51,11 +51,36 @@ struct ChatterVariables {
   T x, n, sigma, p, drift, loss;
 };
 
+// The values at the nodes of a step. The compiler makes vector operations of the loops over the nodes, with the same
+// bits.
+template <class T>
+using AtNodes = T[kNodeCount];
+
+template <class T>
+inline void set_node(ReferenceForces<AtNodes<T>>& at, std::size_t i, const ReferenceForces<T>& f) {
+  at.P[i] = f.P, at.P1[i] = f.P1, at.P2[i] = f.P2, at.K[i] = f.K, at.turn[i] = f.turn;
+  at.c_height[i] = f.c_height, at.c_sigma[i] = f.c_sigma, at.dx_dsigma[i] = f.dx_dsigma, at.dx_drho[i] = f.dx_drho;
+}
+template <class T>
+inline ReferenceForces<T> node(const ReferenceForces<AtNodes<T>>& at, std::size_t i) {
+  return {at.P[i],        at.P1[i],      at.P2[i],        at.K[i],      at.turn[i],
+          at.c_height[i], at.c_sigma[i], at.dx_dsigma[i], at.dx_drho[i]};
+}
+template <class T>
+inline void set_node(ChatterVariables<AtNodes<T>>& at, std::size_t i, const ChatterVariables<T>& y) {
+  at.x[i] = y.x, at.n[i] = y.n, at.sigma[i] = y.sigma, at.p[i] = y.p, at.drift[i] = y.drift, at.loss[i] = y.loss;
+}
+template <class T>
+inline ChatterVariables<T> node(const ChatterVariables<AtNodes<T>>& at, std::size_t i) {
+  return {at.x[i], at.n[i], at.sigma[i], at.p[i], at.drift[i], at.loss[i]};
+}
+
 // A time of the integration.
 template <class T>
 struct ChatterPoint {
   T s;  // since the start of the reference slide [tau]
   ReferenceForces<T> forces;
+  Quickness quickness;
   ChatterVariables<T> y, rates;
   ChatterOf<T> chatter;
 };
@@ -107,7 +132,7 @@ inline double ratio_over_limit(const ChatterConstants& c, const ChatterPoint<T>&
   const double limit = ChatterLimits::kMaxRatioWithin * c.fineness;
   const double P = static_cast<double>(at.forces.P);
   if (!(P > 0.0)) return std::numeric_limits<double>::infinity();
-  return 2.0 * static_cast<double>(at.chatter.v) / P * at.forces.fastest / limit;
+  return 2.0 * static_cast<double>(at.chatter.v) / P * at.quickness.fastest / limit;
 }
 
 // The integration along one reference slide.
@@ -121,10 +146,12 @@ class ChatterIntegration {
       : c_(constants), reference_(reference) {}
 
   Point begin(const T& s, const ChatterOf<T>& start) const {
-    const ReferenceForces<T> f = forces_at(s);
+    const SlideState<T> q = reference_.at(s);
+    const ReferenceForces<T> f = reference_forces(reference_.springs(), reference_.eta(), q);
     const T v = start.v * (1.0 - disturbance(f, start.sigma, start.p) * (1.0 / 3));
     const T x = c_.constant_loss ? v : portable_log(v);
-    Point at{s, f, {x, start.n, start.sigma, start.p, start.drift, start.loss}, {}, start};
+    const ChatterVariables<T> y{x, start.n, start.sigma, start.p, start.drift, start.loss};
+    Point at{s, f, quickness(reference_.springs(), q.u, f), y, {}, start};
     at.rates = chatter_rates(c_, at.forces, at.y);
     return at;
   }
@@ -170,9 +197,6 @@ class ChatterIntegration {
   }
 
  private:
-  using Forces = std::array<ReferenceForces<T>, kNodeCount>;
-  using Rates = std::array<ChatterVariables<T>, kNodeCount>;
-
   static double value(const T& x) { return static_cast<double>(x); }
   static double whole_after(const Point& at) { return std::floor(value(at.y.n)) + 1.0; }
 
@@ -190,15 +214,11 @@ class ChatterIntegration {
     return whole_after(from);
   }
 
-  ReferenceForces<T> forces_at(const T& s) const {
-    return reference_forces(reference_.springs(), reference_.eta(), reference_.at(s));
-  }
-
   double step_length(const Point& at, double rest) const {
     const double half_P = 0.5 * value(at.forces.P), v = value(at.chatter.v), x1 = value(at.rates.x);
     const double falls =
         c_.constant_loss ? ChatterLimits::kStep * v / (half_P * c_.w) : ChatterLimits::kMaxFall / (half_P * c_.dw_dv);
-    double dt = c_.fineness * std::min(falls, ChatterLimits::kStep / at.forces.change);
+    double dt = c_.fineness * std::min(falls, ChatterLimits::kStep / at.quickness.change);
     // not far beyond the threshold, as n counts the bounces down to it
     if (x1 < 0.0) dt = std::min(dt, (c_.end_x - value(at.y.x)) / x1);
     return rest <= dt ? rest : rest < 2.0 * dt ? 0.5 * rest : dt;  // the last two steps are equal
@@ -209,7 +229,7 @@ class ChatterIntegration {
   bool fits(const Point& from, double dt, const Point& next) const {
     // with a constant loss n is like -ln v, with its pole at v = 0
     const double least_v = c_.constant_loss ? 0.5 * (1.0 - ChatterLimits::kStep) * value(from.chatter.v) : 0.0;
-    return value(next.forces.P) > 0.0 && dt * next.forces.change <= ChatterLimits::kMaxChange &&
+    return value(next.forces.P) > 0.0 && dt * next.quickness.change <= ChatterLimits::kMaxChange &&
            value(next.chatter.v) > least_v;
   }
 
@@ -221,37 +241,58 @@ class ChatterIntegration {
   }
 
   // The integral of the rates from the start of the step to node i.
-  ChatterVariables<T> integral(const Point& from, double dt, const Rates& rates, std::size_t i) const {
-    const auto sum = [&](T ChatterVariables<T>::*of) {
-      T mean = kLobatto[0][i] * (from.rates.*of);
+  static ChatterVariables<T> integral(const Point& from, double dt, const ChatterVariables<AtNodes<T>>& rates,
+                                      std::size_t i) {
+    const auto sum = [&](const T& y, const T& first, const AtNodes<T>& at) {
+      T mean = kLobatto[0][i] * first;
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < kNodeCount; ++k) mean = mean + kLobatto[k + 1][i] * (rates[k].*of);
-      return from.y.*of + dt * mean;
+      for (std::size_t k = 0; k < kNodeCount; ++k) mean = mean + kLobatto[k + 1][i] * at[k];
+      return y + dt * mean;
     };
-    using V = ChatterVariables<T>;
-    return {sum(&V::x), sum(&V::n), sum(&V::sigma), sum(&V::p), sum(&V::drift), sum(&V::loss)};
+    const ChatterVariables<T>&y = from.y, &r = from.rates;
+    return {sum(y.x, r.x, rates.x), sum(y.n, r.n, rates.n),             sum(y.sigma, r.sigma, rates.sigma),
+            sum(y.p, r.p, rates.p), sum(y.drift, r.drift, rates.drift), sum(y.loss, r.loss, rates.loss)};
   }
 
   // One step of Lobatto's method. Its equations are solved by iteration; the start extrapolates the first rates.
   Point step(const Point& from, double dt) const {
     constexpr int kIterations = 2;
-    Forces forces;
-    Rates rates;
-    // no node needs another one: unrolled, their chains of operations overlap
-#pragma GCC unroll 4
+    constexpr std::size_t kLast = kNodeCount - 1;
+    const SlideSegment<T>& reference = reference_;
+    const SpringConstants<T> springs = reference.springs();
+    const T eta = reference.eta();
+    SlideState<AtNodes<T>> q;
+    ReferenceForces<AtNodes<T>> forces;
+    ChatterVariables<AtNodes<T>> y, rates;
     for (std::size_t i = 0; i < kNodeCount; ++i) {
-      forces[i] = forces_at(from.s + kNodes[i] * dt);
-      rates[i] = chatter_rates(c_, forces[i], along(from, T(kNodes[i] * dt)));
+      const SlideState<T> at = reference.at(from.s + kNodes[i] * dt);
+      q.phase[i] = at.phase, q.X[i] = at.X, q.u[i] = at.u;
     }
+    for (std::size_t i = 0; i < kNodeCount; ++i) {
+      set_node(forces, i, reference_forces(springs, eta, SlideState<T>{q.phase[i], q.X[i], q.u[i]}));
+    }
+    for (std::size_t i = 0; i < kNodeCount; ++i) set_node(y, i, along(from, T(kNodes[i] * dt)));
+    set_rates(forces, y, rates);
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      const Rates before = rates;
-#pragma GCC unroll 4
-      for (std::size_t i = 0; i < kNodeCount; ++i) {
-        rates[i] = chatter_rates(c_, forces[i], integral(from, dt, before, i));
-      }
+      for (std::size_t i = 0; i < kNodeCount; ++i) set_node(y, i, integral(from, dt, rates, i));
+      set_rates(forces, y, rates);
     }
-    const ChatterVariables<T> y = integral(from, dt, rates, kNodeCount - 1);
-    return {from.s + dt, forces.back(), y, rates.back(), to_chatter(c_, forces.back(), y)};
+    const ReferenceForces<T> f = node(forces, kLast);
+    const ChatterVariables<T> end = integral(from, dt, rates, kLast);
+    return {from.s + dt, f, quickness(springs, q.u[kLast], f), end, node(rates, kLast), to_chatter(c_, f, end)};
+  }
+
+  void set_rates(const ReferenceForces<AtNodes<T>>& forces, const ChatterVariables<AtNodes<T>>& y,
+                 ChatterVariables<AtNodes<T>>& rates) const {
+    c_.constant_loss ? set_rates_of<true>(forces, y, rates) : set_rates_of<false>(forces, y, rates);
+  }
+  // Without a branch in the loop, which could not be a vector operation.
+  template <bool kConstantLoss>
+  void set_rates_of(const ReferenceForces<AtNodes<T>>& forces, const ChatterVariables<AtNodes<T>>& y,
+                    ChatterVariables<AtNodes<T>>& rates) const {
+    ChatterConstants c = c_;
+    c.constant_loss = kConstantLoss;
+    for (std::size_t i = 0; i < kNodeCount; ++i) set_node(rates, i, chatter_rates(c, node(forces, i), node(y, i)));
   }
 
   const ChatterConstants& c_;

@@ -20,9 +20,19 @@ struct ReferenceForces {
   T c_sigma;       // of -sigma in the acceleration along the surface [1/tau^2]
   T dx_dsigma;     // displacement along x for one along the surface
   T dx_drho;       // displacement along x for a distance from the surface
+};
+
+// They control steps and ends only: no derivatives by the start.
+struct Quickness {
   double change;   // relative rate of change of P: |P'/P| or sqrt(|P''/P|) [1/tau]
   double fastest;  // the larger of that and the rate of the slope, |u|, and of the springs [1/tau]
 };
+template <class T>
+inline Quickness quickness(const SpringConstants<T>& m, const T& u, const ReferenceForces<T>& f) {
+  const double p1 = static_cast<double>(f.P1) / static_cast<double>(f.P);
+  const double change = std::sqrt(std::max(p1 * p1, std::abs(static_cast<double>(f.P2) / static_cast<double>(f.P))));
+  return {change, std::max({change, std::abs(static_cast<double>(u)), static_cast<double>(m.ratio), 1.0})};
+}
 
 // a = N P is the acceleration towards the surface of a tip that does not touch it, N^2 = 1 + s^2; lambda = a/N^2 is the
 // reaction along y. The digit at the end of a name counts time derivatives. But h1 to h4 are derivatives of h by x, and
@@ -60,11 +70,6 @@ inline ReferenceForces<T> reference_forces(const SpringConstants<T>& m, const T&
   f.c_sigma = (wh2 + wv2 * s * s) * inverse_N2 - kappa * (kappa * c_squared - f.P);
   f.dx_dsigma = free * inverse_N;
   f.dx_drho = -s * inverse_N;
-
-  // they control steps and ends only: no derivatives by the start
-  const double p1 = static_cast<double>(f.P1) / static_cast<double>(f.P);
-  f.change = std::sqrt(std::max(p1 * p1, std::abs(static_cast<double>(f.P2) / static_cast<double>(f.P))));
-  f.fastest = std::max({f.change, std::abs(static_cast<double>(u)), static_cast<double>(m.ratio), 1.0});
   return f;
 }
 
