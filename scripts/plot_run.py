@@ -3,6 +3,7 @@
 in a bag; this is also an example of how to read it."""
 import argparse
 import os
+import struct
 import sys
 
 try:
@@ -20,6 +21,20 @@ ZOOM_TAU = 6.0  # the end of the run, sample by sample
 BLUE, ORANGE, GREEN, PINK = '#0072B2', '#D55E00', '#009E73', '#CC79A7'
 KINDS = {0: ('impact', BLUE, 3), 1: ('chatter sequence', ORANGE, 14), 2: ('contact begins', GREEN, 12),
          3: ('contact ends', PINK, 12)}
+
+
+# An impact as it lies in a message, in which the list of impacts is the last field: read as an array, a million of them
+# take no longer than a few messages that are unpacked one field at a time.
+IMPACT = np.dtype([('tau', '<i8'), ('phase', '<f8'), ('surface_phase', '<f8'), ('normal_speed', '<f8'),
+                   ('tangential_velocity', '<f8'), ('energy_loss', '<f8'), ('kind', 'u1'), ('count', '<u4')])
+
+
+def impacts_of(data):
+    """The impacts in the bytes of an ImpactArray: after header, epoch, index of the first, and their number."""
+    frame_id, = struct.unpack_from('<I', data, 12)
+    begin = 16 + frame_id + 4 + 8
+    count, = struct.unpack_from('<I', data, begin)
+    return np.frombuffer(data, IMPACT, count, begin + 4)
 
 
 class Run:
@@ -60,9 +75,12 @@ class Run:
             while self.close[0][0, -1] < samples[0, -1] - ZOOM_TAU * self.unit:
                 self.close.pop(0)
 
-    def add_impacts(self, message):
-        for i in message.impacts:
-            self.impacts.append((self.seconds(i.time), i.normal_speed * 1e6, i.kind))
+    def add_impacts(self, data):
+        impacts = impacts_of(data)
+        if len(impacts):
+            times = self.offset + (impacts['tau'] + impacts['phase']) * self.unit
+            self.last = max(self.last, times[-1])
+            self.impacts.append(np.column_stack([times, impacts['normal_speed'] * 1e6, impacts['kind']]))
 
     def add_friction(self, message):
         per_unit = message.k_f_work_natural / message.k_f_work if message.k_f_work else NAN
@@ -94,19 +112,23 @@ def read(paths, end):
     run = Run(end)
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
     known = set()
-    add = {'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
-           'Friction': run.add_friction, 'Applied': run.add_drag}
+    add = {'Deflection': lambda m: run.add_deflection(m, every), 'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
         with rosbag.Bag(path) as bag:
-            for topic, message, _ in bag.read_messages():
-                kind = message._type.split('/')[1]
+            for _, raw, _ in bag.read_messages(raw=True):
+                kind, data, of_type = raw[0].split('/')[1], raw[1], raw[4]
+                if kind == 'ImpactArray' and run.configuration is not None:
+                    run.add_impacts(data)
+                if kind != 'Configuration' and kind not in add:
+                    continue
+                message = of_type().deserialize(data)
                 if kind in ('Configuration', 'Applied'):  # the bags of a split recording repeat what was before
                     if (kind, message.header.seq) in known:
                         continue
                     known.add((kind, message.header.seq))
                 if kind == 'Configuration':
                     run.begin_epoch(message)
-                elif kind in add and run.configuration is not None:
+                elif run.configuration is not None:
                     add[kind](message)
     if run.configuration is None or not run.samples:
         sys.exit('plot_run.py: %s: no run of the emulator in it' % ' '.join(paths))
@@ -142,7 +164,7 @@ def draw_zoom(axes, run):
 
 
 def draw_impacts(axes, run):
-    impacts = np.array(run.impacts).reshape(-1, 3)
+    impacts = np.vstack(run.impacts) if run.impacts else np.zeros((0, 3))
     for kind, (name, colour, size) in KINDS.items():
         chosen = impacts[(impacts[:, 2] == kind) & (impacts[:, 1] > 0)]
         if len(chosen):

@@ -23,7 +23,7 @@ struct RunSettings {
   double sample_period = 0.03;  // [tau]
   std::uint64_t samples_per_batch = 2000;
   double friction_window = 1000.0;      // [tau]
-  std::uint64_t impact_budget = 20000;  // impacts per batch; a batch that spends it ends there
+  std::uint64_t impact_budget = 40000;  // impacts per batch; a batch that spends it ends there
   double contact_tolerance = kDefaultContactTolerance;
   Bath bath;  // none
 };

@@ -50,7 +50,7 @@ struct Parameters : Live {
   std::vector<double> commands_eta;
   double commands_hold_s = 0.1;
   double command_timeout_s = 0.0;
-  std::uint64_t impact_budget = 20000;
+  std::uint64_t impact_budget = 40000;
   double contact_tolerance = kDefaultContactTolerance;
   bool paused = false;
   bool record = false;

@@ -111,7 +111,7 @@ TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
     const ChatterIntegration<double> integration(law_.constants(), chatter.reference);
     const ChatterPoint<double> start = integration.begin(0.0, {chatter.v, 0.0});
-    const double rate = start.rates.x, fastest = std::max(kTwoPi * start.forces.fastest, std::abs(rate));
+    const double rate = start.rates.x, fastest = std::max(kTwoPi * start.quickness.fastest, std::abs(rate));
     for (double part = 1e-3; part > 1e-20; part *= 0.1) {
       const double dt = part / fastest, v = law_.at(chatter.reference, dt, {chatter.v, 0.0}).v;
       ASSERT_NEAR(v, chatter.v * (1.0 + dt * rate), (10.0 * part * part + 1e-14) * chatter.v) << i << ' ' << part;
