@@ -60,10 +60,10 @@ END
 build_in core_alone "$work/core" "$work/prefix" one_tip -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
 compare core_alone one_tip
 # a version that is still to come is refused
-sed -i 's/afm_emulator 0.1/afm_emulator 99.0/' "$work/core/CMakeLists.txt"
+sed -i 's/afm_emulator 0.2/afm_emulator 99.0/' "$work/core/CMakeLists.txt"
 for prefix in "$work/prefix" ${devel:+"$devel"}; do
   if cmake -S "$work/core" -B "$work/core_alone" -DCMAKE_PREFIX_PATH="$prefix" -Uafm_emulator_DIR >"$work/log" 2>&1 ||
-    ! grep -q "version: 0\.1" "$work/log"; then
+    ! grep -q "version: 0\.2" "$work/log"; then
     echo "version 99.0 is not refused in favour of ours"
     exit 1
   fi
