@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   app.option("tolerance", o.tolerance, "contact tolerance");
   app.option("tau", o.tau, "measured time of each");
   app.option("transient", o.transient, "time before that");
-  app.option("most-events", o.most_events, "a run of more is given up");
+  app.option("most-events", o.most_events, "a run of more is stopped");
   return app.run(argc, argv, [&] {
     std::printf("eta,v_c,k_f,std_error,events,k_f_bounces,std_error_bounces,events_bounces,relative,in_std_errors\n");
     for (const double eta : o.eta) {

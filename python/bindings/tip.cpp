@@ -212,7 +212,7 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
           "stored_energy", [](const PyTip& self) { return self.tip.stored_energy(); },
           "in springs and motion, in the lab [m a^2/tau^2]")
       .def_property_readonly("search_failures", &PyTip::search_failures,
-                             "must stay 0: searches that gave up at a safe point");
+                             "must stay 0: searches that failed; the motion goes on from a safe point");
 }
 
 }  // namespace afm::python

@@ -7,7 +7,7 @@ import math
 from registry import picture
 
 from . import style
-from .paths import STATE, surface, turned
+from .paths import STATE, surface, rotated
 
 INPUTS = ["eta", "gamma", "cutoff", *STATE]
 TWO_PI = style.TWO_PI
@@ -37,8 +37,8 @@ class Flight:
         """Position and velocity in the lab, t after the start."""
         r = self.row
         y0 = surface(r["phase"])
-        X, U = turned(r["extension"], r["u"] - r["eta"], style.RATIO, t)
-        y, w = turned(y0, r["w"], 1.0, t)
+        X, U = rotated(r["extension"], r["u"] - r["eta"], style.RATIO, t)
+        y, w = rotated(y0, r["w"], 1.0, t)
         return self.x + r["eta"] * t + X - r["extension"], y, r["eta"] + U, w
 
     def times(self, points=400):

@@ -10,7 +10,7 @@ def surface(x):
     return style.AMPLITUDE * math.cos(style.TWO_PI * x)
 
 
-def turned(x, v, frequency, t):
+def rotated(x, v, frequency, t):
     """Position and velocity of a spring (Eq. 9), its frequency in turns a tau."""
     omega = style.TWO_PI * frequency
     c, s = math.cos(omega * t), math.sin(omega * t)
@@ -23,8 +23,8 @@ def flight(state, eta, dt, points=60):
     xs, ys = [], []
     for i in range(points + 1):
         t = dt * i / points
-        xs.append(phase + eta * t + turned(X, u - eta, style.RATIO, t)[0] - X)
-        ys.append(turned(surface(phase), w, 1.0, t)[0])
+        xs.append(phase + eta * t + rotated(X, u - eta, style.RATIO, t)[0] - X)
+        ys.append(rotated(surface(phase), w, 1.0, t)[0])
     return xs, ys
 
 
