@@ -1,4 +1,4 @@
-// Built grazes against 113 bits: is each touch a touch and each miss a miss? And how often twice the digits are needed,
+// Built grazes against quad precision: is each touch a touch and each miss a miss? And how often twice the digits are needed,
 // in grazes and in ordinary flights.
 #include "trials/grazes.h"
 
@@ -41,7 +41,7 @@ void print_ordinary(double eta, const Options& o) {
   for (long i = 0; i < o.ordinary; ++i) {
     const afm::Flight<double> flight(springs, eta, start);
     const auto landing = afm::find_landing(model, flight, afm::kGrazeHorizon);
-    if (afm::find_impact(flight, afm::kGrazeHorizon).outcome == afm::SearchOutcome::undecided) ++finer;
+    if (afm::detail::find_impact(flight, afm::kGrazeHorizon).outcome == afm::SearchOutcome::undecided) ++finer;
     start = landing.outcome == afm::SearchOutcome::impact ? afm::reflect(model, eta, landing.jet).after
                                                           : flight.tip_state(landing.s);
   }
@@ -52,8 +52,8 @@ void print_ordinary(double eta, const Options& o) {
 
 int main(int argc, char** argv) {
   Options o;
-  afm::CommandLine app("grazes",
-                       "Grazes decided in double and double-double, against 113 bits (clearances in units of H).");
+  afm::CommandLine app(
+      "grazes", "Grazes decided in double and double-double, against quad precision (clearances in units of H).");
   app.option("flights", o.flights, "built, of each kind and clearance");
   app.option("neighbours", o.neighbours, "starts next to each, to either side");
   app.option("ordinary", o.ordinary, "flights of ordinary runs, at each drag speed");

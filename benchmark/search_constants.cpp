@@ -2,8 +2,8 @@
 // compiles it with other constants of the search.
 #include <cstdio>
 
-#include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "core/search/impact_search.h"
 
 int main() {
   constexpr int kSkipped = 1000, kImpacts = 20000;
@@ -24,7 +24,7 @@ int main() {
       if (i < 0) continue;
       ++impacts;
       evaluations += landing.evaluations;
-      undecided += find_impact(flight, 1e3).outcome == afm::SearchOutcome::undecided;
+      undecided += afm::detail::find_impact(flight, 1e3).outcome == afm::SearchOutcome::undecided;
     }
   }
   std::printf("%.4f,%ld,%ld\n", static_cast<double>(evaluations) / static_cast<double>(impacts), impacts, undecided);

@@ -19,7 +19,8 @@ using afm::SpeedRow;
 const char kDescription[] =
     "Runs every method on the same flights and writes a CSV table: time per impact (median of alternated rounds, and "
     "its\n"
-    "ratio to ours in the same rounds), error of impact time and state against 113 bits (the largest of all, units a "
+    "ratio to ours in the same rounds), error of impact time and state against quad precision (the largest of all, "
+    "units a "
     "and\n"
     "tau), impacts missed and phantom. Scenes: etaE_vcS (flights on the attractor at drag velocity E, cutoff S eta), "
     "all\n"

@@ -39,7 +39,7 @@ struct StabilityScene {
 // What the emulator's users run: the default tolerance. It is a column of its own beside bounces one by one.
 double usual_setting(const rivals::MethodSpec& method);
 
-std::vector<StabilityScene> flight_scenes(const Effort& effort);  // against 113 bits, flight by flight
+std::vector<StabilityScene> flight_scenes(const Effort& effort);  // against quad precision, flight by flight
 std::vector<StabilityScene> run_scenes();                         // K_f, energy, pace
 
 }  // namespace afm

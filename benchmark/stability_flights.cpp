@@ -4,6 +4,7 @@
 
 #include "afm/tip.h"
 #include "common/cpu_clock.h"
+#include "core/search/impact_search.h"
 #include "flights.h"
 #include "stability.h"
 
@@ -104,7 +105,7 @@ bool graze(double normal_speed, std::mt19937_64& random, Cases& all) {
                        normal_speed * std::sqrt(1.0 + slope * slope)};
   const Flight<Quad> back(SpringConstants<Quad>(model), Quad(-eta), touch);
   if (!(back.start().g2 > 1)) return false;
-  const Landing<Quad> before = find_impact(back, Quad(kFlightHorizon));
+  const Landing<Quad> before = detail::find_impact(back, Quad(kFlightHorizon));
   if (before.outcome != SearchOutcome::impact || before.jet.g1 > -1e-2) return false;
   const FlightState<Quad>& q = before.jet.state;
   const TipState start{wrap_phase(static_cast<double>(q.phase)), static_cast<double>(q.X),

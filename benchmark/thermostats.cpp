@@ -8,10 +8,10 @@
 #include <functional>
 #include <vector>
 
-#include "afm/detail/batch_means.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
 #include "common/command_line.h"
+#include "core/run/batch_means.h"
 #include "trials/boltzmann.h"
 
 namespace {
@@ -100,7 +100,7 @@ void measure(const char* method, double knob, double stiffness, const Options& o
   for (std::size_t i = 0; i < kBatch; ++i) next();
   const auto begin = Clock::now();
   double seconds = 0.0, sum = 0.0;
-  while (seconds < o.seconds || batches.size() < afm::kMinBatches) {
+  while (seconds < o.seconds || batches.size() < afm::detail::kMinBatches) {
     double batch = 0.0;
     for (std::size_t i = 0; i < kBatch; ++i) {
       const double Y = next();
@@ -112,7 +112,7 @@ void measure(const char* method, double knob, double stiffness, const Options& o
   }
   const double n = static_cast<double>(batches.size());
   std::printf("%s,%g,%g,%.4g,%.2g,%.4g\n", method, knob, stiffness, sum / n / exact - 1.0,
-              afm::mean_error(batches).std_error / exact, seconds / (n * kBatch * kInterval) * 1e6);
+              afm::detail::mean_error(batches).std_error / exact, seconds / (n * kBatch * kInterval) * 1e6);
   std::fflush(stdout);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "afm/flight.h"
-#include "afm/impact_search.h"
+#include "core/search/impact_search.h"
 
 namespace afm {
 namespace {
@@ -25,7 +25,7 @@ double distance(const Quad& a, const Quad& b) { return std::abs(static_cast<doub
 
 TrueImpact next_impact_in_quad(const Model& model, double eta, const TipState& start, double horizon) {
   const SpringConstants<Quad> springs(model);
-  const Landing<Quad> landing = find_impact(Flight<Quad>(springs, Quad(eta), start), Quad(horizon));
+  const Landing<Quad> landing = detail::find_impact(Flight<Quad>(springs, Quad(eta), start), Quad(horizon));
   TrueImpact t{};
   t.impact = landing.outcome == SearchOutcome::impact;
   t.dt = landing.s;

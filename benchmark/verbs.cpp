@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "afm/ensemble.h"
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 #include "afm/run.h"
 #include "afm/tip.h"
+#include "core/contact/slide_release.h"
 
 namespace {
 
@@ -46,7 +47,7 @@ double eta_of(const benchmark::State& state) { return 1e-2 * static_cast<double>
 // One after the other: each angle waits for the sine before.
 void TurnSine(benchmark::State& state) {
   double x = 0.1;
-  for (auto _ : state) x = 0.3 + 0.1 * sin_cos_turns(x).sin;
+  for (auto _ : state) x = 0.3 + 0.1 * detail::sin_cos_turns(x).sin;
   benchmark::DoNotOptimize(x);
 }
 BENCHMARK(TurnSine);
@@ -109,10 +110,10 @@ BENCHMARK(MicroBounce);
 void Slide(benchmark::State& state) {
   const SpringConstants<double> springs{Model{}};
   double phase = 0.4;
-  SlideSegment<double> slide(springs, 3.0, {phase, 0.001, 3.0});
+  detail::SlideSegment<double> slide(springs, 3.0, {phase, 0.001, 3.0});
   for (auto _ : state) {
-    slide = SlideSegment<double>(springs, 3.0, {phase, 0.001, 3.0});
-    benchmark::DoNotOptimize(slide.find_release());
+    slide = detail::SlideSegment<double>(springs, 3.0, {phase, 0.001, 3.0});
+    benchmark::DoNotOptimize(find_release(slide));
     phase = phase > 0.6 ? 0.4 : phase + 1e-3;
   }
 }

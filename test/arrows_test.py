@@ -27,11 +27,12 @@ ALLOWED = {'core': set(), 'dynamics': {'core'}, 'common': {'core'},
            'test': {'common', 'core', 'dynamics', 'sweep', 'tools', 'node', 'params', 'runner', 'publisher',
                     'recorder', 'view', 'trials'}}
 # after the folder of the file itself
-SEARCHED = ('include', 'dynamics/include', 'src', 'dynamics/tools', 'test', 'benchmark')
+SEARCHED = ('include', 'dynamics/include', 'src', 'dynamics/src', 'dynamics/tools', 'test', 'benchmark')
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 OF_ROS = re.compile(r'^\s*#\s*include\s*[<"]((?:ros|rosbag|std_msgs|std_srvs|diagnostic_\w+|dynamic_reconfigure)/|'
                     r'afm_emulator/[A-Z])', re.M)
 WITHOUT_ROS = ('include/afm/', 'src/core/', 'dynamics/', 'test/core/', 'test/support/')
+INSTALLED = ('include/afm/', 'dynamics/include/afm/')
 
 
 def room(path):
@@ -63,6 +64,18 @@ def arrows(root):
             yield path, to or Path(name), room(path), room(to) if to else None
 
 
+def faults_of_installed(root):
+    """Headers that are installed include nothing that is not, and detail/ is the namespace detail, and it alone."""
+    for path, to, a, _ in arrows(root):
+        if path.as_posix().startswith(INSTALLED) and not to.as_posix().startswith(INSTALLED):
+            yield '%s includes %s, which is not installed' % (path, to)
+    for path, text in sources(root):
+        if path.as_posix().startswith(INSTALLED):
+            inside = re.search(r'^namespace (afm::)?detail \{', text, re.M) is not None
+            if inside != ('detail' in path.parts):
+                yield '%s: afm::detail is for detail/, and detail/ for it' % path
+
+
 def uses_of_ros(root):
     return [path.as_posix() for path, text in sources(root) if OF_ROS.search(text)]
 
@@ -78,6 +91,7 @@ def main(root, listing=False):
     if listing:
         for (a, b), n in sorted(seen.items(), key=str):
             print('%-10s -> %-10s %4d' % (a, b, n))
+    faults += faults_of_installed(root)
     of_ros = uses_of_ros(root)
     faults += ['%s includes ROS' % path for path in of_ros if path.startswith(WITHOUT_ROS)]
     assert len(seen) > 10 and len(of_ros) > 10, 'hardly any include was found in %s' % root

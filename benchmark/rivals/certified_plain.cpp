@@ -1,13 +1,15 @@
 // Our certified loop without its special routes: Lemmas 1 to 3 of docs/algorithm.md, a finish by Newton's steps and
 // halves, and double-double where rounding hides the result. No lookahead, no steps above the crest, no series. What
 // the routes of the shipped search are worth is the difference to `exact`.
-#include "afm/detail/double_double.h"
-#include "afm/detail/impact_steps.h"
-#include "afm/impact_search.h"
 #include "afm/reflection.h"
+#include "core/search/double_double.h"
+#include "core/search/impact_search.h"
+#include "core/search/impact_steps.h"
 #include "method.h"
 
 namespace afm {
+
+using namespace detail;
 namespace rivals {
 namespace {
 

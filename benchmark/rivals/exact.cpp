@@ -1,6 +1,6 @@
 // Ours, one flight: exact flow, guaranteed search, reflection.
 #include "afm/flight.h"
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 #include "method.h"
 

@@ -67,12 +67,12 @@ class Penalty : public Method {
 
   Point step(const Oscillator& o, const Point& p, double s, double h, double damping, bool touching) const {
     const auto f = [&](const Point& q, double t) { return touching ? rate(o, q, t, damping) : o.rate(q); };
-    const auto moved = [&p](const Point& v, double dt) -> Point {
+    const auto along = [&p](const Point& v, double dt) -> Point {
       return {p[0] + dt * v[0], p[1] + dt * v[1], p[2] + dt * v[2], p[3] + dt * v[3]};
     };
     const double half = 0.5 * h;
-    const Point a = f(p, s), b = f(moved(a, half), s + half), c = f(moved(b, half), s + half);
-    const Point d = f(moved(c, h), s + h);
+    const Point a = f(p, s), b = f(along(a, half), s + half), c = f(along(b, half), s + half);
+    const Point d = f(along(c, h), s + h);
     Point next = p;
     for (std::size_t i = 0; i < next.size(); ++i) next[i] += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
     return next;

@@ -6,13 +6,13 @@ namespace afm {
 namespace rivals {
 namespace {
 
-Point moved(const Point& p, const Point& rate, double h) {
+Point along(const Point& p, const Point& rate, double h) {
   return {p[0] + h * rate[0], p[1] + h * rate[1], p[2] + h * rate[2], p[3] + h * rate[3]};
 }
 
 Point step(const Oscillator& o, const Point& p, double h) {
-  const Point a = o.rate(p), b = o.rate(moved(p, a, 0.5 * h)), c = o.rate(moved(p, b, 0.5 * h));
-  const Point d = o.rate(moved(p, c, h));
+  const Point a = o.rate(p), b = o.rate(along(p, a, 0.5 * h)), c = o.rate(along(p, b, 0.5 * h));
+  const Point d = o.rate(along(p, c, h));
   Point next = p;
   for (std::size_t i = 0; i < next.size(); ++i) next[i] += h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
   return next;

@@ -72,7 +72,7 @@ class BurstTrials {
       if (impact.kind != ImpactKind::impact || slide.g != 0.0 || slide.g1 != 0.0) continue;
       const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
       if (!(after > 0.0)) continue;
-      return leave_surface(model_, {slide.phase, slide.X, slide.u}, after);
+      return detail::leave_surface(model_, {slide.phase, slide.X, slide.u}, after);
     }
   }
 

@@ -1,9 +1,9 @@
-// Flights built to pass the surface at a given distance, and what 113 bits say of each: touch or miss?
+// Flights built to pass the surface at a given distance, and what each is in quad precision: a touch or a miss
 #pragma once
 
 #include <cmath>
 
-#include "afm/impact_search.h"
+#include "core/search/impact_search.h"
 #include "quad.h"
 #include "random_launches.h"
 
@@ -38,7 +38,7 @@ class Grazes {
       const Quad clear = sqrt(Quad(0.01) / back.start().g2);  // by then the gap is beyond any rounding
       if (!(back.gap(clear).g > Quad(0.001))) continue;
       const Flight<Quad> rest(quad_, -eta, back.tip_state(clear));
-      const Landing<Quad> before = find_impact(rest, Quad(kGrazeHorizon));
+      const Landing<Quad> before = detail::find_impact(rest, Quad(kGrazeHorizon));
       const FlightState<Quad>& q = before.jet.state;
       const TipState start{wrap_phase(static_cast<double>(q.phase)), static_cast<double>(q.X),
                            -static_cast<double>(q.U - eta), 0.0, -static_cast<double>(before.jet.g1)};
@@ -124,8 +124,8 @@ class Grazes {
 
 // Is it decided as exact arithmetic on the same doubles does? Most wrong decisions are whole flights away.
 inline bool decide(const Graze& graze, GrazeCount& count) {
-  const Landing<Quad> truth =
-      find_impact(Flight<Quad>(SpringConstants<Quad>(graze.model), graze.eta, graze.start), Quad(kGrazeHorizon));
+  const Landing<Quad> truth = detail::find_impact(
+      Flight<Quad>(SpringConstants<Quad>(graze.model), graze.eta, graze.start), Quad(kGrazeHorizon));
   const Flight<double> flight(SpringConstants<double>(graze.model), graze.eta, graze.start);
   const Landing<double> landing = find_landing(graze.model, flight, kGrazeHorizon);
   constexpr double kSame = 1e-6;  // [tau]: grazes shift times
@@ -133,7 +133,7 @@ inline bool decide(const Graze& graze, GrazeCount& count) {
   if (!right) ++count.wrong;
   const bool near = truth.outcome == SearchOutcome::impact && truth.s < graze.s + kSame;
   ++(near ? count.touched : count.missed);
-  if (find_impact(flight, kGrazeHorizon).outcome == SearchOutcome::undecided) ++count.finer;
+  if (detail::find_impact(flight, kGrazeHorizon).outcome == SearchOutcome::undecided) ++count.finer;
   return right;
 }
 

@@ -9,8 +9,8 @@
 #endif
 #include <limits>
 
-#include "afm/detail/double_double.h"
 #include "afm/detail/turns.h"
+#include "core/search/double_double.h"
 
 namespace afm {
 
@@ -21,16 +21,16 @@ using Quad = boost::multiprecision::cpp_bin_float_quad;
 #endif
 
 template <>
-inline Quad epsilon<Quad>() {
+inline Quad detail::epsilon<Quad>() {
   return std::numeric_limits<Quad>::epsilon();
 }
 template <>
-inline Quad two_pi<Quad>() {
+inline Quad detail::two_pi<Quad>() {
   static const Quad value("6.2831853071795864769252867665590057683943");
   return value;
 }
 
-inline Quad to_quad(const DoubleDouble& x) { return Quad(x.high()) + Quad(x.low()); }
+inline Quad to_quad(const detail::DoubleDouble& x) { return Quad(x.high()) + Quad(x.low()); }
 
 }  // namespace afm
 
@@ -45,9 +45,9 @@ inline Quad turn_product(const Quad& a, const Quad& b) {
   return p - round(p);
 }
 
-inline afm::SinCos<Quad> sin_cos_turns(const Quad& x) {
+inline afm::detail::SinCos<Quad> sin_cos_turns(const Quad& x) {
   const Quad quarter = round(x * 4);
-  const Quad angle = afm::two_pi<Quad>() * (x - quarter / 4);
+  const Quad angle = afm::detail::two_pi<Quad>() * (x - quarter / 4);
   const Quad s = sin(angle), c = cos(angle);
   const Quad turn = quarter / 4 - floor(quarter / 4);
   if (turn == 0) return {s, c};
@@ -56,8 +56,8 @@ inline afm::SinCos<Quad> sin_cos_turns(const Quad& x) {
   return {-c, s};
 }
 
-inline afm::SmallTurn<Quad> small_turn(const Quad& x) {
-  const Quad angle = afm::two_pi<Quad>() * x, half = sin(angle / 2);
+inline afm::detail::SmallTurn<Quad> small_turn(const Quad& x) {
+  const Quad angle = afm::detail::two_pi<Quad>() * x, half = sin(angle / 2);
   Quad term = angle, tail = 0;
   for (int n = 2; n <= 40; n += 2) {
     term = -term * angle * angle / (n * (n + 1));

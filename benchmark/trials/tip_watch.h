@@ -95,7 +95,9 @@ class TipWatch {
     // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the extension
     const double place = std::max(0.25, std::abs(d.lateral));
     // and what the tip falls by over the rounding of the time, from 9 a/tau on
-    const double rate = tip_.in_flight() ? std::abs(tip_.flight().gap(t - tip_.flight_start()).g1) : 0.0;
+    Tip then = tip_;
+    then.advance_segment(t);
+    const double rate = then.in_flight() ? std::abs(then.tip_state().g1) : 0.0;
     const double fall = rate * 0x1p-53 / kMostDepth;
     const double rounded = std::max({1.0, std::abs(d.vertical), kTwoPi * tip_.model().H * place, fall});
     count_.deepest = std::max(count_.deepest, -d.gap / rounded);
@@ -124,10 +126,10 @@ class TipWatch {
   }
 
   bool check_rate() {
-    if (tip_.now().tau != tau_) arcs_this_tau_ = 0;
+    if (tip_.now().tau != tau_) segments_this_tau_ = 0;
     tau_ = tip_.now().tau;
-    count_.most_segments_in_a_tau = std::max(count_.most_segments_in_a_tau, ++arcs_this_tau_);
-    return arcs_this_tau_ <= kMostSegmentsInATau || violated("it stalls");
+    count_.most_segments_in_a_tau = std::max(count_.most_segments_in_a_tau, ++segments_this_tau_);
+    return segments_this_tau_ <= kMostSegmentsInATau || violated("it stalls");
   }
 
   void enter(Outcome outcome) {
@@ -144,7 +146,7 @@ class TipWatch {
   Tip tip_;
   EnergyBalance balance_;
   TipCount count_;
-  std::uint64_t arcs_this_tau_ = 0;
+  std::uint64_t segments_this_tau_ = 0;
   std::int64_t tau_ = 0;
   double sample_ = 0.0, turnover_ = kLeastTurnover;
   std::string violation_;

@@ -19,7 +19,7 @@ Eigen::VectorXd Arclength::difference(const Place& b, const Place& a) const {
   return d;
 }
 
-Place Arclength::moved(const Place& a, const Eigen::VectorXd& d) const {
+Place Arclength::displaced(const Place& a, const Eigen::VectorXd& d) const {
   Place b = a;
   for (std::size_t i = 0; i < a.points.size(); ++i) {
     const Eigen::Vector4d step = d.segment<4>(static_cast<Eigen::Index>(4 * i));
@@ -62,7 +62,7 @@ Eigen::VectorXd Arclength::tangent(const Place& at, double target) const {
 }
 
 bool Arclength::advance(const Place& from, const Eigen::VectorXd& direction, double step, Place& to) const {
-  to = moved(from, step * direction);
+  to = displaced(from, step * direction);
   for (int i = 0; i < kMaxCorrections; ++i) {
     std::vector<MapStep> steps;
     Eigen::VectorXd error;
@@ -71,7 +71,7 @@ bool Arclength::advance(const Place& from, const Eigen::VectorXd& direction, dou
     if (error.lpNorm<Eigen::Infinity>() < kResidual) return same_branch(to, from, step);
     Eigen::MatrixXd A;
     if (!derivative(to, steps, direction, A)) return false;
-    to = moved(to, A.partialPivLu().solve(-error));
+    to = displaced(to, A.partialPivLu().solve(-error));
     if (!std::isfinite(to.parameter)) return false;
   }
   Eigen::VectorXd error;

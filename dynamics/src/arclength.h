@@ -27,7 +27,7 @@ class Arclength {
 
   // As one vector, with velocities divided by 1 + |eta|.
   Eigen::VectorXd difference(const Place& b, const Place& a) const;
-  Place moved(const Place& a, const Eigen::VectorXd& d) const;
+  Place displaced(const Place& a, const Eigen::VectorXd& d) const;
 
   // The direction of the branch towards the target.
   Eigen::VectorXd tangent(const Place& at, double target) const;

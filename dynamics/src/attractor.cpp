@@ -62,7 +62,7 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
     const Outcome outcome = tangents.advance(end);
     if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
     J = tangents.jacobian() * J;
-    volume += tangents.stretch().volume;
+    volume += tangents.growth().volume;
     const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
     if (single || outcome == Outcome::released) ++marks;
   }

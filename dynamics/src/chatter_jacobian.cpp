@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/detail/dual.h"
-#include "afm/dynamics/contact_jacobian.h"
+#include "contact_jacobian.h"
 #include "core/contact/chatter_law.h"
 #include "core/contact/projection.h"
 #include "section_duals.h"
 
-namespace afm {
+namespace afm::detail {
 
 template <std::size_t N>
 Dual<N> portable_exp(const Dual<N>& x) {
@@ -40,9 +39,9 @@ SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& l
     if (ends) run = integration.exit_at(integration.begin(run.s, run.chatter), run.chatter.n.value);
     state = displaced_reference_of(springs.H, reference.at(run.s), run.chatter);
     if (!ends) continue;
-    const Bounce4<Dual4> end = launched(free, springs.H, state, run.chatter.v);
+    const BounceState<Dual4> end = launched(free, springs.H, state, run.chatter.v);
     return without_held_directions(is_free_along_x(model), derivatives<4>({end.phase, end.X, end.u, end.g1}));
   }
 }
 
-}  // namespace afm
+}  // namespace afm::detail

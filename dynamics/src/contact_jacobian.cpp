@@ -1,10 +1,10 @@
-#include "afm/dynamics/contact_jacobian.h"
+#include "contact_jacobian.h"
 
 #include <algorithm>
 
 #include "section_duals.h"
 
-namespace afm {
+namespace afm::detail {
 
 SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s) {
   const SpringConstants<Dual3> springs(model);
@@ -30,4 +30,4 @@ Eigen::Matrix4d projection_jacobian(const Model& model, const TipState& bounce) 
   return derivatives<4>({p.reference.phase, p.reference.X, p.reference.u, p.normal_speed});
 }
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -112,7 +112,7 @@ class Continuation {
       branch_.end = BranchEnd::target;
       const double share = (target_ - from.parameter) / (to.parameter - from.parameter);
       const OrbitResult last =
-          find_orbit(line_.map(target_), line_.moved(before, share * line_.difference(now, before)).points);
+          find_orbit(line_.map(target_), line_.displaced(before, share * line_.difference(now, before)).points);
       if (last.outcome == OrbitOutcome::found) to = {target_, last.orbit};
       branch_.points.push_back(to);
       return false;

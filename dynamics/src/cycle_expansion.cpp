@@ -22,13 +22,13 @@ double instability(const PeriodicOrbit& orbit) {
 std::vector<Term> combinations(const std::vector<PeriodicOrbit>& orbits, std::size_t longest, double largest) {
   std::vector<Term> terms{{1.0, 0.0, 0.0, 1.0, 0}};
   for (const PeriodicOrbit& orbit : orbits) {
-    const double stretch = instability(orbit);
+    const double expansion = instability(orbit);
     const std::size_t count = terms.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Term t = terms[i];
-      if (t.length + orbit.length() > longest || t.instability * stretch > largest) continue;
-      terms.push_back({-t.weight / stretch, t.energy + orbit.energy_loss, t.time + orbit.period,
-                       t.instability * stretch, t.length + orbit.length()});
+      if (t.length + orbit.length() > longest || t.instability * expansion > largest) continue;
+      terms.push_back({-t.weight / expansion, t.energy + orbit.energy_loss, t.time + orbit.period,
+                       t.instability * expansion, t.length + orbit.length()});
     }
   }
   return terms;

@@ -15,11 +15,11 @@ constexpr std::size_t kGrowthBatches = 32;  // a choice: the standard error has 
 // Sums over equal batches of time.
 class Growth {
  public:
-  void add(double age, double duration, const Stretch& stretch) {
+  void add(double age, double duration, const EventGrowth& event) {
     const double share = std::fmin(age / duration, 1.0 - 1e-9);
     std::array<double, 4>& batch = batches_[static_cast<std::size_t>(share * static_cast<double>(kGrowthBatches))];
-    for (std::size_t i = 0; i < 4; ++i) batch[i] += stretch.logarithms[i];
-    volume_ += stretch.volume;
+    for (std::size_t i = 0; i < 4; ++i) batch[i] += event.logarithms[i];
+    volume_ += event.volume;
   }
 
   void finish(const Model& model, LyapunovSpectrum& s) const {
@@ -73,7 +73,7 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
     const Outcome outcome = tangents.advance(end);
     if (outcome == Outcome::search_failed) s.outcome = LyapunovOutcome::search_failed;
     if (++s.events >= settings.most_events) s.outcome = LyapunovOutcome::budget_spent;
-    growth.add(tip.now() - begin, settings.duration, tangents.stretch());
+    growth.add(tip.now() - begin, settings.duration, tangents.growth());
   }
   s.duration = tangents.carried_to() - begin;
   s.rank = tangents.rank();

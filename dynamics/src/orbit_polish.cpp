@@ -2,23 +2,21 @@
 
 #include <cmath>
 
+#include "afm/detail/flight_jets.h"
 #include "afm/dynamics/jacobian.h"
-#include "afm/flight.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 using Fine = DoubleDouble;
 
-// A flight from an impact whose state has the digits of double-double. No bound of it is used, and no turn counts as
-// small.
-Flight<Fine> flight_from(const SpringConstants<Fine>& m, const Fine& eta, const FinePoint& p) {
+// The state in flight after an impact, with the digits of double-double.
+FlightState<Fine> launched(const SpringConstants<Fine>& m, const Fine& eta, const FinePoint& p) {
   const SurfaceJet<Fine> surface = surface_jet(m.H, p.phase);
-  GapJet<Fine> start{};
-  start.state = {p.phase, p.X, p.u - eta, surface.h - m.y0, p.g1 + surface.h1 * p.u};
-  FlightBounds<Fine> bounds{};
-  bounds.fastest = 1e300;
-  return {m, eta, start, bounds};
+  return {p.phase, p.X, p.u - eta, surface.h - m.y0, p.g1 + surface.h1 * p.u};
 }
 
 Eigen::Vector4d difference(const FinePoint& b, const FinePoint& a) {
@@ -33,17 +31,19 @@ FineStep fine_map(const Model& model, double eta, const FinePoint& point, double
   FinePoint start = point;
   if (model.kind == ModelKind::hammer) start.X = Fine(0.0), start.u = eta;
   const SpringConstants<Fine> m(model);
-  const Flight<Fine> flight = flight_from(m, Fine(eta), start);
+  const Fine drag(eta);
+  const FlightState<Fine> launch = launched(m, drag, start);
+  const auto gap = [&](const Fine& time) { return jet_at(m, drag, state_after(m, drag, launch, time)); };
   Fine s(estimate);
   for (int i = 0; i < kNewtonSteps; ++i) {
-    const GapJet<Fine> jet = flight.gap(s);
+    const GapJet<Fine> jet = gap(s);
     s = s - jet.g / jet.g1;
   }
-  const GapJet<Fine> in = flight.gap(s);
-  const Fine speed = Incidence<Fine>(m, flight.eta(), in.state, in.g1).normal_speed;
+  const GapJet<Fine> in = gap(s);
+  const Fine speed = Incidence<Fine>(m, drag, in.state, in.g1).normal_speed;
   const Fine one(1.0), e = restitution_jet(model, speed).restitution;
   const Fine kick = m.is_free_along_x * (one + e) * in.h1 * in.g1 / (one + in.h1 * in.h1);
-  const FinePoint after{in.state.phase, in.state.X, flight.eta() + in.state.U + kick, -(e * in.g1)};
+  const FinePoint after{in.state.phase, in.state.X, drag + in.state.U + kick, -(e * in.g1)};
   return {after, s, Fine(0.5) * (one - e) * (one + e) * speed * speed};
 }
 

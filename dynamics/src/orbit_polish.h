@@ -5,18 +5,18 @@
 #include <functional>
 #include <vector>
 
-#include "afm/detail/double_double.h"
 #include "afm/dynamics/poincare_map.h"
+#include "core/search/double_double.h"
 
 namespace afm {
 
 struct FinePoint {
-  DoubleDouble phase, X, u, g1;
+  detail::DoubleDouble phase, X, u, g1;
 };
 
 struct FineStep {
   FinePoint after;
-  DoubleDouble dt, energy_loss;
+  detail::DoubleDouble dt, energy_loss;
 };
 
 struct FineOrbit {

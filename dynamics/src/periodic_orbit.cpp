@@ -6,10 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "afm/detail/double_double.h"
+#include "core/search/double_double.h"
 #include "orbit_polish.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 using Points = std::vector<TipState>;
@@ -50,7 +53,7 @@ Eigen::VectorXd newton_step(const Shot& shot, const Eigen::VectorXd& error) {
   return A.partialPivLu().solve(-error);
 }
 
-Points moved(const Points& points, const Eigen::VectorXd& step, double share) {
+Points displaced(const Points& points, const Eigen::VectorXd& step, double share) {
   Points result;
   for (std::size_t i = 0; i < points.size(); ++i) {
     result.push_back(section_sum(points[i], share * step.segment<4>(static_cast<Eigen::Index>(4 * i))));
@@ -124,7 +127,7 @@ PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot&
 double damped_step(const PoincareMap& map, const Points& points, const Eigen::VectorXd& step, const Shot& now,
                    double smallest, Shot& next) {
   for (double share = 1.0; share >= smallest; share *= 0.5) {
-    next = shoot(map, moved(points, step, share));
+    next = shoot(map, displaced(points, step, share));
     if (next.landed && next.error.norm() < (1.0 - 0.1 * share) * now.error.norm()) return share;
   }
   return 0.0;
@@ -141,7 +144,7 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
     Shot next;
     const double share = step.allFinite() ? damped_step(map, points, step, shot, settings.smallest_share, next) : 0.0;
     if (share > 0.0) {
-      points = moved(points, step, share);
+      points = displaced(points, step, share);
       shot = std::move(next);
       continue;  // also below the residual: one more step gives the last digits
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 
 namespace afm {

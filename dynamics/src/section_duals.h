@@ -5,13 +5,13 @@
 #include <array>
 #include <cstddef>
 
-#include "afm/detail/dual.h"
 #include "core/contact/projection.h"
+#include "dual.h"
 
-namespace afm {
+namespace afm::detail {
 
 // The state after a bounce as four independent variables.
-inline Bounce4<Dual4> section_variables(const TipState& s) {
+inline BounceState<Dual4> section_variables(const TipState& s) {
   return {Dual4::variable(s.phase, 0), Dual4::variable(s.X, 1), Dual4::variable(s.u, 2), Dual4::variable(s.g1, 3)};
 }
 
@@ -28,4 +28,4 @@ SquareMatrix<N> derivatives(const std::array<Dual<N>, N>& values) {
   return J;
 }
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -7,15 +7,18 @@
 #include <set>
 #include <string_view>
 
-#include "afm/detail/batch_means.h"
+#include "core/run/batch_means.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 constexpr int kTransient = 1000;  // [impacts] a choice
 
 // Maps a displacement and normalizes it; returns the logarithm of its growth.
-double stretch(const SectionJacobian<double>& J, Eigen::Vector4d& displacement) {
+double map_displacement(const SectionJacobian<double>& J, Eigen::Vector4d& displacement) {
   displacement = (J * displacement).eval();
   const double length = displacement.norm();
   displacement /= length;
@@ -122,7 +125,7 @@ SymbolicRun run_on_section(const PoincareMap& map, std::size_t impacts, std::uin
       break;
     }
     now = step.after;
-    const double logarithm = stretch(step.J, displacement);
+    const double logarithm = map_displacement(step.J, displacement);
     if (i < kTransient) continue;
     logarithms.push_back(logarithm);
     run.points.push_back(now);

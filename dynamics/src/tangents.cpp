@@ -3,11 +3,14 @@
 #include <cmath>
 #include <limits>
 
-#include "afm/dynamics/contact_jacobian.h"
 #include "afm/flight.h"
 #include "afm/reflection.h"
+#include "contact_jacobian.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 SlideState<double> slide_state_of(const TipState& s) { return {s.phase, s.X, s.u}; }
@@ -57,7 +60,7 @@ bool Tangents::start(double within) {
 }
 
 Outcome Tangents::advance(const ModelTime& limit) {
-  stretch_ = {};
+  growth_ = {};
   const Outcome outcome = tip_.advance(limit);
   const double dt = tip_.now() - since_;
   if (outcome == Outcome::time_limit) {
@@ -77,7 +80,7 @@ void Tangents::carry_bounce(double dt) {
   follow(model_, springs_, tip_.eta(), start_, dt, bounced);
   carry(bounced.jacobian);
   const RestitutionJet<double> law = restitution_jet(model_, bounced.normal_speed);
-  stretch_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounced.after.g1);
+  growth_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounced.after.g1);
   restart(bounced.after);
 }
 
@@ -92,9 +95,10 @@ void Tangents::restart(const TipState& bounce) {
 // A sequence that dies ends on the reference slide, without a normal velocity; contact follows.
 void Tangents::carry_chatter(double dt) {
   const TipState end = tip_.tip_state();
-  stretch_.volume = std::numeric_limits<double>::quiet_NaN();
+  growth_.volume = std::numeric_limits<double>::quiet_NaN();
   if (end.g1 > 0.0) {
-    carry(chatter_jacobian(model_, tip_.chatter_law(), tip_.eta(), start_, dt));
+    carry(chatter_jacobian(model_, ChatterLaw(model_, chatter_threshold(tip_.contact_tolerance())), tip_.eta(), start_,
+                           dt));
   } else {
     SectionJacobian<double> J = projection_jacobian(model_, start_);
     J.topRows<3>() =
@@ -150,7 +154,7 @@ void Tangents::orthonormalize() {
       length *= part;
       if (part > 0.0) columns_.col(j) /= part;
     }
-    stretch_.logarithms[static_cast<std::size_t>(j)] += std::log(length);
+    growth_.logarithms[static_cast<std::size_t>(j)] += std::log(length);
   }
   columns_.rightCols(4 - rank_).setZero();
 }

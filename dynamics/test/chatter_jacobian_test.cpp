@@ -6,14 +6,17 @@
 #include <cmath>
 #include <vector>
 
-#include "afm/dynamics/contact_jacobian.h"
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 #include "afm/tip.h"
+#include "contact_jacobian.h"
 #include "support/quad_impacts.h"
 #include "trials/random_launches.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 Model model_with(double v_c, ModelKind kind = ModelKind::oscillator) {
@@ -73,7 +76,7 @@ class Bursts {
               tip_.last_impact().count};
     }
   }
-  const ChatterLaw& law() const { return tip_.chatter_law(); }
+  ChatterLaw law() const { return {tip_.model(), chatter_threshold(tip_.contact_tolerance())}; }
 
  private:
   Tip fresh() {

@@ -1,4 +1,4 @@
-#include "afm/dynamics/contact_jacobian.h"
+#include "contact_jacobian.h"
 
 #include <gtest/gtest.h>
 
@@ -11,18 +11,21 @@
 #include "support/quad_impacts.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // One contact of a running tip, the flight after it, and the impact that ends that.
-struct Dwell {
+struct Episode {
   double eta;
   SlideState<double> begin;
   double slide, flight;  // [tau]
   TipState release;
 };
 
-std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
-  std::vector<Dwell> found;
+std::vector<Episode> episodes(const Model& model, double eta, std::size_t wanted) {
+  std::vector<Episode> found;
   constexpr double kTolerance = 1e-8;  // so that the tip is released at the exact time
   Tip tip(model, eta, start_at(eta), kTolerance);
   for (int i = 0; i < 200000 && found.size() < wanted; ++i) {
@@ -43,8 +46,12 @@ std::vector<Dwell> dwells(const Model& model, double eta, std::size_t wanted) {
 // impact.
 class QuadContact {
  public:
-  QuadContact(const Model& model, const Dwell& dwell)
-      : springs_(model), impacts_(model, dwell.eta), eta_(dwell.eta), slide_(dwell.slide), flight_(dwell.flight) {}
+  QuadContact(const Model& model, const Episode& episode)
+      : springs_(model),
+        impacts_(model, episode.eta),
+        eta_(episode.eta),
+        slide_(episode.slide),
+        flight_(episode.flight) {}
 
   std::array<Quad, 3> slide(const std::array<Quad, 3>& from, Quad left) const {
     SlideState<Quad> q{from[0], from[1], from[2]};
@@ -82,11 +89,11 @@ constexpr double kEtas[] = {0.5, 3.0, 5.0};
 TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
   for (const double eta : kEtas) {
     const Model model = model_with_cutoff(0.05);
-    for (const Dwell& dwell : dwells(model, eta, 6)) {
-      QuadContact exact(model, dwell);
-      const auto slide = [&](const std::array<Quad, 3>& q) { return exact.slide(q, dwell.slide); };
-      const Eigen::Matrix3d truth = quad_differences<3>(slide, quad_slide(dwell.begin), Quad(1e-12));
-      const Eigen::Matrix3d J = slide_jacobian(model, eta, dwell.begin, dwell.slide);
+    for (const Episode& episode : episodes(model, eta, 6)) {
+      QuadContact exact(model, episode);
+      const auto slide = [&](const std::array<Quad, 3>& q) { return exact.slide(q, episode.slide); };
+      const Eigen::Matrix3d truth = quad_differences<3>(slide, quad_slide(episode.begin), Quad(1e-12));
+      const Eigen::Matrix3d J = slide_jacobian(model, eta, episode.begin, episode.slide);
       ASSERT_LE(relative_distance(J, truth), 1e-10) << "eta " << eta;
     }
   }
@@ -94,10 +101,10 @@ TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
 
 TEST(SlideJacobian, CarriesTheDirectionOfTheSlideAlongIt) {
   const Model model = model_with_cutoff(0.05);
-  for (const Dwell& dwell : dwells(model, 3.0, 20)) {
-    const Eigen::Matrix3d J = slide_jacobian(model, 3.0, dwell.begin, dwell.slide);
-    const Eigen::Vector3d before = slide_velocity(model, 3.0, dwell.begin);
-    const TipState& r = dwell.release;
+  for (const Episode& episode : episodes(model, 3.0, 20)) {
+    const Eigen::Matrix3d J = slide_jacobian(model, 3.0, episode.begin, episode.slide);
+    const Eigen::Vector3d before = slide_velocity(model, 3.0, episode.begin);
+    const TipState& r = episode.release;
     const Eigen::Vector3d after = slide_velocity(model, 3.0, {r.phase, r.X, r.u});
     ASSERT_LE((J * before - after).norm(), 1e-9 * after.norm());
   }
@@ -108,21 +115,22 @@ TEST(SlideJacobian, CarriesTheDirectionOfTheSlideAlongIt) {
 TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
   for (const double eta : kEtas) {
     const Model model = model_with_cutoff(0.05);
-    for (const Dwell& dwell : dwells(model, eta, 6)) {
-      QuadContact exact(model, dwell);
+    for (const Episode& episode : episodes(model, eta, 6)) {
+      QuadContact exact(model, episode);
       const auto map = [&](const std::array<Quad, 3>& q) { return exact.slide_and_fly(q); };
-      const auto truth = quad_differences<4>(map, quad_slide(dwell.begin), Quad(1e-12));
-      const Flight<double> flight(SpringConstants<double>(model), eta, dwell.release);
-      const SectionJacobian<double> flown = section_jacobian(model, flight, dwell.flight, flight.gap(dwell.flight));
-      const Eigen::Matrix<double, 4, 3> J = flown.leftCols<3>() * slide_jacobian(model, eta, dwell.begin, dwell.slide);
+      const auto truth = quad_differences<4>(map, quad_slide(episode.begin), Quad(1e-12));
+      const Flight<double> flight(SpringConstants<double>(model), eta, episode.release);
+      const SectionJacobian<double> flown = section_jacobian(model, flight, episode.flight, flight.gap(episode.flight));
+      const Eigen::Matrix<double, 4, 3> J =
+          flown.leftCols<3>() * slide_jacobian(model, eta, episode.begin, episode.slide);
       ASSERT_LE(relative_distance(J, truth), 1e-9) << "eta " << eta;
-      const Eigen::Vector3d along = slide_velocity(model, eta, dwell.begin);
+      const Eigen::Vector3d along = slide_velocity(model, eta, episode.begin);
       ASSERT_LE((J * along).norm(), 1e-7 * J.norm() * along.norm());
     }
   }
 }
 
-TEST(SettleJacobian, IsTheDerivativeOfSettling) {
+TEST(ProjectionJacobian, IsTheDerivativeOfTheProjection) {
   const Model model;
   const TipState start{0.2, 0.01, 2.7, 0.0, 0.4};
   constexpr double kStep = 1e-6;

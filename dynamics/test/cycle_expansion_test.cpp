@@ -17,9 +17,9 @@ bool is_least_rotation(const std::string& word) {
   return true;
 }
 
-// All prime orbits of the map that stretches by `stretch` of `symbols` equal branches: branch k takes time 1 + k,
+// All prime orbits of the map that expands by the factor `expansion`, of `symbols` equal branches: branch k takes time 1 + k,
 // energy 5 - k.
-std::vector<PeriodicOrbit> full_shift(double stretch, std::size_t longest) {
+std::vector<PeriodicOrbit> full_shift(double expansion, std::size_t longest) {
   std::vector<PeriodicOrbit> orbits;
   for (std::size_t n = 1; n <= longest; ++n) {
     for (std::size_t bits = 0; bits < (std::size_t{1} << n); ++bits) {
@@ -32,7 +32,7 @@ std::vector<PeriodicOrbit> full_shift(double stretch, std::size_t longest) {
         orbit.period += 1.0 + k;
         orbit.energy_loss += 5.0 - k;
       }
-      orbit.multipliers[0] = std::pow(stretch, static_cast<double>(n));
+      orbit.multipliers[0] = std::pow(expansion, static_cast<double>(n));
       if (is_least_rotation(word)) orbits.push_back(orbit);
     }
   }

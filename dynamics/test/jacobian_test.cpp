@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 #include "support/models.h"
 #include "support/paper_jacobians.h"

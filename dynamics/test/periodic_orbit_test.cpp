@@ -76,12 +76,12 @@ TEST(PeriodicOrbit, IsTheSameFromAnyOfItsPoints) {
   const OrbitSearchResult found = search_orbits(map, settings);
   PeriodicOrbit three = found.orbits.back().orbit;
   ASSERT_EQ(three.length(), 3u);
-  PeriodicOrbit turned = three;
-  std::rotate(turned.points.begin(), turned.points.begin() + 1, turned.points.end());
-  EXPECT_TRUE(same_orbit(three, turned));
+  PeriodicOrbit rotated = three;
+  std::rotate(rotated.points.begin(), rotated.points.begin() + 1, rotated.points.end());
+  EXPECT_TRUE(same_orbit(three, rotated));
   EXPECT_TRUE(is_prime(three));
-  std::swap(turned.points[0], turned.points[1]);
-  EXPECT_FALSE(same_orbit(three, turned));
+  std::swap(rotated.points[0], rotated.points[1]);
+  EXPECT_FALSE(same_orbit(three, rotated));
   const PeriodicOrbit& one = found.orbits.front().orbit;
   ASSERT_EQ(one.length(), 1u);
   const OrbitResult twice = find_orbit(map, {one.points[0], one.points[0]});

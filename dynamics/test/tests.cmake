@@ -7,7 +7,7 @@ set(here ${PROJECT_SOURCE_DIR}/dynamics/test)
 foreach(name IN LISTS dynamics_tests)
   afm_add_gtest(${name}_test ${here}/${name}_test.cpp)
   target_include_directories(afm_${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark
-    ${PROJECT_SOURCE_DIR}/src)
+    ${PROJECT_SOURCE_DIR}/dynamics/src ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(afm_${name}_test afm_emulator_dynamics afm_quad)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
 endforeach()

@@ -9,15 +9,12 @@ namespace afm {
 namespace {
 
 // Finest first; the full model is the oscillator at the default tolerance.
-const Level kLadder[] = {{ModelKind::oscillator, 0.0},
-                         {ModelKind::oscillator, 1e-5},
-                         {ModelKind::oscillator, 1e-4},
-                         {ModelKind::oscillator, kDefaultContactTolerance},
-                         {ModelKind::oscillator, 1e-2},
-                         {ModelKind::hammer, kDefaultContactTolerance}};
+const Level kLadder[] = {{ModelKind::oscillator, 0.0},  {ModelKind::oscillator, 1e-5},
+                         {ModelKind::oscillator, 1e-4}, {ModelKind::oscillator, kDefaultContactTolerance},
+                         {ModelKind::oscillator, 1e-2}, {ModelKind::hammer, kDefaultContactTolerance}};
 constexpr std::size_t kLevels = std::size(kLadder), kFull = 3;
-constexpr double kTooDear = 1.2;    // times the full model
-constexpr double kWorst = 1e3;      // larger relative errors contain no more information
+constexpr double kTooDear = 1.2;  // times the full model
+constexpr double kWorst = 1e3;    // larger relative errors contain no more information
 constexpr double kStandardErrors = 2.0;
 
 TipState start_of(const Model& model, double eta, const LevelErrorSettings& settings, int index) {
@@ -34,14 +31,14 @@ std::vector<double> measure_costs(const Model& model, double eta, const TipState
   return costs;
 }
 
-// Never more events in a stretch than half of what the shipped impact budget allows a batch: the mean says too little,
+// Never more events in an interval than half of what the shipped impact budget allows a batch: the mean says too little,
 // as one contact in ten thousand may hold millions of bounces.
 bool keeps_time(const Model& model, double eta, const Level& level, const TipState& start) {
-  constexpr double kStretch = 50.0;  // [tau]
-  constexpr int kStretches = 400, kMostEvents = 10000;
+  constexpr double kInterval = 50.0;  // [tau]
+  constexpr int kIntervals = 400, kMostEvents = 10000;
   Tip tip(at_level(model, level), eta, start, level.contact_tolerance);
-  for (int i = 0; i < kStretches; ++i) {
-    const ModelTime end = tip.now() + kStretch;
+  for (int i = 0; i < kIntervals; ++i) {
+    const ModelTime end = tip.now() + kInterval;
     int events = 0;
     while (tip.advance(end) != Outcome::time_limit) {
       if (++events > kMostEvents) return false;

@@ -10,10 +10,10 @@ namespace afm {
 namespace {
 
 constexpr std::size_t kRounds = 15;
-constexpr double kStretch = 40.0, kTransient = 120.0;  // [tau]
+constexpr double kInterval = 40.0, kTransient = 120.0;  // [tau]
 
 void fly(Tip& tip, double duration) {
-  constexpr int kMostEvents = 20000;  // showers of bounces would take for ever
+  constexpr int kMostEvents = 20000;  // chatter bounce by bounce would not end
   const ModelTime end = tip.now() + duration;
   for (int i = 0; i < kMostEvents && tip.advance(end) != Outcome::time_limit; ++i) {
   }
@@ -22,7 +22,7 @@ void fly(Tip& tip, double duration) {
 double time_of_stretch(Tip& tip) {
   const ModelTime begin = tip.now();
   const double from = thread_seconds();
-  fly(tip, kStretch);
+  fly(tip, kInterval);
   const double spent = thread_seconds() - from, passed = tip.now() - begin;
   return passed > 0.0 ? 1e9 * spent / passed : std::numeric_limits<double>::infinity();
 }
@@ -36,7 +36,7 @@ double median(std::vector<double>& values) {
 }  // namespace
 
 std::vector<double> nanoseconds_per_tau(std::vector<Tip> tips) {
-  for (std::size_t i = 0; i < tips.size(); ++i) fly(tips[i], kTransient + static_cast<double>(i * kRounds) * kStretch);
+  for (std::size_t i = 0; i < tips.size(); ++i) fly(tips[i], kTransient + static_cast<double>(i * kRounds) * kInterval);
   std::vector<std::vector<double>> times(tips.size());
   for (std::size_t round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < tips.size(); ++i) times[i].push_back(time_of_stretch(tips[i]));

@@ -36,8 +36,8 @@ class Ensemble {
     std::uint32_t events;
   };
 
-  template <class Limit>
-  void advance_all(std::uint32_t events, const Limit& limit, Impact* log);
+  // The limit of the i-th tip is limits[i * stride].
+  void advance_all(std::uint32_t events, const ModelTime* limits, std::size_t stride, Impact* log);
 
   int threads_;
   std::vector<Member> members_;

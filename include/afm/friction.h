@@ -30,7 +30,7 @@ struct FrictionEstimate {
   double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;
   double mean_normal_force = 0.0;  // of the holder on the tip towards the surface, mean of the samples [m a/tau^2]
-  double heat_to_bath = 0.0;  // since the last change of drag velocity [m a^2/tau^2]
+  double heat_to_bath = 0.0;       // since the last change of drag velocity [m a^2/tau^2]
 };
 
 // Energy or impulse in equal bins of time. Full bins merge in pairs, so a run of any length fits. The scatter of the
@@ -58,7 +58,7 @@ struct PowerWindow {
   double mean(double age);       // energy per tau over the completed bins of the window; NaN before the first
   double std_error(double age);  // NaN below 8 bins
 
-  double width;  // [tau]
+  double width;                                  // [tau]
   std::array<double, kWindowBins + 1> energy{};  // one more than the window: the bin being filled
   std::int64_t current = 0;                      // number of that bin since the start
 

@@ -18,8 +18,8 @@ inline double restitution(const Model& model, double normal_speed) {
 
 struct Reflection {
   TipState after;
-  double normal_speed;         // |n.v| before the impact [a/tau]; of the hammer the gap rate |w - h' u|
-  double tangential_velocity;  // t.v, which stays [a/tau]; of the hammer u
+  double normal_speed;         // |n.v| before the impact [a/tau]. For the hammer model: the gap rate |w - h' u|
+  double tangential_velocity;  // t.v, which stays [a/tau]. For the hammer model: u
   double energy_loss;          // (1 - gamma_eff^2) (n.v)^2 / 2 [m a^2/tau^2]
 };
 
@@ -31,12 +31,12 @@ inline Reflection reflect(const Model& model, double eta, const GapJet<double>& 
   const double u = eta + incident.state.U, speed = -g1 * inverse_n;
   const bool fast = speed >= model.v_c;
   const double loss = fast ? 1.0 - model.gamma : (1.0 - model.gamma) / model.v_c * -g1 * inverse_n;
-  const double gamma_eff = fast ? model.gamma : 1.0 - loss, turned = fast ? 1.0 + model.gamma : 2.0 - loss;
-  const double after_u = std::fma(slope * g1 * inverse_n2, turned, u);
+  const double gamma_eff = fast ? model.gamma : 1.0 - loss, one_plus_gamma = fast ? 1.0 + model.gamma : 2.0 - loss;
+  const double after_u = std::fma(slope * g1 * inverse_n2, one_plus_gamma, u);
   return {{wrapped(incident.state.phase), incident.state.X, after_u, 0.0, -gamma_eff * g1},
           speed,
           std::fma(slope, std::fma(h1, u, g1), u) * inverse_n,
-          0.5 * loss * turned * (speed * speed)};
+          0.5 * loss * one_plus_gamma * (speed * speed)};
 }
 
 }  // namespace afm

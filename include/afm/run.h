@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "afm/detail/sample_grid.h"
 #include "bath.h"
 #include "friction.h"
 #include "level.h"
 #include "model.h"
+#include "sample_grid.h"
 #include "state.h"
 #include "tip.h"
 

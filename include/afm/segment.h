@@ -41,11 +41,4 @@ class Segments {
   std::size_t size_ = 0;
 };
 
-// Totals since the present segment began. `energy` is the stored energy at `time`.
-struct Account {
-  ModelTime time;
-  double impulse = 0.0, loss = 0.0, energy = 0.0;
-  std::uint64_t count = 0;
-};
-
 }  // namespace afm

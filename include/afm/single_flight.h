@@ -11,7 +11,7 @@ namespace afm {
 // A post-impact state on the surface, and the model it flies in.
 struct FlightInput {
   double eta, gamma, cutoff, phase, extension, u, w;
-  ModelKind kind = ModelKind::oscillator;  // of the hammer extension and u are 0 and eta, whatever is given
+  ModelKind kind = ModelKind::oscillator;  // hammer: extension and u are 0 and eta, whatever is given
   double rest_height = Model{}.y0, amplitude = Model{}.H, frequency_ratio = Model{}.frequency_ratio;
 };
 

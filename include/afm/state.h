@@ -55,6 +55,22 @@ struct FreeState {
   double w = 0.0;
 };
 
+// A flight at one time, in the frame of the holder: surface phase, extensions X = x - xc and Y = y - y0 [a], and their
+// rates [a/tau].
+template <class T>
+struct FlightState {
+  T phase, X, U, Y, W;
+};
+
+// The gap y - h(x) of a flight and its time derivatives, with the state they belong to, and the height and slope of the
+// surface below it.
+template <class T>
+struct GapJet {
+  T g, g1, g2, g3;
+  FlightState<T> state;
+  T h, h1;
+};
+
 enum class ImpactKind : std::uint8_t { impact = 0, burst = 1, contact_begun = 2, contact_ended = 3 };
 
 TipState to_tip_state(double H, const FreeState& state);
@@ -70,7 +86,7 @@ inline FreeState lowered_tip(double H) { return {0.5, 0.0, -H, 0.0, 0.0}; }
 struct Impact {
   ModelTime time;
   double surface_phase = 0.0;        // [a] in [0, 1)
-  double normal_speed = 0.0;         // |n.v| [a/tau]; of the hammer the gap rate |w - h' u|
+  double normal_speed = 0.0;         // |n.v| [a/tau]. For the hammer model: the gap rate |w - h' u|
   double tangential_velocity = 0.0;  // t.v [a/tau]
   double energy_loss = 0.0;          // [m a^2 / tau^2]
   ImpactKind kind = ImpactKind::impact;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "afm/detail/select.h"
 #include "afm/detail/turns.h"
 
 namespace afm {
@@ -16,8 +15,9 @@ struct SurfaceJet {
 
 template <class T>
 inline SurfaceJet<T> surface_jet(const T& H, const T& phase) {
-  const SinCos<T> turn = sin_cos_turns(phase);
-  const T k = two_pi<T>();
+  using detail::sin_cos_turns;
+  const detail::SinCos<T> turn = sin_cos_turns(phase);
+  const T k = detail::two_pi<T>();
   const T h = H * turn.cos;
   const T h1 = -k * H * turn.sin;
   return {h, h1, -k * k * h, -k * k * h1};

@@ -6,17 +6,14 @@
 #include <optional>
 #include <variant>
 
-#include "afm/detail/sample_grid.h"
-#include "afm/detail/thermostat.h"
+#include "afm/detail/phases.h"
 #include "bath.h"
-#include "chatter.h"
-#include "contact.h"
-#include "contact_step.h"
-#include "flight.h"
-#include "impact_search.h"
 #include "model.h"
+#include "sample_grid.h"
 #include "segment.h"
+#include "spring_constants.h"
 #include "state.h"
+#include "thermostat.h"
 
 namespace afm {
 
@@ -32,9 +29,6 @@ struct Deflection {
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
-
-// Slower bounces may begin a chatter sequence [a/tau]: 2 tolerance^(5/8), which is 0.027 at the default.
-double chatter_entry_speed(double contact_tolerance);
 
 // The tip at a time, in one of its phases: what another tip is made from that goes on with the same motion.
 struct TipSnapshot {
@@ -110,10 +104,7 @@ class Tip {
   const Thermostat& thermostat() const { return thermostat_; }
 
   bool in_flight() const { return std::holds_alternative<Flying>(phase_); }
-  const Flight<double>& flight() const { return std::get<Flying>(phase_).flight; }  // precondition: in_flight()
-  ModelTime flight_start() const { return start_; }
   const Model& model() const { return model_; }
-  const ChatterLaw& chatter_law() const { return law_; }
   ModelTime now() const { return now_; }
   double eta() const { return eta_; }
   double contact_tolerance() const { return contact_tolerance_; }
@@ -128,53 +119,15 @@ class Tip {
                      double* lateral) const;
 
  private:
-  // The phases of motion (docs/algorithm.md). The one under way lasts from start_ for end_.
-  struct Flying {
-    Flying(const SpringConstants<double>& springs, double eta, const TipState& start) : flight(springs, eta, start) {}
-    Flight<double> flight;
-    Landing<double> landing{};  // at end_
-  };
-  // On the surface, at rest against it. Contact begins at once.
-  struct Touching {
-    TipState state;
-  };
-  // One step in contact.
-  struct Sliding {
-    Sliding(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, double tolerance,
-            const ContactStep::Hint& hint)
-        : step(springs, eta, start, tolerance, hint) {}
-    ContactStep step;
-    bool releases = false;  // at its end the surface no longer presses
-    Account begin;          // of the record under way
-  };
-  // Totals of a chatter sequence up to the start of its reference slide.
-  struct Sequence {
-    double normal_speed;   // after its first bounce [a/tau]
-    double loss, impulse;  // energy lost in the bounces; impulse of the holder
-  };
-  // One reference slide of a chatter sequence.
-  struct Chattering {
-    Chattering(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, int bits)
-        : reference(springs, eta, start, bits) {}
-    // The reference slide ends before the sequence: another one follows, and no record ends.
-    bool goes_on() const { return run.end == ChatterEnd::time && !releases; }
-
-    SlideSegment<double> reference;
-    bool releases = false;  // at its end the surface no longer presses
-    Chatter chatter{};      // at start_
-    ChatterRun run{};       // to end_
-    Sequence sequence{};
-    Account begin;  // of the record under way
-  };
-  // A chatter sequence at a time: the tip displaced from the reference slide, and totals since the sequence began.
-  struct SequenceState {
-    SlideState<double> displaced;
-    double v;       // normal speed after the last bounce
-    double energy;  // stored
-    Sequence sequence;
-  };
-  // A tip at rest on the surface leaves it under any pull, or only under one above the rounding of the reaction.
-  enum class Leaves { under_any_pull, above_rounding };
+  using Flying = detail::Flying;
+  using Touching = detail::Touching;
+  using Sliding = detail::Sliding;
+  using Chattering = detail::Chattering;
+  using Chatter = detail::Chatter;
+  using Sequence = detail::Sequence;
+  using SequenceState = detail::SequenceState;
+  using Account = detail::Account;
+  using Leaves = detail::Leaves;
 
   TipState constrained(const TipState& state) const;
   void set_tolerance(double contact_tolerance);
@@ -185,9 +138,9 @@ class Tip {
   void fly(const TipState& start, Leaves leaves = Leaves::under_any_pull);
   void find_landing(Flying& flying);
   void touch(const TipState& state);
-  void slide(const SlideState<double>& start);
-  Chattering& refer_to(const SlideState<double>& start, int bits);
-  void chatter_along(const SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
+  void slide(const detail::SlideState<double>& start);
+  Chattering& refer_to(const detail::SlideState<double>& start, int bits);
+  void chatter_along(const detail::SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
                      const Account& begin);
   bool rests(const Flight<double>& flight, Leaves leaves) const;
 
@@ -208,15 +161,15 @@ class Tip {
   void leave_now();
   void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;
-  Outcome collapse(const TipState& before, const TipState& after, const Projection& onto, double bounces,
+  Outcome collapse(const TipState& before, const TipState& after, const detail::Projection& onto, double bounces,
                    Segments* ended);
   Outcome kick(Segments* ended);
 
   // energy balance (tip_account.cpp)
   Chatter chatter_now(const Chattering& chattering) const;
   SequenceState sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const;
-  double slide_impulse(const ContactStep& step, double s) const;
-  double bounce_impulse(const SlideState<double>& at, double v) const;
+  double slide_impulse(const detail::ContactStep& step, double s) const;
+  double bounce_impulse(const detail::SlideState<double>& at, double v) const;
   Account account() const;
   Account account_at_begin() const;
   Account account_at_end() const;
@@ -233,11 +186,11 @@ class Tip {
   double eta_;
   double contact_tolerance_;
   double slowest_chatter_;  // threshold of contact [a/tau]
-  ChatterLaw law_;
+  detail::ChatterLaw law_;
   double entry_speed_;  // chatter_entry_speed()
   Thermostat thermostat_;
   ModelTime start_, now_;
-  double end_ = 0.0;  // of the phase, since start_ [tau]
+  double end_ = 0.0;  // of the phase under way, since start_ [tau]
   std::variant<Flying, Touching, Sliding, Chattering> phase_;
   Impact last_impact_;
   std::optional<Impact> pending_;  // an event at now() that the next advance reports

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "afm/number_text.h"
+#include "fault_list.h"
 
 namespace afm {
 
@@ -22,22 +22,23 @@ bool parse(const std::string& name, ModelKind& kind) {
 const char* name(ModelKind kind) { return kind == ModelKind::hammer ? "hammer" : "oscillator"; }
 
 std::vector<ParameterError> find_faults(const Model& m) {
-  std::vector<ParameterError> faults;
-  // every condition is false for NaN
-  const auto require = [&](bool holds, const char* name, double value, const char* reason) {
-    if (!holds) faults.emplace_back(name, value, reason);
-  };
-  require(m.frequency_ratio >= kMinFrequencyRatio && m.frequency_ratio <= kMaxFrequencyRatio, "frequency_ratio",
-          m.frequency_ratio, "omega_h/omega_v must be between 0.01 and 1000");
-  require(m.H >= kMinAmplitude && m.H <= kMaxAmplitude, "H", m.H,
-          "the surface amplitude must be between 1e-6 and 1 lattice spacings");
-  require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
-          "the holder must be at a finite height below the crest, or the tip hovers and never touches");
-  require(m.y0 >= kMinRestHeight, "y0", m.y0, "the holder must be at most 100000 lattice spacings down");
-  require(m.gamma >= 0.0 && m.gamma <= 1.0, "gamma", m.gamma, "the restitution must be between 0 and 1");
-  require(m.v_c >= 0.0 && std::isfinite(m.v_c), "v_c", m.v_c, "the cutoff speed must be finite and not negative");
-  require(!(m.v_c > 0.0) || m.v_c >= kMinCutoff, "v_c", m.v_c, "the cutoff speed must be 0 or at least 1e-9 a/tau");
-  return faults;
+  detail::FaultList list;
+  list.require_between(kMinFrequencyRatio, kMaxFrequencyRatio, "frequency_ratio", m.frequency_ratio,
+                       "omega_h/omega_v must be");
+  list.require_between(kMinAmplitude, kMaxAmplitude, "H", m.H, "the surface amplitude must be", " lattice spacings");
+  list.require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
+               "the holder must be at a finite height below the crest, or the tip hovers and never touches");
+  if (m.y0 < kMinRestHeight) {
+    list.faults.emplace_back("y0", m.y0,
+                             "the holder must be at most " + number_text(-kMinRestHeight) + " lattice spacings down");
+  }
+  list.require_between(0.0, 1.0, "gamma", m.gamma, "the restitution must be");
+  list.require(m.v_c >= 0.0 && std::isfinite(m.v_c), "v_c", m.v_c, "the cutoff speed must be finite and not negative");
+  if (m.v_c > 0.0 && m.v_c < kMinCutoff) {
+    list.faults.emplace_back("v_c", m.v_c,
+                             "the cutoff speed must be 0 or at least " + number_text(kMinCutoff) + " a/tau");
+  }
+  return list.faults;
 }
 
 std::string describe(const std::vector<ParameterError>& faults) {

@@ -6,14 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "afm/detail/double_double.h"
 #include "afm/flight.h"
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 #include "afm/run.h"
 #include "afm/surface.h"
+#include "core/search/double_double.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 Model model_of(const FlightInput& input) {
@@ -73,7 +76,7 @@ Landing<double> land(const Model& model, double eta, TipState start) {
   }
   std::ostringstream text;
   text << "no impact within " << flown << " tau";
-  if (flown < kLongestFlight) text << ", where the search gave up";
+  if (flown < kLongestFlight) text << ", where the search failed";
   throw std::runtime_error(text.str());
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/detail/turns.h"
 #include "scenery.h"
 
 namespace afm::view {
@@ -40,8 +39,8 @@ void draw_tip(Canvas& canvas, const Place& tip) {
   Marker& cone = canvas.add("tip", Marker::TRIANGLE_LIST);
   const geometry_msgs::Point apex = canvas.place(tip.x, tip.y, kTipDepth);
   const auto rim = [&](int i) {
-    const SinCos<double> turn = sin_cos_turns(1.0 * i / kConeSides);
-    return point(apex.x + kConeRadius * turn.cos, apex.y + kConeRadius * turn.sin, apex.z + kConeHeight);
+    const double angle = kTwoPi * i / kConeSides;
+    return point(apex.x + kConeRadius * std::cos(angle), apex.y + kConeRadius * std::sin(angle), apex.z + kConeHeight);
   };
   for (int i = 0; i < kConeSides; ++i) {
     for (const auto& corner : {apex, rim(i + 1), rim(i)}) cone.points.push_back(corner);

@@ -12,9 +12,9 @@ namespace afm {
 struct RandomChatter {
   Model model;
   double v;  // normal speed after the first bounce
-  SlideSegment<double> reference;
+  detail::SlideSegment<double> reference;
 
-  Tip every_bounce() const { return {model, reference.eta(), leave_surface(model, reference.start(), v), 0.0}; }
+  Tip every_bounce() const { return {model, reference.eta(), detail::leave_surface(model, reference.start(), v), 0.0}; }
 
   // How long a bounce is, at most, against every change around it.
   double shortness(double s) const {
@@ -25,13 +25,13 @@ struct RandomChatter {
 };
 
 // One that `law` takes: a normal speed of 10^decades(from, to) under a pressure of at least 0.5.
-inline RandomChatter random_chatter(const Model& model, const ChatterLaw& law, RandomLaunches& random, double from,
-                                    double to) {
+inline RandomChatter random_chatter(const Model& model, const detail::ChatterLaw& law, RandomLaunches& random,
+                                    double from, double to) {
   const SpringConstants<double> springs(model);
   for (;;) {
     const SlidePart slide = random_part(random);
     const double v = std::pow(10.0, random.within(from, to));
-    const Flight<double> bounce(springs, slide.eta(), leave_surface(model, slide.start(), v));
+    const Flight<double> bounce(springs, slide.eta(), detail::leave_surface(model, slide.start(), v));
     if (slide.pressure(0.0) > 0.5 && law.holds(bounce)) return {model, v, slide};
   }
 }

@@ -23,7 +23,7 @@ class QuadImpacts {
         v_c_(model.v_c),
         H_(model.H),
         y0_(model.y0),
-        wv_(two_pi<Quad>()),
+        wv_(detail::two_pi<Quad>()),
         wh_(wv_ * model.frequency_ratio),
         held_(model.kind == ModelKind::hammer) {}
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "afm/detail/double_double.h"
 #include "afm/model.h"
 #include "afm/state.h"
 #include "afm/surface.h"
+#include "core/search/double_double.h"
 #include "trials/quad.h"
 
 namespace afm {
@@ -31,8 +31,8 @@ struct ReferenceFlight {
 
   // The gap rate is a small difference of velocities: taken in double-double.
   TipState start() const {
-    const DoubleDouble slope = surface_jet(DoubleDouble(model().H), DoubleDouble(phase)).h1;
-    return {phase, X, u, 0.0, static_cast<double>(DoubleDouble(w) - slope * DoubleDouble(u))};
+    const detail::DoubleDouble slope = surface_jet(detail::DoubleDouble(model().H), detail::DoubleDouble(phase)).h1;
+    return {phase, X, u, 0.0, static_cast<double>(detail::DoubleDouble(w) - slope * detail::DoubleDouble(u))};
   }
 };
 

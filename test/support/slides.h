@@ -1,17 +1,18 @@
 // Slides for tests: random ones, and what their pressure should be.
 #pragma once
 
-#include "afm/contact.h"
+#include "afm/detail/slide_segment.h"
 #include "afm/surface.h"
+#include "core/contact/slide_release.h"
 #include "trials/random_launches.h"
 
 namespace afm {
 
-using SlidePart = SlideSegment<double>;
+using SlidePart = detail::SlideSegment<double>;
 
 // Minus what the gap's acceleration would be in free flight, over 1 + h'^2.
 template <class T>
-T pressure_of(const Model& model, const SlideState<T>& s) {
+T pressure_of(const Model& model, const detail::SlideState<T>& s) {
   const SpringConstants<T> m(model);
   const SurfaceJet<T> h = surface_jet(m.H, s.phase);
   return (m.omega_v * m.omega_v * (h.h - m.y0) + h.h2 * s.u * s.u - h.h1 * m.omega_h * m.omega_h * s.X) /
@@ -19,7 +20,7 @@ T pressure_of(const Model& model, const SlideState<T>& s) {
 }
 
 inline double end_of(const SlidePart& part) {
-  const double release = part.find_release();
+  const double release = detail::find_release(part);
   return release < 0.0 ? part.length() : release;
 }
 

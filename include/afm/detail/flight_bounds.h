@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spring_constants.h"
+#include "afm/spring_constants.h"
+#include "afm/state.h"
+#include "turns.h"
 
 namespace afm {
 
-// The comoving state at one time, with the surface phase.
 template <class T>
-struct FlightState {
-  T phase, X, U, Y, W;
-};
+class Flight;
+
+namespace detail {
 
 // Guarantee: they hold for the whole flight, and exceed the exact bounds by little.
 template <class T>
@@ -21,6 +22,18 @@ struct FlightBounds {
   T second, third, fourth;  // of the gap's time derivatives
   T fastest;                // of the turns of springs and surface phase [1/tau]
 };
+
+// Those of a flight.
+template <class T>
+const FlightBounds<T>& bounds_of(const Flight<T>& flight) {
+  return flight.bounds_;
+}
+
+// True: within the time s every angle turns by at most kSmallTurn.
+template <class T>
+auto is_small(const FlightBounds<T>& b, const T& s) {
+  return s * b.fastest <= T(kSmallTurn);
+}
 
 // An upper bound of |(x, y)|, too large by at most a twelfth: the chord of the octagon, sqrt(2) - 1.
 template <class T>
@@ -65,4 +78,5 @@ T fourth_derivative_bound(const SpringConstants<T>& m, const T& eta, const Fligh
   return min(b.fourth, T(wv2 * wv2 * b.Y + k * m.H * about));
 }
 
+}  // namespace detail
 }  // namespace afm

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace afm {
+namespace afm::detail {
 
 // x / d. For doubles a product with 1/d: faster, with an error of up to 1.5 ulp.
 template <class T>
@@ -19,4 +19,10 @@ T mul_add(const T& a, const T& b, const T& c) {
 }
 inline double mul_add(double a, double b, double c) { return std::fma(a, b, c); }
 
-}  // namespace afm
+// w / omega, exact beyond the last digit. With a rounded 1 / omega every turn of a spring would add or remove energy.
+template <class T>
+T divide_by_omega(const T& w, const T& omega, const T& inverse) {
+  return mul_add(w, inverse, T((w * inverse) * mul_add(T(-omega), inverse, T(1.0))));
+}
+
+}  // namespace afm::detail

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "spring_constants.h"
+#include "afm/spring_constants.h"
+#include "select.h"
+#include "turns.h"
 
-namespace afm {
+namespace afm::detail {
 
 // On the surface, moving along it: phase [a], extension [a], lab velocity [a/tau].
 template <class T>
@@ -94,4 +96,4 @@ inline void write_slide_series(const SpringConstants<T>& m, const T& eta, const 
   }
 }
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace afm {
+namespace afm::detail {
 
 template <class T>
 struct SinCos {
@@ -36,8 +36,6 @@ template <>
 inline double two_pi<double>() {
   return 6.283185307179586476925286766559;
 }
-
-namespace turns_detail {
 
 // (2 pi)^n / n! with alternating signs, up to n = 17: at an eighth of a turn the first omitted term is below 1e-18
 constexpr double kSine[] = {6.283185307179586,  -41.34170224039976,  81.60524927607506,
@@ -96,24 +94,20 @@ inline SinCos<double> sin_cos_beside(double quarters, double r) {
   return {(k & 2) != 0 ? -sin_value : sin_value, ((k + 1) & 2) != 0 ? -cos_value : cos_value};
 }
 
-}  // namespace turns_detail
-
 // Nearest whole number, |x| < 2^51.
-inline double nearest(double x) { return (x + turns_detail::kRounder) - turns_detail::kRounder; }
+inline double nearest(double x) { return (x + kRounder) - kRounder; }
 
 // a * b minus the nearest integer, rounded once. Precondition: |a b| < 2^51.
 inline double turn_product(double a, double b) { return std::fma(a, b, -nearest(a * b)); }
 
 // Error below 0.8 ulp. Precondition: |x| < 2^49.
 inline SinCos<double> sin_cos_turns(double x) {
-  using namespace turns_detail;
   const double quarters = x + kQuarterRounder;
   return sin_cos_beside(quarters, x - (quarters - kQuarterRounder));
 }
 
 // The turn of a * b, reduced as in turn_product. Precondition: |a b| < 2^49.
 inline SinCos<double> sin_cos_turn_product(double a, double b) {
-  using namespace turns_detail;
   const double quarters = std::fma(a, b, kQuarterRounder);
   return sin_cos_beside(quarters, std::fma(a, b, kQuarterRounder - quarters));
 }
@@ -126,11 +120,10 @@ constexpr double kSmallTurn = 0.125;  // [turns] limit of SmallTurn, which also 
 
 // Precondition: |x| <= 1/8.
 inline SmallTurn<double> small_turn(double x) {
-  using namespace turns_detail;
   const double z = x * x, cube = x * z;
   const double low = z * std::fma(z, -kCosineLow[2], -kCosineLow[1]);
   return {sine(x, z), std::fma(cube, sine_rest(z), cube * kSine[1]),
           std::fma(-(z * z), cosine_rest(z), std::fma(z, -kCosine[1], low))};
 }
 
-}  // namespace afm
+}  // namespace afm::detail

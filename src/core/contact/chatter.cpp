@@ -1,4 +1,4 @@
-#include "afm/chatter.h"
+#include "afm/detail/chatter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "chatter_law.h"
 #include "projection.h"
 
-namespace afm {
+namespace afm::detail {
 namespace {
 
 // M of a constant loss: -w/ln(1 - w).
@@ -18,6 +18,19 @@ double w_over_log(double w) {
 }
 
 }  // namespace
+
+double chatter_threshold(double contact_tolerance) {
+  // the flight to the next impact may enlarge an error by this factor (measured: docs/stability.md,
+  // benchmark/burst_error)
+  constexpr double kErrorGrowth = 100.0;
+  return contact_tolerance / kErrorGrowth;
+}
+
+// The first bounce causes most of a sequence's error; the factor is measured (benchmark/burst_error). Square roots give
+// the same bits on every machine.
+double chatter_entry_speed(double contact_tolerance) {
+  return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
+}
 
 ChatterLaw::ChatterLaw(const Model& model, double threshold)
     : constants_{}, loss_(1.0 - model.gamma), cutoff_(model.v_c) {
@@ -54,7 +67,7 @@ bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (2.0 * v * std::max(m.ratio, std::abs(launch.u)) > limit * -start.g2) return false;
   const auto p = projected<double>(m.is_free_along_x, m.H, {launch.phase, launch.X, launch.u, start.g1});
   const ReferenceForces<double> f = reference_forces(m, bounce.eta(), p.reference);
-  return f.P > 0.0 && 2.0 * p.normal_speed * quickness(m, p.reference.u, f).fastest <= limit * f.P;
+  return f.P > 0.0 && 2.0 * p.normal_speed * change_rates(m, p.reference.u, f).fastest <= limit * f.P;
 }
 
 ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, double until,
@@ -86,8 +99,9 @@ double ChatterLaw::collapsing(const SpringConstants<double>& springs, double eta
     squares += end * end / (k * f.P);
     bounces += (1.0 / constants_.threshold - 1.0 / end) / k;
   }
-  const double moved = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn)) * squares / (3.0 * f.P);
-  return moved <= allowed && time * quickness(springs, at.u, f).change <= kMostChange ? std::max(bounces, 1.0) : 0.0;
+  const double displacement = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn)) * squares / (3.0 * f.P);
+  return displacement <= allowed && time * change_rates(springs, at.u, f).change <= kMostChange ? std::max(bounces, 1.0)
+                                                                                                : 0.0;
 }
 
 Projection project_onto_surface(const Model& model, const TipState& state) {
@@ -96,7 +110,7 @@ Projection project_onto_surface(const Model& model, const TipState& state) {
 }
 
 TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed) {
-  const Bounce4<double> b = launched<double>(is_free_along_x(model), model.H, reference, normal_speed);
+  const BounceState<double> b = launched<double>(is_free_along_x(model), model.H, reference, normal_speed);
   return {wrap_phase(b.phase), b.X, b.u, 0.0, b.g1};
 }
 
@@ -105,4 +119,4 @@ SlideState<double> displaced_reference(const Model& model, const SlideState<doub
   return displaced_reference_of(model.H, reference, chatter);
 }
 
-}  // namespace afm
+}  // namespace afm::detail

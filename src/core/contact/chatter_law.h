@@ -7,12 +7,12 @@
 #include <cstddef>
 #include <limits>
 
-#include "afm/chatter.h"
+#include "afm/detail/chatter.h"
 #include "lobatto.h"
 #include "portable_exp.h"
 #include "reference_forces.h"
 
-namespace afm {
+namespace afm::detail {
 
 // The first three limits are measured with benchmark/burst_error (docs/algorithm.md has the table). The others are
 // chosen: half of any of them changes the error at the next impact in 99 of 100 by less than a quarter (same command).
@@ -80,7 +80,7 @@ template <class T>
 struct ChatterPoint {
   T s;  // since the start of the reference slide [tau]
   ReferenceForces<T> forces;
-  Quickness quickness;
+  ChangeRates changes;
   ChatterVariables<T> y, rates;
   ChatterOf<T> chatter;
 };
@@ -132,7 +132,7 @@ inline double ratio_over_limit(const ChatterConstants& c, const ChatterPoint<T>&
   const double limit = ChatterLimits::kMaxRatioWithin * c.fineness;
   const double P = static_cast<double>(at.forces.P);
   if (!(P > 0.0)) return std::numeric_limits<double>::infinity();
-  return 2.0 * static_cast<double>(at.chatter.v) / P * at.quickness.fastest / limit;
+  return 2.0 * static_cast<double>(at.chatter.v) / P * at.changes.fastest / limit;
 }
 
 // The integration along one reference slide.
@@ -151,7 +151,7 @@ class ChatterIntegration {
     const T v = start.v * (1.0 - disturbance(f, start.sigma, start.p) * (1.0 / 3));
     const T x = c_.constant_loss ? v : portable_log(v);
     const ChatterVariables<T> y{x, start.n, start.sigma, start.p, start.drift, start.loss};
-    Point at{s, f, quickness(reference_.springs(), q.u, f), y, {}, start};
+    Point at{s, f, change_rates(reference_.springs(), q.u, f), y, {}, start};
     at.rates = chatter_rates(c_, at.forces, at.y);
     return at;
   }
@@ -218,7 +218,7 @@ class ChatterIntegration {
     const double half_P = 0.5 * value(at.forces.P), v = value(at.chatter.v), x1 = value(at.rates.x);
     const double falls =
         c_.constant_loss ? ChatterLimits::kStep * v / (half_P * c_.w) : ChatterLimits::kMaxFall / (half_P * c_.dw_dv);
-    double dt = c_.fineness * std::min(falls, ChatterLimits::kStep / at.quickness.change);
+    double dt = c_.fineness * std::min(falls, ChatterLimits::kStep / at.changes.change);
     // not far beyond the threshold, as n counts the bounces down to it
     if (x1 < 0.0) dt = std::min(dt, (c_.end_x - value(at.y.x)) / x1);
     return rest <= dt ? rest : rest < 2.0 * dt ? 0.5 * rest : dt;  // the last two steps are equal
@@ -229,7 +229,7 @@ class ChatterIntegration {
   bool fits(const Point& from, double dt, const Point& next) const {
     // with a constant loss n is like -ln v, with its pole at v = 0
     const double least_v = c_.constant_loss ? 0.5 * (1.0 - ChatterLimits::kStep) * value(from.chatter.v) : 0.0;
-    return value(next.forces.P) > 0.0 && dt * next.quickness.change <= ChatterLimits::kMaxChange &&
+    return value(next.forces.P) > 0.0 && dt * next.changes.change <= ChatterLimits::kMaxChange &&
            value(next.chatter.v) > least_v;
   }
 
@@ -250,8 +250,12 @@ class ChatterIntegration {
       return y + dt * mean;
     };
     const ChatterVariables<T>&y = from.y, &r = from.rates;
-    return {sum(y.x, r.x, rates.x), sum(y.n, r.n, rates.n),             sum(y.sigma, r.sigma, rates.sigma),
-            sum(y.p, r.p, rates.p), sum(y.drift, r.drift, rates.drift), sum(y.loss, r.loss, rates.loss)};
+    return {sum(y.x, r.x, rates.x),
+            sum(y.n, r.n, rates.n),
+            sum(y.sigma, r.sigma, rates.sigma),
+            sum(y.p, r.p, rates.p),
+            sum(y.drift, r.drift, rates.drift),
+            sum(y.loss, r.loss, rates.loss)};
   }
 
   // One step of Lobatto's method. Its equations are solved by iteration; the start extrapolates the first rates.
@@ -279,7 +283,7 @@ class ChatterIntegration {
     }
     const ReferenceForces<T> f = node(forces, kLast);
     const ChatterVariables<T> end = integral(from, dt, rates, kLast);
-    return {from.s + dt, f, quickness(springs, q.u[kLast], f), end, node(rates, kLast), to_chatter(c_, f, end)};
+    return {from.s + dt, f, change_rates(springs, q.u[kLast], f), end, node(rates, kLast), to_chatter(c_, f, end)};
   }
 
   void set_rates(const ReferenceForces<AtNodes<T>>& forces, const ChatterVariables<AtNodes<T>>& y,
@@ -299,4 +303,4 @@ class ChatterIntegration {
   const SlideSegment<T>& reference_;
 };
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -1,13 +1,15 @@
 // Gauss collocation of a slide in contact (docs/algorithm.md, "Contact"). The compiler makes vector operations of the
 // loops over the nodes. No sum runs over the nodes in such a loop, so the bits do not depend on it.
-#include "afm/contact_step.h"
+#include "afm/detail/contact_step.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "afm/surface.h"
+#include "gauss.h"
+#include "release_noise.h"
 
-namespace afm {
+namespace afm::detail {
 namespace {
 
 constexpr std::size_t kN = kGaussNodes;
@@ -46,7 +48,7 @@ constexpr LastButOne make_last_but_one() {
   LastButOne last{};
   for (std::size_t j = 0; j < kN; ++j) {
     const double degree = static_cast<double>(kN - 2);
-    last.weight[j] = (2.0 * degree + 1.0) * kGauss.weight[j] * gauss_detail::legendre(kN - 2, kGauss.node[j]);
+    last.weight[j] = (2.0 * degree + 1.0) * kGauss.weight[j] * legendre(kN - 2, kGauss.node[j]);
   }
   return last;
 }
@@ -80,7 +82,6 @@ inline ContactForces forces(const SpringConstants<double>& m, const SinCos<doubl
 
 // Sine and cosine of the turn from which `turn` is r away, |r| <= kMaxReach: within 1e-12.
 inline SinCos<double> turned_by(const SinCos<double>& turn, double r) {
-  using namespace turns_detail;
   const double z = r * r, z2 = z * z, z4 = z2 * z2;
   const double s_low = (kSine[0] + z * kSine[1]) + z2 * (kSine[2] + z * kSine[3]);
   const double s_high = (kSine[4] + z * kSine[5]) + z2 * (kSine[6] + z * kSine[7]) + z4 * kSine[8];
@@ -354,4 +355,4 @@ double ContactStep::find_release() const {
   return p <= kAccuracy * noise ? s : -1.0;
 }
 
-}  // namespace afm
+}  // namespace afm::detail

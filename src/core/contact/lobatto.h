@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace afm {
+namespace afm::detail {
 
 constexpr double kRoot21 = 4.58257569495584;
 constexpr std::size_t kNodeCount = 4;
@@ -17,4 +17,4 @@ constexpr double kLobatto[5][4] = {
     {(343 - 69 * kRoot21) / 2520, (392 - 105 * kRoot21) / 2880, (343 + 9 * kRoot21) / 2520, 49.0 / 180},
     {(-21 + 3 * kRoot21) / 1960, 3.0 / 320, (-21 - 3 * kRoot21) / 1960, 1.0 / 20}};
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -8,7 +8,7 @@
 #include "afm/detail/select.h"
 #include "afm/detail/turns.h"
 
-namespace afm {
+namespace afm::detail {
 
 // Natural logarithm, x > 0, error below 1e-15: by the series of artanh(z), z = (m-1)/(m+1), up to z^23.
 inline double portable_log(double x) {
@@ -32,7 +32,7 @@ namespace exp_detail {
 template <class T, class Power>
 inline T exp_of(const T& x, const Power& power) {
   constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
-  const T shifted = x * T(1.4426950408889634) + T(turns_detail::kRounder), k = shifted - T(turns_detail::kRounder);
+  const T shifted = x * T(1.4426950408889634) + T(kRounder), k = shifted - T(kRounder);
   const T r = mul_add(T(-k), T(kLog2Low), mul_add(T(-k), T(kLog2High), x));
   const T r2 = r * r, r4 = r2 * r2;
   const auto pair = [&](double c0, double c1) { return mul_add(r, T(c1), T(c0)); };
@@ -57,4 +57,4 @@ inline double portable_exp(double x) {
   });
 }
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -4,15 +4,15 @@
 
 #include <cmath>
 
-#include "afm/chatter.h"
-#include "afm/contact.h"
+#include "afm/detail/chatter.h"
+#include "afm/detail/slide_segment.h"
 #include "afm/surface.h"
 
-namespace afm {
+namespace afm::detail {
 
 // The state after a bounce: phase [a], extension [a], lab velocity [a/tau] and gap rate [a/tau].
 template <class T>
-struct Bounce4 {
+struct BounceState {
   T phase, X, u, g1;
 };
 
@@ -24,7 +24,7 @@ struct ProjectedOf {
 
 // Takes the normal velocity out. The tangential velocity stays.
 template <class T>
-inline ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>& state) {
+inline ProjectedOf<T> projected(const T& free, const T& H, const BounceState<T>& state) {
   using std::sqrt;
   const T slope = free * surface_jet(H, state.phase).h1, N2 = T(1.0) + slope * slope, N = sqrt(N2);
   const T u = state.u + slope * state.g1 / N2;
@@ -33,7 +33,7 @@ inline ProjectedOf<T> projected(const T& free, const T& H, const Bounce4<T>& sta
 
 // Puts a normal velocity back.
 template <class T>
-inline Bounce4<T> launched(const T& free, const T& H, const SlideState<T>& reference, const T& normal_speed) {
+inline BounceState<T> launched(const T& free, const T& H, const SlideState<T>& reference, const T& normal_speed) {
   using std::sqrt;
   const T slope = free * surface_jet(H, reference.phase).h1, N = sqrt(T(1.0) + slope * slope);
   return {reference.phase, reference.X, reference.u - slope * normal_speed / N, normal_speed * N};
@@ -51,4 +51,4 @@ inline SlideState<T> displaced_reference_of(const T& H, const SlideState<T>& ref
   return {phase, reference.X + dx, (reference.u * here + chatter.p) / N(phase)};
 }
 
-}  // namespace afm
+}  // namespace afm::detail

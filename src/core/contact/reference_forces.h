@@ -6,29 +6,29 @@
 #include <cmath>
 
 #include "afm/detail/slide_series.h"
-#include "afm/detail/spring_constants.h"
+#include "afm/spring_constants.h"
 #include "afm/surface.h"
 
-namespace afm {
+namespace afm::detail {
 
 template <class T>
 struct ReferenceForces {
-  T P, P1, P2;     // reaction normal to the surface [a/tau^2], its first two time derivatives
-  T K;             // growth of the reaction with the distance from the surface [1/tau^2]
-  T turn;          // turn rate of the surface under the tip: curvature times speed [rad/tau]
-  T c_height;      // of rho in the acceleration along the surface: minus dP/ds [1/tau^2]
-  T c_sigma;       // of -sigma in the acceleration along the surface [1/tau^2]
-  T dx_dsigma;     // displacement along x for one along the surface
-  T dx_drho;       // displacement along x for a distance from the surface
+  T P, P1, P2;  // reaction normal to the surface [a/tau^2], its first two time derivatives
+  T K;          // growth of the reaction with the distance from the surface [1/tau^2]
+  T turn;       // turn rate of the surface under the tip: curvature times speed [rad/tau]
+  T c_height;   // of rho in the acceleration along the surface: minus dP/ds [1/tau^2]
+  T c_sigma;    // of -sigma in the acceleration along the surface [1/tau^2]
+  T dx_dsigma;  // displacement along x for one along the surface
+  T dx_drho;    // displacement along x for a distance from the surface
 };
 
 // They control steps and ends only: no derivatives by the start.
-struct Quickness {
+struct ChangeRates {
   double change;   // relative rate of change of P: |P'/P| or sqrt(|P''/P|) [1/tau]
   double fastest;  // the larger of that and the rate of the slope, |u|, and of the springs [1/tau]
 };
 template <class T>
-inline Quickness quickness(const SpringConstants<T>& m, const T& u, const ReferenceForces<T>& f) {
+inline ChangeRates change_rates(const SpringConstants<T>& m, const T& u, const ReferenceForces<T>& f) {
   const double p1 = static_cast<double>(f.P1) / static_cast<double>(f.P);
   const double change = std::sqrt(std::max(p1 * p1, std::abs(static_cast<double>(f.P2) / static_cast<double>(f.P))));
   return {change, std::max({change, std::abs(static_cast<double>(u)), static_cast<double>(m.ratio), 1.0})};
@@ -73,4 +73,4 @@ inline ReferenceForces<T> reference_forces(const SpringConstants<T>& m, const T&
   return f;
 }
 
-}  // namespace afm
+}  // namespace afm::detail

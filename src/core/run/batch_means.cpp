@@ -1,11 +1,11 @@
-#include "afm/detail/batch_means.h"
+#include "core/run/batch_means.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/not_numbers.h"
 
-namespace afm {
+namespace afm::detail {
 namespace {
 
 struct Spread {
@@ -70,4 +70,4 @@ MeanError mean_error(std::vector<double> batches) {
   return {student_widening(degrees) * std::sqrt(of_sum / n) / length, degrees, batches.size()};
 }
 
-}  // namespace afm
+}  // namespace afm::detail

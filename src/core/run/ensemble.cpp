@@ -28,13 +28,12 @@ void on_threads(int threads, std::size_t n, const Work& work) {
 
 }  // namespace
 
-template <class Limit>
-void Ensemble::advance_all(std::uint32_t events, const Limit& limit, Impact* log) {
+void Ensemble::advance_all(std::uint32_t events, const ModelTime* limits, std::size_t stride, Impact* log) {
   on_threads(threads_, size(), [&](std::size_t i) {
     Member& m = members_[i];
     Impact* record = log == nullptr ? nullptr : log + i * events;
     for (m.events = 0; m.events < events; ++m.events) {
-      const Outcome outcome = m.tip.advance(limit(i));
+      const Outcome outcome = m.tip.advance(limits[i * stride]);
       if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return;
       if (record != nullptr) *record++ = m.tip.last_impact();
     }
@@ -42,13 +41,11 @@ void Ensemble::advance_all(std::uint32_t events, const Limit& limit, Impact* log
 }
 
 void Ensemble::advance(std::uint32_t events, const ModelTime& limit, Impact* log) {
-  advance_all(
-      events, [&](std::size_t) { return limit; }, log);
+  advance_all(events, &limit, 0, log);
 }
 
 void Ensemble::advance(std::uint32_t events, const ModelTime* limits, Impact* log) {
-  advance_all(
-      events, [&](std::size_t i) { return limits[i]; }, log);
+  advance_all(events, limits, 1, log);
 }
 
 void Ensemble::advance(const ModelTime& limit) { advance(std::numeric_limits<std::uint32_t>::max(), limit); }

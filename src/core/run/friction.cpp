@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/detail/sample_grid.h"
 #include "afm/model.h"
+#include "afm/sample_grid.h"
 #include "core/not_numbers.h"
 
 namespace afm {

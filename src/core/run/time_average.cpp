@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "afm/detail/batch_means.h"
-#include "afm/interruption.h"
 #include "afm/friction.h"
+#include "afm/interruption.h"
 #include "core/not_numbers.h"
+#include "core/run/batch_means.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // Relative rounding of the friction on a periodic orbit: nine units in the last place.

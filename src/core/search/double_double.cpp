@@ -1,6 +1,6 @@
-#include "afm/detail/double_double.h"
+#include "double_double.h"
 
-namespace afm {
+namespace afm::detail {
 
 // Taylor series. At an eighth of a turn the first omitted term is below 2^-106.
 SmallTurn<DoubleDouble> small_turn(const DoubleDouble& x) {
@@ -34,4 +34,4 @@ SinCos<DoubleDouble> sin_cos_turns(const DoubleDouble& x) {
   }
 }
 
-}  // namespace afm
+}  // namespace afm::detail

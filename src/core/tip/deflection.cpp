@@ -2,16 +2,18 @@
 #include <algorithm>
 #include <limits>
 
-#include "afm/contact.h"
 #include "afm/tip.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // Height and extension are those of Flight::gap, without its derivatives.
 Deflection flight_deflection(const Flight<double>& flight, double s) {
-  if (flight.is_small(s)) {
-    const GapJet<double> jet = flight.gap_by_small_turns(s);
+  if (is_small(bounds_of(flight), s)) {
+    const GapJet<double> jet = advance_jet(flight.springs(), flight.eta(), flight.start(), s);
     return {jet.state.Y, jet.state.X, jet.g};
   }
   const FlightState<double> q = flight.at(s);

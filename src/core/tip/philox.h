@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace afm {
+namespace afm::detail {
 
 using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
@@ -28,4 +28,4 @@ inline PhiloxCounter philox4x32(PhiloxCounter counter, PhiloxKey key) {
   return counter;
 }
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -4,9 +4,14 @@
 #include <cmath>
 #include <new>
 
+#include "core/contact/release_noise.h"
+#include "core/contact/slide_release.h"
 #include "tip_motion.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 const Model& checked(const Model& model) {
@@ -20,9 +25,6 @@ const TipState& checked(const TipState& start) {
   return start;
 }
 
-// The flight to the next impact may enlarge an error by this factor (measured: docs/stability.md,
-// benchmark/burst_error).
-constexpr double kErrorGrowth = 100.0;
 // Digits of the reference slide: an error of a 2500th of the tolerance is enough. Its segments are 2.7 times as long
 // for it, and 1.7 times as fast at eta = 0.3 (docs/history.md). The energy balance does not depend on it.
 int reference_bits(double contact_tolerance) {
@@ -36,12 +38,6 @@ double step_tolerance(double contact_tolerance) { return std::max(2e-4 * contact
 
 }  // namespace
 
-// The first bounce causes most of a sequence's error; the factor is measured (benchmark/burst_error). Square roots give
-// the same bits on every machine.
-double chatter_entry_speed(double contact_tolerance) {
-  return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
-}
-
 Tip::Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance)
     : Tip(model, eta, to_tip_state(model.H, start), contact_tolerance) {}
 
@@ -50,7 +46,7 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       springs_(model),
       eta_(eta),
       contact_tolerance_(contact_tolerance),
-      slowest_chatter_(contact_tolerance / kErrorGrowth),
+      slowest_chatter_(chatter_threshold(contact_tolerance)),
       law_(model, slowest_chatter_),
       entry_speed_(chatter_entry_speed(contact_tolerance)),
       phase_(std::in_place_type<Flying>, springs_, eta, constrained(checked(start))) {
@@ -72,7 +68,7 @@ TipState Tip::constrained(const TipState& state) const {
 
 void Tip::set_tolerance(double contact_tolerance) {
   contact_tolerance_ = contact_tolerance;
-  slowest_chatter_ = contact_tolerance / kErrorGrowth;
+  slowest_chatter_ = chatter_threshold(contact_tolerance);
   entry_speed_ = chatter_entry_speed(contact_tolerance);
 }
 
@@ -135,8 +131,8 @@ Tip::Chattering& Tip::refer_to(const SlideState<double>& start, int bits) {
 
 void Tip::chatter_along(const SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
                         const Account& begin) {
-  Chattering& chattering = refer_to(start, reference_bits(kErrorGrowth * slowest_chatter_));
-  const double release = chattering.reference.find_release();
+  Chattering& chattering = refer_to(start, reference_bits(contact_tolerance_));
+  const double release = find_release(chattering.reference);
   chattering.releases = release >= 0.0;
   chattering.chatter = chatter;
   chattering.run =

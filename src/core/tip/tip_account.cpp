@@ -6,6 +6,9 @@
 #include "tip_motion.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 double energy_of(const SpringConstants<double>& m, double eta, const FlightState<double>& q) {
@@ -14,7 +17,9 @@ double energy_of(const SpringConstants<double>& m, double eta, const FlightState
 }
 
 // Impulse of the horizontal spring from the time integral of its extension [a tau].
-double spring_impulse(const SpringConstants<double>& m, double stretch) { return -m.omega_h * m.omega_h * stretch; }
+double spring_impulse(const SpringConstants<double>& m, double extension_integral) {
+  return -m.omega_h * m.omega_h * extension_integral;
+}
 
 // The holder of a hammer balances the reaction along x. Its work is the change of energy. At rest its force is
 // constant.
@@ -37,7 +42,7 @@ Chatter Tip::chatter_now(const Chattering& chattering) const {
 }
 
 // At the time s of the reference slide. The law gives the energy balance: work of the holder less the energy lost. The
-// displaced tip has that energy only to the order of the law, so it is moved to the nearest state that has it. The
+// displaced tip has that energy only to the order of the law, so we take the nearest state that has it. The
 // holder of a hammer gives the energy that its bounces gain.
 Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SlideSegment<double>& slide = chattering.reference;

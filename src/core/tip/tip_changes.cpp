@@ -4,6 +4,8 @@
 
 namespace afm {
 
+using namespace detail;
+
 void Tip::drag(double eta) {
   if (eta == eta_) return;
   if (model_.kind == ModelKind::hammer && is_on_slide()) return jump_holder_velocity(eta);

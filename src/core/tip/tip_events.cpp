@@ -4,9 +4,13 @@
 
 #include "afm/reflection.h"
 #include "afm/tip.h"
+#include "core/contact/release_noise.h"
 #include "tip_motion.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // A flight shorter than this part of the fastest turn may be rounding: 4500 ulp of a phase.
@@ -16,7 +20,7 @@ constexpr double kMinFlight = 1e-12;
 // this a drag of 1e-18 a/tau, which moves no phase, would repeat it for ever.
 bool is_rounding(const Flight<double>& flight, double s) {
   const TipState& start = flight.launch();
-  return s * flight.bounds().fastest < kMinFlight && start.g1 > 0.0 &&
+  return s * bounds_of(flight).fastest < kMinFlight && start.g1 > 0.0 &&
          std::fabs(flight.start().g2) < release_noise(flight.springs(), start.u, start.X);
 }
 

@@ -6,6 +6,9 @@
 #include "tip_motion.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // The bounces that a kick starts in contact are one event if they move the tip by less than this times the contact

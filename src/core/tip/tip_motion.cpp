@@ -4,7 +4,7 @@
 
 #include "afm/surface.h"
 
-namespace afm {
+namespace afm::detail {
 
 double slide_energy(const SpringConstants<double>& m, const SlideState<double>& q) {
   const SurfaceJet<double> surface = surface_jet(m.H, q.phase);
@@ -36,4 +36,4 @@ double extension_integral(const SlideSegment<double>& slide, double s) {
   return s * (slide.start().X - 0.5 * slide.eta() * s) + slide.displacement_integral(s);
 }
 
-}  // namespace afm
+}  // namespace afm::detail

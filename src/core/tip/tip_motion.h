@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "afm/chatter.h"
+#include "afm/detail/chatter.h"
 
-namespace afm {
+namespace afm::detail {
 
 // Kinetic energy and that of the springs [m a^2/tau^2].
 double slide_energy(const SpringConstants<double>& m, const SlideState<double>& q);
@@ -34,4 +34,4 @@ inline std::uint32_t whole_count(double n) {
   return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), 4294967295.0)));
 }
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -4,6 +4,9 @@
 #include "afm/tip.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // The fall of v^2/2 since the first bounce of a chatter sequence. A snapshot holds the energy lost beyond it.

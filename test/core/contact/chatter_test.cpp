@@ -1,5 +1,5 @@
 // The averaged law of chatter against its bounces one by one.
-#include "afm/chatter.h"
+#include "afm/detail/chatter.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,9 @@
 #include "support/chatters.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
@@ -45,8 +48,8 @@ struct LawStep {
 
   void advance(const ChatterLaw& law, double dt) {
     chatter = law.at(slide, dt, chatter);
-    const SlideState<double> moved = displaced_reference(model, slide.at(dt), chatter);
-    slide = SlidePart(slide.springs(), slide.eta(), moved);
+    const SlideState<double> displaced = displaced_reference(model, slide.at(dt), chatter);
+    slide = SlidePart(slide.springs(), slide.eta(), displaced);
     chatter.sigma = chatter.p = 0.0;
   }
 };
@@ -111,7 +114,7 @@ TEST_P(Chatters, AStepHoweverShortFollowsTheRate) {
     const RandomChatter chatter = random_chatter(model_, law_, random, -4.5, -2.3);
     const ChatterIntegration<double> integration(law_.constants(), chatter.reference);
     const ChatterPoint<double> start = integration.begin(0.0, {chatter.v, 0.0});
-    const double rate = start.rates.x, fastest = std::max(kTwoPi * start.quickness.fastest, std::abs(rate));
+    const double rate = start.rates.x, fastest = std::max(kTwoPi * start.changes.fastest, std::abs(rate));
     for (double part = 1e-3; part > 1e-20; part *= 0.1) {
       const double dt = part / fastest, v = law_.at(chatter.reference, dt, {chatter.v, 0.0}).v;
       ASSERT_NEAR(v, chatter.v * (1.0 + dt * rate), (10.0 * part * part + 1e-14) * chatter.v) << i << ' ' << part;

@@ -1,5 +1,5 @@
 // Steps in contact against the equation of motion integrated by Taylor series in quad precision, and against energy.
-#include "afm/contact_step.h"
+#include "afm/detail/contact_step.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,9 @@
 #include "trials/quad.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 // Levers on mica by their frequency ratio and load: the paper's, a stiff one, one that is laterally soft.

@@ -5,6 +5,9 @@
 #include "support/slides.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 const Model kMica;
@@ -15,7 +18,7 @@ TEST(SlideRelease, IsWhereThePressureEndsAndNeverLate) {
   int releases = 0;
   for (int i = 0; i < 5000; ++i) {
     const SlidePart part = random_part(random);
-    const double release = part.find_release(), end = end_of(part);
+    const double release = find_release(part), end = end_of(part);
     constexpr int kSamples = 500;
     for (int k = 0; k < kSamples; ++k) {
       const SlideState<double> at = part.at(end * k / kSamples);
@@ -63,7 +66,7 @@ TEST(SlideSymmetry, AMirroredSlideIsTheMirrorImageBitForBit) {
     const SlideState<double>& start = part.start();
     const SlidePart mirrored(kSpringConstants, -part.eta(), {-start.phase, -start.X, -start.u});
     ASSERT_EQ(mirrored.length(), part.length());
-    ASSERT_EQ(mirrored.find_release(), part.find_release());
+    ASSERT_EQ(find_release(mirrored), find_release(part));
     const double s = part.length() * random.within(0.0, 1.0);
     const SlideState<double> a = part.at(s), b = mirrored.at(s);
     ASSERT_TRUE(a.phase == -b.phase && a.X == -b.X && a.u == -b.u) << i;
@@ -78,7 +81,7 @@ TEST(SlideRest, AtACrestOrAValleyBottomStaysForEver) {
     model.y0 = phase == 0.0 ? 0.0 : -0.2;
     const SlidePart part(SpringConstants<double>(model), 0.0, {phase, 0.0, 0.0});
     EXPECT_GT(part.pressure(0.0), 1.0);
-    EXPECT_LT(part.find_release(), 0.0);
+    EXPECT_LT(find_release(part), 0.0);
     for (const double s : {0.1, 1.0, part.length()}) {
       EXPECT_EQ(part.at(s).phase, phase);
       EXPECT_EQ(part.at(s).X, 0.0);

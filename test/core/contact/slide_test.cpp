@@ -7,11 +7,14 @@
 #include <cmath>
 #include <vector>
 
-#include "afm/contact.h"
+#include "afm/detail/slide_segment.h"
 #include "support/slides.h"
 #include "trials/quad.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 const Model kMica;
@@ -66,7 +69,7 @@ double work_of_drag(const SlidePart& part, double from, double until) {
 std::vector<SlidePart> parts_of(double eta, const SlideState<double>& start) {
   constexpr std::size_t kMost = 1000;
   std::vector<SlidePart> parts{SlidePart(kSpringConstants, eta, start)};
-  while (parts.back().find_release() < 0.0 && parts.size() < kMost) {
+  while (find_release(parts.back()) < 0.0 && parts.size() < kMost) {
     parts.emplace_back(kSpringConstants, eta, parts.back().at(parts.back().length()));
   }
   return parts;
@@ -89,7 +92,7 @@ TEST(Slide, TheIntegralOfItsDisplacementIsThat) {
 
 TEST_P(Slide, IsTheSolutionOfItsEquationOfMotion) {
   RandomLaunches random(1);
-  for (int dwell = 0; dwell < 20; ++dwell) {
+  for (int episode = 0; episode < 20; ++episode) {
     const SlideState<double> start = random_part(GetParam(), random).start();
     QuadSlide truth(GetParam(), start);
     for (const SlidePart& part : parts_of(GetParam(), start)) {
@@ -121,7 +124,7 @@ TEST(Slide, APieceIsGoodUpToItsLengthAndNotFarBeyond) {
 
 TEST_P(Slide, KeepsTheEnergyThatTheDragDoesNotBring) {
   RandomLaunches random(2);
-  for (int dwell = 0; dwell < 200; ++dwell) {
+  for (int episode = 0; episode < 200; ++episode) {
     const std::vector<SlidePart> parts = parts_of(GetParam(), random_part(GetParam(), random).start());
     double work = 0.0;
     for (const SlidePart& part : parts) work += work_of_drag(part, 0.0, end_of(part));

@@ -69,7 +69,7 @@ TEST(LevelTable, ToleranceIsOfFrictionOrOfDeflection) {
 TEST(LevelTable, BetweenPointsTheWorstCounts) {
   EXPECT_EQ(choose(1.5, 0.05).expected_error, 0.03);
   EXPECT_TRUE(choose(1.5, 0.02).level == kEvery);
-  EXPECT_TRUE(choose(2.5, 0.5).level == kBursts) << "at eta = 3 nothing is known of the hammer";
+  EXPECT_TRUE(choose(2.5, 0.5).level == kBursts) << "the table has no hammer at eta = 3";
   EXPECT_EQ(choose(2.0 + 1e-7, 0.05).expected_error, 0.03) << "the point itself but for rounding";
 }
 

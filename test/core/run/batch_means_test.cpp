@@ -1,4 +1,4 @@
-#include "afm/detail/batch_means.h"
+#include "core/run/batch_means.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,9 @@
 #include <random>
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 TEST(BatchMeans, TheWideningIsStudents) {

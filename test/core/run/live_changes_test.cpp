@@ -20,10 +20,10 @@ RunSettings settings_at(double eta, double sample_period, std::uint64_t samples_
 }
 
 TEST(SampleGrid, CountsFromItsOrigin) {
-  const SampleGrid plain{0.03, 0, {}}, moved{0.03, 7, {5, 0.9999}};
+  const SampleGrid plain{0.03, 0, {}}, shifted{0.03, 7, {5, 0.9999}};
   for (const std::uint64_t n : {0u, 1u, 33u, 34u, 1000000u}) {
     EXPECT_TRUE(plain.time(n) == multiply(n, 0.03));
-    const ModelTime time = moved.time(7 + n);
+    const ModelTime time = shifted.time(7 + n);
     const ModelTime since = multiply(n, 0.03);
     EXPECT_TRUE((time == ModelTime{5 + since.tau, 0.9999} + since.phase));
     EXPECT_TRUE(time.phase >= 0.0 && time.phase < 1.0);

@@ -1,4 +1,4 @@
-#include "afm/detail/double_double.h"
+#include "core/search/double_double.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,9 @@
 #include "trials/quad.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kFewUnits = 2e-31;  // four units of 2^-104

@@ -1,14 +1,18 @@
 // Where a polynomial first falls to zero, against ones of known roots, and against looking everywhere.
+#include "core/contact/first_fall.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-#include "afm/detail/first_fall.h"
 #include "trials/random_launches.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 using Polynomial = Series<double>;

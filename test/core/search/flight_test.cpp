@@ -9,6 +9,9 @@
 #include "trials/random_launches.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 const Model kMica;
@@ -19,15 +22,15 @@ constexpr double kDragSpeeds[] = {0.0, 0.2, 1.01, 3.4, -3.4, 9.0, 50.0};
 
 // Speeds of a flight, for tolerances: what u and w reach, and what the gap rate is made of.
 double speed_scale(double eta, const Flight<double>& f) {
-  const double u = std::abs(eta) + kSpringConstants.omega_h * f.amplitude_X();
-  return u + kSpringConstants.omega_v * f.amplitude_Y();
+  const double u = std::abs(eta) + kSpringConstants.omega_h * bounds_of(f).X;
+  return u + kSpringConstants.omega_v * bounds_of(f).Y;
 }
 
 // The same for accelerations: those of y, of the slope's turning and of x.
 double acceleration_scale(double eta, const Flight<double>& f) {
-  const double u = std::abs(eta) + kSpringConstants.omega_h * f.amplitude_X(), slope = kTwoPi * kSpringConstants.H;
-  return kSpringConstants.omega_v * kSpringConstants.omega_v * f.amplitude_Y() +
-         slope * (kTwoPi * u * u + kSpringConstants.omega_h * kSpringConstants.omega_h * f.amplitude_X());
+  const double u = std::abs(eta) + kSpringConstants.omega_h * bounds_of(f).X, slope = kTwoPi * kSpringConstants.H;
+  return kSpringConstants.omega_v * kSpringConstants.omega_v * bounds_of(f).Y +
+         slope * (kTwoPi * u * u + kSpringConstants.omega_h * kSpringConstants.omega_h * bounds_of(f).X);
 }
 
 TEST(Flight, TwoHalvesEqualOneWhole) {
@@ -41,7 +44,7 @@ TEST(Flight, TwoHalvesEqualOneWhole) {
     const double few = 40.0 * kEps, speed = speed_scale(eta, flight);
     const double apart = std::abs(halves.phase - whole.phase);
     ASSERT_LE(std::min(apart, 1.0 - apart), few * (1.0 + speed));  // a rounded phase and speed, half the time
-    ASSERT_NEAR(halves.X, whole.X, few * (flight.amplitude_X() + speed));
+    ASSERT_NEAR(halves.X, whole.X, few * (bounds_of(flight).X + speed));
     ASSERT_NEAR(halves.u, whole.u, few * speed * (1.0 + kSpringConstants.omega_h));
     ASSERT_NEAR(halves.g, whole.g, few * (1.0 + speed));
     ASSERT_NEAR(halves.g1, whole.g1, few * (1.0 + speed) * (1.0 + speed));
@@ -150,7 +153,7 @@ TEST(Flight, EachDerivativeIsTheSlopeOfTheOneBefore) {
     const Flight<Quad> flight(kQuadSpringConstants, eta, launches.next(eta));
     const Quad s = launches.within(1e-4, 3.0);
     const GapJet<Quad> up = flight.gap(s + step), here = flight.gap(s), down = flight.gap(s - step);
-    const double scale = static_cast<double>(flight.third_derivative_bound());
+    const double scale = static_cast<double>(bounds_of(flight).third);
     ASSERT_LE(static_cast<double>(abs((up.g - down.g) / (2 * step) - here.g1)), 1e-17 * scale) << eta;
     ASSERT_LE(static_cast<double>(abs((up.g1 - down.g1) / (2 * step) - here.g2)), 1e-14 * scale) << eta;
   }
@@ -166,7 +169,7 @@ TEST(Flight, TheThirdDerivativeStaysWithinItsBound) {
     for (int k = 1; k <= 200; ++k) {
       const Quad s = Quad(k) * Quad(0.011);
       const Quad third = (flight.gap(s + step).g2 - flight.gap(s - step).g2) / (2 * step);
-      const double share = static_cast<double>(abs(third) / flight.third_derivative_bound());
+      const double share = static_cast<double>(abs(third) / bounds_of(flight).third);
       ASSERT_LE(share, 1.0) << eta << " " << s;
       closest = std::max(closest, share);
     }
@@ -187,7 +190,7 @@ TEST(Flight, TheFourthDerivativeStaysWithinItsBound) {
     for (int k = 0; k <= 200; ++k) {
       const Quad s = Quad(k) * Quad(0.011);
       const Quad fourth = (flight.gap(s + step).g3 - flight.gap(s - step).g3) / (2 * step);
-      const double share = static_cast<double>(abs(fourth) / flight.fourth_derivative_bound());
+      const double share = static_cast<double>(abs(fourth) / bounds_of(flight).fourth);
       ASSERT_LE(share, 1.0 + 1e-6) << eta << " " << s;
       closest = std::max(closest, share);
     }

@@ -105,7 +105,7 @@ TEST(Grazes, ATouchBelowTheDigitsOfDoubleHasAnImpactOfNoSpeed) {
   for (int i = 0; i < 400; ++i) {
     const Graze graze = grazes.after_a_flight(0.0);
     const Flight<double> flight(SpringConstants<double>(graze.model), graze.eta, graze.start);
-    if (find_impact(flight, kGrazeHorizon).outcome != SearchOutcome::undecided) continue;
+    if (detail::find_impact(flight, kGrazeHorizon).outcome != SearchOutcome::undecided) continue;
     ++hidden;
     const Landing<double> landing = find_landing(graze.model, flight, kGrazeHorizon);
     ASSERT_NE(landing.outcome, SearchOutcome::undecided);

@@ -1,4 +1,4 @@
-#include "afm/impact_search.h"
+#include "core/search/impact_search.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,9 @@
 #include "trials/random_launches.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 const Model kMica;
@@ -21,7 +24,7 @@ constexpr double kEps = 2.220446049250313e-16;
 double to_double(const Quad& x) { return static_cast<double>(x); }
 
 double speed_scale(const Flight<double>& f) {
-  return std::abs(f.eta()) + kSpringConstants.omega_h * f.amplitude_X() + kSpringConstants.omega_v * f.amplitude_Y();
+  return std::abs(f.eta()) + kSpringConstants.omega_h * bounds_of(f).X + kSpringConstants.omega_v * bounds_of(f).Y;
 }
 
 // How far rounding the flight to T may move a landing.
@@ -207,7 +210,7 @@ class ShortBounces {
       const double eta = launches_.sign() * launches_.power(-2.0, 1.2);
       const TipState start = launches_.next(eta, -4.0, 0.5);
       const Flight<double> flight(kSpringConstants, eta, start);
-      const double turns = -2.0 * start.g1 / flight.start().g2 * flight.bounds().fastest;  // of the parabola
+      const double turns = -2.0 * start.g1 / flight.start().g2 * bounds_of(flight).fastest;  // of the parabola
       if (start.g1 > 0.0 && turns > 0.002 && turns < kSmallTurn) return {eta, start};
     }
   }
@@ -229,7 +232,7 @@ TEST(ShortBounce, LandsWhereQuadDoesInFewEvaluations) {
     ASSERT_EQ(landing.outcome, SearchOutcome::impact);
     ASSERT_EQ(exact.outcome, SearchOutcome::impact);
     const double error = static_cast<double>(abs(exact.s - landing.s)), rate = -static_cast<double>(exact.jet.g1);
-    const double rounding = 5e-15 * (b.start.g1 + flight.bounds().second * landing.s);  // of the gap rate
+    const double rounding = 5e-15 * (b.start.g1 + bounds_of(flight).second * landing.s);  // of the gap rate
     ASSERT_LE(std::abs(landing.jet.g1 + rate), rounding) << i;
     ASSERT_LE(error, 2e-16 * landing.s + rounding / rate * landing.s) << i;
     evaluations += landing.evaluations;
@@ -253,7 +256,7 @@ TEST(HardStart, ATipOnAStiffSpringEndsOnTheSurface) {
     const GapJet<double> there = f.gap(landing.s);
     const double late = 4.0 * kEps * landing.s * (std::abs(there.g1) + springs.omega_h);
     ASSERT_LT(std::abs(there.g), 4.0 * f.gap_error(landing.s) + late) << i;
-    ASSERT_NEAR(landing.jet.state.U, there.state.U, 1e-9 * (1.0 + springs.omega_h * f.amplitude_X())) << i;
+    ASSERT_NEAR(landing.jet.state.U, there.state.U, 1e-9 * (1.0 + springs.omega_h * bounds_of(f).X)) << i;
   }
 }
 

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "afm/flight.h"
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "afm/reflection.h"
 
 namespace afm {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 #include "trials/quad.h"
 #include "trials/random_launches.h"
 
@@ -48,7 +48,7 @@ class Departures {
   RandomLaunches random_;
 };
 
-// In 113 bits, from a millionth of the flight to all but a millionth of it.
+// In quad precision, from a millionth of the flight to all but a millionth of it.
 double lowest_gap(const Flight<Quad>& flight, const Quad& end) {
   constexpr int kTimes = 150;
   Quad lowest = 1.0;

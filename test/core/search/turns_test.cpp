@@ -8,6 +8,9 @@
 #include "trials/quad.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kUlps = 0.8;  // what turns.h claims

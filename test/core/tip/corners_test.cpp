@@ -114,14 +114,14 @@ TEST(Corners, WithoutACutoffTheBurstEndsAtTheAccumulationPoint) {
       end += 2.0 * std::atan(kTwoPi * v / a) / kTwoPi;
       lost += 0.5 * v * v * (1.0 - gamma * gamma);
     }
-    double booked = 0.0;
-    while (tip.advance({10, 0.0}) == Outcome::impact) booked += tip.last_impact().energy_loss;
+    double energy_loss = 0.0;
+    while (tip.advance({10, 0.0}) == Outcome::impact) energy_loss += tip.last_impact().energy_loss;
     EXPECT_TRUE(tip.in_contact()) << gamma;
     const double slowest = 1e-2 * kDefaultContactTolerance;
     EXPECT_LE(tip.now() - ModelTime{}, end) << gamma;
     EXPECT_GE(tip.now() - ModelTime{}, end - 2.05 * slowest / (a * (1.0 - gamma))) << gamma;
     // the first two flights are looked at by whole turns: their gap is good to an ulp of the height
-    EXPECT_NEAR(booked, lost, 2.0 * epsilon<double>() * a) << gamma;
+    EXPECT_NEAR(energy_loss, lost, 2.0 * detail::epsilon<double>() * a) << gamma;
     EXPECT_EQ(tip.advance({1000, 0.0}), Outcome::time_limit) << gamma;
   }
 }

@@ -9,12 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "afm/detail/batch_means.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
+#include "core/run/batch_means.h"
+#include "core/tip/normal_pair.h"
 #include "trials/boltzmann.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 constexpr double kHolder = 0.1;  // xc [a]: on a slope of 0.36

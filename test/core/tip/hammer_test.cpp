@@ -125,7 +125,7 @@ TEST(Hammer, OfTwoCommandsAtOneTimeTheLastCounts) {
   EXPECT_GT(commands, 80);
 }
 
-// What a stretch of chatter in one valley loses, from its first bounce to the end of the pressure, and in how many
+// Loss of the chatter in one valley, from its first bounce to the end of the pressure, and in how many
 // bursts.
 struct Loss {
   double energy;

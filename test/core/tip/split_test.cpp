@@ -59,7 +59,7 @@ TEST_P(Split, InASlideMovesTheTipByTheErrorOfItsSteps) {
   constexpr double kErrorOfASlide = 1e-2 * kDefaultContactTolerance;
   int all = 0;
   for (int i = 0; i < 2000; ++i) {
-    const SlideState<double> q = random_part(eta(), random_).start();
+    const detail::SlideState<double> q = random_part(eta(), random_).start();
     Tip whole(Model(), eta(), TipState{wrap_phase(q.phase), q.X, q.u, 0.0, 0.0});
     if (whole.advance_segment(kZero) != Outcome::contact) continue;
     const ModelTime command = between(kZero, whole.segment_end());
@@ -71,7 +71,7 @@ TEST_P(Split, InASlideMovesTheTipByTheErrorOfItsSteps) {
       const double k = kTwoPi, u_error = kErrorOfASlide * k * std::max(1.0, std::abs(eta()));
       whole.advance_segment(split.now());
       const TipState there = whole.tip_state();
-      ASSERT_LE(pressure_of(Model(), SlideState<double>{there.phase, there.X, there.u}),
+      ASSERT_LE(pressure_of(Model(), detail::SlideState<double>{there.phase, there.X, there.u}),
                 2.0 * k * k * Model().H * std::max(1.0, std::abs(there.u)) * u_error);
       continue;
     }
@@ -96,7 +96,7 @@ void advance_to_fast_impact(Tip& tip, double slowest) {
 TEST_P(Split, InABurstChangesItByTheErrorOfItsSteps) {
   std::vector<double> off;
   while (off.size() < 1000) {
-    const SlideState<double> q = random_part(eta(), random_).start();
+    const detail::SlideState<double> q = random_part(eta(), random_).start();
     Tip whole(model_at(eta()), eta(), TipState{wrap_phase(q.phase), q.X, q.u, 0.0, within(1e-4, 8e-3)});
     if (whole.tip_state().g1 != 0.0) continue;  // no burst
     Tip split = split_at(whole, between(kZero, whole.segment_end()), barely_slower());

@@ -1,5 +1,5 @@
 // The kicks of the bath: their random numbers, their times, and what they do to a spring that touches nothing.
-#include "afm/detail/thermostat.h"
+#include "afm/thermostat.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,13 @@
 #include <vector>
 
 #include "afm/flight.h"
+#include "core/tip/normal_pair.h"
 #include "core/tip/philox.h"
 
 namespace afm {
+
+using namespace detail;
+
 namespace {
 
 Bath bath_of(double temperature, double quality_factor, double kicks_per_tau) {
@@ -136,9 +140,9 @@ TEST(FreeSpring, WithoutTemperatureTheEnergyDecaysAsTheQualityFactorSays) {
   const double vertical = springs.vertical_energy(), lateral = springs.lateral_energy();
   constexpr int kSteps = 730;  // 100 tau
   for (int i = 0; i < kSteps; ++i) springs.step();
-  const double turned = kTwoPi * kSteps / 7.3;
-  EXPECT_NEAR(std::log(vertical / springs.vertical_energy()), turned / 200.0, 0.02);
-  EXPECT_NEAR(std::log(lateral / springs.lateral_energy()), turned * Model{}.frequency_ratio / 1000.0, 0.02);
+  const double angle = kTwoPi * kSteps / 7.3;
+  EXPECT_NEAR(std::log(vertical / springs.vertical_energy()), angle / 200.0, 0.02);
+  EXPECT_NEAR(std::log(lateral / springs.lateral_energy()), angle * Model{}.frequency_ratio / 1000.0, 0.02);
 }
 
 // The power spectrum of Y near its resonance f = 1 / tau: a Lorentzian of full width f/Q, and of power theta / omega^2.

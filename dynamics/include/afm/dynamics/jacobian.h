@@ -36,7 +36,9 @@ Eigen::Matrix<T, N, N> without_held_directions(const T& is_free_along_x, const E
 // A flight of duration s [tau] (Eq. 9-10). Its determinant is 1.
 template <class T>
 FlowJacobian<T> flight_jacobian(const SpringConstants<T>& m, const T& s) {
-  const SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s)), v = sin_cos_turns(s);
+  using detail::sin_cos_turns;
+  using detail::turn_product;
+  const detail::SinCos<T> h = sin_cos_turns(turn_product(m.ratio, s)), v = sin_cos_turns(s);
   FlowJacobian<T> J = FlowJacobian<T>::Identity();
   J(0, 1) = h.cos - T(1.0);
   J(0, 2) = J(1, 2) = h.sin * m.inverse_omega_h;
@@ -83,8 +85,8 @@ RestitutionJet<T> restitution_jet(const Model& model, const T& speed) {
 template <class T>
 struct Incidence {
   SurfaceJet<T> surface;
-  T normal_speed;         // -n.v > 0; of the hammer the gap rate
-  T tangential_velocity;  // t.v; of the hammer u
+  T normal_speed;         // -n.v > 0. For the hammer model: the gap rate
+  T tangential_velocity;  // t.v. For the hammer model: u
 
   Incidence(const SpringConstants<T>& m, const T& eta, const FlightState<T>& q, const T& g1)
       : surface(surface_jet(m.H, q.phase)) {

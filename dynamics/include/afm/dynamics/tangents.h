@@ -12,7 +12,7 @@
 namespace afm {
 
 // Natural logarithms of the growth in one event; in the long run the largest is first.
-struct Stretch {
+struct EventGrowth {
   std::array<double, 4> logarithms{};
   double volume = 0.0;  // their sum, from the restitution alone; NaN over a chatter sequence
 };
@@ -29,7 +29,7 @@ class Tangents {
   // To the tip's next event, or to the limit.
   Outcome advance(const ModelTime& limit);
 
-  const Stretch& stretch() const { return stretch_; }  // of the last advance
+  const EventGrowth& growth() const { return growth_; }  // of the last advance
   // Derivative of the last event, on the section. In contact its first three rows and columns are those of the slide.
   const SectionJacobian<double>& jacobian() const { return jacobian_; }
   ModelTime carried_to() const { return since_; }
@@ -52,7 +52,7 @@ class Tangents {
   Eigen::Matrix4d columns_ = Eigen::Matrix4d::Identity();
   SectionJacobian<double> jacobian_ = Eigen::Matrix4d::Identity();
   int rank_;
-  Stretch stretch_;
+  EventGrowth growth_;
 };
 
 }  // namespace afm

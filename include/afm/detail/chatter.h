@@ -6,12 +6,12 @@
 
 #include <cstdint>
 
-#include "contact.h"
-#include "flight.h"
-#include "model.h"
-#include "state.h"
+#include "afm/flight.h"
+#include "afm/model.h"
+#include "afm/state.h"
+#include "slide_segment.h"
 
-namespace afm {
+namespace afm::detail {
 
 template <class T>
 struct ChatterOf {
@@ -23,6 +23,12 @@ struct ChatterOf {
   T loss = T(0.0);   // energy lost in the impacts; never falls [m a^2/tau^2]
 };
 using Chatter = ChatterOf<double>;
+
+// Normal speeds up to it are contact [a/tau]: a hundredth of the contact tolerance.
+double chatter_threshold(double contact_tolerance);
+
+// Slower bounces may begin a chatter sequence [a/tau]: 2 tolerance^(5/8), which is 0.027 at the default.
+double chatter_entry_speed(double contact_tolerance);
 
 enum class ChatterEnd : std::uint8_t {
   time,  // the time asked for was reached; the sequence goes on
@@ -88,4 +94,4 @@ TipState leave_surface(const Model& model, const SlideState<double>& reference, 
 // The reference slide, displaced along the surface by chatter.sigma and faster by chatter.p.
 SlideState<double> displaced_reference(const Model& model, const SlideState<double>& reference, const Chatter& chatter);
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "afm/bath.h"
+#include "bath.h"
 #include "sample_grid.h"
 
 namespace afm {
@@ -19,13 +19,6 @@ struct VelocityKick {
 struct Kick {
   VelocityKick lateral, vertical;
 };
-
-// Two standard normal deviates with the same bits on every machine; |xi| < 8.6, as the smallest uniform number is
-// 2^-53.
-struct NormalPair {
-  double first, second;
-};
-NormalPair normal_pair(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
 
 class Thermostat {
  public:

@@ -1,13 +1,18 @@
 // One step of a tip in frictionless contact, by Gauss collocation (docs/algorithm.md, "Contact"). On the surface the
 // tip has one degree of freedom, and nothing in its motion is fast but a nearly harmonic swing. A step is up to one
-// turn of that swing. The Taylor series of contact.h is the same motion to the last digits, for chatter and
+// turn of that swing. The Taylor series of slide_segment.h is the same motion to the last digits, for chatter and
 // derivatives.
 #pragma once
 
-#include "afm/contact.h"
-#include "afm/detail/gauss.h"
+#include <cstddef>
 
-namespace afm {
+#include "afm/spring_constants.h"
+#include "slide_series.h"
+
+namespace afm::detail {
+
+constexpr std::size_t kGaussNodes = 8;  // two vector registers of four numbers
+using AtGaussNodes = double[kGaussNodes];
 
 // At a state on the surface: h, h', 1 + h'^2, x'' [a/tau^2], the reaction along y [a/tau^2], and -dx''/dx [1/tau^2].
 struct ContactForces {
@@ -62,4 +67,4 @@ class ContactStep {
   bool is_accurate_ = false;
 };
 
-}  // namespace afm
+}  // namespace afm::detail

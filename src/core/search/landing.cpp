@@ -1,12 +1,15 @@
-#include "afm/impact_search.h"
+#include "afm/landing.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "afm/detail/double_double.h"
+#include "double_double.h"
+#include "impact_search.h"
 
 namespace afm {
 namespace {
+
+using namespace detail;
 
 // After too many evaluations a flight restarts from where it is certified, if that is later than this [tau]. A choice:
 // each restart then makes progress.

@@ -7,10 +7,9 @@
 #include <cstdint>
 #include <cstring>
 
-#include "afm/detail/first_fall.h"
-#include "afm/detail/slide_series.h"
+#include "slide_series.h"
 
-namespace afm {
+namespace afm::detail {
 
 // Binary digits of the velocity at the end of a segment: 48 give an error of 1e-14, above the rounding of the series.
 constexpr int kSlideBits = 48;
@@ -34,13 +33,10 @@ class SlideSegment {
 
   T length() const { return length_; }  // [tau]
   const SlideState<T>& start() const { return start_; }
-  const Series<T>& displacement() const { return series_.d; }  // x - x(start)
+  const Series<T>& displacement() const { return series_.d; }   // x - x(start)
+  const Series<T>& reaction() const { return series_.lambda; }  // along y [a/tau^2]
   const T& eta() const { return eta_; }
   const SpringConstants<T>& springs() const { return m_; }
-
-  // The first time in [0, length()] at which the reaction has fallen to -release_noise(), within a thousandth of that.
-  // Negative if it does not fall so far. Guarantee: no earlier fall is passed (first_fall.h).
-  T find_release() const;
 
  private:
   T choose_length(int bits) const;
@@ -101,29 +97,4 @@ std::array<T, 4> SlideSegment<T>::pressure_jet(const T& s) const {
   return c;
 }
 
-// A bound of the change of a series between 0 and s: the sum of the absolute values of its terms.
-template <class T>
-T largest_change(const Series<T>& series, const T& s) {
-  using std::abs;
-  using std::fma;
-  const T s2 = s * s;
-  T even(0.0), odd(0.0);
-  for (std::size_t k = kSlideOrder; k >= 2; k -= 2) {
-    even = fma(even, s2, abs(series[k]));
-    odd = fma(odd, s2, abs(series[k - 1]));
-  }
-  return s * fma(even, s, odd);
-}
-
-template <class T>
-T SlideSegment<T>::find_release() const {
-  constexpr double kAccuracy = 1.0 / 1024.0;  // of the noise: finer would be rounding of the reaction
-  const T noise = release_noise(m_, start_.u, start_.X), pressed = series_.lambda[0] + noise;
-  if (pressed > largest_change(series_.lambda, length_)) return T(-1.0);
-  if (pressed <= T(kAccuracy) * noise) return T(0.0);
-  Series<T> pull = series_.lambda;
-  pull[0] = pressed;
-  return first_fall(pull, length_, T(kAccuracy * noise));
-}
-
-}  // namespace afm
+}  // namespace afm::detail

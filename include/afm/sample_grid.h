@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "afm/state.h"
+#include "state.h"
 
 namespace afm {
 

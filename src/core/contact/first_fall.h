@@ -6,11 +6,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "slide_series.h"
+#include "afm/detail/slide_series.h"
 
-namespace afm {
-namespace fall_detail {
-
+namespace afm::detail {
 constexpr std::array<double, kSlideOrder + 1> inverse_binomials() {
   std::array<double, kSlideOrder + 1> per{};
   double binomial = 1.0;
@@ -78,8 +76,6 @@ FallInterval<T> first_fall_within(Series<T> b, const T& low, const T& width, int
   return fall.low <= fall.high ? fall : first_fall_within(last, T(low + half), half, halvings - 1);
 }
 
-}  // namespace fall_detail
-
 // The first time in [0, length] at which the polynomial is within `tolerance` of zero. Negative if it does not fall so
 // far. Precondition: it is positive at 0. A double root within rounding may count as a root or not.
 template <class T>
@@ -87,8 +83,8 @@ T first_fall(const Series<T>& polynomial, const T& length, const T& tolerance) {
   using std::abs;
   constexpr int kMaxHalvings = 40;      // down to 1e-12 of the length, below the time resolution of a release
   constexpr int kMaxNewtonSteps = 200;  // bisection replaces a step that would leave the interval
-  const Series<T> b = fall_detail::bernstein_coefficients(polynomial, length);
-  auto [low, high, s] = fall_detail::first_fall_within(b, T(0.0), length, kMaxHalvings);
+  const Series<T> b = bernstein_coefficients(polynomial, length);
+  auto [low, high, s] = first_fall_within(b, T(0.0), length, kMaxHalvings);
   if (low > high) return T(-1.0);
   Series<T> slope{};
 #pragma GCC unroll 32
@@ -103,4 +99,4 @@ T first_fall(const Series<T>& polynomial, const T& length, const T& tolerance) {
   return s;
 }
 
-}  // namespace afm
+}  // namespace afm::detail

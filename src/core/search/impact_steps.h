@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "afm/flight.h"
+#include "core/contact/release_noise.h"
 
-namespace afm {
+namespace afm::detail {
 
 // x within [low, high]; `low` if x is NaN.
 template <class T>
@@ -27,7 +28,9 @@ template <class T>
 ThirdDerivative<T> third_derivative_over(const Flight<T>& f, const GapJet<T>& jet, const T& S) {
   using std::max;
   using std::min;
-  const T bound3 = f.third_derivative_bound(), change = f.fourth_derivative_bound(jet.state, S) * S;
+  const FlightBounds<T>& bounds = bounds_of(f);
+  const T bound3 = bounds.third;
+  const T change = fourth_derivative_bound(f.springs(), f.eta(), jet.state, bounds, S) * S;
   return {max(T(-bound3), T(jet.g3 - change * T(0.25))), min(bound3, T(jet.g3 + divide(change, 3.0)))};
 }
 
@@ -135,11 +138,11 @@ template <class T>
 T time_to_leave(const Flight<T>& f) {
   using std::max;
   using std::sqrt;
-  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = divide(f.third_derivative_bound(), 6.0);
+  const T g1 = f.start().g1, b = f.start().g2 / T(2.0), a = divide(bounds_of(f).third, 6.0);
   const T root = sqrt(mul_add(T(T(4.0) * a), g1, T(b * b)));
   const T first = T(0.999) * (b > T(0.0) ? T((b + root) / (a * T(2.0))) : T(T(2.0) * g1 / (root - b)));
   if (g1 > T(0.0) || b < T(-kReleaseNoise)) return first;
-  return max(b > T(0.0) ? first : T(0.0), T(T(3.0) * f.start().g3 / f.fourth_derivative_bound()));
+  return max(b > T(0.0) ? first : T(0.0), T(T(3.0) * f.start().g3 / bounds_of(f).fourth));
 }
 
 // The angle of the point (x, y) in turns, y > 0, with an error below 3e-6.
@@ -180,8 +183,8 @@ template <class T>
 T time_above_crest_from_launch(const Flight<T>& f, const T& s) {
   const SpringConstants<T>& m = f.springs();
   const FlightState<T>& q = f.start().state;
-  const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * f.amplitude_Y() / T(2.0)));
+  const T least = q.Y + s * (q.W - s * (m.omega_v * m.omega_v * bounds_of(f).Y / T(2.0)));
   return least > m.H - m.y0 ? time_to_crest(f, q) : T(0.0);
 }
 
-}  // namespace afm
+}  // namespace afm::detail

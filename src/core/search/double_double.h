@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "turns.h"
+#include "afm/detail/turns.h"
 
-namespace afm {
+namespace afm::detail {
 
 class DoubleDouble {
  public:
@@ -83,4 +83,4 @@ inline DoubleDouble turn_product(const DoubleDouble& a, const DoubleDouble& b) {
 SinCos<DoubleDouble> sin_cos_turns(const DoubleDouble& x);
 SmallTurn<DoubleDouble> small_turn(const DoubleDouble& x);
 
-}  // namespace afm
+}  // namespace afm::detail

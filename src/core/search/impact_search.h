@@ -3,38 +3,21 @@
 // impact. A root is finished inside an interval in which it is certified to be the only one.
 #pragma once
 
-#include "afm/detail/impact_steps.h"
-#include "afm/detail/root_finish.h"
-#include "flight.h"
+#include <algorithm>
+#include <cmath>
 
-namespace afm {
+#include "afm/landing.h"
+#include "impact_steps.h"
+#include "root_finish.h"
 
-enum class SearchOutcome {
-  impact,     // found: `s` and `jet` are at the root
-  clear,      // certified free of impacts up to `s`, which is the horizon or where the evaluations ran out
-  undecided,  // a graze, or a root that rounding hides; certified free up to `s`. Double-double decides it (Lemma 7)
-  cap         // kMaxSearchSteps evaluations; certified free up to `s`
-};
-
-template <class T>
-struct Landing {
-  SearchOutcome outcome;
-  T s;
-  GapJet<T> jet;    // of an impact: the incident state at `s`; g is what rounding left
-  int evaluations;  // number of evaluations of the gap
-};
+namespace afm::detail {
 
 // Evaluations in one search: a guard against an endless loop. The outcome `cap` is counted, and the tests demand that
 // it never occurs.
 constexpr int kMaxSearchSteps = 20000;
-// A flight without an impact is searched so far and then restarted there [tau]. A choice: rare, and the turns stay
-// small.
-constexpr double kSearchHorizon = 8.0;
 // A root that may be further away is not finished: the horizon comes first [tau]. A tip that falls without a force may
 // land beyond all time that can be counted. Any number between the horizon and 1e18 will do.
 constexpr double kFarthestRoot = 1e6;
-
-namespace search_detail {
 
 // Rounding hides the root: the gap seems not to fall within the interval, or no step reaches the root.
 template <class T>
@@ -49,9 +32,9 @@ Landing<T> land(const Flight<T>& f, const T& s, const GapJet<T>& jet, int evalua
   using std::abs;
   using std::sqrt;
   const T step = -jet.g / jet.g1;
-  const bool nudge = abs(step) * f.fastest() <= T(0.5) * sqrt(epsilon<T>());
+  const bool nudge = abs(step) * (two_pi<T>() * bounds_of(f).fastest) <= T(0.5) * sqrt(epsilon<T>());
   if (nudge) return {SearchOutcome::impact, s + step, nudged(f, jet, step), evaluations};
-  return {SearchOutcome::impact, s + step, f.gap_near(jet, s, step), evaluations + 1};
+  return {SearchOutcome::impact, s + step, gap_near(f, jet, s, step), evaluations + 1};
 }
 
 // Lemma 6: finishes the certified root near `jet`, the jet at time s. Each evaluation shrinks the interval of the root.
@@ -63,7 +46,7 @@ Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInter
   if (jet.g1 < T(0.0) && abs(jet.g) <= f.gap_error(s)) return land(f, s, jet, evaluations);
   T t(0.0), step = root.estimate, low = root.low, high = root.high;
   for (int i = 0; i < kMaxFinishSteps; ++i) {
-    jet = f.gap_near(jet, s + t, step);
+    jet = gap_near(f, jet, T(s + t), step);
     t = t + step;
     ++evaluations;
     if (!(jet.g1 < T(0.0))) break;
@@ -91,7 +74,7 @@ template <class T>
 T descent(const Flight<T>& f, const T& reach) {
   using std::min;
   const SpringConstants<T>& m = f.springs();
-  return min(T(kLookahead) * reach, T(kDescent) * m.H / (m.omega_v * f.amplitude_Y()));
+  return min(T(kLookahead) * reach, T(kDescent) * m.H / (m.omega_v * bounds_of(f).Y));
 }
 
 // The state of the loop: certified free of impacts up to s; the next evaluation is at s + lookahead; the next trial
@@ -114,8 +97,6 @@ Progress<T> take_off(const Flight<T>& f) {
   return {first, max(T(0.0), T(quartic_root(f, f.start(), parabola) - first)), trial};
 }
 
-}  // namespace search_detail
-
 // Searches from `from` to the horizon [tau]. Precondition: no impact before `from`. A tip that starts on the surface
 // falling is an impact at once. A tip that neither rises nor is released has no flight; the caller treats it as
 // contact. Each pass evaluates the gap; then it finishes a certified root, or goes on by a certified step.
@@ -124,8 +105,8 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
   using std::min;
   const bool on_surface = !(f.start().g > T(0.0)) && !(from > T(0.0));
   if (on_surface && f.start().g1 < T(0.0)) return {SearchOutcome::impact, T(0.0), f.start(), 0};
-  search_detail::Progress<T> now{from, T(0.0), T(search_detail::kFirstTrial)};
-  if (on_surface) now = search_detail::take_off(f);
+  Progress<T> now{from, T(0.0), T(kFirstTrial)};
+  if (on_surface) now = take_off(f);
   for (int evaluations = 1; evaluations <= kMaxSearchSteps; ++evaluations) {
     if (!(now.s < horizon)) return {SearchOutcome::clear, horizon, f.start(), evaluations - 1};
     now.lookahead = min(now.lookahead, T(horizon - now.s));
@@ -133,31 +114,25 @@ Landing<T> find_impact(const Flight<T>& f, const T& horizon, const T& from = T(0
     const GapJet<T> jet = p > T(0.0) ? f.gap(p) : f.start();
     if (now.lookahead > T(0.0) && !positive_behind(f, jet, error, now.lookahead)) {
       const RootInterval<T> behind = certify_root_behind(f, jet, error, now.lookahead);
-      if (behind.certain) return search_detail::finish(f, p, jet, behind, evaluations);
+      if (behind.certain) return finish(f, p, jet, behind, evaluations);
       now.lookahead = T(0.0);
       continue;
     }
     now.s = p;
     const RootInterval<T> root = certify_root(f, jet, error);
-    if (root.certain && root.high < T(kFarthestRoot)) return search_detail::finish(f, p, jet, root, evaluations);
+    if (root.certain && root.high < T(kFarthestRoot)) return finish(f, p, jet, root, evaluations);
     const T above = time_above_crest(f, jet.state);
     if (above > T(0.0)) {
-      now = {p + above, search_detail::descent(f, now.trial), now.trial};
+      now = {p + above, descent(f, now.trial), now.trial};
       continue;
     }
     const T step = safe_step(f, jet, error, now.trial);
     if (!(step > T(4.0) * epsilon<T>() * p)) return {SearchOutcome::undecided, p, jet, evaluations};
-    T lookahead = step * T(search_detail::kLookahead);
+    T lookahead = step * T(kLookahead);
     if (root.estimate > step) lookahead = min(lookahead, T(root.estimate - step));
     now = {p + step, lookahead, step * T(2.0)};
   }
   return {SearchOutcome::cap, now.s, f.gap(now.s), kMaxSearchSteps};
 }
 
-// Searches in double precision. If rounding leaves the result undecided, the search is repeated in double-double from
-// the same start (Lemma 7). Guarantee: an impact or a miss is that of exact arithmetic on the given doubles, down to a
-// gap of 1e-30 a. If double-double cannot decide either, or the evaluations run out, the outcome is: an impact if the
-// gap is at most 1e-17 a, clear if at least 0.1 tau are certified, otherwise cap.
-Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
-
-}  // namespace afm
+}  // namespace afm::detail

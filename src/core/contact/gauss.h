@@ -4,12 +4,9 @@
 
 #include <cstddef>
 
-namespace afm {
+#include "afm/detail/contact_step.h"
 
-constexpr std::size_t kGaussNodes = 8;  // two vector registers of four numbers
-using AtGaussNodes = double[kGaussNodes];
-
-namespace gauss_detail {
+namespace afm::detail {
 
 // Legendre's polynomial on [0, 1], and its derivative.
 constexpr double legendre(std::size_t m, double c) {
@@ -60,19 +57,16 @@ constexpr Square inverse_of_one_plus(double factor, const Square& a) {
   return inverse;
 }
 
-}  // namespace gauss_detail
-
 struct Gauss {
-  AtGaussNodes node, weight;       // of the integral over [0, 1]
-  AtGaussNodes weight2;            // of its second integral, from 0 to 1
-  gauss_detail::Square integral;   // [i][j]: weight of node j in the integral from 0 to node i
-  gauss_detail::Square power;      // [m][j]: weight of node j in the coefficient of c^m of the interpolation
-  gauss_detail::Square bernstein;  // [j][m]: the same in Bernstein's basis
-  AtGaussNodes last;               // weight of node j in the coefficient of the last Legendre polynomial
+  AtGaussNodes node, weight;  // of the integral over [0, 1]
+  AtGaussNodes weight2;       // of its second integral, from 0 to 1
+  Square integral;            // [i][j]: weight of node j in the integral from 0 to node i
+  Square power;               // [m][j]: weight of node j in the coefficient of c^m of the interpolation
+  Square bernstein;           // [j][m]: the same in Bernstein's basis
+  AtGaussNodes last;          // weight of node j in the coefficient of the last Legendre polynomial
 };
 
 constexpr Gauss make_gauss() {
-  using namespace gauss_detail;
   constexpr std::size_t n = kGaussNodes;
   Gauss g{};
   for (std::size_t i = 0, found = 0; found < n; ++i) {  // Newton's method from where the sign changes
@@ -132,7 +126,6 @@ struct SwingTable {
 };
 
 constexpr SwingTable make_swing_table(double angle) {
-  using namespace gauss_detail;
   const Square A = kGauss.integral, A2 = A * A, solver = inverse_of_one_plus(angle * angle, A2);
   const Square x = A2 * solver, u = A * solver;
   SwingTable t{};
@@ -154,4 +147,4 @@ constexpr SwingTable make_swing_table(double angle) {
   return t;
 }
 
-}  // namespace afm
+}  // namespace afm::detail

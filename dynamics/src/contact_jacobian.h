@@ -5,13 +5,13 @@
 
 #include <Eigen/Core>
 
-#include "afm/chatter.h"
-#include "afm/contact.h"
+#include "afm/detail/chatter.h"
+#include "afm/detail/slide_segment.h"
+#include "afm/dynamics/jacobian.h"
 #include "afm/flight.h"
 #include "afm/model.h"
-#include "jacobian.h"
 
-namespace afm {
+namespace afm::detail {
 
 using SlideJacobian = Eigen::Matrix3d;
 
@@ -31,4 +31,4 @@ Eigen::Matrix4d projection_jacobian(const Model& model, const TipState& bounce);
 SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& law, double eta, const TipState& start,
                                          double duration);
 
-}  // namespace afm
+}  // namespace afm::detail

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace afm {
+namespace afm::detail {
 
 // mean +- 1.96 std_error holds the true mean 95 times in 100. std_error includes the factor of Student's t for
 // `degrees` of freedom.
@@ -25,4 +25,4 @@ MeanError mean_error(std::vector<double> batches);
 // Quantile 0.975 of Student's t over that of the normal distribution, 1.959964; within 2e-3 from 2 degrees on.
 double student_widening(double degrees);
 
-}  // namespace afm
+}  // namespace afm::detail

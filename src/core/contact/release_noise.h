@@ -1,0 +1,25 @@
+// The smallest force that counts as a release of the tip from the surface.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "afm/spring_constants.h"
+
+namespace afm::detail {
+
+// The smallest pull that counts as a release [a/tau^2]; a smaller one is rounding. Without it the glide at eta = 1,
+// whose reaction is zero for ever, would be released and caught at every rounding. It delays a release by 1e-11 tau. If
+// the terms of the reaction exceed 1e4, as with mica's springs above 50 a/tau, it is a part of them.
+constexpr double kReleaseNoise = 1e-9;
+
+template <class T>
+T release_noise(const SpringConstants<T>& m, const T& u, const T& X) {
+  using std::abs;
+  using std::max;
+  constexpr double kRelativeNoise = 1e-13;  // of the terms: each sum of a slide's series has an error of 3e-14
+  const T k = m.omega_v, turning = k * k * m.H * (T(1.0) + u * u), rest = k * k * abs(m.y0);
+  return max(T(kReleaseNoise), T(kRelativeNoise) * (turning + rest + k * m.H * (m.omega_h * m.omega_h) * abs(X)));
+}
+
+}  // namespace afm::detail
