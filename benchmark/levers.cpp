@@ -12,14 +12,15 @@
 
 namespace {
 
-// Nominal values: vertical spring constant [N/m], resonance [Hz], omega_h/omega_v.
+// Nominal values: vertical spring constant [N/m], resonance [Hz], omega_h/omega_v; and kicks per tau, as in the files
+// of the levers.
 struct Lever {
   const char* name;
-  double spring_constant, resonance, frequency_ratio;
+  double spring_constant, resonance, frequency_ratio, kicks;
 };
-constexpr Lever kLevers[] = {{"paper", 0.653, 6366.2, 6.25}, {"ppp_cont", 0.2, 13e3, 21.0},
-                             {"csc37_b", 0.3, 21e3, 17.0},   {"soft", 0.02, 7e3, 30.0},
-                             {"fm", 2.8, 75e3, 14.0},        {"laterally_soft", 0.5, 20e3, 2.0}};
+constexpr Lever kLevers[] = {{"paper", 0.653, 6366.2, 6.25, 11.09},   {"ppp_cont", 0.2, 13e3, 21.0, 12.979},
+                             {"csc37_b", 0.3, 21e3, 17.0, 10.507},    {"soft", 0.02, 7e3, 30.0, 18.541},
+                             {"fm", 2.8, 75e3, 14.0, 8.652},          {"laterally_soft", 0.5, 20e3, 2.0, 11.09}};
 
 struct Crystal {
   const char* name;
@@ -52,7 +53,7 @@ Scene scene_of(const Lever& lever, const Crystal& crystal, double load, double s
   afm::SiBath bath;
   bath.temperature_k = 300.0;
   bath.quality_factor = 100.0;
-  bath.kicks_per_tau = 11.09;  // as the files of the levers have it
+  bath.kicks_per_tau = lever.kicks;
   const afm::Units units(si);
   return {units.time(), units.to_natural(si), units.to_natural(bath), speed / units.velocity()};
 }

@@ -15,6 +15,9 @@ THERMAL_FINE = (2, 4, 6, 8)  # eta of the peaks
 BATHS = [(0, 0)] + [(kelvin, quality) for quality in QUALITIES for kelvin in TEMPERATURES]  # (0, 0): none
 GOLDEN = (2.618, 4.236, 6.854, 11.09, 17.944, 29.034, 46.979, 76.013)  # kicks per tau: powers of the golden ratio
 REFERENCE_KICKS = 122.99
+# omega_h/omega_v of the levers in config/levers with their rate of kicks; and 22, of which 11.09 is half
+LEVER_KICKS = {2: 11.09, 14: 8.652, 17: 10.507, 21: 12.979, 30: 18.541, 22: 11.09}
+MORE_KICKS = (29.034, REFERENCE_KICKS)
 # coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
 HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),
         6.5: ((0.4397, 0.5056), 50, (0.02, 0.025, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1, 0.12))}
@@ -224,6 +227,11 @@ def commands(quick):
         may_fail=True)
 
     add("collapse_friction", "collapse_friction", choose("--tau 100 --eta 0.3", ""))
+    for ratio, own in LEVER_KICKS.items():
+        for kicks in (own, *MORE_KICKS):
+            curve("lever_kicks_%g_%g" % (ratio, kicks), "--eta 2:6:2 --cutoff 0.05 --rest-height -0.3:0:0.3",
+                  "--temperature 0.926 --quality-factor 100 --kicks-per-tau", kicks, "--frequency-ratio", ratio,
+                  "--duration", choose(200, 50000))
 
     # levels, scenes, recording, control
     add("new_levels", "level_table --output {out}/levels.csv", sides=["levels"])

@@ -2,7 +2,7 @@
 import json
 import re
 
-from commands import FUZZED
+from commands import FUZZED, LEVER_KICKS, MORE_KICKS
 from registry import table
 
 
@@ -33,6 +33,21 @@ def grazes(tables):
     return tables.strings("grazes_flight") + [row for name in ("grazes_start",
                                                                "grazes_tau") for row in tables.strings(name)
                                               if not row["graze"].startswith("ordinary")]
+
+
+@table(*["lever_kicks_%g_%g" % (ratio, kicks) for ratio, own in LEVER_KICKS.items() for kicks in (own, *MORE_KICKS)])
+def lever_kicks(tables):
+    """K_f by work at each rate of kicks."""
+    result = []
+    for ratio, own in LEVER_KICKS.items():
+        for few, default, many in zip(*(tables.rows("lever_kicks_%g_%g" % (ratio, kicks))
+                                        for kicks in (own, *MORE_KICKS))):
+            row = {"omega_h/omega_v": "%g" % ratio, "rest height": "%g" % few["rest_height"], "eta": "%g" % few["eta"],
+                   "kicks per tau": "%g" % own}
+            for name, at in zip(("K_f", *("K_f at %g kicks" % kicks for kicks in MORE_KICKS)), (few, default, many)):
+                row[name] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
+            result.append(row)
+    return result
 
 
 STRESS = re.compile(r"(\d+) scenes of (\d+) tau: (\d+) commands, (\d+) \w+, (\d+) impacts standing for (\d+) bounces.*"

@@ -40,7 +40,7 @@ constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only wh
 constexpr double kMinBatches = 4.0;
 // pace of the trial run over what is needed: publishing and other programs take their part
 constexpr double kSafePace = 1.2;
-constexpr double kSlowBath = 100.0, kSlowBathKicks = 11.09;  // from that Q on so many suffice (docs/levers.md)
+constexpr double kSlowBath = 100.0;                        // from that Q on few kicks suffice
 constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
@@ -85,16 +85,27 @@ std::string find_clock_publisher() {
   return {};
 }
 
+// So many kicks per tau suffice from kSlowBath on (docs/levers.md): the golden section of omega_h/omega_v, so that they
+// do not lock to the swing of the lateral spring; of a soft one those measured for mica.
+double suitable_kicks(const Parameters& p) {
+  constexpr double kGolden = 0.618034, kMica = 11.09, kLeast = 8.6;
+  const double kicks = kGolden * p.si.omega_h_rad_per_s / p.si.omega_v_rad_per_s;
+  return kicks < kLeast ? kMica : kicks;
+}
+
 // A run that cannot keep real time says so before it falls behind.
 void report_pace(const Parameters& p) {
   const double pace = measure_pace(p);
   ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
-  const bool slow_bath = p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > kSlowBathKicks;
+  std::string fewer_kicks;
+  if (p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > 1.1 * suitable_kicks(p)) {
+    fewer_kicks = " kicks_per_tau = " + number_text(std::round(1000.0 * suitable_kicks(p)) / 1000.0) + ',';
+  }
   ROS_WARN(
       "this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = "
       "%.1g, a lower sample_rate_hz, a contact_tolerance up to 1e-2,%s or model = hammer",
-      p.time_scale, pace, 0.7 * pace, slow_bath ? " kicks_per_tau = 11.09," : "");
+      p.time_scale, pace, 0.7 * pace, fewer_kicks.c_str());
 }
 
 void report_run(const Parameters& p, const std::string& scheduler) {
