@@ -51,6 +51,13 @@ class InterfaceTables(unittest.TestCase):
         self.assertEqual([row[0] for row in tables.parameters()], written)
         self.assertGreater(len(written), 30)
 
+    def test_every_live_parameter_has_its_row(self):
+        rows = re.search(r'\n## Live parameters\n.*?\n((?:\|[^\n]*\n)+)', tables.DOCUMENT.read_text(), re.S)[1]
+        sliders = re.findall(r"^    \('(\w+)', ", (ROOT / 'config/Emulator.cfg').read_text(), re.M)
+        self.assertGreater(len(sliders), 8)
+        shown = re.findall(r'`(\w+)`', ' '.join(row.split('|')[1] for row in rows.splitlines()))
+        self.assertEqual(set(shown), set(sliders))
+
     def test_names_end_in_their_units(self):
         for name, value, unit, _ in tables.parameters():
             with self.subTest(name=name):

@@ -14,7 +14,7 @@ from spoiled_bag import SpoiledBag
 from topics import PATIENCE, Topic
 
 LENGTH_UNIT = 0.52e-9
-UNITS = ('_m_per_s', '_kg_per_s', '_per_s', '_j', '_n', '_m')  # in the names of columns
+UNITS = ('_m_per_s', '_kg_per_s', '_per_s', '_j', '_n', '_m', '_s')  # in the names of columns
 OTHER_NAMES = {'sample_rate': 'sample_rate_hz'}
 OF_THE_ROW = {'epoch', 'index', 'tau', 'phase', 'time_s'}  # the others are fields of the message
 NOT_IN_TABLE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'k_f_natural', 'window_k_f_natural',
@@ -26,7 +26,10 @@ def call(*arguments):
     done = subprocess.run([binary] + [str(argument) for argument in arguments],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
                           timeout=60 * PATIENCE)
-    return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
+    lines = done.stdout.splitlines()
+    columns = lines[0].split(',') if lines else []
+    assert len(columns) == len(set(columns)), columns  # of two with one name a reader sees one
+    return done.returncode, list(csv.DictReader(lines)), done.stderr
 
 
 def table(paths, *options):
@@ -38,7 +41,9 @@ def table(paths, *options):
 def field_of(column, message):
     """The name of the field that a column shows: with a unit behind it, unless the field has one itself."""
     names = [column] + [column[:-len(unit)] for unit in UNITS if column.endswith(unit)]
-    return next(name for name in (OTHER_NAMES.get(name, name) for name in names) if hasattr(message, name))
+    fields = [name for name in (OTHER_NAMES.get(name, name) for name in names) if hasattr(message, name)]
+    assert fields, 'no field for the column %s; a unit behind it must be in UNITS' % column
+    return fields[0]
 
 
 class BagToCsv(NodeTest):

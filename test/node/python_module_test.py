@@ -20,6 +20,10 @@ from topics import Topic, wait_until
 
 EXAMPLE = Path(os.path.realpath(__file__)).parents[2] / 'examples' / 'python' / 'read_bag.py'
 
+# what the topic ~friction says beside the estimate, and the estimate in other units
+OF_THE_MESSAGE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'drag_velocity', 'eta', 'k_f_natural',
+                  'window_k_f_natural', 'k_f_work_natural'}
+
 
 class PythonModule(NodeTest):
     def run_emulator(self, **parameters):
@@ -61,6 +65,7 @@ class PythonModule(NodeTest):
             np.testing.assert_array_equal(mine[name] * unit, [getattr(impact, name) for _, impact in impacts], name)
         np.testing.assert_array_equal(mine['tau'], [impact.time.tau for _, impact in impacts])
         np.testing.assert_array_equal(mine['phase'], [impact.time.phase for _, impact in impacts])
+        self.assertEqual(set(run.friction), set(messages['friction'][-1].__slots__) - OF_THE_MESSAGE)
         self.assertEqual(run.friction['k_f'] * units.friction, messages['friction'][-1].k_f)
         self.assertEqual(run.friction['heat_to_bath'] * units.energy, messages['friction'][-1].heat_to_bath)
         return recording, samples, len(impacts)

@@ -47,7 +47,8 @@ class Repeats(NodeTest):
                   'lateral_quality_factor': chance.choice([0.0, 500.0]),
                   'kicks_per_tau': chance.choice([2.0, 4.0, 7.3])}
         names = chance.sample(sorted(values), chance.randrange(1, len(values)))
-        self.emulator.set(**{name: values[name] for name in names})
+        in_force = self.emulator.set(**{name: values[name] for name in names})
+        self.assertEqual(set(in_force), set(values), 'every live parameter is changed')
 
     def call(self, service, kind=Trigger, **request):
         answer = self.emulator.call(service, kind, **request)

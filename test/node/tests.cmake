@@ -57,7 +57,7 @@ if(TARGET afm_python_module)
 endif()
 
 # node/NAME_test.cpp: parts of the node that need no master
-foreach(name diagnosis parameters recorder)
+foreach(name diagnosis messages parameters recorder)
   afm_add_gtest(${name}_test node/${name}_test.cpp)
   target_include_directories(afm_${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
   target_link_libraries(afm_${name}_test afm_emulator_ros)
