@@ -48,12 +48,12 @@ class Commands(EmulatorTest):
         applied = self.drag(-1.3)
         self.deflection.wait_for(lambda m: tau_between(applied.time, m.time) > 200, 'goes on')
         start = 0.25 * LATTICE_M
-        turned = start + self.applied.messages[0].drag_velocity * tau_between(self.applied.messages[0].time,
+        reached = start + self.applied.messages[0].drag_velocity * tau_between(self.applied.messages[0].time,
                                                                               applied.time) * TAU_S
         for m in list(self.deflection.messages):
             before = key(m.time) < key(applied.time)
             expected = (start + 3.4 * SPEED_UNIT * (m.time.tau + m.time.phase) * TAU_S if before else
-                        turned - 1.3 * SPEED_UNIT * tau_between(applied.time, m.time) * TAU_S)
+                        reached - 1.3 * SPEED_UNIT * tau_between(applied.time, m.time) * TAU_S)
             self.assertAlmostEqual(m.holder_position / LATTICE_M, expected / LATTICE_M, delta=1e-6)
 
     def test_junk_is_counted_and_changes_nothing(self):

@@ -63,7 +63,7 @@ TEST(DiagnoseNumerics, TellsWhatMustStayZero) {
   health.status.worst_penetration = 1e-9 * health.lattice_spacing_m;
   expect(diagnose_numerics, health, kError, "below the surface");
   health.status.search_failures = 1;
-  expect(diagnose_numerics, health, kError, "given up");
+  expect(diagnose_numerics, health, kError, "have failed");
 }
 
 TEST(DiagnoseRecording, TellsOfTheDisk) {

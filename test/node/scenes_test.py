@@ -107,7 +107,7 @@ class Scenes(NodeTest):
             self.assertLess(max(values) - min(values), 1e-9 * max(values), name)
         self.assertAlmostEqual(len(found) * TAU_S / 0.5, 2.0, delta=0.02)
 
-    def test_splash_has_showers_of_bounces(self):
+    def test_splash_has_rows_of_many_bounces(self):
         self.play('splash')
         self.assert_friction(self.after(2.0), 0.0796, 0.002)
         found = self.events(1.0)

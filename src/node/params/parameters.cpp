@@ -128,7 +128,7 @@ std::string expand_home(const std::string& path) {
   return home != nullptr && path.compare(0, 2, "~/") == 0 ? home + path.substr(1) : path;
 }
 
-// The levels of model auto, from their file.
+// The levels for model auto, from their file.
 void load_levels(Parameters& p, Faults& faults) {
   const auto fault = [&](const std::string& reason) {
     faults.push_back({"level_table", '"' + p.level_table + '"', reason});

@@ -60,7 +60,7 @@ struct Parameters : Live {
   double split_size_mb = 0.0;
   double split_duration_s = 0.0;
 
-  std::shared_ptr<const LevelTable> levels;  // of model auto: the content of the file level_table
+  std::shared_ptr<const LevelTable> levels;  // with model auto: the content of the file level_table
 };
 
 inline Live& live_of(Parameters& parameters) { return parameters; }
@@ -89,7 +89,7 @@ RunSettings run_settings(const Parameters& parameters);
 // Empty, with room for the largest batch at any sample rate.
 Batch preallocated_batch(const Parameters& parameters);
 
-// The level that runs with these settings: of model auto the cheapest that its tolerance allows. Where the table has no
+// The level that runs with these settings: with model auto the cheapest that its tolerance allows. Where the table has no
 // data, or with a heat bath, the oscillator at contact_tolerance. Allocates nothing.
 LevelChoice choose_level(const Parameters& parameters, const RunSettings& settings);
 

@@ -122,7 +122,7 @@ void diagnose_numerics(const Health& health, Diagnosis& out) {
   const afm_emulator::EmulatorStatus& status = health.status;
   out.summary(Severity::OK, "exact");
   if (status.search_failures > 0) {
-    out.mergeSummary(Severity::ERROR, "searches for the next impact have given up: this epoch is not exact");
+    out.mergeSummary(Severity::ERROR, "searches for the next impact have failed: this epoch is not exact");
   }
   if (status.worst_penetration > kPenetration * health.lattice_spacing_m) {
     out.mergeSummary(Severity::ERROR, "the tip was below the surface: this epoch is not exact");
