@@ -91,7 +91,7 @@ def draw(path, title, label, times, values, least, most, window):
 def run(name, case):
     """Runs a test case as a node of this name under rostest; with --help prints what it is."""
     if '--help' in sys.argv or '-h' in sys.argv:
-        print(sys.modules['__main__'].__doc__)
+        print(sys.modules['__main__'].__doc__ + '\n--help: this text')
         return
     rospy.init_node(name, anonymous=True)
     rostest.rosrun(PACKAGE, name, case, sys.argv)
