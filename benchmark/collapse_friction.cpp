@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
   app.option("transient", o.transient, "time before that");
   return app.run(argc, argv, [&] {
     std::printf(
-        "omega_h/omega_v,rest height,eta,K_f by work,its reference,its std. error,K_f by impacts,the reference,the std. error\n");
+        "omega_h/omega_v,rest height,eta,K_f by work,its reference,its std. error,"
+        "K_f by impacts,the reference,the std. error\n");
     for (const double ratio : o.frequency_ratio) {
       for (const double height : o.rest_height) {
         for (const double eta : o.eta) {

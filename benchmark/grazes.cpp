@@ -1,5 +1,5 @@
-// Built grazes against quad precision: is each touch a touch and each miss a miss? And how often twice the digits are needed,
-// in grazes and in ordinary flights.
+// Built grazes against quad precision: is each touch a touch and each miss a miss? And how often twice the digits are
+// needed, in grazes and in ordinary flights.
 #include "trials/grazes.h"
 
 #include <algorithm>

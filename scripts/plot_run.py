@@ -112,16 +112,15 @@ def read(paths, end):
     run = Run(end)
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
     known = set()
-    add = {'Deflection': lambda m: run.add_deflection(m, every), 'Friction': run.add_friction, 'Applied': run.add_drag}
+    add = {'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
+           'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
         with rosbag.Bag(path) as bag:
             for _, raw, _ in bag.read_messages(raw=True):
                 kind, data, of_type = raw[0].split('/')[1], raw[1], raw[4]
-                if kind == 'ImpactArray' and run.configuration is not None:
-                    run.add_impacts(data)
                 if kind != 'Configuration' and kind not in add:
                     continue
-                message = of_type().deserialize(data)
+                message = data if kind == 'ImpactArray' else of_type().deserialize(data)
                 if kind in ('Configuration', 'Applied'):  # the bags of a split recording repeat what was before
                     if (kind, message.header.seq) in known:
                         continue

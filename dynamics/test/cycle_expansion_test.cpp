@@ -17,8 +17,8 @@ bool is_least_rotation(const std::string& word) {
   return true;
 }
 
-// All prime orbits of the map that expands by the factor `expansion`, of `symbols` equal branches: branch k takes time 1 + k,
-// energy 5 - k.
+// All prime orbits of the map that expands by the factor `expansion`, of `symbols` equal branches: branch k takes time
+// 1 + k, energy 5 - k.
 std::vector<PeriodicOrbit> full_shift(double expansion, std::size_t longest) {
   std::vector<PeriodicOrbit> orbits;
   for (std::size_t n = 1; n <= longest; ++n) {

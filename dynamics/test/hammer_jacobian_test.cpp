@@ -1,4 +1,5 @@
-// The hammer's Jacobians: those of its own two dimensions, phase and gap rate, against quad precision and the laws of volume.
+// The hammer's Jacobians: those of its own two dimensions, phase and gap rate, against quad precision and the laws of
+// volume.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>

@@ -31,8 +31,8 @@ std::vector<double> measure_costs(const Model& model, double eta, const TipState
   return costs;
 }
 
-// Never more events in an interval than half of what the shipped impact budget allows a batch: the mean says too little,
-// as one contact in ten thousand may hold millions of bounces.
+// Never more events in an interval than a quarter of what the shipped impact budget allows a batch: the mean says too
+// little, as one contact in ten thousand may hold millions of bounces.
 bool keeps_time(const Model& model, double eta, const Level& level, const TipState& start) {
   constexpr double kInterval = 50.0;  // [tau]
   constexpr int kIntervals = 400, kMostEvents = 10000;

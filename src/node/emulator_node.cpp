@@ -85,11 +85,13 @@ std::string find_clock_publisher() {
   return {};
 }
 
+double frequency_ratio(const SiModel& si) { return si.omega_h_rad_per_s / si.omega_v_rad_per_s; }
+
 // So many kicks per tau suffice from kSlowBath on (docs/levers.md): the golden section of omega_h/omega_v, so that they
 // do not lock to the swing of the lateral spring; of a soft one those measured for mica.
-double suitable_kicks(const Parameters& p) {
+double suitable_kicks(const SiModel& si) {
   constexpr double kGolden = 0.618034, kMica = 11.09, kLeast = 8.6;
-  const double kicks = kGolden * p.si.omega_h_rad_per_s / p.si.omega_v_rad_per_s;
+  const double kicks = kGolden * frequency_ratio(si);
   return kicks < kLeast ? kMica : kicks;
 }
 
@@ -99,8 +101,9 @@ void report_pace(const Parameters& p) {
   ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
   std::string fewer_kicks;
-  if (p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > 1.1 * suitable_kicks(p)) {
-    fewer_kicks = " kicks_per_tau = " + number_text(std::round(1000.0 * suitable_kicks(p)) / 1000.0) + ',';
+  const double kicks = suitable_kicks(p.si);
+  if (p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > 1.1 * kicks) {
+    fewer_kicks = " kicks_per_tau = " + number_text(std::round(1000.0 * kicks) / 1000.0) + ',';
   }
   ROS_WARN(
       "this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = "
@@ -112,7 +115,7 @@ void report_pace(const Parameters& p) {
 bool are_locked(const Parameters& p) {
   constexpr double kFewTurns = 0.4, kNear = 0.05;  // measured: 2 % of half a turn off, K_f is still 2 % wrong
   if (!run_settings(p).bath.is_on()) return false;
-  const double turns = p.si.omega_h_rad_per_s / p.si.omega_v_rad_per_s / p.bath.kicks_per_tau;
+  const double turns = frequency_ratio(p.si) / p.bath.kicks_per_tau;
   return turns > kFewTurns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < kNear;
 }
 
@@ -121,7 +124,7 @@ void report_run(const Parameters& p, const std::string& scheduler) {
     ROS_WARN(
         "kicks_per_tau = %g locks to the swing of the lateral spring, as omega_h/omega_v = %.4g: K_f may be wrong by "
         "some per cent. Give kicks_per_tau = %.5g",
-        p.bath.kicks_per_tau, p.si.omega_h_rad_per_s / p.si.omega_v_rad_per_s, suitable_kicks(p));
+        p.bath.kicks_per_tau, frequency_ratio(p.si), suitable_kicks(p.si));
   }
   if (p.bath.temperature_k > 0.0 && !run_settings(p).bath.is_on()) {
     ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip", p.bath.temperature_k);

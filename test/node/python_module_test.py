@@ -21,8 +21,8 @@ from topics import Topic, wait_until
 EXAMPLE = Path(os.path.realpath(__file__)).parents[2] / 'examples' / 'python' / 'read_bag.py'
 
 # what the topic ~friction says beside the estimate, and the estimate in other units
-OF_THE_MESSAGE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'drag_velocity', 'eta', 'k_f_natural',
-                  'window_k_f_natural', 'k_f_work_natural'}
+OF_THE_MESSAGE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'drag_velocity', 'eta',
+                  'k_f_natural', 'window_k_f_natural', 'k_f_work_natural'}
 
 
 class PythonModule(NodeTest):

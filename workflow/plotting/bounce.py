@@ -7,7 +7,7 @@ import math
 from registry import picture
 
 from . import style
-from .paths import STATE, surface, rotated
+from .paths import STATE, rotated, surface
 
 INPUTS = ["eta", "gamma", "cutoff", *STATE]
 TWO_PI = style.TWO_PI

@@ -45,7 +45,8 @@ def draw_front(axes, left=1.75):
 
         corners = [rotated(x, y) for x, y in ((-0.22, -0.025), (0.22, -0.025), (0.22, 0.025), (-0.22, 0.025))]
         axes.add_patch(Polygon(corners, color=METAL, alpha=alpha))
-        axes.add_patch(Polygon([rotated(-0.06, -0.02), rotated(0.06, -0.02), rotated(0.0, -0.44)], color=METAL, alpha=alpha))
+        point = [rotated(-0.06, -0.02), rotated(0.06, -0.02), rotated(0.0, -0.44)]
+        axes.add_patch(Polygon(point, color=METAL, alpha=alpha))
     wave(axes, left - 0.25, left + 0.85, 0.38)
     arrow(axes, (left + 0.14, 0.62), (left + 0.6, 0.62), "twists: $k_h$", (left + 0.7, 0.72), style.BLUE, both=True)
     arrow(axes, (left + 0.15, 1.1), (left + 0.5, 1.1), "scan at $v_0$", (left + 0.33, 1.18), style.ORANGE)

@@ -89,8 +89,8 @@ RunSettings run_settings(const Parameters& parameters);
 // Empty, with room for the largest batch at any sample rate.
 Batch preallocated_batch(const Parameters& parameters);
 
-// The level that runs with these settings: with model auto the cheapest that its tolerance allows. Where the table has no
-// data, or with a heat bath, the oscillator at contact_tolerance. Allocates nothing.
+// The level that runs with these settings: with model auto the cheapest that its tolerance allows. Where the table has
+// no data, or with a heat bath, the oscillator at contact_tolerance. Allocates nothing.
 LevelChoice choose_level(const Parameters& parameters, const RunSettings& settings);
 
 // The one place that turns a drag velocity into natural units, as its bits decide those of a run.

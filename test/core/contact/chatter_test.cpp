@@ -88,8 +88,8 @@ class Chatters : public testing::TestWithParam<double> {
 
 TEST_P(Chatters, TheLawIsThatOfTheBouncesToTheSecondOrder) {
   constexpr double kRounding = 1e-9;
-  // What is left is of the third order in the duration of a bounce and its loss. The factor is 3.2 at most at gamma = 1,
-  // and below 0.3 for gamma <= 0.7.
+  // What is left is of the third order in the duration of a bounce and its loss. The factor is 3.2 at most at
+  // gamma = 1, and below 0.3 for gamma <= 0.7.
   const double loss = (1.0 - model_.gamma) / model_.v_c;
   RandomLaunches random(1);
   int short_ones = 0;
