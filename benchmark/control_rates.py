@@ -10,7 +10,7 @@ import sys
 import time
 from pathlib import Path
 
-from emulator import DATA, binary, emulator, master, write_table
+from emulator import DATA, binary, emulator, own_master, write_table
 
 # at eta = 3.4
 SCENES = {'cold': {}, '300 K and Q = 100': {'temperature_k': 300.0, 'quality_factor': 100.0}}
@@ -37,7 +37,7 @@ def main():
     arguments = parser.parse_args()
     lines = ['tip,period / ms,C++: periods a second,C++: times real time,'
              'Python: periods a second,Python: times real time']
-    with master() as server:
+    with own_master() as server:
         for (scene, parameters), duration in itertools.product(SCENES.items(), DURATIONS_S):
             periods = min(arguments.periods, int(30.0 / duration))  # 30 s of model time are enough
             with emulator(server, dict(parameters, pace='lockstep', drag_velocity=1.1255437575458838e-05)):

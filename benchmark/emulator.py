@@ -1,42 +1,20 @@
 """A ROS master and an emulator of a measurement's own."""
 import contextlib
-import os
 import signal
-import socket
 import subprocess
-import time
-import xmlrpc.client
+import sys
 from pathlib import Path
 
-DATA = Path(__file__).resolve().parent.parent / 'docs/data'
-PATIENCE_S = 30.0
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / 'scripts'))
+from own_master import PATIENCE_S, own_master  # noqa: E402,F401  (for those who measure)
+
+DATA = ROOT / 'docs/data'
 
 
 def binary(name):
     return subprocess.check_output(['catkin_find', '--first-only', '--libexec', 'afm_emulator', name],
                                    text=True).strip()
-
-
-@contextlib.contextmanager
-def master():
-    """Its proxy. ROS_MASTER_URI names it, too."""
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        port = free.getsockname()[1]
-    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
-    process, end = subprocess.Popen(['rosmaster', '--core', '-p', str(port)]), time.monotonic() + PATIENCE_S
-    server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
-    try:
-        while True:
-            with contextlib.suppress(OSError):
-                server.getPid('benchmark')
-                break
-            if time.monotonic() > end:
-                raise SystemExit('the master does not answer')
-            time.sleep(0.1)
-        yield server
-    finally:
-        process.kill()
 
 
 @contextlib.contextmanager

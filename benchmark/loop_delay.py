@@ -7,7 +7,7 @@ import argparse
 import subprocess
 from pathlib import Path
 
-from emulator import DATA, PATIENCE_S, binary, emulator, master, write_table
+from emulator import DATA, PATIENCE_S, binary, emulator, own_master, write_table
 
 RATES = (100.0, 1000.0)
 
@@ -25,7 +25,7 @@ def main():
     parser.add_argument('--commands', type=int, default=1000)
     parser.add_argument('--output', type=Path, default=DATA / 'loop_delay.csv')
     arguments = parser.parse_args()
-    with master() as server:
+    with own_master() as server:
         tables = [measure(server, rate, arguments.commands) for rate in RATES]
     write_table(arguments.output, tables[0][:1] + [table[1] for table in tables])
 

@@ -9,7 +9,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from emulator import DATA, emulator, master, write_table
+from emulator import DATA, emulator, own_master, write_table
 
 RATES = (200e3, 1e6)  # the default, and the greatest
 ETA_3_4 = 1.1255437575458838e-05  # m/s on mica: the chaotic motion of the paper
@@ -64,7 +64,7 @@ def main():
     os.environ['DISPLAY'] = ':' + display.stdout.readline().strip()
     lines = ['sample rate / Hz,frames a second,CPU seconds per second']
     try:
-        with master() as server:
+        with own_master() as server:
             for rate in RATES:
                 with emulator(server, {'sample_rate_hz': rate, 'drag_velocity': ETA_3_4}):
                     lines.append('%g,%.1f,%.3f' % ((rate,) + watch(arguments.seconds)))

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 
-from emulator import emulator, master
+from emulator import emulator, own_master
 
 PARAMETERS = {'record': True, 'sample_rate_hz': 1e6, 'batch_rate_hz': 1000.0}
 
@@ -46,7 +46,7 @@ def main():
     if len(sys.argv) < 2 or sys.argv[1].startswith('-'):
         sys.exit(__doc__)
     directory, seconds = os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 600.0
-    with master() as server, emulator(server, dict(PARAMETERS, bag_directory=directory)) as node:
+    with own_master() as server, emulator(server, dict(PARAMETERS, bag_directory=directory)) as node:
         time.sleep(2.0)
         watch(node.pid, seconds)
     bags = sorted(glob.glob(directory + '/*.bag'))

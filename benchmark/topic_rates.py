@@ -7,7 +7,7 @@ import argparse
 import time
 from pathlib import Path
 
-from emulator import DATA, emulator, master, write_table
+from emulator import DATA, emulator, own_master, write_table
 
 # eta = 3.4 of mica, the chaotic motion of the paper
 SCENE = {'drag_velocity': 1.1255437575458838e-05, 'publish_clock': True}
@@ -64,7 +64,7 @@ def main():
     parser.add_argument('--output', type=Path, default=DATA / 'topic_rates.csv')
     arguments = parser.parse_args()
     received = {}
-    with master() as server:
+    with own_master() as server:
         for name, settings in SETTINGS.items():
             with emulator(server, dict(SCENE, **settings)):
                 received[name] = listen(arguments.seconds)

@@ -55,9 +55,10 @@ def main(root, build, prefix):
     with ThreadPoolExecutor(DOCUMENTS_AT_A_TIME) as pool:
         list(pool.map(reader.read, [root / 'README.md'] + sorted((root / 'docs').glob('*.md'))))
     faults = reader.faults + reader.tables.unused()
+    print('%d faults' % len(faults))  # first, as what follows is long
     for fault in faults:
         print('FAULT: ' + fault)
-    print('%d faults' % len(faults))
+    print('\n'.join(reader.report))
     return 1 if faults else 0
 
 

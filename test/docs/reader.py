@@ -26,8 +26,8 @@ class Reader:
     building = threading.Lock()  # two builds of one directory would disturb each other
 
     def __init__(self, root, build, prefix, tables):
-        self.root, self.build, self.prefix, self.tables, self.faults = root, build, prefix, tables, []
-        self.done = set()
+        self.root, self.build, self.prefix, self.tables = root, build, prefix, tables
+        self.faults, self.report, self.done = [], [], set()
         programs = [p.name for p in (prefix / 'lib/afm_emulator').iterdir()]
         self.tools = sorted({name for name in programs if re.fullmatch(r'\w+', name)})
 
@@ -66,25 +66,25 @@ class Reader:
     def paste(self, shell, command):
         reason = self.tables.reason_not_to_run(command.text)
         if reason:
-            print('%s: not run, %s: %s' % (command.place, reason, command.text))
+            self.report.append('%s: not run, %s: %s' % (command.place, reason, command.text))
             self.check_options(shell, command)
             return
         begin, text = time.monotonic(), self.tables.shortened(without_comments(command.text))
         if ONCE.search(text):
             if text in self.done:
-                print('%s: run already, for another document: %s' % (command.place, command.text))
+                self.report.append('%s: run already, for another document: %s' % (command.place, command.text))
                 return
             self.done.add(text)
         missing = self.missing_here(text)
         if missing:
-            print('%s: not run, built without %s: %s' % (command.place, missing, command.text))
+            self.report.append('%s: not run, built without %s: %s' % (command.place, missing, command.text))
             return
         if BUILDS.search(text):
             with self.building:
                 output, code = shell.run(text, own_master=True)
         else:
             output, code = shell.run(text, own_master=bool(OWN_MASTER.search(text)))
-        print('%s: %.1f s: %s' % (command.place, time.monotonic() - begin, text), flush=True)
+        self.report.append('%s: %.1f s: %s' % (command.place, time.monotonic() - begin, text))
         if code != 0 or BAD_NEWS.search(OLD_THREADS.sub('', output)):
             self.faults.append('%s: ends with %d: %s\nrun as: %s\n%s' %
                                (command.place, code, command.text, text, output[-3000:]))

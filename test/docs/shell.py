@@ -9,8 +9,8 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'node'))
-from ports import free_port  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'scripts'))
+from own_master import free_port  # noqa: E402
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))
 DEADLINE_S = 120 * PATIENCE

@@ -8,7 +8,7 @@ from pathlib import Path
 import roslib.packages
 
 from emulator_under_test import PACKAGE, NodeTest, Process, run
-from ports import free_port
+from master import free_port
 from topics import wait_until
 
 LOOPBACK = ('0100007F', '00000000000000000000000001000000')  # 127.0.0.1 and ::1 as the kernel writes them

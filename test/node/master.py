@@ -1,9 +1,13 @@
 """A ROS master of a test's own, to take away."""
+import sys
 import xmlrpc.client
+from pathlib import Path
 
 from emulator_under_test import Process
-from ports import free_port
 from topics import wait_until
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'scripts'))
+from own_master import free_port  # noqa: E402
 
 
 class Master(Process):

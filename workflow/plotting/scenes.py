@@ -8,7 +8,6 @@ import argparse
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
@@ -23,7 +22,8 @@ except ImportError as missing:
              % missing)
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / 'workflow'))
+sys.path[:0] = [str(ROOT / 'workflow'), str(ROOT / 'scripts')]
+from own_master import free_port  # noqa: E402
 from plotting import style  # noqa: E402
 
 # seconds to record, and the tau that are drawn
@@ -39,12 +39,6 @@ PATIENCE_S = 60.0  # for a busy machine to start a node
 FRICTION_UNIT = 408e-12 * 40e3 / (2 * np.pi)  # kg/s for 1 m_tip/tau
 TAU_S = 2 * np.pi / 40e3
 LATERAL_SPRING = 408e-12 * 250e3 ** 2  # N/m
-
-
-def free_port():
-    with socket.socket() as free:
-        free.bind(('localhost', 0))
-        return free.getsockname()[1]
 
 
 def record(scene, seconds, directory):
