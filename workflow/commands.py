@@ -253,7 +253,7 @@ def commands(quick):
     add("soak", "scripts/soak --seed 23 --duration", choose(60, 3600), may_fail=True)
     if quick:
         return all_commands
-    add("soak_faster", "scripts/soak --duration 900 --time-scale 2.5 --sample-rate 200000", may_fail=True)
+    add("soak_faster", "scripts/soak --stages 0 1 --duration 900 --time-scale 2.5 --sample-rate 200000", may_fail=True)
     for kind in ("address", "thread"):
         add("sanitized_" + kind, "scripts/sanitize", kind, may_fail=True)
     single = "AFM_BUILD_DIR=$PWD/build/single_version "

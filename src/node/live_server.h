@@ -6,6 +6,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -35,6 +36,7 @@ class LiveServer {
       if (level != kFirstCall) change(config);
       config = shown_ = to_config(in_force());
     });
+    show_ranges();
   }
 
   // Called with whatever was applied, by the publisher: a change waits for it, so it may not wait for a change.
@@ -54,6 +56,17 @@ class LiveServer {
 
  private:
   using Config = afm_emulator::EmulatorConfig;
+
+  // Sliders that people can use: the speed and the load are those of the lever.
+  void show_ranges() {
+    Config least = Config::__getMin__(), most = Config::__getMax__();
+    constexpr double kUsualDepth = 1e-9, kUsualHeight = 1e-10, kFastestCutoff = 0.6;  // m, m, a/tau
+    most.cutoff_speed = std::max(kFastestCutoff * Units(start_.si).velocity(), 2.0 * start_.si.cutoff_speed);
+    least.rest_height_m = std::min(-kUsualDepth, 2.0 * start_.si.rest_height_m);
+    most.rest_height_m = std::max(kUsualHeight, 2.0 * start_.si.rest_height_m);
+    server_.setConfigMin(least);
+    server_.setConfigMax(most);
+  }
 
   static Config to_config(const Live& live) {
     Config config;

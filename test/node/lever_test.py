@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 
+import dynamic_reconfigure.client
 import roslib.packages
 import yaml
 from afm_emulator.srv import Control
@@ -65,6 +66,19 @@ class LeverTest(NodeTest):
                 self.assertTrue(LOAD - k * surface['surface_amplitude_m'] < last.mean_normal_force < LOAD + k * higher,
                                 last.mean_normal_force)
                 self.assertAlmostEqual(last.mean_normal_force / answer.mean_normal_force, 1.0, delta=1e-9)
+
+    def test_a_load_changes_live(self):
+        """The range of its slider is that of the lever, in which the shipped range of the paper's tip would be lost."""
+        lever, cell = settings('levers', 'csc37_b'), settings('surfaces', 'nacl')['lattice_spacing_m']
+        load_at = -lever['spring_constant_n_per_m']  # times the rest height
+        client = dynamic_reconfigure.client.Client('/csc37_b', timeout=10)
+        least, most = ({d['name']: d[which] for d in client.get_parameter_descriptions(timeout=5)}
+                       for which in ('min', 'max'))
+        self.assertAlmostEqual(least['rest_height_m'] * load_at / LOAD, 2.0, delta=1e-12)
+        self.assertAlmostEqual(most['cutoff_speed'] / (0.6 * cell * lever['resonance_hz']), 1.0, delta=1e-12)
+        changed = client.update_configuration({'rest_height_m': 1.5 * LOAD / load_at})
+        self.assertAlmostEqual(changed['rest_height_m'] * load_at / LOAD, 1.5, delta=1e-12)
+        client.close()
 
     def test_a_lever_of_ones_own(self):
         lever = Path(self.temporary_directory()) / 'mine.yaml'

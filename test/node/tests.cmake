@@ -77,7 +77,7 @@ if(staged MATCHES "100644 [0-9a-f]+ [0-9]\t([^\n]+)")
 endif()
 
 # a short form; scripts/soak alone runs for an hour
-set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 6 --part 3 --rate 50)
+set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 6 --stages 0 3 --part 3 --rate 50)
 add_test(NAME soak COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${soak})
 set_tests_properties(soak PROPERTIES TIMEOUT 120 ENVIRONMENT "AFM_SOAK=1;ROS_HOSTNAME=localhost")
 
