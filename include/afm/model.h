@@ -43,6 +43,9 @@ const char* name(ModelKind kind);
 // 1 for the oscillator, 0 for the hammer: a factor of every motion along x.
 inline double is_free_along_x(const Model& model) { return model.kind == ModelKind::hammer ? 0.0 : 1.0; }
 
+// Whether its load holds the tip down at rest: the holder is below the valleys.
+inline bool is_held_down(const Model& model) { return model.y0 < -model.H; }
+
 // The section of impacts: the hammer has only its phase and gap rate.
 inline int section_dimension(const Model& model) { return model.kind == ModelKind::hammer ? 2 : 4; }
 

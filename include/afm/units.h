@@ -38,6 +38,10 @@ std::vector<ParameterError> find_faults(const Lever& lever);
 // The springs and the effective mass of a lever: omega_v = 2 pi f0, m = k / omega_v^2, omega_h = sqrt(k_h / m).
 void set_lever(const Lever& lever, SiModel& si);
 
+// A lever, if it is given, and a load [N] in the terms of their owner, into the model: the rest height is -load / k.
+// Every fault: what is given beside the same in the terms of the model, and a load that is not finite.
+std::vector<ParameterError> set_lever_and_load(const Lever& lever, double load_n, SiModel& si);
+
 // The vertical spring constant k = m omega_v^2 [N/m]. A load is -k times the rest height.
 double spring_constant(const SiModel& si);
 

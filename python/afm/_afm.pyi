@@ -44,7 +44,9 @@ class Bath:
 class Units:
     def __init__(self, omega_v_rad_per_s: float = ..., omega_h_rad_per_s: float = ..., tip_mass_kg: float = ...,
                  lattice_spacing_m: float = ..., surface_amplitude_m: float = ..., rest_height_m: float = ...,
-                 restitution_gamma: float = ..., cutoff_speed: float = ...) -> None: ...
+                 restitution_gamma: float = ..., cutoff_speed: float = ..., spring_constant_n_per_m: float = ...,
+                 resonance_hz: float = ..., lateral_spring_constant_n_per_m: float = ...,
+                 load_n: float = ...) -> None: ...
     def bath(self, temperature_k: float = ..., quality_factor: float = ..., lateral_quality_factor: float = ...,
              kicks_per_tau: float = ..., seed: int = ...) -> Bath: ...
     @property

@@ -65,6 +65,15 @@ SiUnits to_units(double omega_v, double omega_h, double mass, double spacing, do
   return {si, Units(si)};
 }
 
+SiUnits to_units_of_lever(double omega_v, double omega_h, double mass, double spacing, double amplitude,
+                          double rest_height, double gamma, double cutoff, double spring_constant, double resonance,
+                          double lateral_spring_constant, double load) {
+  SiModel si{omega_v, omega_h, mass, spacing, amplitude, rest_height, gamma, cutoff};
+  refuse(set_lever_and_load(Lever{spring_constant, resonance, lateral_spring_constant}, load, si));
+  refuse(find_faults(si));
+  return {si, Units(si)};
+}
+
 Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, double lateral_quality_factor,
              double kicks_per_tau, std::uint64_t seed) {
   const Bath bath =
@@ -115,12 +124,15 @@ void add_units(py::module& m) {
   const auto unit = [](double (Units::*of)() const) { return [of](const SiUnits& u) { return (u.units.*of)(); }; };
   py::class_<SiUnits>(m, "Units", R"(A model in SI, and the factors from natural units to SI: value_si = value * factor.
 
-The defaults are mica's. `model` is the same in natural units; `bath(temperature_k=, ...)` gives a heat bath.)")
-      .def(py::init(&to_units), "omega_v_rad_per_s"_a = mica.omega_v_rad_per_s,
+The defaults are mica's. `model` is the same in natural units; `bath(temperature_k=, ...)` gives a heat bath.
+A lever may be given as its owner knows it, in place of omega_v, omega_h and tip mass: spring_constant_n_per_m,
+resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in place of rest_height_m.)")
+      .def(py::init(&to_units_of_lever), "omega_v_rad_per_s"_a = mica.omega_v_rad_per_s,
            "omega_h_rad_per_s"_a = mica.omega_h_rad_per_s, "tip_mass_kg"_a = mica.tip_mass_kg,
            "lattice_spacing_m"_a = mica.lattice_spacing_m, "surface_amplitude_m"_a = mica.surface_amplitude_m,
            "rest_height_m"_a = mica.rest_height_m, "restitution_gamma"_a = mica.restitution_gamma,
-           "cutoff_speed"_a = mica.cutoff_speed)
+           "cutoff_speed"_a = mica.cutoff_speed, "spring_constant_n_per_m"_a = 0.0, "resonance_hz"_a = 0.0,
+           "lateral_spring_constant_n_per_m"_a = 0.0, "load_n"_a = 0.0)
       .def_property_readonly(
           "model", [](const SiUnits& u) { return u.units.to_natural(u.si); }, "the Model in natural units")
       .def(py::pickle(

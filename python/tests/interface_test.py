@@ -3,6 +3,7 @@
 import ast
 import copy
 import inspect
+import math
 import multiprocessing
 import pickle
 import re
@@ -66,6 +67,18 @@ class Errors(unittest.TestCase):
         self.refused('max_length', 99, afm.periodic_orbits, 2, max_length=99)
         self.refused('transient', -1, afm.lyapunov, transient=-1)
         self.refused('phase', 1e9, afm.next_impact, eta=2, phase=1e9, extension=0, u=2, w=1)
+
+    def test_a_lever_and_a_load_in_the_terms_of_their_owner(self):
+        lever = dict(spring_constant_n_per_m=0.2, resonance_hz=13000.0, lateral_spring_constant_n_per_m=88.2)
+        units = afm.Units(lattice_spacing_m=0.399e-9, load_n=0.4e-9, **lever)
+        self.assertAlmostEqual(units.time * 13000.0, 1.0, delta=1e-15)
+        self.assertAlmostEqual(units.model.rest_height * units.length / -2e-9, 1.0, delta=1e-14)
+        self.assertAlmostEqual(units.model.frequency_ratio / math.sqrt(88.2 / 0.2), 1.0, delta=1e-14)
+        self.assertEqual(pickle.loads(pickle.dumps(units)).model, units.model)
+        self.refused('tip_mass_kg', 1e-12, afm.Units, tip_mass_kg=1e-12, **lever)
+        self.refused('rest_height_m', -1e-9, afm.Units, rest_height_m=-1e-9, load_n=1e-9)
+        self.refused('resonance_hz', 0, afm.Units, spring_constant_n_per_m=0.2, lateral_spring_constant_n_per_m=50)
+        self.refused('load_n', math.inf, afm.Units, load_n=math.inf)
 
     def test_a_wrong_type_is_named(self):
         tip, run = afm.Tip(), afm.Run()

@@ -1,6 +1,7 @@
 #include "afm/units.h"
 
 #include <cmath>
+#include <string>
 
 namespace afm {
 
@@ -53,6 +54,31 @@ void set_lever(const Lever& lever, SiModel& si) {
   si.omega_v_rad_per_s = kTwoPi * lever.resonance_hz;
   si.tip_mass_kg = lever.spring_constant_n_per_m / (si.omega_v_rad_per_s * si.omega_v_rad_per_s);
   si.omega_h_rad_per_s = std::sqrt(lever.lateral_spring_constant_n_per_m / si.tip_mass_kg);
+}
+
+std::vector<ParameterError> set_lever_and_load(const Lever& lever, double load_n, SiModel& si) {
+  std::vector<ParameterError> faults;
+  const SiModel usual;
+  const auto forbid = [&](const char* name, double value, double usual_value, const std::string& instead) {
+    if (value != usual_value) faults.emplace_back(name, value, "is given beside " + instead + ": give one of them");
+  };
+  if (lever.is_given()) {
+    const char* const constants = "the spring constants and the resonance of a lever";
+    forbid("omega_v_rad_per_s", si.omega_v_rad_per_s, usual.omega_v_rad_per_s, constants);
+    forbid("omega_h_rad_per_s", si.omega_h_rad_per_s, usual.omega_h_rad_per_s, constants);
+    forbid("tip_mass_kg", si.tip_mass_kg, usual.tip_mass_kg, constants);
+    const std::vector<ParameterError> wrong = find_faults(lever);
+    faults.insert(faults.end(), wrong.begin(), wrong.end());
+    if (wrong.empty()) set_lever(lever, si);
+  }
+  if (load_n == 0.0) return faults;
+  forbid("rest_height_m", si.rest_height_m, usual.rest_height_m, "load_n");
+  if (std::isfinite(load_n)) {
+    si.rest_height_m = -load_n / spring_constant(si);
+  } else {
+    faults.emplace_back("load_n", load_n, "must be finite");
+  }
+  return faults;
 }
 
 double spring_constant(const SiModel& si) { return si.tip_mass_kg * si.omega_v_rad_per_s * si.omega_v_rad_per_s; }

@@ -37,6 +37,7 @@ SUBSTITUTIONS = [
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
     (r'(friction_peaks|bifurcations)\.py', r'\1.py 5'),
+    (r'(friction_of_lever\.py \S+ \S+)', r'\1 0.1e-9 5 #'),
     (r'(many_machines\.py \S+)', r'\1 --points 3 --duration 100'),
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
     (r'(durations\.py)(?! --)', r'\1 --only import'),

@@ -92,35 +92,13 @@ std::string read(Value& value, std::vector<double>* out) {
   return {};
 }
 
-// A lever and a load are given in the terms of their owner, or in those of the model.
-void set_lever_and_load(Parameters& p, Faults& faults) {
-  const SiModel usual;
-  const auto forbid = [&](const char* name, double value, double usual_value, const std::string& instead) {
-    if (value == usual_value) return;
-    faults.push_back({name, number_text(value), "is given beside " + instead + ": give one of them"});
-  };
-  if (p.lever.is_given()) {
-    const char* const lever = "the spring constants and the resonance of a lever";
-    forbid("omega_v_rad_per_s", p.si.omega_v_rad_per_s, usual.omega_v_rad_per_s, lever);
-    forbid("omega_h_rad_per_s", p.si.omega_h_rad_per_s, usual.omega_h_rad_per_s, lever);
-    forbid("tip_mass_kg", p.si.tip_mass_kg, usual.tip_mass_kg, lever);
-    const auto wrong = find_faults(p.lever);
-    add(wrong, faults);
-    if (wrong.empty()) set_lever(p.lever, p.si);
-  }
-  if (p.load_n == 0.0) return;
-  forbid("rest_height_m", p.si.rest_height_m, usual.rest_height_m, "load_n");
-  if (!std::isfinite(p.load_n)) return faults.push_back({"load_n", number_text(p.load_n), "must be finite"});
-  p.si.rest_height_m = -p.load_n / spring_constant(p.si);
-}
-
 // Under a load that holds the tip down in a valley it begins there, unless another initial state is given.
 void set_initial_state(Parameters& p) {
   const FreeState usual = Parameters().initial, &given = p.initial;
   const bool is_given = given.phase != usual.phase || given.X != usual.X || given.y != usual.y || given.u != usual.u ||
                         given.w != usual.w;
-  if (is_given || !(p.si.rest_height_m < -p.si.surface_amplitude_m)) return;
-  p.initial = lowered_tip(p.si.surface_amplitude_m / p.si.lattice_spacing_m);
+  const Model model = Units(p.si).to_natural(p.si);
+  if (!is_given && is_held_down(model)) p.initial = lowered_tip(model.H);
 }
 
 std::string expand_home(const std::string& path) {
@@ -169,7 +147,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
       }
     }
   }
-  set_lever_and_load(parameters, faults);
+  add(set_lever_and_load(parameters.lever, parameters.load_n, parameters.si), faults);
   set_initial_state(parameters);
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
