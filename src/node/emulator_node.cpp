@@ -22,6 +22,7 @@
 
 #include "afm/number_text.h"
 #include "live_server.h"
+#include "node/params/advice.h"
 #include "node/params/parameters.h"
 #include "node/publisher/publisher.h"
 #include "node/publisher/refusals.h"
@@ -38,9 +39,6 @@ using Kind = Request::Kind;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
-// pace of the trial run over what is needed: publishing and other programs take their part
-constexpr double kSafePace = 1.2;
-constexpr double kSlowBath = 100.0;                        // from that Q on few kicks suffice
 constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
@@ -85,53 +83,17 @@ std::string find_clock_publisher() {
   return {};
 }
 
-double frequency_ratio(const SiModel& si) { return si.omega_h_rad_per_s / si.omega_v_rad_per_s; }
-
-// So many kicks per tau suffice from kSlowBath on (docs/levers.md): the golden section of omega_h/omega_v, so that they
-// do not lock to the swing of the lateral spring; of a soft one those measured for mica.
-double suitable_kicks(const SiModel& si) {
-  constexpr double kGolden = 0.618034, kMica = 11.09, kLeast = 8.6;
-  const double kicks = kGolden * frequency_ratio(si);
-  return kicks < kLeast ? kMica : kicks;
-}
-
 // A run that cannot keep real time says so before it falls behind.
 void report_pace(const Parameters& p) {
   const double pace = measure_pace(p);
   ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
-  if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return;
-  std::string fewer_kicks;
-  const double kicks = suitable_kicks(p.si);
-  if (p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > 1.1 * kicks) {
-    fewer_kicks = " kicks_per_tau = " + number_text(std::round(1000.0 * kicks) / 1000.0) + ',';
-  }
-  ROS_WARN(
-      "this run will not keep its pace: time_scale = %g, and a trial run made %.2g times real time. Give time_scale = "
-      "%.1g, a lower sample_rate_hz, a contact_tolerance up to 1e-2,%s or model = hammer",
-      p.time_scale, pace, 0.7 * pace, fewer_kicks.c_str());
-}
-
-// Kicks near a whole or half number of turns of the lateral spring lock to its swing (docs/levers.md).
-bool are_locked(const Parameters& p) {
-  constexpr double kFewTurns = 0.4, kNear = 0.05;  // measured: 2 % of half a turn off, K_f is still 2 % wrong
-  if (!run_settings(p).bath.is_on()) return false;
-  const double turns = frequency_ratio(p.si) / p.bath.kicks_per_tau;
-  return turns > kFewTurns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < kNear;
+  const std::string fault = find_pace_fault(p, pace);
+  if (!fault.empty()) ROS_WARN_STREAM(fault);
 }
 
 void report_run(const Parameters& p, const std::string& scheduler) {
-  if (are_locked(p)) {
-    ROS_WARN(
-        "kicks_per_tau = %g locks to the swing of the lateral spring, as omega_h/omega_v = %.4g: K_f may be wrong by "
-        "some per cent. Give kicks_per_tau = %.5g",
-        p.bath.kicks_per_tau, frequency_ratio(p.si), suitable_kicks(p.si));
-  }
-  if (p.bath.temperature_k > 0.0 && !run_settings(p).bath.is_on()) {
-    ROS_WARN("temperature_k = %g has no effect: quality_factor is 0, so no heat reaches the tip", p.bath.temperature_k);
-  }
-  ROS_INFO("tip: %g N/m at %g Hz, %g N/m laterally, effective mass %g kg; load %g N; tau = %g s", spring_constant(p.si),
-           p.si.omega_v_rad_per_s / kTwoPi, p.si.tip_mass_kg * std::pow(p.si.omega_h_rad_per_s, 2), p.si.tip_mass_kg,
-           0.0 - spring_constant(p.si) * p.si.rest_height_m, Units(p.si).time());
+  for (const std::string& trap : find_traps(p)) ROS_WARN_STREAM(trap);
+  ROS_INFO_STREAM("tip: " << describe_tip(p));
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s", to_eta(p.drag_velocity, p.si),
            p.sample_rate_hz, static_cast<unsigned long>(samples_per_batch(p)), scheduler.c_str());
 }

@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "afm/number_text.h"
+#include "node/params/advice.h"
+
 namespace afm::node {
 namespace {
 
@@ -43,11 +46,20 @@ bool is_blamed(const std::string& name, const std::string& faults) {
 }
 
 TEST(Parameters, EveryFaultIsReportedAtOnce) {
-  const Given given{{"restitution_gamma", 1.5}, {"tip_mass_kg", -408e-12},     {"omega_v_rad_per_s", kNaN},
-                    {"time_scale", 0.0},        {"batch_rate_hz", "fast"},     {"sample_rate_hz", kInfinity},
-                    {"gama", 0.7},              {"friction_window_tau", -1.0}, {"model", "spring"},
-                    {"record", "yes please"},   {"bag_directory", 5},          {"max_drag_velocity", -1.0},
-                    {"paused", "no"},           {"commands_eta", list(3.4, 99.0)}};
+  const Given given{{"restitution_gamma", 1.5},
+                    {"tip_mass_kg", -408e-12},
+                    {"omega_v_rad_per_s", kNaN},
+                    {"time_scale", 0.0},
+                    {"batch_rate_hz", "fast"},
+                    {"sample_rate_hz", kInfinity},
+                    {"gama", 0.7},
+                    {"friction_window_tau", -1.0},
+                    {"model", "spring"},
+                    {"record", "yes please"},
+                    {"bag_directory", 5},
+                    {"max_drag_velocity", -1.0},
+                    {"paused", "no"},
+                    {"commands_eta", list(3.4, 99.0)}};
   const std::string faults = refusal(given);
   for (const auto& [name, value] : given) EXPECT_TRUE(is_blamed(name, faults)) << name << " in\n" << faults;
 }
@@ -123,6 +135,42 @@ TEST(Parameters, ATipUnderALoadBeginsAtRestInAValley) {
   EXPECT_LT(largest_swing(pressed), 0.5 * largest_swing(dropped));
   Faults faults;  // a load that does not hold it down
   EXPECT_EQ(read({{"load_n", 1e-12}}, faults).initial.phase, Parameters().initial.phase);
+}
+
+// A lever of omega_h/omega_v = 22 in a bath, with so many kicks.
+Parameters heated_lever(double kicks_per_tau, const Given& more = {}) {
+  Given given{{"spring_constant_n_per_m", 0.2}, {"resonance_hz", 13e3},    {"lateral_spring_constant_n_per_m", 96.8},
+              {"temperature_k", 300.0},         {"quality_factor", 100.0}, {"kicks_per_tau", kicks_per_tau}};
+  for (const auto& [name, value] : more) given[name] = value;
+  Faults faults;
+  const Parameters parameters = read(given, faults);
+  EXPECT_TRUE(faults.empty()) << describe(faults);
+  return parameters;
+}
+
+// Measured: at half of omega_h/omega_v K_f is up to 14 % wrong (docs/levers.md).
+TEST(Advice, KicksThatLockToTheLateralSpringAreNamedWithARateThatDoesNot) {
+  for (const double locked : {11.09, 22.0, 43.5}) {
+    const std::vector<std::string> traps = find_traps(heated_lever(locked));
+    ASSERT_EQ(traps.size(), 1u) << locked;
+    EXPECT_NE(traps[0].find("kicks_per_tau = " + number_text(locked)), std::string::npos) << traps[0];
+    EXPECT_NE(traps[0].find("Give kicks_per_tau = 13.597"), std::string::npos) << traps[0];
+  }
+  for (const double rate : {13.597, 29.034, 122.99}) EXPECT_TRUE(find_traps(heated_lever(rate)).empty()) << rate;
+}
+
+TEST(Advice, HeatWithoutDampingHasNoEffect) {
+  Faults faults;
+  EXPECT_EQ(find_traps(read({{"temperature_k", 300.0}}, faults)).size(), 1u);
+  EXPECT_TRUE(find_traps(read({{"temperature_k", 300.0}, {"quality_factor", 100.0}}, faults)).empty());
+}
+
+TEST(Advice, ARunThatIsTooSlowIsToldHowSlowlyItCanRun) {
+  const std::string fault = find_pace_fault(heated_lever(29.034), 0.5);
+  EXPECT_NE(fault.find("Give time_scale = 0.3"), std::string::npos) << fault;  // 0.7 of it, one digit
+  EXPECT_NE(fault.find("kicks_per_tau = 13.597"), std::string::npos) << fault;
+  EXPECT_EQ(find_pace_fault(heated_lever(29.034, {{"time_scale", 0.3}}), 0.5), "");
+  EXPECT_EQ(find_pace_fault(heated_lever(29.034, {{"pace", std::string("lockstep")}}), 0.5), "");
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+// What is said of a run before it begins, so that nobody learns it from wrong numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "node/params/parameters.h"
+
+namespace afm::node {
+
+// The tip in the terms of its owner.
+std::string describe_tip(const Parameters& parameters);
+
+// What makes the numbers of a run other than its owner expects: kicks that lock to the lateral spring, and heat without
+// damping.
+std::vector<std::string> find_traps(const Parameters& parameters);
+
+// What to change where a trial run made too few times real time (`pace`); nothing where it made enough.
+std::string find_pace_fault(const Parameters& parameters, double pace);
+
+}  // namespace afm::node
