@@ -8,7 +8,7 @@ from registry import picture
 from . import style
 from .methods import METHODS, method_style
 
-# eta = 3.4 is left out: all methods agree there within the spread of chaotic runs (docs/accuracy.md)
+# eta = 3.4 is left out: nearly all methods agree there within the spread of chaotic runs (docs/accuracy.md)
 SCENES = [("kf_2", r"$\eta$ = 2: against the closed form"),
           ("kf_3", r"$\eta$ = 3, $v_c$ = 0.01 $\eta$: 600 bounces in a $\tau$")]
 LEAST, MOST = 1e-15, 1e2  # errors outside are drawn at the edge
