@@ -81,8 +81,7 @@ void print_run(const Scene& scene, const afm::Bath& bath, const Options& o, Summ
   const afm::TimedRun timed =
       afm::time_tip(afm::tip_at_start(scene.model, scene.eta, bath, o.tolerance), o.transient, o.tau);
   const double taus = static_cast<double>(o.tau), times = scene.tau_s / timed.seconds;
-  std::printf(",%.4g,%.9g,%.6g,%ld", times, timed.run.energy / (scene.eta * scene.eta * taus), timed.run.events / taus,
-              timed.run.search_failures);
+  std::printf(",%.4g,%.6g,%ld", times, timed.run.events / taus, timed.run.search_failures);
   std::fflush(stdout);
   summary.add(times, scene.tau_s);
 }
@@ -105,8 +104,8 @@ int main(int argc, char** argv) {
   return app.run(argc, argv, [&] {
     std::printf(
         "lever,crystal,load_nn,speed_um_per_s,tau_us,frequency_ratio,amplitude,rest_height,eta,cutoff,temperature,"
-        "times_real_time,k_f,impacts_per_tau,search_failures,"
-        "heated_times_real_time,heated_k_f,heated_impacts_per_tau,heated_search_failures\n");
+        "times_real_time,impacts_per_tau,search_failures,"
+        "heated_times_real_time,heated_impacts_per_tau,heated_search_failures\n");
     Summary plain, heated;
     for (const Lever& lever : kLevers) {
       if (!is_wanted(o, lever.name)) continue;
