@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/reflection.h"
-#include "afm/surface.h"
 #include "afm/tip.h"
 
 namespace afm {
@@ -15,12 +13,6 @@ namespace afm {
 inline double stored_energy(const Model& m, const FreeState& s) {
   const double omega_h = kTwoPi * m.frequency_ratio, Y = s.y - m.y0;
   return 0.5 * (s.u * s.u + s.w * s.w + omega_h * omega_h * s.X * s.X + kTwoPi * kTwoPi * Y * Y);
-}
-
-// Horizontal velocity before an impact.
-inline double incident_u(const Model& m, const Impact& impact) {
-  const double slope = surface_jet(m.H, impact.surface_phase).h1;
-  return (impact.tangential_velocity + slope * impact.normal_speed) / std::sqrt(1.0 + slope * slope);
 }
 
 class EnergyBalance {

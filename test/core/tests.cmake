@@ -15,7 +15,6 @@ set(core_tests
   contact/chatter
   contact/chatter_end
   contact/contact
-  contact/contact_energy
   contact/contact_step
   contact/slide
   contact/slide_release

@@ -1,8 +1,11 @@
-// The drag works only through the springs: what is lost in impacts is what it put in, less what is stored.
+// The drag works only through the springs: what is lost is what it put in, less what is stored. Through flights,
+// bounces, chatter, contact and release.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
+#include "support/models.h"
 #include "trials/energy_balance.h"
 
 namespace afm {
@@ -10,41 +13,58 @@ namespace {
 
 constexpr double kEveryBounce = 0.0;  // contact tolerance
 
-struct Balance {
-  double work, lost, stored;
+struct Drag {
+  double eta, cutoff_share, tolerance = kDefaultContactTolerance;
 };
 
-Balance run(const Model& model, double eta, int impacts) {
-  Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, kEveryBounce);
-  const double before = stored_energy(model, tip.state());
-  long double work = 0.0L, lost = 0.0L;
-  for (int i = 0; i < impacts;) {
-    const double u = tip.state().u;
-    if (tip.advance(kEndOfTime) != Outcome::impact) continue;
-    ++i;
-    // the work on the springs in a flight: eta times the force, which is the change of u
-    work += eta * (incident_u(model, tip.last_impact()) - u);
-    lost += tip.last_impact().energy_loss;
+void PrintTo(const Drag& drag, std::ostream* out) {
+  *out << "eta " << drag.eta << ", v_c " << drag.cutoff_share << " eta, tolerance " << drag.tolerance;
+}
+
+class EnergyAt : public testing::TestWithParam<Drag> {};
+
+TEST_P(EnergyAt, WhatIsLostIsTheWorkOfTheDragLessWhatIsStored) {
+  const auto [eta, cutoff_share, tolerance] = GetParam();
+  Tip tip(model_with_cutoff(cutoff_share * std::abs(eta)), eta, start_at(eta), tolerance);
+  EnergyBalance balance(tip);
+  int events = 0, bursts = 0;
+  while (events < 100000) {
+    const Outcome outcome = balance.advance_segment(tip, kEndOfTime);
+    ASSERT_NE(outcome, Outcome::search_failed);
+    if (outcome == Outcome::flying) continue;
+    ++events;
+    if (tip.last_impact().kind == ImpactKind::burst) ++bursts;
+    if (events % 1000 != 0) continue;
+    ASSERT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << events;
   }
-  return {static_cast<double>(work), static_cast<double>(lost), stored_energy(model, tip.state()) - before};
+  EXPECT_EQ(bursts > 20, tolerance > 0.0);
+  EXPECT_GT(balance.lost(), 0.0);
 }
 
-class EnergyAtEta : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(EveryBounce, EnergyAt,
+                         testing::Values(Drag{0.5, 0.1, kEveryBounce}, Drag{1.5, 0.1, kEveryBounce},
+                                         Drag{2.0, 0.1, kEveryBounce}, Drag{2.75, 0.1, kEveryBounce},
+                                         Drag{3.4, 0.1, kEveryBounce}, Drag{-3.4, 0.1, kEveryBounce},
+                                         Drag{5.0, 0.1, kEveryBounce}, Drag{8.0, 0.1, kEveryBounce}));
+INSTANTIATE_TEST_SUITE_P(WithBursts, EnergyAt,
+                         testing::Values(Drag{0.05, 0.1}, Drag{0.2, 0.1}, Drag{0.2, 0.01}, Drag{0.5, 0.01},
+                                         Drag{-0.5, 0.01}, Drag{2.75, 0.01}, Drag{3.0, 0.01}, Drag{5.0, 0.01},
+                                         Drag{9.0, 0.01}, Drag{50.0, 0.01}));
 
-TEST_P(EnergyAtEta, WhatIsLostIsTheWorkOfTheDragLessWhatIsStored) {
-  Model model;
-  model.v_c = 0.1 * std::abs(GetParam());
-  const Balance balance = run(model, GetParam(), 100000);
-  EXPECT_NEAR(balance.lost, balance.work - balance.stored, 1e-12 * balance.lost);
-  EXPECT_GT(balance.lost, 0.0);
+TEST(Energy, IsInBalanceWhateverTheRestitution) {
+  for (const double gamma : {0.0, 0.3, 0.9, 0.99, 1.0}) {
+    for (const double v_c : {0.0, 1e-3, 0.05, 10.0}) {
+      Tip tip(model_with(gamma, v_c), 0.7, start_at(0.7));
+      EnergyBalance balance(tip);
+      while (tip.now() < ModelTime{300, 0.0}) balance.advance_segment(tip, {300, 0.0});
+      EXPECT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip)) << gamma << ", v_c " << v_c;
+    }
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(DragSpeeds, EnergyAtEta, testing::Values(0.5, 1.5, 2.0, 2.75, 3.4, -3.4, 5.0, 8.0));
 
 // What an elastic tip at rest gains in a million impacts, as a part of its energy.
 double drift_at_rest(double phase, double velocity) {
-  Model model;
-  model.gamma = 1.0;
+  const Model model = model_with(1.0, Model().v_c);
   Tip tip(model, 0.0, FreeState{phase, 0.03, 0.2, velocity, 0.0}, kEveryBounce);
   const double energy = stored_energy(model, tip.state());
   for (int impacts = 0; impacts < 1000000; ++impacts) {
@@ -58,8 +78,8 @@ double drift_at_rest(double phase, double velocity) {
 TEST(Energy, OfAnElasticTipAtRestDoesNotDrift) {
   double sum = 0.0;
   int starts = 0;
-  for (const double phase : {0.1, 0.25, 0.37, 0.45, 0.6, 0.8}) {
-    for (const double velocity : {0.1, 0.5, 1.3}) {
+  for (const double phase : {0.1, 0.37, 0.6}) {
+    for (const double velocity : {0.1, 1.3}) {
       const double drift = drift_at_rest(phase, velocity);
       EXPECT_NEAR(drift, 0.0, 3e-12) << phase << ", " << velocity;
       sum += drift;

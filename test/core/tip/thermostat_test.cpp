@@ -151,14 +151,16 @@ TEST(FreeSpring, ItsNoiseIsALorentzianOfWidthFOverQ) {
   constexpr int kRecords = 3000, kSteps = 400 * 8;  // each 20 times as long as the noise remembers
   FreeSprings springs(bath_of(kTheta, kQ, kRate), {0.0, 0.0, 0.0, 0.0, 0.0});
   const std::vector<double> offsets{0.0, 0.25 / kQ, 0.5 / kQ, 1.0 / kQ};
+  std::vector<std::vector<std::complex<double>>> waves(offsets.size());
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    for (int i = 0; i < kSteps; ++i) waves[k].push_back(std::polar(1.0, -kTwoPi * (1.0 + offsets[k]) * i / kRate));
+  }
   std::vector<double> power(offsets.size(), 0.0);
   for (int record = 0; record < kRecords; ++record) {
     std::vector<std::complex<double>> sums(offsets.size());
-    for (int i = 0; i < kSteps; ++i) {
+    for (std::size_t i = 0; i < kSteps; ++i) {
       springs.step();
-      for (std::size_t k = 0; k < offsets.size(); ++k) {
-        sums[k] += springs.state().Y * std::polar(1.0, -kTwoPi * (1.0 + offsets[k]) * i / kRate);
-      }
+      for (std::size_t k = 0; k < offsets.size(); ++k) sums[k] += springs.state().Y * waves[k][i];
     }
     for (std::size_t k = 0; k < offsets.size(); ++k) power[k] += std::norm(sums[k]) / (kRate * kSteps * kRecords);
   }
