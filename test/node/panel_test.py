@@ -34,7 +34,7 @@ class Display:
 
 
 DISPLAY = Display()
-from PyQt5 import QtCore, QtTest, QtWidgets  # noqa: E402
+from PyQt5 import QtCore, QtGui, QtTest, QtWidgets  # noqa: E402
 from afm_emulator.panel.link import Link  # noqa: E402
 from afm_emulator.panel.pictures import BLUE, ORANGE, friction_curve  # noqa: E402
 from afm_emulator.panel.window import Window  # noqa: E402
@@ -88,6 +88,13 @@ class Panel:
         image, count = plot.grab().toImage(), 0
         wanted = int(colour[1:], 16)
         return sum(image.pixel(x, y) & 0xffffff == wanted for x in range(image.width()) for y in range(image.height()))
+
+    def on_screen(self, plot):
+        """The part of the screen that shows it: grab() paints anew, the screen keeps what nobody paints."""
+        corner = plot.mapTo(self.window, QtCore.QPoint(0, 0))
+        shown = APPLICATION.primaryScreen().grabWindow(self.window.winId(), corner.x(), corner.y(), plot.width(),
+                                                       plot.height())
+        return shown.toImage().convertToFormat(QtGui.QImage.Format_RGB32)
 
     def keep(self, name):
         path = results_path('panel_%s.png' % name)
@@ -218,6 +225,19 @@ class Knobs(EmulatorTest):
         self.assertEqual(self.panel.window.scope.vertical.grab().toImage(), still)
         self.panel.press('hold')
         until(lambda: self.panel.window.scope.vertical.grab().toImage() != still, 'it goes on')
+
+    def test_the_screen_shows_the_newest_pictures(self):
+        self.panel.type_in('eta', '3.4')
+        self.applied(lambda m: abs(m.drag_velocity / SPEED_UNIT - 3.4) < 1e-9, 'a motion that never repeats')
+        window = self.panel.window
+        plots = window.scope.vertical, window.scope.lateral, window.path.plot, window.loop_plot.plot
+        end = time.monotonic() + 1.0
+        until(lambda: time.monotonic() > end, 'motions on the screen, one after another')
+        self.panel.press('hold')
+        self.addCleanup(self.panel.press, 'hold')
+        for plot in plots:
+            newest = plot.grab().toImage().convertToFormat(QtGui.QImage.Format_RGB32)
+            until(lambda: self.panel.on_screen(plot) == newest, 'the newest picture is on the screen')
 
 
 class Coming(NodeTest):

@@ -33,7 +33,8 @@ class Line(pg.PlotCurveItem):
     axes."""
 
     def boundingRect(self):
-        return self.viewRect() or super().boundingRect()
+        view = self.getViewBox()  # pyqtgraph 0.13's viewRect() of a curve is that of its first call
+        return super().boundingRect() if view is None else view.viewRect()
 
 
 class Plot(pg.PlotWidget):
@@ -158,7 +159,8 @@ class Loop:
         if now is None or not now.shape[1]:
             return
         before = lines[-loop.direction]
-        if before.shape[1] and np.ptp(now[0]) > 2.0 * np.ptp(before[0]):
+        if before.shape[1] and (np.ptp(now[0]) > 2.0 * np.ptp(before[0]) or now[0].min() > before[0].max() or
+                                now[0].max() < before[0].min()):
             before = before[:, :0]  # this is no loop any more
         origin = min(line[0].min() for line in (now, before) if line.shape[1])
         shown = {loop.direction: now, -loop.direction: before}
