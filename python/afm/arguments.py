@@ -69,7 +69,8 @@ def _explained(call: Callable) -> Callable:
                 _check(name, kind, value)
             for name, value in options.items():
                 if name not in dict(kinds):
-                    raise TypeError('%s has no argument %s' % (type(self).__name__, name)) from None
+                    raise TypeError('%s has no argument %s; it has %s' % (
+                        type(self).__name__, name, ', '.join(dict(kinds)))) from None
                 _check(name, dict(kinds)[name], value)
             raise
     return explained
