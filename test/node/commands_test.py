@@ -1,10 +1,13 @@
 #!/usr/bin/python3
-"""A drag command takes effect at a model time that is reported, and the friction is the one known for that speed. One
-that cannot be is counted and changes nothing. scripts/soak sends thousands, of every size."""
+"""Model time goes as wall time does, and every batch tells its own. A drag command takes effect at a model time that is
+reported, and the friction is the one known for that speed. One that cannot be is counted and changes nothing.
+scripts/soak sends thousands, of every size."""
 import math
+import time
+from fractions import Fraction
 
 from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, EmulatorTest, run
-from topics import key, tau_between
+from topics import key, tau_between, wait_until
 
 SLOPE = 2 * math.pi * 0.05 / 0.52
 K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed form at even eta [m_tip/tau]
@@ -18,6 +21,33 @@ class Commands(EmulatorTest):
     def setUp(self):
         super().setUp()
         self.applied, self.friction, self.deflection = (self.topics[n] for n in ('applied', 'friction', 'deflection'))
+
+    def test_model_time_goes_as_wall_time_does(self):
+        """For a second: a busy machine holds it up, and then it catches up."""
+        self.deflection.wait_for()
+        begin = (time.monotonic(), self.deflection.messages[-1].time)
+
+        def goes_along():
+            nonlocal begin
+            end = (time.monotonic(), self.deflection.messages[-1].time)
+            if end[0] - begin[0] < 1.0:
+                return False
+            ratio = tau_between(begin[1], end[1]) * TAU_S / (end[0] - begin[0])
+            begin = end
+            return abs(ratio - 1.0) < 0.05
+        wait_until(goes_along, 'a second in real time', deadline_s=60.0)
+        self.topics['status'].wait_for_next(lambda m: abs(m.real_time_factor - 1.0) < 0.05, 'the status says so')
+
+    def test_batches_tell_their_exact_time(self):
+        self.deflection.wait_for_more(20)
+        configuration = self.topics['configuration'].messages[-1]
+        period = Fraction(configuration.sample_period_tau)
+        for message in list(self.deflection.messages):
+            reported = message.time.tau + Fraction(message.time.phase)
+            self.assertLess(abs(reported - message.first_sample * period), Fraction('1e-9'))
+            self.assertEqual(message.sample_period, configuration.sample_period)
+            self.assertEqual(len(message.vertical), configuration.samples_per_batch)
+            self.assertGreater(message.header.stamp.to_sec(), 0.0)
 
     def test_friction_peaks_at_even_eta_in_both_directions(self):
         """After long, in every form in which it is reported."""

@@ -71,14 +71,6 @@ class Diagnostics(NodeTest):
         flood.unregister()
         self.end()
 
-    def test_slower_than_time(self):
-        # chatter bounce by bounce: hundreds of times as many impacts as in real time
-        self.run_emulator(contact_tolerance=0.0, cutoff_speed=5e-8, drag_velocity=3.0 * SPEED_UNIT, time_scale=10.0,
-                          impact_budget=2000)
-        self.expect('emulation', ERROR, 's behind the wall clock')
-        self.expect('numerics', WARN, 'impact budget')
-        self.end()
-
 
 if __name__ == '__main__':
     run(Diagnostics)

@@ -69,13 +69,6 @@ class FullDisk(NodeTest):
         bags.assert_sound(self, self.answer.path)
         checks.assert_identical(self, self.answer.path)
 
-    def test_does_not_start_without_room(self):
-        self.fill(RESERVE_MB * 1000000)
-        answer = self.begin('none.bag')
-        self.assertFalse(answer.success)
-        self.assertIn('disk_reserve_mb', answer.message)
-        self.assertEqual(os.listdir(self.disk), ['of_others'])
-
     def test_survives_a_disk_that_others_fill(self):
         self.begin_recording()
         self.fill(0)

@@ -14,7 +14,7 @@ from emulator_under_test import SPEED_UNIT, TAU_S, NodeTest, run
 from tcpros import BareSubscriber, Drain
 from topics import Topic, wait_until
 
-COMMANDS, RATE_HZ, SUBSCRIBERS = 1000, 200, 20
+COMMANDS, RATE_HZ, SUBSCRIBERS = 600, 200, 20
 
 
 class Load(NodeTest):

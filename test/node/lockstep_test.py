@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""In lockstep the emulator advances when it is asked to, and a closed loop is a function of its controller. Model time
-on /clock rises strictly, whatever happens."""
+"""In lockstep the emulator advances when it is asked to; my_controller_test.sh tests that a closed loop repeats. Model
+time on /clock rises strictly, whatever happens."""
 import math
 import sys
 import threading
@@ -28,11 +28,6 @@ for _ in range(count):
     rate.sleep()
 print('wall rate', count / (time.monotonic() - begin))
 '''
-
-
-def values(answer):
-    """All of an answer, comparable even where it holds NaN."""
-    return [repr(getattr(answer, name)) for name in answer.__slots__ if name != 'epoch']
 
 
 class Lockstep(EmulatorTest):
@@ -82,17 +77,6 @@ class Lockstep(EmulatorTest):
         friction = self.topics['friction'].messages[-1]
         self.assertAlmostEqual(answer.k_f_work / friction.k_f_work, 1.0, delta=0.02)
         self.assertAlmostEqual(answer.k_f / friction.k_f, 1.0, delta=1e-9)
-
-    def closed_loop(self):
-        self.begin()
-        force, answers = 0.0, []
-        for _ in range(20):
-            answers.append(self.advance(0.01, NAN, -1e-10 - 0.3 * force))
-            force = answers[-1].mean_lateral_force
-        return [values(answer) for answer in answers]
-
-    def test_a_closed_loop_repeats_to_the_last_bit(self):
-        self.assertEqual(self.closed_loop(), self.closed_loop())
 
     def test_what_cannot_be_is_refused_by_name_and_nothing_advances(self):
         now = key(self.advance(0.01).end)

@@ -10,7 +10,6 @@ import tempfile
 import time
 
 import roslib.packages
-import rospy
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process, run
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
@@ -295,13 +294,6 @@ class Ending(NodeTest):
         code = panel.wait()
         self.assertIn(code, (0, -signal.SIGALRM), panel.output())  # else the kernel ends it, after a second
         print('ended after %.2f s' % (time.monotonic() - asked))
-
-    def test_at_ctrl_c(self):
-        panel = self.start(Process([self.NODE, '__name:=panel_to_end']))
-        subscribed = lambda: rospy.get_master().getSystemState()[2][1]  # noqa: E731
-        wait_until(lambda: any('/panel_to_end' in nodes for _, nodes in subscribed()), 'it subscribes')
-        panel.child.send_signal(signal.SIGINT)
-        self.ended(panel, time.monotonic())
 
     def test_when_its_window_is_closed(self):
         close_it = '''

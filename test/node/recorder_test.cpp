@@ -1,14 +1,19 @@
-// What is recorded while nobody keeps time waits for the disk; what is recorded in real time does not.
+// What the recorder refuses, what it does when its disk fails it, and what waits for the disk: what is recorded while
+// nobody keeps time does, what is recorded in real time does not.
 #include "node/recorder/recorder.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 
+#include <chrono>
 #include <filesystem>
+#include <fstream>
 
 namespace afm::node {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr int kMessages = 400;  // together half more than fits into the queue
 
@@ -24,26 +29,42 @@ class RecorderTest : public testing::Test {
                {"md5sum", ros::message_traits::md5sum<std_msgs::String>()},
                {"message_definition", ros::message_traits::definition<std_msgs::String>()}};
     topic_ = std::make_shared<BagTopic>(BagTopic{"/x", header});
+    fs::create_directories(directory_);
   }
-  ~RecorderTest() override { std::filesystem::remove_all(directory_); }
+  ~RecorderTest() override { fs::remove_all(directory_); }
 
-  // Records configuration, what is applied and a snapshot, then the messages, faster than any disk.
-  Recorder::Status record(bool unhurried) {
-    Recorder recorder({directory_, 0, 0, 0.0, rosbag::compression::Uncompressed}, [] {});
-    const Recorder::Reply started = recorder.start("run");
-    EXPECT_TRUE(started.success) << started.message;
+  Recorder::Settings settings() const { return {directory_, 0, 0, 0.0, rosbag::compression::Uncompressed}; }
+  std::string file(const std::string& name) const { return directory_ + "/" + name; }
+  void write_file(const std::string& name) const { std::ofstream(file(name)) << "mine"; }
+  bool is_untouched(const std::string& name) const { return fs::file_size(file(name)) == 4; }
+
+  void record_beginning(Recorder& recorder, bool unhurried = false) {
     for (const Role role : {Role::configuration, Role::applied, Role::snapshot}) {
       recorder.record(topic_, bytes_, role, unhurried);
     }
+  }
+
+  // Records a run of messages, faster than any disk.
+  Recorder::Status record(bool unhurried) {
+    Recorder recorder(settings(), [] {});
+    const Recorder::Reply started = recorder.start("run");
+    EXPECT_TRUE(started.success) << started.message;
+    record_beginning(recorder, unhurried);
     for (int i = 0; i < kMessages; ++i) recorder.record(topic_, bytes_, Role::ordinary, unhurried);
     EXPECT_TRUE(recorder.stop().success);
     return recorder.status();
   }
 
-  std::size_t messages_in_bag() const {
-    rosbag::Bag bag(directory_ + "/run.bag");
-    return rosbag::View(bag).size();
+  // Goes on recording until the recording ends by itself; returns why.
+  std::string record_until_it_ends(Recorder& recorder) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(50);
+    while (!recorder.status().recording.empty() && std::chrono::steady_clock::now() < deadline) {
+      recorder.record(topic_, bytes_, Role::ordinary, true);
+    }
+    return recorder.status().error;
   }
+
+  std::size_t messages_in_bag() const { return rosbag::View(rosbag::Bag(file("run.bag"))).size(); }
 
   const std::string directory_ = testing::TempDir() + "afm_recorder_" + std::to_string(getpid());
   MessageBytes bytes_;
@@ -59,6 +80,75 @@ TEST_F(RecorderTest, CountsWhatFindsNoRoom) {
   const std::uint64_t dropped = record(false).dropped_from_recording;
   EXPECT_GT(dropped, 0u);
   EXPECT_EQ(messages_in_bag() + dropped, kMessages + 3u);
+}
+
+TEST_F(RecorderTest, RefusesNamesThatLeadElsewhereAndThoseThatAreTaken) {
+  write_file("kept.bag");
+  Recorder recorder(settings(), [] {});
+  for (const char* name : {"/tmp/away.bag", "../away.bag", "sub/away.bag", "..", ".", "sub/", "kept.bag"}) {
+    const Recorder::Reply reply = recorder.start(name);
+    EXPECT_FALSE(reply.success) << name;
+    EXPECT_FALSE(reply.message.empty()) << name;
+  }
+  EXPECT_TRUE(is_untouched("kept.bag"));
+  const Recorder::Reply by_itself = recorder.start("");
+  EXPECT_TRUE(by_itself.success) << by_itself.message;
+  EXPECT_EQ(fs::path(by_itself.path).parent_path(), fs::absolute(directory_).lexically_normal());
+}
+
+TEST_F(RecorderTest, MakesOneRecordingAtATime) {
+  Recorder recorder(settings(), [] {});
+  EXPECT_FALSE(recorder.stop().success);
+  EXPECT_TRUE(recorder.start("run").success);
+  EXPECT_FALSE(recorder.start("second").success);
+  EXPECT_TRUE(recorder.stop().success);
+  EXPECT_FALSE(recorder.stop().success);
+}
+
+TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {
+  for (const char* directory : {"/sys/kernel", "/dev/null/bags"}) {  // where not even root can make a file
+    Recorder::Settings elsewhere = settings();
+    elsewhere.directory = directory;
+    const Recorder::Reply reply = Recorder(elsewhere, [] {}).start("run");
+    EXPECT_FALSE(reply.success);
+    EXPECT_NE(reply.message.find(directory), std::string::npos) << reply.message;
+  }
+}
+
+TEST_F(RecorderTest, DoesNotStartWithoutRoom) {
+  Recorder::Settings all_kept = settings();
+  all_kept.reserve_bytes = std::uint64_t{1} << 60;
+  const Recorder::Reply reply = Recorder(all_kept, [] {}).start("run");
+  EXPECT_FALSE(reply.success);
+  EXPECT_NE(reply.message.find("disk_reserve_mb"), std::string::npos) << reply.message;
+  EXPECT_TRUE(fs::is_empty(directory_));
+}
+
+TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
+  Recorder recorder(settings(), [] {});
+  EXPECT_TRUE(recorder.start("run").success);
+  record_beginning(recorder);
+  fs::remove_all(directory_);
+  EXPECT_NE(record_until_it_ends(recorder).find("No such file"), std::string::npos);
+  EXPECT_FALSE(recorder.stop().success);
+  EXPECT_TRUE(recorder.start("again").success);
+  record_beginning(recorder);
+  EXPECT_TRUE(recorder.stop().success);
+  EXPECT_TRUE(fs::exists(file("again.bag")));
+}
+
+TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
+  write_file("run_001.bag");
+  Recorder::Settings split = settings();
+  split.split_bytes = 5'000'000;
+  Recorder* self = nullptr;
+  Recorder recorder(split, [&] { self->record(topic_, bytes_, Role::snapshot, false); });
+  self = &recorder;
+  EXPECT_TRUE(recorder.start("run").success);
+  record_beginning(recorder);
+  EXPECT_NE(record_until_it_ends(recorder).find("run_001.bag"), std::string::npos);
+  EXPECT_TRUE(is_untouched("run_001.bag"));
+  EXPECT_GT(messages_in_bag(), 3u);
 }
 
 }  // namespace

@@ -28,12 +28,6 @@ class Entry:
         message.serialize(buffer)
         self.raw = (self.raw[0], buffer.getvalue()) + self.raw[2:]
 
-    def edit_time(self, field='time', **values):
-        time = getattr(self.message(), field)
-        for name, value in values.items():
-            setattr(time, name, value)
-        self.edit(**{field: time})
-
     def flip_last_bit(self, byte):
         data = bytearray(self.raw[1])
         data[byte] ^= 1

@@ -38,16 +38,12 @@ class SpoiledBags(SpoiledBag):
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=self.good)
 
     def test_one_bit(self):
-        full = [i for i, e in enumerate(self.of('impacts')) if i > 60 and e.message().impacts][0]
+        """Of any byte fuzz_bag_messages tests it, and message_difference_test.cpp the words."""
         self.spoil_each(
             (DIFFERS, ('message 80 of /afm/deflection', 'lateral[', 'last command: number'), None,
              lambda: self.of('deflection')[80].flip_last_bit(-8)),
-            (DIFFERS, ('.energy_loss',), None, lambda: self.of('impacts')[full].flip_last_bit(-13)),
-            (DIFFERS, ('heat_to_bath',), None, lambda: self.of('friction')[80].flip_last_bit(-8)),
             (DIFFERS, ('estimate_energy[', '/afm/snapshot'), None,
-             lambda: self.of('snapshot')[0].edit(estimate_energy=[1e-300, 0.0])),
-            (DIFFERS, ('initial_height', '/afm/configuration'), None,
-             lambda: self.of('configuration')[0].edit(initial_height=0.21)))
+             lambda: self.of('snapshot')[0].edit(estimate_energy=[1e-300, 0.0])))
 
     def test_what_was_applied(self):
         def edit(**values):
@@ -59,16 +55,6 @@ class SpoiledBags(SpoiledBag):
             (UNCHECKED, ('CANNOT BE CHECKED', 'unknown model'), None, lambda: edit(model='nail')),
             (UNCHECKED, ('1 commands, the first after', 'what was compared is identical'), False,
              lambda: self.remove(self.of('applied')[1])))
-
-    def test_times_that_are_not_of_this_run(self):
-        for topic, index, field, tau, phase in (
-                ('friction', 80, 'time', 10**15, 0.5), ('friction', 80, 'begin', -1, 0.5),
-                ('deflection', 80, 'time', 5, 1.5), ('snapshot', 0, 'time', 5, float('nan'))):
-            with self.subTest(topic=topic, field=field):
-                self.setUp()
-                self.of(topic)[index].edit_time(field, tau=tau, phase=phase)
-                answer = checks.replay_check(self.write())
-                self.assertIn(answer.code, (DIFFERS, UNCHECKED), answer.text)
 
     def test_another_arithmetic(self):
         configuration = self.of('snapshot')[0].message().configuration

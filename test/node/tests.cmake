@@ -12,7 +12,6 @@ set(node_tests
   lever
   lockstep
   panel
-  publishes
   replay
   scenes
   shipped_files)
