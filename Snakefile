@@ -68,7 +68,7 @@ for name in PICTURES:
     TARGETS.setdefault(name, []).append(image(name))
 TARGETS.update({name: [image(name)] for name in EXAMPLES})
 TARGETS.update({"view": [image("view")], "scene_pictures": [image("scene_" + scene) for scene in SCENES],
-                "chart": TARGETS["speed_accuracy"] + TARGETS["pace"], "levels": [table("levels")]})
+                "chart": TARGETS["speed_accuracy"] + TARGETS["pace"]})
 TARGETS["scenes"] = TARGETS["scene_pictures"] + TARGETS["scene_levels"]
 TARGETS["paper"] = [file for name in PICTURES if re.match("fig|model", name) for file in TARGETS[name]] + \
     [table(name) for name in ("mica_in_si", "friction_attractors", "friction_orbits", "friction_averages")]
@@ -136,9 +136,6 @@ rule view_picture:
     output: image("view")
     threads: workflow.cores
     shell: "workflow/view_picture {output}"
-
-rule platforms:
-    shell: "scripts/platforms"
 
 rule publish:
     shell: "workflow/documents.py --publish {BUILD}/laboratory/full"

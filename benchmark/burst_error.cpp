@@ -11,11 +11,8 @@ namespace {
 
 struct Options {
   std::vector<double> eta{0.2, 0.5, 3.0, 5.0, 7.0, 9.0}, share{0.1, 0.01};
-  double tolerance = afm::kDefaultContactTolerance, gamma = 0.7, show = 0.0;
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
-  unsigned seed = 1;
-  bool fast = false;
 };
 
 double quantile(std::vector<double>& sorted, double p) {
@@ -24,9 +21,8 @@ double quantile(std::vector<double>& sorted, double p) {
 
 void print_row(double eta, double share, const Options& o) {
   afm::Model model;
-  model.gamma = o.gamma;
   model.v_c = share * eta;
-  afm::BurstTrials trials(model, eta, o.tolerance, o.seed, o.most_bounces, o.fast);
+  afm::BurstTrials trials(model, eta, afm::kDefaultContactTolerance, 1, o.most_bounces);
   std::vector<double> worst, tempered;
   double bounces = 0.0;
   while (worst.size() < o.bursts) {
@@ -34,10 +30,6 @@ void print_row(double eta, double share, const Options& o) {
     worst.push_back(t.worst());
     tempered.push_back(t.tempered());
     bounces += t.bounces;
-    if (o.show > 0.0 && t.worst() > o.show) {
-      std::printf("# burst %zu: dt %.2g phase %.2g X %.2g u %.2g g1 %.2g, normal speed %.2g, bounces %.0f\n",
-                  worst.size(), t.dt, t.phase, t.X, t.u, t.g1, t.normal_speed, t.bounces);
-    }
   }
   std::sort(worst.begin(), worst.end());
   std::sort(tempered.begin(), tempered.end());
@@ -53,13 +45,8 @@ int main(int argc, char** argv) {
   afm::CommandLine app("burst_error", "Error of bursts against bounces one by one (natural units).");
   app.option("eta", o.eta, "drag speeds [a/tau]");
   app.option("share", o.share, "cutoffs, in parts of eta");
-  app.option("gamma", o.gamma, "restitution");
-  app.option("tolerance", o.tolerance, "contact tolerance");
   app.option("bursts", o.bursts, "how many of each");
   app.option("most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
-  app.option("seed", o.seed, "of the starts");
-  app.option("show", o.show, "print every burst with an error above this");
-  app.flag("fast", o.fast, "at the next impact that is no chatter, after all bounces and bursts in between");
   return app.run(argc, argv, [&] {
     std::printf("eta,v_c,bursts,bounces,skipped,median,99_percent,max,99_percent_tempered,max_tempered\n");
     for (const double share : o.share) {

@@ -1,16 +1,13 @@
 #!/usr/bin/python3
 """How many control periods a second a controller makes in lockstep, from C++ and Python, cold and at 300 K: starts a
-master and an emulator of its own. Writes the table of docs/controllers.md.
+master and an emulator of its own. Prints the table of docs/controllers.md.
 
-usage: control_rates.py [--periods N] [--output FILE]     (default: 2000, docs/data/control_rates.csv)"""
-import argparse
+usage: control_rates.py [--periods N]     (default: 2000)"""
 import itertools
 import subprocess
-import sys
 import time
-from pathlib import Path
 
-from emulator import DATA, binary, emulator, own_master, write_table
+from emulator import binary, emulator, option, own_master
 
 # at eta = 3.4
 SCENES = {'cold': {}, '300 K and Q = 100': {'temperature_k': 300.0, 'quality_factor': 100.0}}
@@ -31,23 +28,18 @@ def measure_python(duration, periods):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--periods', type=int, default=2000)
-    parser.add_argument('--output', type=Path, default=DATA / 'control_rates.csv')
-    arguments = parser.parse_args()
-    lines = ['tip,period / ms,C++: periods a second,C++: times real time,'
-             'Python: periods a second,Python: times real time']
+    most_periods = option(__doc__, 'periods', 2000)
+    print('tip,period / ms,C++: periods a second,C++: times real time,'
+          'Python: periods a second,Python: times real time')
     with own_master() as server:
         for (scene, parameters), duration in itertools.product(SCENES.items(), DURATIONS_S):
-            periods = min(arguments.periods, int(30.0 / duration))  # 30 s of model time are enough
+            periods = min(most_periods, int(30.0 / duration))  # 30 s of model time are enough
             with emulator(server, dict(parameters, pace='lockstep', drag_velocity=1.1255437575458838e-05)):
                 cpp = float(subprocess.check_output([binary('control_rate'), '_duration:=%g' % duration,
                                                      '_periods:=%d' % periods], text=True).split()[-1])
                 python = measure_python(duration, periods)
-            lines.append('%s,%g,%.0f,%.2g,%.0f,%.2g' %
-                         (scene, 1e3 * duration, cpp, cpp * duration, python, python * duration))
-            print(lines[-1], file=sys.stderr)
-    write_table(arguments.output, lines)
+            print('%s,%g,%.0f,%.2g,%.0f,%.2g' %
+                  (scene, 1e3 * duration, cpp, cpp * duration, python, python * duration), flush=True)
 
 
 if __name__ == '__main__':

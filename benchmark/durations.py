@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """How long things take on this machine, in processor seconds. What other programs do meanwhile changes them less than
-the time on the clock. With --builds the builds too, each in a directory of its own, without ccache (minutes). Rows that
-are not measured stay in the table. Writes the table of docs/durations.md.
+the time on the clock. With --builds the builds too, each in a directory of its own, without ccache (minutes). Prints
+the table of docs/durations.md.
 
-usage: durations.py [--builds] [--only WORD] [--output FILE]     (default: docs/data/durations.csv)"""
+usage: durations.py [--builds] [--only WORD]"""
 import argparse
 import csv
 import os
 import resource
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -49,22 +50,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--builds', action='store_true')
     parser.add_argument('--only', default='', help='rows whose name holds this word')
-    parser.add_argument('--output', type=Path, default=ROOT / 'docs/data/durations.csv')
     arguments = parser.parse_args()
-    known = {}
-    if arguments.output.exists():
-        with arguments.output.open() as table:
-            known = dict(list(csv.reader(row for row in table if not row.startswith('#')))[1:])
+    table = csv.writer(sys.stdout, lineterminator='\n')
+    table.writerow(['what', 'processor seconds'])
     with tempfile.TemporaryDirectory() as scratch:
         for what, command in (BUILDS if arguments.builds else ()) + SHORT:
-            if arguments.only not in what:
-                continue
-            known[what] = '%.2g' % processor_seconds(command, scratch)
-            print('%s: %s s' % (what, known[what]), flush=True)
-    with arguments.output.open('w') as table:
-        writer = csv.writer(table, lineterminator='\n')
-        writer.writerow(['what', 'processor seconds'])
-        writer.writerows((what, known[what]) for what, _ in BUILDS + SHORT if what in known)
+            if arguments.only in what:
+                table.writerow([what, '%.2g' % processor_seconds(command, scratch)])
+                sys.stdout.flush()
 
 
 if __name__ == '__main__':

@@ -1,15 +1,20 @@
-"""A ROS master and an emulator of a measurement's own."""
+"""A ROS master and an emulator of a measurement's own. A measurement prints its table; all else goes to stderr."""
+import argparse
 import contextlib
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / 'scripts'))
-from own_master import PATIENCE_S, own_master  # noqa: E402,F401  (for those who measure)
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'scripts'))
+from own_master import PATIENCE_S, STDERR, own_master  # noqa: E402,F401  (for those who measure)
 
-DATA = ROOT / 'docs/data'
+
+def option(description, name, default):
+    """The number after --NAME, all that the command line of a measurement holds."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--' + name, type=type(default), default=default)
+    return getattr(parser.parse_args(), name)
 
 
 def binary(name):
@@ -21,14 +26,9 @@ def binary(name):
 def emulator(server, parameters):
     """Its process, interrupted at the end."""
     server.setParam('benchmark', '/afm', parameters)
-    process = subprocess.Popen([binary('emulator_node'), '__name:=afm'])
+    process = subprocess.Popen([binary('emulator_node'), '__name:=afm'], stdout=STDERR)
     try:
         yield process
     finally:
         process.send_signal(signal.SIGINT)
         process.wait()
-
-
-def write_table(path, lines):
-    path.write_text('\n'.join(lines) + '\n')
-    print('\n'.join(lines))

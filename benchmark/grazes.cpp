@@ -14,8 +14,7 @@
 namespace {
 
 struct Options {
-  int flights = 300, neighbours = 2;
-  unsigned seed = 1;
+  int flights = 300;
   std::vector<std::string> kinds;
   long ordinary = 100000;
 };
@@ -23,9 +22,10 @@ struct Options {
 using Build = afm::Graze (afm::Grazes::*)(double);
 
 long print_row(const char* name, Build build, double clearance, const Options& o) {
-  afm::Grazes grazes(o.seed);
+  constexpr int kNeighbours = 2;  // starts next to each, to either side
+  afm::Grazes grazes(1);
   afm::GrazeCount count;
-  for (int i = 0; i < o.flights; ++i) afm::decide_neighbours((grazes.*build)(clearance), o.neighbours, count);
+  for (int i = 0; i < o.flights; ++i) afm::decide_neighbours((grazes.*build)(clearance), kNeighbours, count);
   std::printf("%s,%.0e,%ld,%ld,%ld,%ld,%ld\n", name, clearance / afm::Model().H, count.touched + count.missed,
               count.touched, count.missed, count.finer, count.wrong);
   std::fflush(stdout);
@@ -55,9 +55,7 @@ int main(int argc, char** argv) {
   afm::CommandLine app(
       "grazes", "Grazes decided in double and double-double, against quad precision (clearances in units of H).");
   app.option("flights", o.flights, "built, of each kind and clearance");
-  app.option("neighbours", o.neighbours, "starts next to each, to either side");
   app.option("ordinary", o.ordinary, "flights of ordinary runs, at each drag speed");
-  app.option("seed", o.seed, "");
   app.option("kinds", o.kinds, "flight, start, tau: all by default");
   return app.run(argc, argv, [&] {
     std::printf("graze,clearance,flights,touched,missed,in_twice_the_digits,wrong\n");

@@ -1,10 +1,6 @@
 // How much faster than real time one tip is for six levers on three crystals, over loads and speeds: without a bath,
-// and with one at 300 K and Q = 100. CSV on stdout, a summary on stderr. In processor time, and in the lever's own tau.
-#include <algorithm>
-#include <cmath>
+// and with one at 300 K and Q = 100. CSV. In processor time, and in the lever's own tau.
 #include <cstdio>
-#include <string>
-#include <vector>
 
 #include "afm/units.h"
 #include "common/command_line.h"
@@ -28,11 +24,11 @@ struct Crystal {
 };
 constexpr Crystal kCrystals[] = {{"mica", 0.52e-9, 0.05e-9}, {"nacl", 0.399e-9, 0.05e-9}, {"hopg", 0.246e-9, 0.02e-9}};
 
+constexpr double kLoads[] = {0.0, 0.1, 0.4, 1.0, 10.0, 100.0};   // [nN]
+constexpr double kSpeeds[] = {0.01, 0.1, 1.0, 5.0, 20.0};        // [um/s]
+
 struct Options {
-  std::vector<double> load{0.0, 0.1, 0.4, 1.0, 10.0, 100.0}, speed{0.01, 0.1, 1.0, 5.0, 20.0};
-  std::vector<std::string> lever;
   std::int64_t tau = 300, transient = 100;
-  double tolerance = afm::kDefaultContactTolerance;
 };
 
 struct Scene {
@@ -58,36 +54,11 @@ Scene scene_of(const Lever& lever, const Crystal& crystal, double load, double s
   return {units.time(), units.to_natural(si), units.to_natural(bath), speed / units.velocity()};
 }
 
-struct Summary {
-  std::vector<double> times;
-  double worst_slow_lever = INFINITY;  // of the levers with a tau of 40 us or more
-
-  void add(double times_real_time, double tau_s) {
-    times.push_back(times_real_time);
-    if (tau_s >= 40e-6) worst_slow_lever = std::min(worst_slow_lever, times_real_time);
-  }
-  void print(const char* name) {
-    std::sort(times.begin(), times.end());
-    const auto below = [&](double limit) {
-      return std::lower_bound(times.begin(), times.end(), limit) - times.begin();
-    };
-    std::fprintf(stderr, "%s: %zu points, below 1: %td, below 3: %td, below 10: %td, least %.3g (tau >= 40 us: %.3g), "
-                 "median %.3g\n", name, times.size(), below(1.0), below(3.0), below(10.0), times.front(),
-                 worst_slow_lever, times[times.size() / 2]);
-  }
-};
-
-void print_run(const Scene& scene, const afm::Bath& bath, const Options& o, Summary& summary) {
-  const afm::TimedRun timed =
-      afm::time_tip(afm::tip_at_start(scene.model, scene.eta, bath, o.tolerance), o.transient, o.tau);
-  const double taus = static_cast<double>(o.tau), times = scene.tau_s / timed.seconds;
-  std::printf(",%.4g,%.6g,%ld", times, timed.run.events / taus, timed.run.search_failures);
+void print_run(const Scene& scene, const afm::Bath& bath, const Options& o) {
+  const afm::TimedRun timed = afm::time_tip(afm::tip_at_start(scene.model, scene.eta, bath), o.transient, o.tau);
+  std::printf(",%.4g,%.6g,%ld", scene.tau_s / timed.seconds, timed.run.events / static_cast<double>(o.tau),
+              timed.run.search_failures);
   std::fflush(stdout);
-  summary.add(times, scene.tau_s);
-}
-
-bool is_wanted(const Options& o, const char* name) {
-  return o.lever.empty() || std::find(o.lever.begin(), o.lever.end(), name) != o.lever.end();
 }
 
 }  // namespace
@@ -95,10 +66,6 @@ bool is_wanted(const Options& o, const char* name) {
 int main(int argc, char** argv) {
   Options o;
   afm::CommandLine app("levers", "Times real time of one tip for levers, crystals, loads and speeds.");
-  app.option("lever", o.lever, "default: all of them");
-  app.option("load", o.load, "normal load [nN]");
-  app.option("speed", o.speed, "drag speed [um/s]");
-  app.option("tolerance", o.tolerance, "contact tolerance");
   app.option("tau", o.tau, "measured time each");
   app.option("transient", o.transient, "time before that");
   return app.run(argc, argv, [&] {
@@ -106,25 +73,21 @@ int main(int argc, char** argv) {
         "lever,crystal,load_nn,speed_um_per_s,tau_us,frequency_ratio,amplitude,rest_height,eta,cutoff,temperature,"
         "times_real_time,impacts_per_tau,search_failures,"
         "heated_times_real_time,heated_impacts_per_tau,heated_search_failures\n");
-    Summary plain, heated;
     for (const Lever& lever : kLevers) {
-      if (!is_wanted(o, lever.name)) continue;
       for (const Crystal& crystal : kCrystals) {
-        for (const double load : o.load) {
-          for (const double speed : o.speed) {
+        for (const double load : kLoads) {
+          for (const double speed : kSpeeds) {
             const Scene s = scene_of(lever, crystal, 1e-9 * load, 1e-6 * speed);
             std::printf("%s,%s,%g,%g,%.5g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", lever.name, crystal.name, load, speed,
                         1e6 * s.tau_s, s.model.frequency_ratio, s.model.H, s.model.y0, s.eta, s.model.v_c,
                         s.bath.temperature);
-            print_run(s, {}, o, plain);
-            print_run(s, s.bath, o, heated);
+            print_run(s, {}, o);
+            print_run(s, s.bath, o);
             std::printf("\n");
           }
         }
       }
     }
-    plain.print("without a bath");
-    heated.print("at 300 K, Q = 100");
     return 0;
   });
 }

@@ -1,13 +1,11 @@
 #!/usr/bin/python3
 """How long a controller waits for its command: starts a master and an emulator of its own, at batches of 100 Hz and of
-1 kHz, and runs the example loop_delay beside it. Writes the table of docs/interface.md.
+1 kHz, and runs the example loop_delay beside it. Prints the table of docs/interface.md.
 
-usage: loop_delay.py [--commands N] [--output FILE]     (default: 1000, docs/data/loop_delay.csv)"""
-import argparse
+usage: loop_delay.py [--commands N]     (default: 1000)"""
 import subprocess
-from pathlib import Path
 
-from emulator import DATA, PATIENCE_S, binary, emulator, own_master, write_table
+from emulator import PATIENCE_S, binary, emulator, option, own_master
 
 RATES = (100.0, 1000.0)
 
@@ -21,13 +19,10 @@ def measure(server, rate, commands):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--commands', type=int, default=1000)
-    parser.add_argument('--output', type=Path, default=DATA / 'loop_delay.csv')
-    arguments = parser.parse_args()
+    commands = option(__doc__, 'commands', 1000)
     with own_master() as server:
-        tables = [measure(server, rate, arguments.commands) for rate in RATES]
-    write_table(arguments.output, tables[0][:1] + [table[1] for table in tables])
+        tables = [measure(server, rate, commands) for rate in RATES]
+    print('\n'.join(tables[0][:1] + [table[1] for table in tables]))
 
 
 if __name__ == '__main__':

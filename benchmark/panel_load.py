@@ -1,15 +1,13 @@
 #!/usr/bin/python3
 """What the front panel takes of a core, and how often it draws: starts an X server, a master and an emulator of its
-own, at the default sample rate and at the greatest. Writes the table of docs/interface.md.
+own, at the default sample rate and at the greatest. Prints the table of docs/interface.md.
 
-usage: panel_load.py [--seconds S] [--output FILE]     (default: 20, docs/data/panel_load.csv)"""
-import argparse
+usage: panel_load.py [--seconds S]     (default: 20)"""
 import os
 import subprocess
 import time
-from pathlib import Path
 
-from emulator import DATA, emulator, own_master, write_table
+from emulator import emulator, option, own_master
 
 RATES = (200e3, 1e6)  # the default, and the greatest
 ETA_3_4 = 1.1255437575458838e-05  # m/s on mica: the chaotic motion of the paper
@@ -55,22 +53,18 @@ def watch(seconds):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--seconds', type=float, default=20.0)
-    parser.add_argument('--output', type=Path, default=DATA / 'panel_load.csv')
-    arguments = parser.parse_args()
+    seconds = option(__doc__, 'seconds', 20.0)
     display = subprocess.Popen(['Xvfb', '-displayfd', '1', '-screen', '0', '1000x700x24', '-nolisten', 'tcp'],
                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     os.environ['DISPLAY'] = ':' + display.stdout.readline().strip()
-    lines = ['sample rate / Hz,frames a second,CPU seconds per second']
+    print('sample rate / Hz,frames a second,CPU seconds per second')
     try:
         with own_master() as server:
             for rate in RATES:
                 with emulator(server, {'sample_rate_hz': rate, 'drag_velocity': ETA_3_4}):
-                    lines.append('%g,%.1f,%.3f' % ((rate,) + watch(arguments.seconds)))
+                    print('%g,%.1f,%.3f' % ((rate,) + watch(seconds)), flush=True)
     finally:
         display.kill()
-    write_table(arguments.output, lines)
 
 
 if __name__ == '__main__':

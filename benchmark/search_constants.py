@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """What the constants of the impact search cost: evaluations of the gap per impact, with each of them changed alone. No
-constant decides an impact, as every step is certified.
+constant decides an impact, as every step is certified. Prints the table of docs/algorithm.md.
 
-usage: search_constants.py [--output FILE]"""
+usage: search_constants.py"""
 import argparse
 import csv
 import re
@@ -41,10 +41,8 @@ def measure(work, name, header, value):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--output', type=argparse.FileType('w'), default=sys.stdout, help='(default: standard output)')
-    output = parser.parse_args().output
-    table = csv.writer(output, lineterminator='\n')
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
+    table = csv.writer(sys.stdout, lineterminator='\n')
     table.writerow(['constant', 'value', 'evaluations', 'impacts', 'undecided', 'in use'])
     with tempfile.TemporaryDirectory() as work:
         for folder in ('src/core', 'benchmark'):
@@ -52,7 +50,7 @@ def main():
         for name, header, values in CONSTANTS:
             for value in values:
                 table.writerow([name, value] + measure(Path(work), name, header, value))
-                output.flush()
+                sys.stdout.flush()
 
 
 if __name__ == '__main__':

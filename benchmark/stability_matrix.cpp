@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 
 #include "common/command_line.h"
 #include "stability.h"
@@ -26,8 +27,7 @@ const char kDescription[] =
 
 struct Options {
   afm::Effort effort;
-  std::vector<std::string> methods, scenes, except;
-  std::string output;
+  std::vector<std::string> methods, scenes;
 };
 
 struct Column {
@@ -61,27 +61,27 @@ bool known(const char* option, const std::vector<std::string>& given, const std:
   return true;
 }
 
-void print(const StabilityScene& scene, const Column& column, double setting, const Cell& cell, std::FILE* out) {
-  std::fprintf(out, "%s,\"%s\",%s,%g,%s,%.3g,%s,%.4g,%g\n", scene.name.c_str(), scene.about.c_str(),
-               column.name.c_str(), setting, afm::name_of(cell.verdict), cell.number, cell.meaning.c_str(),
-               cell.ns_per_tau, scene.right_below);
-  std::fflush(out);
+void print(const StabilityScene& scene, const Column& column, double setting, const Cell& cell) {
+  std::printf("%s,\"%s\",%s,%g,%s,%.3g,%s,%.4g,%g\n", scene.name.c_str(), scene.about.c_str(),
+              column.name.c_str(), setting, afm::name_of(cell.verdict), cell.number, cell.meaning.c_str(),
+              cell.ns_per_tau, scene.right_below);
+  std::fflush(stdout);
 }
 
 // Whether all of ours were right.
-bool run(const Options& o, const std::vector<StabilityScene>& scenes, std::FILE* out) {
+bool run(const Options& o, const std::vector<StabilityScene>& scenes) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   bool ours_right = true;
-  std::fprintf(out, "scene,about,method,setting,verdict,number,meaning,ns_per_tau,right_below\n");
+  std::printf("scene,about,method,setting,verdict,number,meaning,ns_per_tau,right_below\n");
   for (const StabilityScene& scene : scenes) {
-    if (!chosen(o.scenes, scene.name) || (!o.except.empty() && chosen(o.except, scene.name))) continue;
+    if (!chosen(o.scenes, scene.name)) continue;
     for (const Column& column : columns()) {
       if (!chosen(o.methods, column.name)) continue;
       if (terminal) std::fprintf(stderr, "\r\033[K%s: %s", scene.name.c_str(), column.name.c_str());
       const double setting = scene.setting ? scene.setting(*column.spec) : column.setting;
       if (scene.setting && column.name == "exact_one_by_one") continue;
       const Cell cell = scene.measure(*column.spec, setting, o.effort);
-      print(scene, column, setting, cell, out);
+      print(scene, column, setting, cell);
       if (column.name != "exact" || cell.verdict == Verdict::right) continue;
       ours_right = false;
       std::fprintf(stderr, "%sstability_matrix: ours, %s (%s): %s, %s %g\n", terminal ? "\r\033[K" : "",
@@ -110,25 +110,13 @@ int main(int argc, char** argv) {
   app.flag("quick", o.effort.quick, "fewer flights, shorter runs");
   app.option("methods", o.methods, "only these");
   app.option("scenes", o.scenes, "only these");
-  app.option("except", o.except, "but not these scenes");
   app.option("seconds", o.effort.seconds, "of processor time for a cell (hour and gamma_1: 10 times as much)");
-  app.option("output", o.output, "file for the table; default: standard output");
   return app.run(argc, argv, [&] {
     std::vector<StabilityScene> scenes = afm::run_scenes();
     for (StabilityScene& scene : afm::flight_scenes(o.effort)) scenes.push_back(std::move(scene));
-    if (!known("--methods", o.methods, columns()) || !known("--scenes", o.scenes, scenes) ||
-        !known("--except", o.except, scenes)) {
-      return 2;
-    }
-    std::FILE* out = o.output.empty() ? stdout : std::fopen(o.output.c_str(), "w");
-    if (out == nullptr) {
-      std::fprintf(stderr, "stability_matrix: cannot write '%s'\n", o.output.c_str());
-      return 2;
-    }
-    const bool ours_right = run(o, scenes, out);
-    const bool written = std::ferror(out) == 0 && std::fflush(out) == 0;
-    if (out != stdout) std::fclose(out);
-    if (!written) std::fprintf(stderr, "stability_matrix: cannot write the output\n");
-    return !written ? 2 : ours_right ? 0 : 1;
+    if (!known("--methods", o.methods, columns()) || !known("--scenes", o.scenes, scenes)) return 2;
+    const bool ours_right = run(o, scenes);
+    if (std::ferror(stdout) != 0) throw std::runtime_error("cannot write the output");
+    return ours_right ? 0 : 1;
   });
 }

@@ -11,8 +11,8 @@ namespace {
 struct Options {
   std::uint64_t seed = 1, scenes = 0;
   std::int64_t tau = 1000;
-  double seconds = 20.0, tolerance = afm::kDefaultContactTolerance;
-  bool go_on = false, mica = false, shipped = false;
+  double seconds = 20.0;
+  bool mica = false, shipped = false;
 };
 
 void add(afm::TipCount& sum, const afm::TipCount& c) {
@@ -51,8 +51,6 @@ int main(int argc, char** argv) {
   app.option("scenes", o.scenes, "how many; 0: as many as the time allows");
   app.option("tau", o.tau, "model time of each scene");
   app.option("seconds", o.seconds, "no new scene after this time");
-  app.option("tolerance", o.tolerance, "contact tolerance");
-  app.flag("go-on", o.go_on, "report violations and go on with the next scene");
   app.flag("mica", o.mica, "the paper's model at cutoffs of 0.001 to 0.1, dragged at up to 9 a/tau either way");
   app.flag("shipped", o.shipped,
            "the node's defaults, commands as scripts/soak sends them; no batch may spend its budget of impacts");
@@ -66,14 +64,14 @@ int main(int argc, char** argv) {
     std::uint64_t scenes = 0, violations = 0;
     double progress = 0.0;
     for (; (o.scenes == 0 || scenes < o.scenes) && passed() < o.seconds; ++scenes) {
-      afm::StressScene scene(o.seed + scenes, o.tolerance, kind);
+      afm::StressScene scene(o.seed + scenes, kind);
       const bool kept = scene.run(o.tau);
       add(sum, scene.count());
       most_events = std::max(most_events, scene.most_events());
       if (!kept) {
         ++violations;
         std::printf("VIOLATED: %s\n", scene.report().c_str());
-        if (!o.go_on) break;
+        break;
       }
       if (passed() > progress) {
         print(scenes + 1, o.tau, sum);

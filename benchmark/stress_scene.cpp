@@ -13,13 +13,13 @@ constexpr double kBetweenShippedCommands = 128.0;  // [tau] of scripts/soak
 
 }  // namespace
 
-StressScene::StressScene(std::uint64_t seed, double contact_tolerance, Kind kind)
+StressScene::StressScene(std::uint64_t seed, Kind kind)
     : seed_(seed),
       kind_(kind),
       random_(seed),
       model_(random_model()),
       eta_(random_eta()),
-      tip_(model_, eta_, random_start(), contact_tolerance) {}
+      tip_(model_, eta_, random_start(), kDefaultContactTolerance) {}
 
 Model StressScene::random_model() {
   Model m;

@@ -14,7 +14,7 @@ class StressScene {
   // any: model and drag speed; mica: the paper's model at any usual cutoff, dragged at up to 9 a/tau; shipped: the
   // node's own, commands as scripts/soak sends them, and no batch of the node may spend its budget.
   enum class Kind { any, mica, shipped };
-  StressScene(std::uint64_t seed, double contact_tolerance, Kind kind);
+  StressScene(std::uint64_t seed, Kind kind);
 
   // Runs for `tau`; false at the first violation.
   bool run(std::int64_t tau);

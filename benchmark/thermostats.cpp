@@ -22,27 +22,22 @@ constexpr double kHolder = 0.1;    // xc [a]: on a slope of the surface
 constexpr double kInterval = 0.1;  // between samples [tau]
 constexpr std::size_t kBatch = 200;
 
-struct Options {
-  double theta = 0.926, quality_factor = 2.0, seconds = 20.0;
-  std::vector<double> kicks{0.5, 2.0, 8.0, 29.034};
-  std::vector<double> stiffness{1.0, 0.25};
-  std::vector<double> steps{0.01, 0.005, 0.002, 0.001, 0.0005, 0.00025};
-};
+constexpr double kTheta = 0.926;  // kT at 300 K [m a^2/tau^2]
+constexpr double kQuality = 2.0;  // of both springs
+constexpr double kKicks[] = {0.5, 2.0, 8.0, 29.034};  // per tau
+constexpr double kStiffness[] = {1.0, 0.25};          // of the penalty spring, omega_p h
+constexpr double kSteps[] = {0.01, 0.005, 0.002, 0.001, 0.0005, 0.00025};  // of the integrators [tau]
 
 // Langevin dynamics of both springs: BAOAB, and Euler-Maruyama in its semi-implicit form (the explicit one diverges on
 // the penalty spring). `stiffness`: omega_p h of the penalty spring, a contact takes pi / (omega_p h) steps.
 class Penalty {
  public:
-  Penalty(const Options& o, double h, double stiffness)
-      : theta_(o.theta),
-        Q_(o.quality_factor),
-        h_(h),
-        steps_(std::lround(kInterval / h)),
-        k_(stiffness * stiffness / (h * h)) {}
+  Penalty(double h, double stiffness)
+      : h_(h), steps_(std::lround(kInterval / h)), k_(stiffness * stiffness / (h * h)) {}
 
   double baoab() {
-    const double c_v = std::exp(-m_.omega_v * h_ / Q_), c_h = std::exp(-m_.omega_h * h_ / Q_);
-    const double s_v = std::sqrt((1.0 - c_v * c_v) * theta_), s_h = std::sqrt((1.0 - c_h * c_h) * theta_);
+    const double c_v = std::exp(-m_.omega_v * h_ / kQuality), c_h = std::exp(-m_.omega_h * h_ / kQuality);
+    const double s_v = std::sqrt((1.0 - c_v * c_v) * kTheta), s_h = std::sqrt((1.0 - c_h * c_h) * kTheta);
     for (long i = 0; i < steps_; ++i) {
       kick(0.5 * h_);
       drift(0.5 * h_);
@@ -56,8 +51,8 @@ class Penalty {
   }
 
   double euler_maruyama() {
-    const double c_v = 1.0 - m_.omega_v * h_ / Q_, c_h = 1.0 - m_.omega_h * h_ / Q_;
-    const double s_v = std::sqrt(2.0 * (1.0 - c_v) * theta_), s_h = std::sqrt(2.0 * (1.0 - c_h) * theta_);
+    const double c_v = 1.0 - m_.omega_v * h_ / kQuality, c_h = 1.0 - m_.omega_h * h_ / kQuality;
+    const double s_v = std::sqrt(2.0 * (1.0 - c_v) * kTheta), s_h = std::sqrt(2.0 * (1.0 - c_h) * kTheta);
     for (long i = 0; i < steps_; ++i) {
       find_force();
       u_ = c_h * u_ + s_h * normal_(random_);
@@ -85,7 +80,7 @@ class Penalty {
   }
 
   afm::SpringConstants<double> m_{afm::Model{}};
-  double theta_, Q_, h_;
+  double h_;
   long steps_;
   double k_;
   double X_ = 0.0, Y_ = 0.2, u_ = 0.0, w_ = 0.0, force_X_ = 0.0, force_Y_ = 0.0;
@@ -93,14 +88,14 @@ class Penalty {
   boost::random::normal_distribution<double> normal_;
 };
 
-// `next` brings the tip one interval on and gives y - y0.
-void measure(const char* method, double knob, double stiffness, const Options& o, const std::function<double()>& next) {
-  const double exact = afm::Boltzmann(o.theta, kHolder).mean_Y2();
+// For `at_least` [s]. `next` brings the tip one interval on and gives y - y0.
+void measure(const char* method, double knob, double stiffness, double at_least, const std::function<double()>& next) {
+  const double exact = afm::Boltzmann(kTheta, kHolder).mean_Y2();
   std::vector<double> batches;
   for (std::size_t i = 0; i < kBatch; ++i) next();
   const auto begin = Clock::now();
   double seconds = 0.0, sum = 0.0;
-  while (seconds < o.seconds || batches.size() < afm::detail::kMinBatches) {
+  while (seconds < at_least || batches.size() < afm::detail::kMinBatches) {
     double batch = 0.0;
     for (std::size_t i = 0; i < kBatch; ++i) {
       const double Y = next();
@@ -116,45 +111,40 @@ void measure(const char* method, double knob, double stiffness, const Options& o
   std::fflush(stdout);
 }
 
-void measure_kicks(const Options& o, double kicks_per_tau) {
+void measure_kicks(double seconds, double kicks_per_tau) {
   afm::Model model;
   model.gamma = 1.0;
   afm::Tip tip(model, 0.0, afm::FreeState{kHolder, 0.0, 0.2, 0.0, 0.0});
   afm::Bath bath;
-  bath.temperature = o.theta;
-  bath.quality_factor = o.quality_factor;
+  bath.temperature = kTheta;
+  bath.quality_factor = kQuality;
   bath.kicks_per_tau = kicks_per_tau;
   tip.set_bath(bath);
   afm::ModelTime time;
-  measure("exact", kicks_per_tau, HUGE_VAL, o, [&] {
+  measure("exact", kicks_per_tau, HUGE_VAL, seconds, [&] {
     time = time + kInterval;
     while (tip.advance(time) != afm::Outcome::time_limit) continue;
     return tip.deflection(time).vertical;
   });
 }
 
-void measure_penalty(const Options& o, double h, double stiffness) {
-  Penalty baoab(o, h, stiffness), euler(o, h, stiffness);
-  measure("baoab_penalty", h, stiffness, o, [&] { return baoab.baoab(); });
-  measure("euler_maruyama_penalty", h, stiffness, o, [&] { return euler.euler_maruyama(); });
+void measure_penalty(double seconds, double h, double stiffness) {
+  Penalty baoab(h, stiffness), euler(h, stiffness);
+  measure("baoab_penalty", h, stiffness, seconds, [&] { return baoab.baoab(); });
+  measure("euler_maruyama_penalty", h, stiffness, seconds, [&] { return euler.euler_maruyama(); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options o;
+  double seconds = 20.0;
   afm::CommandLine app("thermostats", "Bias of <(y - y0)^2> of a heated tip at rest, relative, and time per tau [us].");
-  app.option("temperature", o.theta, "kT [m a^2/tau^2]", afm::kPositive);
-  app.option("quality-factor", o.quality_factor, "of both springs", afm::kPositive);
-  app.option("seconds", o.seconds, "for each row", afm::kPositive);
-  app.option("kicks", o.kicks, "kicks per tau");
-  app.option("stiffness", o.stiffness, "of the penalty spring, omega_p h");
-  app.option("steps", o.steps, "of the integrators [tau]");
+  app.option("seconds", seconds, "for each row", afm::kPositive);
   return app.run(argc, argv, [&] {
     std::printf("method,knob,stiffness,bias,std_error,us_per_tau\n");
-    for (const double kicks_per_tau : o.kicks) measure_kicks(o, kicks_per_tau);
-    for (const double stiffness : o.stiffness) {
-      for (const double h : o.steps) measure_penalty(o, h, stiffness);
+    for (const double kicks_per_tau : kKicks) measure_kicks(seconds, kicks_per_tau);
+    for (const double stiffness : kStiffness) {
+      for (const double h : kSteps) measure_penalty(seconds, h, stiffness);
     }
     return 0;
   });

@@ -46,7 +46,8 @@ inline TimedRun time_tip(Tip tip, std::int64_t transient, std::int64_t tau) {
 
 // As every measurement of time begins: a tip that falls on the flank of the surface, or that was lowered into a valley
 // if the load holds it down there.
-inline Tip tip_at_start(const Model& model, double eta, const Bath& bath, double tolerance) {
+inline Tip tip_at_start(const Model& model, double eta, const Bath& bath,
+                        double tolerance = kDefaultContactTolerance) {
   Tip tip(model, eta, is_held_down(model) ? lowered_tip(model.H) : FreeState{0.25, 0.0, 0.2, eta, 0.0}, tolerance);
   tip.set_bath(bath);
   return tip;

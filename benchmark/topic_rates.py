@@ -1,13 +1,11 @@
 #!/usr/bin/python3
 """What each topic carries: messages and bytes a second, at the default rates and at the greatest ones. Starts a master
-and an emulator of its own for each. Writes the table of docs/interface.md.
+and an emulator of its own for each. Prints the table of docs/interface.md.
 
-usage: topic_rates.py [--seconds S] [--output FILE]     (default: 10, docs/data/topic_rates.csv)"""
-import argparse
+usage: topic_rates.py [--seconds S]     (default: 10)"""
 import time
-from pathlib import Path
 
-from emulator import DATA, emulator, own_master, write_table
+from emulator import emulator, option, own_master
 
 # eta = 3.4 of mica, the chaotic motion of the paper
 SCENE = {'drag_velocity': 1.1255437575458838e-05, 'publish_clock': True}
@@ -59,17 +57,13 @@ def rows(default, greatest):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('--seconds', type=float, default=10.0)
-    parser.add_argument('--output', type=Path, default=DATA / 'topic_rates.csv')
-    arguments = parser.parse_args()
-    received = {}
+    seconds, received = option(__doc__, 'seconds', 10.0), {}
     with own_master() as server:
         for name, settings in SETTINGS.items():
             with emulator(server, dict(SCENE, **settings)):
-                received[name] = listen(arguments.seconds)
-    lines = ['topic,messages a second,bytes a message,kB/s,kB/s at 1 MHz of samples and 1000 batches a second']
-    write_table(arguments.output, lines + list(rows(received['default'], received['greatest'])))
+                received[name] = listen(seconds)
+    print('topic,messages a second,bytes a message,kB/s,kB/s at 1 MHz of samples and 1000 batches a second')
+    print('\n'.join(rows(received['default'], received['greatest'])))
 
 
 if __name__ == '__main__':

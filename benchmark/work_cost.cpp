@@ -16,19 +16,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kEta = 3.4;
+
 struct Options {
-  double eta = 3.4;
-  int most_threads = static_cast<int>(std::max(2u, 2 * std::thread::hardware_concurrency()));
   long most_impacts = 10000000, most_tips = 100000, impacts_a_tip = 100, impacts_a_thread = 500000;
   int rounds = 5;
 };
 
 double wall_seconds() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
-afm::Tip tip_number(long n, double eta) {
+afm::Tip tip_number(long n) {
   afm::Model model;
-  model.v_c = 0.1 * eta;
-  return {model, eta, afm::FreeState{0.25, 1e-3 * static_cast<double>(n % 100), 0.2, eta, 0.0}};
+  model.v_c = 0.1 * kEta;
+  return {model, kEta, afm::FreeState{0.25, 1e-3 * static_cast<double>(n % 100), 0.2, kEta, 0.0}};
 }
 
 void fly(afm::Tip& tip, long impacts) {
@@ -59,7 +59,7 @@ void against_impacts(const Options& o) {
   for (long n = 100; n <= o.most_impacts; n *= 10) {
     std::vector<double> seconds;
     for (int round = 0; round < o.rounds; ++round) {
-      afm::Tip tip = tip_number(0, o.eta);
+      afm::Tip tip = tip_number(0);
       fly(tip, 1000);  // onto the attractor
       const double start = afm::thread_seconds();
       fly(tip, n);
@@ -75,7 +75,7 @@ void against_tips(const Options& o) {
   std::vector<afm::Tip> tips;
   for (long n = 1; n <= o.most_tips; n *= 10) {
     tips.reserve(static_cast<std::size_t>(n));
-    while (static_cast<long>(tips.size()) < n) tips.push_back(tip_number(static_cast<long>(tips.size()), o.eta));
+    while (static_cast<long>(tips.size()) < n) tips.push_back(tip_number(static_cast<long>(tips.size())));
     std::vector<double> seconds;
     for (int round = 0; round < o.rounds; ++round) {
       const double start = afm::thread_seconds();
@@ -90,7 +90,8 @@ void against_tips(const Options& o) {
 
 // The same work for each thread: wall time, which more threads than free cores must stretch, and processor time.
 void against_threads(const Options& o) {
-  for (int threads = 1; threads <= o.most_threads; ++threads) {
+  const int most_threads = static_cast<int>(std::max(2u, 2 * std::thread::hardware_concurrency()));
+  for (int threads = 1; threads <= most_threads; ++threads) {
     std::vector<double> wall, ns;
     for (int round = 0; round < o.rounds; ++round) {
       std::vector<double> used(static_cast<std::size_t>(threads));
@@ -99,7 +100,7 @@ void against_threads(const Options& o) {
       for (int t = 0; t < threads; ++t) {
         running.emplace_back([&o, &used, t] {
           const double begin = afm::thread_seconds();
-          afm::Tip tip = tip_number(t, o.eta);
+          afm::Tip tip = tip_number(t);
           fly(tip, o.impacts_a_thread);
           used[static_cast<std::size_t>(t)] = afm::thread_seconds() - begin;
         });
@@ -121,10 +122,8 @@ int main(int argc, char** argv) {
   afm::CommandLine app("work_cost",
                        "Cost against work: time against impacts, tips (one after another) and threads (wall time), "
                        "memory. CSV.");
-  app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("impacts", o.most_impacts, "most impacts of one tip");
   app.option("tips", o.most_tips, "most tips");
-  app.option("threads", o.most_threads, "most threads; default: twice the cores");
   app.option("rounds", o.rounds, "times each is measured", afm::kPositive);
   return app.run(argc, argv, [&] {
     std::printf("axis,n,seconds,ns_per_impact,resident_bytes\n");

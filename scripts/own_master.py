@@ -8,6 +8,7 @@ import time
 import xmlrpc.client
 
 PATIENCE_S = 30.0
+STDERR = 2  # the standard output of a measurement is its table
 
 
 def free_port():
@@ -27,7 +28,8 @@ def own_master():
     """Its proxy. ROS_MASTER_URI names it, too."""
     port = free_port()
     os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
-    process, end = subprocess.Popen(['rosmaster', '--core', '-p', str(port)]), time.monotonic() + PATIENCE_S
+    process = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], stdout=STDERR)
+    end = time.monotonic() + PATIENCE_S
     server = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
     try:
         while True:

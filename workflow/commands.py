@@ -173,9 +173,9 @@ def commands(quick):
     add("thermostats", "thermostats --seconds", choose(0.2, 12))
 
     def windows(eta, theta, quality, window, duration):
-        add(windows_name(eta, theta, quality, window, duration), "friction_windows --eta", eta, "--temperature", theta,
-            "--quality-factor",
-            quality, "--window", window, "--duration", duration / choose(10, 1), "--transient 300 --starts 48")
+        add(windows_name(eta, theta, quality, window, duration), "benchmark/friction_windows.py --eta", eta,
+            "--temperature", theta, "--quality-factor", quality, "--window", window, "--duration",
+            duration / choose(10, 1), "--transient 300 --starts 48")
     for eta, (_, window, temperatures) in HOPS.items():
         for theta in temperatures:
             windows(eta, theta, HOPS_QUALITY, window, 20000)
@@ -202,17 +202,14 @@ def commands(quick):
     add("chart", "speed_accuracy", choose("--flights 60 --rounds 2 --seconds 0.05 --tau 200 --run-seconds 0.3",
                                           "--flights 200 --seconds 0.7 --run-seconds 3"), files,
                                           sides=["speed_accuracy", "pace"])
-    add("matrix", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), "--output {out}/stability.csv",
-        sides=["stability"],
-        may_fail=True)
+    add("stability", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), may_fail=True)
     add("work_cost", "work_cost", choose("--impacts 100000 --tips 10000 --rounds 1", ""))
     add("verbs_json", "verbs --benchmark_min_time=%s --benchmark_format=json" % choose("0.05", "0.5"))
     for i in range(choose(1, 3)):
         add("real_time_%d" % i, "real_time", choose("--tau 200 --transient 100", "--tau 1000 --transient 200"))
     add("burst_error", "burst_error --eta 0.2 0.5 3 5 7 --bursts", choose(300, 3000), "--most-bounces 20000")
-    add("burst_friction", "burst_friction",
-        choose("--tau 1000 --eta 0.5 1.5 3 3.4 5 --cutoff 0.1 0.03 --most-events 2e6",
-                                                   "--tau 10000 --cutoff 0.1 0.03 --most-events 2e7"))
+    add("burst_friction", "benchmark/tolerance_friction.py bursts",
+        choose("--tau 1000 --eta 0.5 1.5 3 3.4 5 --most-events 2e6", "--tau 10000"))
     add("cutoff_friction", "real_time --eta 0.5 1.5 3 3.4 5 7 --cutoff 0.1 0.03 0.01 0.003 0.001 0.0003",
         choose("--tau 2000", "--tau 20000"), "--transient 500")
     add("grazes_flight", "grazes --kinds flight", choose("--flights 100 --ordinary 10000",
@@ -226,7 +223,7 @@ def commands(quick):
     add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"),
         may_fail=True)
 
-    add("collapse_friction", "collapse_friction", choose("--tau 100 --eta 0.3", ""))
+    add("collapse_friction", "benchmark/tolerance_friction.py collapse", choose("--tau 100 --eta 0.3", ""))
     for ratio, own in LEVER_KICKS.items():
         for kicks in (own, *MORE_KICKS):
             curve("lever_kicks_%g_%g" % (ratio, kicks), "--eta 2:6:2 --cutoff 0.05 --rest-height -0.3:0:0.3",
@@ -234,20 +231,14 @@ def commands(quick):
                   "--duration", choose(200, 50000))
 
     # levels, scenes, recording, control
-    add("new_levels", "level_table --output {out}/levels.csv", sides=["levels"])
+    add("levels", "level_table")
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep", choose("--duration 500", ""))
     add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
-    add("topic_rates_run", "benchmark/topic_rates.py --output {out}/topic_rates.csv --seconds", choose(2, 10),
-        sides=["topic_rates"])
-    add("panel_load_run", "benchmark/panel_load.py --output {out}/panel_load.csv --seconds", choose(2, 20),
-        sides=["panel_load"])
-    add("durations_run", "benchmark/durations.py --output {out}/durations.csv", choose("--only import", "--builds"),
-        sides=["durations"])
-    add("loop_delay_run", "benchmark/loop_delay.py --output {out}/loop_delay.csv --commands", choose(100, 1000),
-        sides=["loop_delay"])
-
-    add("control_rates_run", "benchmark/control_rates.py --output {out}/control_rates.csv --periods", choose(200, 4000),
-        sides=["control_rates"])
+    add("topic_rates", "benchmark/topic_rates.py --seconds", choose(2, 10))
+    add("panel_load", "benchmark/panel_load.py --seconds", choose(2, 20))
+    add("durations", "benchmark/durations.py", choose("--only import", "--builds"))
+    add("loop_delay", "benchmark/loop_delay.py --commands", choose(100, 1000))
+    add("control_rates", "benchmark/control_rates.py --periods", choose(200, 4000))
 
     # reliability
     add("soak", "scripts/soak --seed 23 --duration", choose(60, 3600), may_fail=True)

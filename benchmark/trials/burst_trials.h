@@ -27,15 +27,12 @@ struct BurstTrial {
 
 class BurstTrials {
  public:
-  // fast: compare at the next impact that is no chatter, after all its remaining bounces and bursts, instead of at the
-  // next impact
-  BurstTrials(const Model& model, double eta, double tolerance, unsigned seed, std::int64_t most_bounces, bool fast)
+  BurstTrials(const Model& model, double eta, double tolerance, unsigned seed, std::int64_t most_bounces)
       : model_(model),
         eta_(eta),
         tolerance_(tolerance),
         random_(seed),
         most_bounces_(most_bounces),
-        fast_(fast),
         tip_(fresh()) {}
 
   // The next burst of which brute force reaches the end.
@@ -81,7 +78,7 @@ class BurstTrials {
     const ModelTime begin = burst.now();
     if (burst.advance(begin + 1000.0) != Outcome::impact) return false;
     const bool burst_ended = burst.last_impact().kind == ImpactKind::burst;
-    if (!fast_ && burst_ended && burst.tip_state().g1 > 0.0) {
+    if (burst_ended && burst.tip_state().g1 > 0.0) {
       const std::int64_t all = std::int64_t{burst.last_impact().count} + 1;
       const double ended = burst.now() - begin;
       burst =
@@ -137,7 +134,6 @@ class BurstTrials {
   double eta_, tolerance_;
   RandomLaunches random_;
   std::int64_t most_bounces_;
-  bool fast_;
   ModelTime end_;
   Tip tip_;
   long skipped_ = 0;

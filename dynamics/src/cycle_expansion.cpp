@@ -8,7 +8,7 @@ namespace {
 
 // The contribution of a product of distinct orbits: signed weight, energy and time.
 struct Term {
-  double weight, energy, time, instability;
+  double weight, energy, time;
   std::size_t length;
 };
 
@@ -18,17 +18,17 @@ double instability(const PeriodicOrbit& orbit) {
   return product;
 }
 
-// Every product of distinct orbits within both bounds; the empty product first.
-std::vector<Term> combinations(const std::vector<PeriodicOrbit>& orbits, std::size_t longest, double largest) {
-  std::vector<Term> terms{{1.0, 0.0, 0.0, 1.0, 0}};
+// Every product of distinct orbits of at most so many impacts; the empty product first.
+std::vector<Term> combinations(const std::vector<PeriodicOrbit>& orbits, std::size_t longest) {
+  std::vector<Term> terms{{1.0, 0.0, 0.0, 0}};
   for (const PeriodicOrbit& orbit : orbits) {
     const double expansion = instability(orbit);
     const std::size_t count = terms.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Term t = terms[i];
-      if (t.length + orbit.length() > longest || t.instability * expansion > largest) continue;
+      if (t.length + orbit.length() > longest) continue;
       terms.push_back({-t.weight / expansion, t.energy + orbit.energy_loss, t.time + orbit.period,
-                       t.instability * expansion, t.length + orbit.length()});
+                       t.length + orbit.length()});
     }
   }
   return terms;
@@ -44,7 +44,7 @@ class Sum {
     energy_ += t.weight * t.energy;
     time_ += t.weight * t.time;
   }
-  CycleAverage average(double order) const { return {order, terms_ - 1, energy_ / time_ / (eta_ * eta_), weight_}; }
+  CycleAverage average(int order) const { return {order, terms_ - 1, energy_ / time_ / (eta_ * eta_), weight_}; }
 
  private:
   double eta_;
@@ -82,7 +82,7 @@ Series traces(const std::vector<PeriodicOrbit>& orbits, std::size_t longest) {
 }  // namespace
 
 std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest) {
-  const std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(longest), INFINITY);
+  const std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(longest));
   std::vector<CycleAverage> rows;
   for (int n = 1; n <= longest; ++n) {
     Sum sum(eta);
@@ -90,19 +90,6 @@ std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits
       if (t.length <= static_cast<std::size_t>(n)) sum.add(t);
     }
     rows.push_back(sum.average(n));
-  }
-  return rows;
-}
-
-std::vector<CycleAverage> stability_averages(const std::vector<PeriodicOrbit>& orbits, double eta, double largest) {
-  std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(-1), largest);
-  std::stable_sort(terms.begin(), terms.end(),
-                   [](const Term& a, const Term& b) { return a.instability < b.instability; });
-  Sum sum(eta);
-  std::vector<CycleAverage> rows;
-  for (const Term& t : terms) {
-    sum.add(t);
-    if (t.length > 0) rows.push_back(sum.average(t.instability));
   }
   return rows;
 }
@@ -129,7 +116,7 @@ std::vector<CycleAverage> determinant_averages(const std::vector<PeriodicOrbit>&
     value += D.value[n];
     energy += D.energy[n];
     time += D.time[n];
-    rows.push_back({static_cast<double>(n), static_cast<int>(n), energy / time / (eta * eta), value});
+    rows.push_back({static_cast<int>(n), static_cast<int>(n), energy / time / (eta * eta), value});
   }
   return rows;
 }

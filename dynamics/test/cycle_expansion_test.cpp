@@ -60,15 +60,6 @@ TEST(CycleExpansion, DeterminantOfTheFullShiftConvergesFasterThanExponentially) 
   EXPECT_NEAR(rows.back().K_f, 3.0, 1e-6);
 }
 
-TEST(CycleExpansion, StabilityOrderTakesTheLeastUnstableFirst) {
-  const std::vector<CycleAverage> rows = stability_averages(full_shift(2.0, 4), 1.0, 16.5);
-  ASSERT_FALSE(rows.empty());
-  EXPECT_NEAR(rows.front().order, 2.0, 1e-12);
-  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GE(rows[i].order, rows[i - 1].order * (1.0 - 1e-12));
-  EXPECT_NEAR(rows.back().K_f, 3.0, 1e-12);
-  EXPECT_NEAR(rows.back().conservation, 0.0, 1e-14);
-}
-
 // The paper's attractor: orbits up to six impacts come within 3 % of direct simulation, 0.2531; the first alone misses
 // 10 %.
 TEST(CycleExpansion, OfThePapersAttractorComesNearToSimulation) {

@@ -2,7 +2,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <mutex>
 #include <string>
@@ -30,7 +29,6 @@ const char kDescription[] =
 struct Options {
   std::string eta = "0.1:9:0.1";
   double gamma = 0.7, cutoff = 0.0501446519707602, frequency_ratio = 6.25;
-  std::string output;
   unsigned threads = 0;
   afm::LevelErrorSettings settings;
 };
@@ -45,7 +43,6 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("duration", o.settings.run.duration, "of a measurement, where the orbit does not repeat itself [tau]",
              {100.0, 1e7});
   app.option("threads", o.threads, "0: as many as the machine has", {0, 1024});
-  app.option("output", o.output, "file; without it the table goes to the standard output");
 }
 
 std::vector<double> drag_velocities(const Options& o) {
@@ -91,17 +88,9 @@ int run(const Options& o) {
   at.frequency_ratio = o.frequency_ratio;
   const afm::Model model = afm::checked_model(at);
   const std::vector<double> etas = drag_velocities(o);
-  std::ofstream file;
-  if (!o.output.empty()) {
-    file.open(o.output);
-    if (!file) throw std::invalid_argument("output = " + o.output + ": cannot be written");
-  }
-  std::ostream& out = o.output.empty() ? std::cout : file;
   const std::vector<std::string> rows = measure(model, etas, o);
-  out << afm::LevelTable::head(model);
-  for (const std::string& row : rows) out << row;
-  out.flush();
-  if (!out) throw std::runtime_error("output = " + o.output + ": could not be written");
+  std::cout << afm::LevelTable::head(model);
+  for (const std::string& row : rows) std::cout << row;
   return 0;
 }
 

@@ -78,8 +78,6 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("seed", o.seed, "of the starts");
   app.option("duration", o.settings.duration, "of the measurement [tau]", {10.0, 1e7});
   app.option("transient", o.settings.transient, "before it [tau]", {0.0, 1e7});
-  app.option("most-events", o.settings.most_events, "a level that needs more is measured for a shorter time",
-             {1000, 1000000000});
 }
 
 struct Point {

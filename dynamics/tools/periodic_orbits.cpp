@@ -33,7 +33,6 @@ struct Options {
   afm::OrbitSearchSettings search;
   bool quiet = false;
   std::string averages;
-  double attractor_distance = 0.1;
 };
 
 void add_options(afm::CommandLine& app, Options& o) {
@@ -48,8 +47,6 @@ void add_options(afm::CommandLine& app, Options& o) {
       "averages", o.averages,
       "file for K_f from these orbits by periodic orbit theory: method, order of truncation, terms, K_f, and by how\n"
       "much the expansion misses the conservation of flow");
-  app.option("attractor-distance", o.attractor_distance,
-             "orbits that the long run does not approach so far are not of the attractor: left out of the averages");
   app.flag("quiet", o.quiet, "no report of the search on stderr");
 }
 
@@ -78,19 +75,15 @@ void write_rows(afm::TableWriter& to, const std::string& method, const std::vect
 void write_averages(const Options& options, const afm::OrbitSearchResult& found) {
   std::ofstream out(options.averages);
   std::vector<afm::PeriodicOrbit> orbits;
+  constexpr double kOnAttractor = 0.1;  // [a, a/tau] a choice: orbits that the long run does not approach are left out
   for (const afm::FoundOrbit& orbit : found.orbits) {
-    if (orbit.approach < options.attractor_distance) orbits.push_back(orbit.orbit);
+    if (orbit.approach < kOnAttractor) orbits.push_back(orbit.orbit);
   }
   const double eta = options.dynamics.eta;
   afm::TableWriter to(out, kAverageColumns, afm::table_units(options.dynamics.si));
   to.write_header();
   write_rows(to, "zeta", zeta_averages(orbits, eta, options.search.longest));
   write_rows(to, "determinant", determinant_averages(orbits, eta, options.search.longest));
-  constexpr double kMostUnstable = 1e3;
-  std::vector<afm::CycleAverage> by_stability = stability_averages(orbits, eta, kMostUnstable);
-  constexpr std::size_t kMostRows = 1000;
-  by_stability.resize(std::min(by_stability.size(), kMostRows));
-  write_rows(to, "stability", by_stability);
   out.close();
   if (!out) throw std::runtime_error("cannot write " + options.averages);
 }

@@ -30,10 +30,8 @@ const char kDescription[] =
 struct Options {
   afm::PointOptions dynamics;
   int impacts = 200000, longest = 8;
-  double gap = 0.05;
   afm::OrbitSearchSettings search;
   std::string section, orbits, forbidden;
-  int section_points = 20000;
 };
 
 void add_options(afm::CommandLine& app, Options& o) {
@@ -44,13 +42,11 @@ void add_options(afm::CommandLine& app, Options& o) {
   afm::add_options(app, o.dynamics);
   app.option("max-length", o.longest, "of words and orbits", {1, 16});
   app.option("impacts", o.impacts, "of the run", {1000, 100000000});
-  app.option("gap", o.gap, "of phase between two bands [a]", {0.0, 1.0});
   app.option("guesses", o.search.guesses, "of the search for orbits, of each of three kinds, for each length",
              {1, 1000000});
   app.option("seed", o.search.seed, "of the run and of the search");
   app.option("orbits", o.orbits, "file for the orbits: length, word, how many orbits have it, K_f, multipliers");
   app.option("section", o.section, "file for points: phase, gap_rate, phase_next, gap_rate_next, letter");
-  app.option("section-points", o.section_points, "how many", {1, 10000000});
   app.option("forbidden", o.forbidden, "file for the shortest words that do not occur: length, word");
 }
 
@@ -66,9 +62,10 @@ void close(std::ofstream& out, const std::string& path) {
 }
 
 void write_section(const Options& o, const afm::Partition& partition, const std::vector<afm::TipState>& points) {
+  constexpr std::size_t kMostPoints = 20000;  // enough for a picture
   std::ofstream out = open(o.section);
   out << "phase,gap_rate,phase_next,gap_rate_next,letter\n";
-  for (std::size_t i = 0; i + 1 < points.size() && i < static_cast<std::size_t>(o.section_points); ++i) {
+  for (std::size_t i = 0; i + 1 < points.size() && i < kMostPoints; ++i) {
     const afm::TipState &p = points[i], &q = points[i + 1];
     out << afm::join_numbers({p.phase, p.g1, q.phase, q.g1}) << "," << partition.letter(p) << "\n";
   }
@@ -122,7 +119,7 @@ int run(const Options& o) {
   const afm::PoincareMap map(model, o.dynamics.eta);
   const afm::SymbolicRun run = run_on_section(map, static_cast<std::size_t>(o.impacts), o.search.seed);
   if (!run.on_section) throw std::runtime_error("the hammer has ended in contact: there is no section");
-  const afm::Partition partition = find_partition(run.points, o.gap);
+  const afm::Partition partition = find_partition(run.points);
   const std::string letters = word_of(partition, run.points);
   const auto counts = afm::count_words(letters, partition.letters(), o.longest);
   report(partition, run);

@@ -1,104 +1,57 @@
 #include "decimal_range.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
 #include <stdexcept>
+
+#include "csv.h"
 
 namespace afm {
 namespace {
 
-constexpr int kMostDigits = 17;  // of a mantissa: all that a double has; sums of two mantissas stay whole in 64 bits
-
-struct Decimal {
-  std::int64_t mantissa = 0;
-  int exponent = 0;  // value = mantissa 10^exponent
-};
-
 [[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
 
-// Digits with a point somewhere among them; `at` is moved past them.
-Decimal parse_digits(const std::string& text, std::size_t& at) {
-  Decimal d;
-  bool point = false;
-  int digits = 0, significant = 0;
-  for (; at < text.size() && (std::isdigit(static_cast<unsigned char>(text[at])) || (text[at] == '.' && !point));
-       ++at) {
-    if (text[at] == '.') {
-      point = true;
-      continue;
-    }
-    ++digits;
-    if (d.mantissa != 0 || text[at] != '0') ++significant;
-    if (significant > kMostDigits) refuse("'" + text + "' has more than 17 digits");
-    d.mantissa = 10 * d.mantissa + (text[at] - '0');
-    if (point) --d.exponent;
-  }
-  if (digits == 0) refuse("'" + text + "' is not a number");
-  return d;
+// Decimal digits alone: no spaces, nothing hexadecimal, neither nan nor inf.
+double number_in(const std::string& text) {
+  double value = 0.0;
+  const bool is_decimal = text.find_first_not_of("0123456789.+-eE") == std::string::npos && parse_number(text, value);
+  if (!is_decimal || !std::isfinite(value)) refuse("'" + text + "' is not a number");
+  return value;
 }
 
-Decimal parse_decimal(const std::string& text) {
-  std::size_t at = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
-  Decimal d = parse_digits(text, at);
-  if (text[0] == '-') d.mantissa = -d.mantissa;
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    char* end = nullptr;
-    const char* begin = text.c_str() + at + 1;
-    const long exponent = std::strtol(begin, &end, 10);
-    if (end == begin || std::labs(exponent) > 300) refuse("'" + text + "' is not a number");
-    d.exponent += static_cast<int>(exponent);
-    at = static_cast<std::size_t>(end - text.c_str());
+// The least power of ten that makes a whole number of the value. Powers of ten are exact doubles up to 10^22, so a whole
+// number over one is rounded once: it is the double nearest to the decimal number.
+double scale_of(double value) {
+  constexpr double kLargestExact = 1e22;
+  for (double ten = 1.0; ten <= kLargestExact; ten *= 10.0) {
+    if (std::nearbyint(value * ten) / ten == value) return ten;
   }
-  if (at != text.size()) refuse("'" + text + "' is not a number");
-  return d;
-}
-
-// The mantissa it has with a smaller exponent.
-std::int64_t mantissa_at(int exponent, const Decimal& d) {
-  constexpr std::int64_t kMost = 1000000000000000000;
-  std::int64_t mantissa = d.mantissa;
-  for (int e = d.exponent; e > exponent && mantissa != 0; --e) {
-    if (std::abs(mantissa) > kMost / 10) refuse("FROM, TO and STEP are too far apart to be added exactly");
-    mantissa *= 10;
-  }
-  return mantissa;
-}
-
-double to_double(std::int64_t mantissa, int exponent) {
-  return std::strtod((std::to_string(mantissa) + "e" + std::to_string(exponent)).c_str(), nullptr);
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == ':') {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
+  refuse("FROM, TO and STEP have more decimals than can be added exactly");
 }
 
 }  // namespace
 
 std::vector<double> parse_range(const std::string& text) {
-  const std::vector<std::string> parts = split(text);
-  if (parts.size() == 1) {
-    const Decimal d = parse_decimal(text);
-    return {to_double(d.mantissa, d.exponent)};
-  }
+  constexpr double kLargestWhole = 0x1p53;
+  std::vector<std::string> parts;
+  std::istringstream rest(text);
+  for (std::string part; std::getline(rest, part, ':');) parts.push_back(part);
+  if (parts.size() == 1) return {number_in(text)};
   if (parts.size() != 3) refuse("must be one number or FROM:TO:STEP");
-  const Decimal from = parse_decimal(parts[0]), to = parse_decimal(parts[1]), step = parse_decimal(parts[2]);
-  const int exponent = std::min({from.exponent, to.exponent, step.exponent});
-  const std::int64_t first = mantissa_at(exponent, from), last = mantissa_at(exponent, to);
-  const std::int64_t by = mantissa_at(exponent, step);
+  const double from = number_in(parts[0]), to = number_in(parts[1]), step = number_in(parts[2]);
+  const double scale = std::max({scale_of(from), scale_of(to), scale_of(step)});
+  if (!(scale * std::max({std::abs(from), std::abs(to), std::abs(step)}) < kLargestWhole)) {
+    refuse("FROM, TO and STEP are too far apart to be added exactly");
+  }
+  const std::int64_t first = std::llround(scale * from), last = std::llround(scale * to);
+  const std::int64_t by = std::llround(scale * step);
   if (by <= 0) refuse("STEP must be above 0");
   if (last < first) refuse("TO must not be below FROM");
   if ((last - first) / by >= static_cast<std::int64_t>(kMostRangeValues)) refuse("more than a million values");
   std::vector<double> values;
-  for (std::int64_t mantissa = first; mantissa <= last; mantissa += by) values.push_back(to_double(mantissa, exponent));
+  for (std::int64_t i = first; i <= last; i += by) values.push_back(static_cast<double>(i) / scale);
   return values;
 }
 

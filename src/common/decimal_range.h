@@ -1,8 +1,7 @@
-// FROM:TO:STEP in decimal, without a rounding but the last: each value is the double nearest to the decimal number
-// meant.
+// FROM:TO:STEP in decimal: each value is the double nearest to the decimal number meant, of up to 15 digits.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <vector>
 

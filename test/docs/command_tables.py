@@ -28,7 +28,7 @@ SUBSTITUTIONS = [
     (r'(periodic_orbits .*)', r'\1 --trajectory 5000 --guesses 50'),
     (r'(symbolic_dynamics )', r'\1--impacts 20000 --guesses 50 '),
     (r'(level_table) --', r'\1 --starts 1 --duration 100 --'),
-    (r'(level_table .*)--output config', r'\1--eta 2 --gamma 0.7 --cutoff 0.1 --output config'),
+    (r'(level_table) (>config)', r'\1 --starts 1 --duration 100 --eta 2 --gamma 0.7 --cutoff 0.1 \2'),
     (r'--gamma 0\.8 --cutoff 0\.02', '--eta 2 --gamma 0.7 --cutoff 0.1'),
     (r'--eta 0\.25:8\.95:0\.3', '--eta 2.05 --gamma 0.7 --cutoff 0.1'),
     (r'--eta 0\.05:9:0\.05', '--eta 2:2.5:0.5'),

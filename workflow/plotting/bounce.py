@@ -7,11 +7,10 @@ import math
 from registry import picture
 
 from . import style
-from .paths import STATE, rotated, surface
+from .paths import at, draw_surface, next_impact, surface
 
-INPUTS = ["eta", "gamma", "cutoff", *STATE]
 TWO_PI = style.TWO_PI
-SCENE, START = [3.4, 0.7, 0.05], [0.25, 0.0, 3.4, 1.0]  # eta, gamma, cutoff; the state after the impact before
+SCENE, START = (3.4, 0.7, 0.05), (0.25, 0.0, 3.4, 1.0)  # eta, gamma, cutoff; the state after the impact before
 GAP_AGREES = 1e-12  # [a] the impacts lie on the surface that is drawn
 
 # line styles that need no colour
@@ -29,17 +28,17 @@ def slope(x):
 class Flight:
     """From one impact to the next; units a and tau, x along the surface from a crest."""
 
-    def __init__(self, row, cell):
-        self.row = row
-        self.x = cell + row["phase"]
+    def __init__(self, state, cell):
+        self.state, self.cell = state, cell
+        self.row, self.state_after = next_impact(state, *SCENE)
+        self.x = cell + state[0]
+        if not abs(self.gaps()[-1]) < GAP_AGREES:
+            raise SystemExit("bounce: the flight ends %g a off the surface" % self.gaps()[-1])
 
     def at(self, t):
         """Position and velocity in the lab, t after the start."""
-        r = self.row
-        y0 = surface(r["phase"])
-        X, U = rotated(r["extension"], r["u"] - r["eta"], style.RATIO, t)
-        y, w = rotated(y0, r["w"], 1.0, t)
-        return self.x + r["eta"] * t + X - r["extension"], y, r["eta"] + U, w
+        x, y, u, w = at(self.state, SCENE[0], t)
+        return self.cell + x, y, u, w
 
     def times(self, points=400):
         return [self.row["dt"] * i / points for i in range(points + 1)]
@@ -52,32 +51,7 @@ class Flight:
 
     def next(self):
         """The flight after the impact that ends this one."""
-        end = self.at(self.row["dt"])[0]
-        row = next_impact([self.row[name] for name in INPUTS[:3]] + after_impact(self.row))
-        return Flight(row, round(end - self.row["phase_next"]))
-
-
-def after_impact(row):
-    return [row[name + "_next"] for name in STATE]
-
-
-def next_impact(values):
-    import afm  # the other pictures do without
-    return afm.next_impact(**dict(zip(INPUTS, values)))[()]
-
-
-def check(flight):
-    gap = flight.gaps()[-1]
-    if not abs(gap) < GAP_AGREES:
-        raise SystemExit("bounce: the flight ends %g a off the surface" % gap)
-
-
-def draw_surface(axes, low, high, bottom):
-    xs = [low + (high - low) * i / 600 for i in range(601)]
-    ys = [surface(x) for x in xs]
-    axes.fill_between(xs, ys, bottom, color=style.SOLID)
-    axes.plot(xs, ys, **SURFACE)
-    axes.set_xlim(low, high)
+        return Flight(self.state_after, round(self.at(self.row["dt"])[0] - self.state_after[0]))
 
 
 def draw_flights(axes, before, after):
@@ -154,10 +128,8 @@ def draw_gap(axes, before, after):
 
 @picture()
 def bounce(_):
-    before = Flight(next_impact(SCENE + START), 0)
+    before = Flight(START, 0)
     after = before.next()
-    for flight in (before, after):
-        check(flight)
     figure = style.figure(7.2)
     grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.0), height_ratios=(1.0, 1.05))
     draw_flights(figure.add_subplot(grid[0, :]), before, after)

@@ -1,7 +1,7 @@
 """docs/friction.md: the hammer's friction and orbits, its section in letters, and how far it is from the oscillator."""
 import math
 
-from commands import HAMMER_ETA as ETA, HAMMER_ETAS as ETAS
+from commands import HAMMER_ETAS as ETAS
 from registry import picture
 
 from . import style

@@ -17,31 +17,39 @@ def rotated(x, v, frequency, t):
     return x * c + v * s / omega, v * c - omega * x * s
 
 
+def at(state, eta, t):
+    """Position and velocity in the lab, t after a start at (phase, extension, u, w) in the cell 0."""
+    phase, extension, u, w = state
+    X, U = rotated(extension, u - eta, style.RATIO, t)
+    y, w = rotated(surface(phase), w, 1.0, t)
+    return phase + eta * t + X - extension, y, eta + U, w
+
+
 def flight(state, eta, dt, points=60):
-    """x and y of a flight that starts at (phase, extension, u, w)."""
-    phase, X, u, w = state
-    xs, ys = [], []
-    for i in range(points + 1):
-        t = dt * i / points
-        xs.append(phase + eta * t + rotated(X, u - eta, style.RATIO, t)[0] - X)
-        ys.append(rotated(surface(phase), w, 1.0, t)[0])
-    return xs, ys
+    """x and y of a flight of that duration."""
+    return list(zip(*(at(state, eta, dt * i / points)[:2] for i in range(points + 1))))
+
+
+def next_impact(state, eta, gamma, cutoff):
+    """The row of the next impact, and the state after it."""
+    import afm  # the other figures do without
+    row = afm.next_impact(eta=eta, gamma=gamma, cutoff=cutoff, **dict(zip(STATE, state)))[()]
+    return row, [row[name + "_next"] for name in STATE]
 
 
 def flights(start, eta, gamma, cutoff, count):
     """Paths of consecutive flights, each from the cell 0."""
-    import afm  # the other figures do without
     state, paths = list(start), []
     for _ in range(count):
-        row = afm.next_impact(eta=eta, gamma=gamma, cutoff=cutoff, **dict(zip(STATE, state)))[()]
+        row, after = next_impact(state, eta, gamma, cutoff)
         paths.append(flight(state, eta, row["dt"]))
-        state = [row[key + "_next"] for key in STATE]
+        state = after
     return paths, state
 
 
-def draw_surface(axes, low, high):
+def draw_surface(axes, low, high, bottom=-0.15):
     xs = [low + (high - low) * i / 800 for i in range(801)]
     ys = [surface(x) for x in xs]
-    axes.fill_between(xs, ys, -0.15, color=style.SOLID)
+    axes.fill_between(xs, ys, bottom, color=style.SOLID)
     axes.plot(xs, ys, color=style.GREY, linewidth=1.2)
     axes.set_xlim(low, high)

@@ -38,14 +38,6 @@ def title(scene):
     return "graze, %s $v_0$" % scene[len("graze_"):] if scene.startswith("graze_") else TITLES.get(scene, scene)
 
 
-def short(value):
-    number = float(value)
-    if number == 0 or (0.01 <= abs(number) < 1000):
-        return "%.3g" % number
-    mantissa, exponent = ("%.0e" % number).split("e")
-    return "%se%d" % (mantissa, int(exponent))
-
-
 def percent(value):
     return "%.0f%%" % value if value >= 1 or value < 0.05 else "%.1g%%" % value
 
@@ -56,7 +48,8 @@ def threshold(row):
     if not limit:
         return ""
     kind = "$K_f$" if "K_f" in row["meaning"] else "energy" if "energy" in row["meaning"] else "state"
-    return "%s %s" % (kind, percent(100 * float(limit)) if float(limit) > 0.01 else short(limit))
+    small = ("%.0e" % float(limit)).replace("e-0", "e-")
+    return "%s %s" % (kind, percent(100 * float(limit)) if float(limit) > 0.01 else small)
 
 
 def draw_cell(axes, column, line, row):

@@ -94,11 +94,9 @@ def maximum(rows):
     near = rows[top - 2:top + 3]
     x = np.array([row["eta"] for row in near]) - rows[top]["eta"]
     y = np.array([row["k_f_work"] for row in near])
-    powers = np.vander(x, 3)
-    c, _, _, _ = np.linalg.lstsq(powers, y, rcond=None)
-    scatter = np.sum((y - powers @ c) ** 2) / (len(x) - 3)
-    variance = max(scatter, np.mean([row["k_f_work_std_error"] ** 2 for row in near]))
-    covariance = variance * np.linalg.inv(powers.T @ powers)
+    c, covariance = np.polyfit(x, y, 2, cov="unscaled")
+    scatter = np.sum((y - np.polyval(c, x)) ** 2) / (len(x) - 3)
+    covariance *= max(scatter, np.mean([row["k_f_work_std_error"] ** 2 for row in near]))
     place = -c[1] / (2.0 * c[0])
     by_c = np.array([-place / c[0], -1.0 / (2.0 * c[0]), 0.0])  # derivatives of the place
     by_height = np.array([place ** 2, place, 1.0])

@@ -33,7 +33,7 @@ using FrictionAt = ContactAt;
 TEST_P(BurstsAt, AreWithinTheToleranceAtTheNextImpact) {
   constexpr std::size_t kBursts = 100;
   for (const double tolerance : {1e-4, kDefaultContactTolerance}) {
-    BurstTrials trials(mica(GetParam()), GetParam().eta, tolerance, 1, 5000, false);
+    BurstTrials trials(mica(GetParam()), GetParam().eta, tolerance, 1, 5000);
     std::vector<double> errors;
     while (errors.size() < kBursts) errors.push_back(trials.next().worst());
     std::sort(errors.begin(), errors.end());

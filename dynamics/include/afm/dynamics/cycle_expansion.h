@@ -11,7 +11,7 @@
 namespace afm {
 
 struct CycleAverage {
-  double order = 0.0;         // truncation: impacts, or the largest instability
+  int order = 0;              // truncation: impacts
   int terms = 0;              // orbits and combinations of orbits used
   double K_f = 0.0;           // [m_tip/tau]; NaN if it is not defined
   double conservation = 0.0;  // 0 by flow conservation: 1/zeta(1), or the determinant at 1
@@ -20,9 +20,6 @@ struct CycleAverage {
 // 1/zeta = prod (1 - t_p), t_p = 1/|product of expanding multipliers|: combinations of at most N impacts, N = 1 to
 // longest.
 std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest);
-
-// The same with all combinations up to an instability, one row for each, in that order (stability ordering).
-std::vector<CycleAverage> stability_averages(const std::vector<PeriodicOrbit>& orbits, double eta, double largest);
 
 // det(1 - zL) = exp(-sum z^(nr)/r / |det(1 - J^r)|), cut after z^N, taken at z = 1.
 std::vector<CycleAverage> determinant_averages(const std::vector<PeriodicOrbit>& orbits, double eta, int longest);
