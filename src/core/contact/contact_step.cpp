@@ -275,18 +275,26 @@ void ContactSolver::enclose_reaction(const ContactStep& s, AtGaussNodes& b) {
   }
 }
 
-// True if the reaction neither stays above zero for certain, nor clearly falls through it.
+// True if the reaction neither stays above zero for certain, nor falls through it at once.
 bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
-  constexpr int kHalvings = 4;  // of the step: enough to enclose a swing
+  constexpr int kHalvings = 4;      // of the step: enough to enclose a swing
+  constexpr double kAtOnce = 0.05;  // of the step
   const double k = two_pi<double>(), wh2 = s.m_.omega_h * s.m_.omega_h, u = std::fabs(s.start_.u);
   const double by_x = wh2 + k * k * (1.0 + u * u) + k * wh2 * std::fabs(s.start_.X);
-  const double error = kReleaseNoise + 10.0 * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
+  const double of_path = 10.0 * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
+  const double of_interpolation = std::fabs(sum_of_products(kGauss.last, s.reaction_)) +
+                                  std::fabs(sum_of_products(kLastButOne.weight, s.reaction_));
+  const double error = kReleaseNoise + of_path + of_interpolation;
   AtGaussNodes b;
   enclose_reaction(s, b);
   if (least_of(b) > error) return false;
-  if (s.first_.reaction > error && least_of(s.reaction_) < -error) return false;
+  if (!(s.first_.reaction > error)) return true;
   for (double& x : b) x -= error;
-  return !(first_fall(b, 0.0, 1.0, kHalvings) < 0.0);
+  const double earliest = first_fall(b, 0.0, 1.0, kHalvings);
+  if (earliest < 0.0) return false;
+  for (double& x : b) x += 2.0 * error;
+  const double latest = first_fall(b, 0.0, 1.0, kHalvings);
+  return latest < 0.0 || latest - earliest > kAtOnce;
 }
 
 ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
@@ -335,24 +343,31 @@ double ContactStep::find_release() const {
   constexpr int kHalvings = 12;               // to 1/4000 of the step; the rest is done on the reaction itself
   constexpr int kMaxTries = 60;               // bisection alone needs 50
   constexpr double kAccuracy = 1.0 / 1024.0;  // of the noise: finer would be rounding of the reaction
-  const double noise = release_noise(m_, start_.u, start_.X);
-  if (first_.reaction + noise <= kAccuracy * noise) return 0.0;
+  const double noise = release_noise(m_, start_.u, start_.X), zero = kAccuracy * noise;
+  const auto pressed = [&](double t) { return pressure(at(t)) + noise; };
+  double low = 0.0, low_p = first_.reaction + noise;
+  if (low_p <= zero) return 0.0;
   AtGaussNodes b;
   ContactSolver::enclose_reaction(*this, b);
   for (double& x : b) x += noise;
-  double s = first_fall(b, 0.0, length_, kHalvings);
-  if (s < 0.0) return -1.0;
-  // the interpolation has the error of the method: secants and bisection on the reaction itself
-  const auto pressed = [&](double t) { return pressure(at(t)) + noise; };
-  double low = 0.0, high = length_, p = pressed(s), other = 0.0, other_p = first_.reaction + noise;
-  for (int i = 0; i < kMaxTries && std::fabs(p) > kAccuracy * noise; ++i) {
-    (p > 0.0 ? low : high) = s;
+  b[0] = low_p;
+  double s = 0.0, p = low_p;
+  for (int i = 0; i < kMaxTries && p > zero; ++i) {
+    s = first_fall(b, 0.0, length_, kHalvings);
+    if (s < 0.0) return -1.0;
+    p = pressed(s);
+    if (p > 0.0) low = s, low_p = p;
+    for (double& x : b) x += p;  // so much the interpolation is off
+  }
+  double high = s, other = low, other_p = low_p;
+  for (int i = 0; i < kMaxTries && std::fabs(p) > zero; ++i) {
     const double next = s - p * (s - other) / (p - other_p);
     other = s, other_p = p;
     s = low < next && next < high ? next : 0.5 * (low + high);
     p = pressed(s);
+    (p > 0.0 ? low : high) = s;
   }
-  return p <= kAccuracy * noise ? s : -1.0;
+  return p <= zero ? s : high;
 }
 
 }  // namespace afm::detail

@@ -99,22 +99,41 @@ TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
   }
 }
 
+// A tip whose extension is such that the surface presses by 1e-8 to 30 a/tau^2: it may leave at once.
+SlideState<double> barely_pressed_start(const Lever& lever, RandomLaunches& random) {
+  const Model model = model_of(lever);
+  const double wh = kTwoPi * lever.frequency_ratio;
+  for (;;) {
+    const double phase = random.within(0.0, 1.0), u = lever.eta * random.within(-1.0, 3.0);
+    const double reaction = std::pow(10.0, random.within(-8.0, 1.5));
+    const SurfaceJet<double> h = surface_jet(model.H, phase);
+    const double push = kTwoPi * kTwoPi * (h.h - model.y0) + h.h2 * u * u;
+    const double X = (push - reaction * (1.0 + h.h1 * h.h1)) / (h.h1 * wh * wh);
+    if (std::abs(h.h1) > 0.1) return {phase, X, u};
+  }
+}
+
+// Once one step in 50 of these passed a release: the interpolation of the reaction was below zero at the start.
 TEST_P(ContactStepOf, IsReleasedWhereTheReactionFirstVanishesAndNotBefore) {
   const Model model = model_of(GetParam());
   const SpringConstants<double> m(model);
   RandomLaunches random(3);
   int releases = 0;
-  for (int i = 0; i < 300; ++i) {
-    const SlideState<double> start = pressed_start(GetParam(), random);
+  for (int i = 0; i < 3000; ++i) {
+    const SlideState<double> start =
+        i % 10 == 0 ? pressed_start(GetParam(), random) : barely_pressed_start(GetParam(), random);
     const ContactStep step(m, GetParam().eta, start, 1e-6, {});
+    const double noise = release_noise(m, start.u, start.X);
     const double release = step.find_release(), end = release < 0.0 ? step.length() : release;
     releases += release < 0.0 ? 0 : 1;
-    for (int k = 1; k < 100; ++k) ASSERT_GT(pressure_of(model, step.at(end * k / 100.0)), -1e-6) << i << ": " << k;
+    for (int k = 1; k < 100; ++k) {
+      ASSERT_GT(pressure_of(model, step.at(end * k / 100.0)), -1e-6) << i << ": " << k << " of " << release;
+    }
     if (release >= 0.0) {
-      ASSERT_NEAR(pressure_of(model, step.at(release)), -release_noise(m, start.u, start.X), 1e-10) << i;
+      ASSERT_NEAR(pressure_of(model, step.at(release)), -noise, 0.1 * noise) << i;
     }
   }
-  RecordProperty("releases", releases);
+  EXPECT_GT(releases, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Levers, ContactStepOf,
