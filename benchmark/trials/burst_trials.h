@@ -11,18 +11,12 @@
 
 namespace afm {
 
-// Impacts slower than this are part of chatter: about twice the fastest bounce that a burst holds [a/tau].
-inline double slowest_real_impact(double tolerance) { return 2.0 * std::sqrt(tolerance); }
-
 struct BurstTrial {
-  double bounces;              // one by one, up to the next real impact
+  double bounces;              // one by one, up to the next impact
   double normal_speed;         // of that
   double dt, phase, X, u, g1;  // errors there, absolute
 
-  double state() const { return std::max({phase, X, u, g1}); }
-  // A graze is a state hard to reach in time whatever led to it: times the normal speed its error is one of position.
-  double worst() const { return std::max(dt, state()); }
-  double tempered() const { return std::min(1.0, normal_speed) * worst(); }
+  double worst() const { return std::max({dt, phase, X, u, g1}); }
 };
 
 class BurstTrials {
@@ -73,7 +67,7 @@ class BurstTrials {
     }
   }
 
-  // Where the burst lets go, its next bounce; where it has died into contact, the impact after the release.
+  // Where the burst lets go, its next bounce; where it has died into contact, the first impact after the release.
   bool to_next_impact(Tip& burst, Tip& bounces, double& before, std::int64_t& count) const {
     const ModelTime begin = burst.now();
     if (burst.advance(begin + 1000.0) != Outcome::impact) return false;
@@ -87,11 +81,13 @@ class BurstTrials {
       std::int64_t one = 0;
       return all < most_bounces_ && bounce(burst, 1, one) && bounce(bounces, all, count);
     }
-    // the same impact of both, also where it is a little slower with the burst and would not count by itself
-    const double slowest = slowest_real_impact(tolerance_);
-    std::int64_t few = 0;
-    return to_fast_impact(bounces, ModelTime{}, slowest, count) &&
-           to_fast_impact(burst, begin + ((bounces.now() - ModelTime{}) - kNear), 0.7 * slowest, few);
+    ModelTime released = burst.now();
+    for (Outcome outcome; (outcome = burst.advance(begin + 1000.0)) != Outcome::impact;) {
+      if (outcome == Outcome::time_limit) return false;
+      released = burst.now();
+    }
+    // by then the bounces are far slower
+    return to_impact(bounces, ModelTime{} + ((released - begin) - kNear), 0.5 * burst.last_impact().normal_speed, count);
   }
 
   bool bounce(Tip& tip, std::int64_t times, std::int64_t& count) const {
@@ -101,15 +97,12 @@ class BurstTrials {
     return true;
   }
 
-  bool to_fast_impact(Tip& tip, const ModelTime& earliest, double slowest, std::int64_t& count) const {
+  bool to_impact(Tip& tip, const ModelTime& earliest, double slowest, std::int64_t& count) const {
     while (count < most_bounces_) {
       const Outcome outcome = tip.advance(tip.now() + 1000.0);
       if (outcome == Outcome::time_limit) return false;
       ++count;
-      if (outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact &&
-          tip.last_impact().normal_speed > slowest && earliest < tip.now()) {
-        return true;
-      }
+      if (outcome == Outcome::impact && tip.last_impact().normal_speed > slowest && earliest < tip.now()) return true;
     }
     return false;
   }

@@ -44,9 +44,10 @@ TEST_P(BurstsAt, AreWithinTheToleranceAtTheNextImpact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(DragSpeeds, BurstsAt,
-                         testing::Values(Drag{0.2, 0.1}, Drag{0.5, 0.1}, Drag{3.0, 0.1}, Drag{5.0, 0.1}, Drag{7.0, 0.1},
-                                         Drag{9.0, 0.1}, Drag{0.2, 0.01}, Drag{0.5, 0.01}, Drag{3.0, 0.01},
-                                         Drag{5.0, 0.01}, Drag{7.0, 0.01}, Drag{9.0, 0.01}));
+                         testing::Values(Drag{0.05, 0.0}, Drag{0.05, 0.2}, Drag{0.2, 0.1}, Drag{0.5, 0.1},
+                                         Drag{3.0, 0.1}, Drag{5.0, 0.1}, Drag{7.0, 0.1}, Drag{9.0, 0.1},
+                                         Drag{0.2, 0.01}, Drag{0.5, 0.01}, Drag{3.0, 0.01}, Drag{5.0, 0.01},
+                                         Drag{7.0, 0.01}, Drag{9.0, 0.01}));
 
 // A burst costs as much as five bounces. Here the horizontal spring swings, and the pressure with it.
 TEST(Bursts, SeldomReplaceOneBounceOrTwo) {
