@@ -10,7 +10,7 @@
 namespace {
 
 struct Options {
-  std::vector<double> eta{0.05, 0.2, 0.5, 1.0, 3.0, 5.0, 7.0, 9.0}, cutoff{0.0, 0.01, 0.05, 0.1}, gamma{0.7};
+  std::vector<double> eta{0.05, 0.2, 0.5, 3.0, 5.0, 7.0, 9.0}, cutoff{0.0, 0.01, 0.05, 0.1}, gamma{0.7};
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
 };

@@ -155,10 +155,20 @@ def grazes_kinds(tables):
 
 @short_table("burst_error")
 def burst_error_table(tables):
-    return [OrderedDict([("eta", r["eta"]), ("v_c", r["v_c"]), ("sequences", r["bursts"]),
-                         ("bounces replaced", r["bounces"]),
-                         ("median", r["median"]), ("99 %", r["99_percent"]), ("largest", r["max"])])
-            for r in tables.strings("burst_error")]
+    """Of the drag speeds the worst."""
+    groups = OrderedDict()
+    for row in tables.rows("burst_error"):
+        groups.setdefault((row["gamma"], row["v_c"]), []).append(row)
+    table = []
+    for (gamma, v_c), rows in groups.items():
+        worst = max(rows, key=lambda row: row["99_percent"])
+        table.append(OrderedDict([("gamma", "%g" % gamma), ("v_c", "%g" % v_c),
+                                  ("sequences", "%d" % sum(row["bursts"] for row in rows)),
+                                  ("bounces replaced", "%.2g" % sum(row["bounces"] for row in rows)),
+                                  ("median", "%.2g" % max(row["median"] for row in rows)),
+                                  ("99 %", "%.2g" % worst["99_percent"]), ("at eta", "%g" % worst["eta"]),
+                                  ("largest", "%.2g" % max(row["max"] for row in rows))]))
+    return table
 
 
 @short_table("cutoff_friction")
