@@ -26,11 +26,13 @@ void print_row(double gamma, double cutoff, double eta, const Options& o) {
   afm::BurstTrials trials(model, eta, afm::kDefaultContactTolerance, 1, o.most_bounces);
   std::vector<double> worst;
   double bounces = 0.0;
-  while (worst.size() < o.bursts) {
+  const long most_skipped = 2 * static_cast<long>(o.bursts);  // then the row has fewer
+  while (worst.size() < o.bursts && trials.skipped() <= most_skipped) {
     const afm::BurstTrial t = trials.next();
     worst.push_back(t.worst());
     bounces += t.bounces;
   }
+  if (worst.empty()) return;
   std::sort(worst.begin(), worst.end());
   std::printf("%g,%g,%g,%zu,%.0f,%ld,%.2g,%.2g,%.2g\n", gamma, cutoff, eta, worst.size(), bounces,
               trials.skipped(), quantile(worst, 0.5), quantile(worst, 0.99), worst.back());
