@@ -149,7 +149,7 @@ class Tip {
   Outcome end_flight(Flying& flying, Segments* ended);
   Outcome land(Flying& flying, Segments* ended);
   void leave_or_press(Flying& flying);
-  void begin_chatter(const TipState& bounce);
+  void begin_chatter(TipState bounce);
   Outcome begin_contact(const TipState& state);
   Outcome end_step(const Sliding& sliding);
   Outcome end_chatter(const Chattering& chattering);

@@ -74,11 +74,14 @@ void Tip::leave_or_press(Flying& flying) {
   }
 }
 
-void Tip::begin_chatter(const TipState& bounce) {
+// Where the reaction vanishes before the first bounce of a sequence ends, that bounce is a flight.
+void Tip::begin_chatter(TipState bounce) {
   const Projection start = project_onto_surface(model_, bounce);
   const double v = start.normal_speed, impulse = bounce_impulse(start.reference, v);
   const double energy = slide_energy(springs_, start.reference) + 0.5 * v * v + eta_ * impulse;
   chatter_along(start.reference, {v, 0.0}, {v, 0.0, -impulse}, {now_, 0.0, 0.0, energy, 0});
+  const ChatterRun& run = std::get<Chattering>(phase_).run;
+  if (run.end == ChatterEnd::exits && run.chatter.n == 0.0) fly(bounce);
 }
 
 // It goes on along the next reference slide, dies, or exits into a flight.
