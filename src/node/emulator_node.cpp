@@ -349,6 +349,16 @@ void handle_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+// From here on, on this thread and those that it starts: a signal would interrupt a call to the master, which would then
+// seem not to answer. The threads of roscpp that are there already take the signals.
+void leave_signals_to_roscpp() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
 // One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
 // running thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts,
 // never come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
@@ -374,6 +384,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
   handle_signals();
   const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle
+  leave_signals_to_roscpp();
   Faults faults;
   const auto parameters = load_parameters(handle, faults);
   if (!faults.empty()) {
