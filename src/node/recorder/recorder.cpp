@@ -140,10 +140,12 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const Messag
   }
 }
 
+// A snapshot finds room in a full queue: without it no part of a recording begins.
 // Stamps in the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by them.
 void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried) {
   const std::size_t bytes = item.message.bytes.size();
-  const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= kMaxQueueBytes; };
+  const std::size_t room = item.is_snapshot() ? 2 * kMaxQueueBytes : kMaxQueueBytes;
+  const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= room; };
   if (unhurried) room_.wait(lock, [&] { return has_room() || stopping_; });
   if (stopping_ || !begun_) return;  // or it was stopped while we waited
   if (!has_room()) {
