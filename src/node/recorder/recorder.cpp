@@ -147,7 +147,7 @@ void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurrie
   const std::size_t room = item.is_snapshot() ? 2 * kMaxQueueBytes : kMaxQueueBytes;
   const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= room; };
   if (unhurried) room_.wait(lock, [&] { return has_room() || stopping_; });
-  if (stopping_ || !begun_) return;  // or it was stopped while we waited
+  if (!bag_ || stopping_ || !begun_) return;  // it may have ended while we waited
   if (!has_room()) {
     ++dropped_messages_;
     return;
