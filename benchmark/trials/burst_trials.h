@@ -13,7 +13,6 @@ namespace afm {
 
 struct BurstTrial {
   double bounces;              // one by one, up to the next impact
-  double normal_speed;         // of that
   double dt, phase, X, u, g1;  // errors there, absolute
 
   double worst() const { return std::max({dt, phase, X, u, g1}); }
@@ -87,7 +86,8 @@ class BurstTrials {
       released = burst.now();
     }
     // by then the bounces are far slower
-    return to_impact(bounces, ModelTime{} + ((released - begin) - kNear), 0.5 * burst.last_impact().normal_speed, count);
+    const double slowest = 0.5 * burst.last_impact().normal_speed;
+    return to_impact(bounces, ModelTime{} + ((released - begin) - kNear), slowest, count);
   }
 
   bool bounce(Tip& tip, std::int64_t times, std::int64_t& count) const {
@@ -112,7 +112,6 @@ class BurstTrials {
     const TipState a = burst.tip_state(), b = bounces.tip_state();
     const double cells = a.phase - b.phase;
     return {static_cast<double>(count),
-            bounces.last_impact().normal_speed,
             std::abs(before + (burst.now() - bounces.now())),
             std::abs(cells - std::round(cells)),
             std::abs(a.X - b.X),

@@ -21,8 +21,8 @@ double number_in(const std::string& text) {
   return value;
 }
 
-// The least power of ten that makes a whole number of the value. Powers of ten are exact doubles up to 10^22, so a whole
-// number over one is rounded once: it is the double nearest to the decimal number.
+// The least power of ten that makes a whole number of the value. Powers of ten are exact doubles up to 10^22, so a
+// whole number over one is rounded once: it is the double nearest to the decimal number.
 double scale_of(double value) {
   constexpr double kLargestExact = 1e22;
   for (double ten = 1.0; ten <= kLargestExact; ten *= 10.0) {

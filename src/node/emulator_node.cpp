@@ -349,7 +349,7 @@ void handle_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-// From here on, on this thread and those that it starts: a signal would interrupt a call to the master, which would then
+// For this thread and those that it starts from now on: a signal would interrupt a call to the master, which would then
 // seem not to answer. The threads of roscpp that are there already take the signals.
 void leave_signals_to_roscpp() {
   sigset_t signals;

@@ -40,8 +40,8 @@ class ContactStep {
   double pressure(const SlideState<double>& q) const;  // the reaction along y [a/tau^2]
   Series<double> displacement() const;                 // x - x(start) in powers of the time
 
-  // The first time in [0, length()] at which the reaction has fallen to -release_noise(), within a thousandth of that.
-  // Negative if it does not fall so far.
+  // The first time in [0, length()] at which the reaction has fallen to -release_noise(), within a thousandth of that
+  // or the last digit of the time. Negative if it does not fall so far.
   double find_release() const;
 
   double length() const { return length_; }          // [tau]

@@ -359,6 +359,7 @@ double ContactStep::find_release() const {
     if (p > 0.0) low = s, low_p = p;
     for (double& x : b) x += p;  // so much the interpolation is off
   }
+  // secants, and bisection where they lead out
   double high = s, other = low, other_p = low_p;
   for (int i = 0; i < kMaxTries && std::fabs(p) > zero; ++i) {
     const double next = s - p * (s - other) / (p - other_p);

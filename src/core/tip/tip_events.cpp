@@ -74,7 +74,8 @@ void Tip::leave_or_press(Flying& flying) {
   }
 }
 
-// Where the reaction vanishes before the first bounce of a sequence ends, that bounce is a flight.
+// Where the reaction vanishes before the first bounce of a sequence ends, that bounce is a flight. It is a copy, as
+// the phase that holds it ends here.
 void Tip::begin_chatter(TipState bounce) {
   const Projection start = project_onto_surface(model_, bounce);
   const double v = start.normal_speed, impulse = bounce_impulse(start.reference, v);
