@@ -78,8 +78,7 @@ class Launch(Process):
         return bool(names) and all(name.lstrip('/') in ended or is_known(name) for name in names)
 
     def stop(self, with_signal=signal.SIGINT):
-        wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes',
-                   deadline_s=60.0)
+        wait_until(lambda: self.child.poll() is not None or self.has_started(), 'roslaunch has started all nodes')
         return super().stop(with_signal)
 
 
@@ -254,11 +253,9 @@ class EmulatorTest(NodeTest):
     def stepped(self, tau):
         """Steps, and waits until that has come."""
         end = self.step(tau=tau)
-        friction = self.topics['friction'].wait_for(lambda m: key(m.time) == key(end), 'what was stepped',
-                                                    deadline_s=60.0)
+        friction = self.topics['friction'].wait_for(lambda m: key(m.time) == key(end), 'what was stepped')
         for name in ('deflection', 'impacts'):
-            self.topics[name].wait_for(lambda m: m.header.seq == friction.header.seq, 'of the same batch',
-                                       deadline_s=60.0)
+            self.topics[name].wait_for(lambda m: m.header.seq == friction.header.seq, 'of the same batch')
         return friction
 
     def drag(self, eta):

@@ -44,8 +44,7 @@ class Examples(NodeTest):
     def check_detector(self, language):
         volts, deflection = Topic('/detector/volts', Float64MultiArray), Topic('deflection')
         example = self.launch('detector.launch', language=language)
-        wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started',
-                   deadline_s=60.0)
+        wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started')
         message = volts.messages[-1]
         rows, columns = (dimension.size for dimension in message.layout.dim)
         self.assertEqual((rows, columns, len(message.data)), (2, 2000, 4000))

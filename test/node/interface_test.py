@@ -70,7 +70,7 @@ class Interface(EmulatorTest):
         latched = {}
         subscribers = [rospy.Subscriber(name, rospy.AnyMsg, lambda m, name=name: latched.setdefault(
             name, m._connection_header['latching'] == '1')) for name in listed('out')]
-        wait_until(lambda: len(latched) == len(subscribers), 'a message on every topic', deadline_s=30.0)
+        wait_until(lambda: len(latched) == len(subscribers), 'a message on every topic')
         for subscriber in subscribers:
             subscriber.unregister()
         self.assertEqual(latched, {name: said == 'yes' for name, (_, said) in listed('out').items()})

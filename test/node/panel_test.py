@@ -42,12 +42,12 @@ from afm_emulator.expectations import results_path  # noqa: E402
 APPLICATION = QtWidgets.QApplication(['panel'])
 
 
-def until(condition, what, deadline_s=15.0):
+def until(condition, what):
     """While the window lives."""
     def and_alive():
         APPLICATION.processEvents()
         return condition()
-    return wait_until(and_alive, what, deadline_s)
+    return wait_until(and_alive, what)
 
 
 class Panel:
@@ -247,7 +247,7 @@ class Coming(NodeTest):
         self.assertFalse(panel.is_ready())
         for _ in range(2):
             emulator = self.start(Emulator())
-            until(panel.is_ready, 'it has found the emulator', deadline_s=30.0)
+            until(panel.is_ready, 'it has found the emulator')
             until(lambda: not panel.part('banner').isVisible(), 'it says nothing any more')
             self.assertFalse(panel.is_grey())
             os.kill(emulator.child.pid, signal.SIGKILL)
@@ -268,7 +268,7 @@ class Coming(NodeTest):
         self.addCleanup(panel.close)
         self.start(Process(['rosbag', 'play', '--quiet', '--loop', bag]))
         banner = panel.part('banner')
-        until(lambda: banner.isVisible() and 'recording' in banner.text(), 'it knows a recording', deadline_s=30.0)
+        until(lambda: banner.isVisible() and 'recording' in banner.text(), 'it knows a recording')
         until(lambda: 'η = 3.400' in panel.window.readouts['eta'].text(), 'its drag speed')
         until(lambda: panel.pixels(panel.window.scope.vertical, BLUE) > 300, 'its signals')
         self.assertFalse(panel.is_ready() or panel.is_grey())
@@ -309,7 +309,7 @@ application.Window = Closed
 sys.exit(application.run())
 '''
         panel = self.start(Process([sys.executable, '-c', close_it]))
-        wait_until(lambda: 'closing' in panel.output(), 'it is closed', deadline_s=60.0)
+        wait_until(lambda: 'closing' in panel.output(), 'it is closed')
         self.ended(panel, time.monotonic())
 
 

@@ -121,7 +121,7 @@ class ResetPauseStep(EmulatorTest):
 
         def last():
             return deflection.messages[-1].first_sample + len(deflection.messages[-1].vertical)
-        wait_until(lambda: deflection.messages and last() >= due, 'every sample', deadline_s=60.0)
+        wait_until(lambda: deflection.messages and last() >= due, 'every sample')
         self.assertEqual(deflection.messages[0].first_sample, 0)
         bags.assert_no_gap(self, self.topics['deflection'].messages)
         self.assertEqual(self.status_now().dropped_messages, dropped)

@@ -62,11 +62,9 @@ class Scenes(NodeTest):
         while tau > 0.0:
             end = self.call('step', Step, tau=min(tau, MOST_TAU), impacts=0).time
             tau -= MOST_TAU
-        estimate = self.friction.wait_for(lambda m: key(m.time) == key(end), '%g s of model time' % seconds,
-                                          deadline_s=60.0)
+        estimate = self.friction.wait_for(lambda m: key(m.time) == key(end), '%g s of model time' % seconds)
         for name in ('deflection', 'impacts'):
-            self.topics[name].wait_for(lambda m: m.header.seq == estimate.header.seq, 'of the same time',
-                                       deadline_s=60.0)
+            self.topics[name].wait_for(lambda m: m.header.seq == estimate.header.seq, 'of the same time')
         return estimate
 
     def last_of_each_command(self):

@@ -11,11 +11,12 @@ TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction
           'status': EmulatorStatus, 'configuration': Configuration, 'snapshot': Snapshot}
 
 PATIENCE = float(os.environ.get('AFM_PATIENCE', '1'))  # under a sanitizer all takes longer
+DEADLINE_S = 60.0  # a launch takes two seconds, and twenty on a machine that builds three other things
 
 _news = threading.Condition()
 
 
-def wait_until(condition, what, deadline_s=15.0):
+def wait_until(condition, what, deadline_s=DEADLINE_S):
     """What condition() returns as soon as that is true. Looks again at every message, and 20 times a second."""
     end = time.monotonic() + deadline_s * PATIENCE
     with _news:
@@ -59,7 +60,7 @@ class Topic:
             self._subscriber.unregister()
             self._subscribe()
 
-    def _wait_until(self, condition, what, deadline_s=15.0):
+    def _wait_until(self, condition, what, deadline_s=DEADLINE_S):
         def looked_after():
             self._ask_again()
             return condition()
@@ -99,7 +100,7 @@ class Topic:
             self.messages.append(decoded)
             _news.notify_all()
 
-    def wait_for(self, wanted=lambda message: True, what='a message', begin=0, deadline_s=15.0):
+    def wait_for(self, wanted=lambda message: True, what='a message', begin=0, deadline_s=DEADLINE_S):
         """The first message from the `begin`-th on that is wanted."""
         return self._wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), what, deadline_s)
 

@@ -174,7 +174,7 @@ class SlowMotion(ViewTest):
             self.stepped(0.7)
             events = Reported(self.topics).events
             return events and events[-1].kind == Impact.CONTACT_BEGUN
-        wait_until(slides, 'contact', deadline_s=60.0)
+        wait_until(slides, 'contact')
         picture, reported, time = self.picture_of_now()
         self.assert_surface(picture, reported.middle(time))
         x, y = picture.tip()
