@@ -20,7 +20,7 @@ CONSTANTS = [('kRootReach', 'impact_steps.h', [1.05, 1.1, 1.25, 1.5, 2.0]),
              ('kFirstTrial', 'impact_search.h', [0.02, 0.05, 0.1]),
              ('kReturns', 'impact_search.h', [-1.2, -1.4, -1.6, -1.8, -2.0])]
 SOURCES = ['benchmark/search_constants.cpp', 'src/core/search/landing.cpp', 'src/core/search/double_double.cpp',
-           'src/core/state.cpp', 'src/core/model.cpp', 'src/core/number_text.cpp']
+           'src/core/search/finer_landing.cpp', 'src/core/state.cpp', 'src/core/model.cpp', 'src/core/number_text.cpp']
 
 
 def measure(work, name, header, value):

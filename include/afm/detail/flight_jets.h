@@ -75,7 +75,7 @@ GapJet<T> jet_at(const SpringConstants<T>& m, const T& eta, const FlightState<T>
 // ulp of itself (Lemma 7). Precondition: is_small() of t. The terms linear in t combine to g1 t. The rest is of the
 // second order, and each of its terms is exact to a few ulp.
 template <class T>
-GapJet<T> advance_jet(const SpringConstants<T>& m, const T& eta, const GapJet<T>& jet, const T& t) {
+inline GapJet<T> advance_jet(const SpringConstants<T>& m, const T& eta, const GapJet<T>& jet, const T& t) {
   const FlightState<T>& o = jet.state;
   const T k = two_pi<T>(), per = m.inverse_omega_v, u0 = eta + o.U;
   const SmallTurn<T> h = small_turn(T(m.ratio * t)), v = small_turn(t);

@@ -1,9 +1,6 @@
 #include "afm/landing.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "double_double.h"
+#include "finer_landing.h"
 #include "impact_search.h"
 
 namespace afm {
@@ -19,15 +16,6 @@ constexpr double kMinProgress = 0.1;
 // only its fourth derivative, below 1e4 a/tau^4, so that each step is at least 1e-5 tau.
 constexpr double kNoGap = 1e-17;
 
-Landing<double> rounded(const Landing<DoubleDouble>& landing) {
-  const auto d = [](const DoubleDouble& x) { return static_cast<double>(x); };
-  const FlightState<DoubleDouble>& q = landing.jet.state;
-  const GapJet<DoubleDouble>& j = landing.jet;
-  const GapJet<double> jet{d(j.g), d(j.g1), d(j.g2), d(j.g3), {d(q.phase), d(q.X), d(q.U), d(q.Y), d(q.W)},
-                           d(j.h), d(j.h1)};
-  return {landing.outcome, d(landing.s), jet, landing.evaluations};
-}
-
 SearchOutcome without_end(const Landing<double>& landing) {
   if (!(landing.jet.g > kNoGap)) return SearchOutcome::impact;
   return landing.s >= kMinProgress ? SearchOutcome::clear : SearchOutcome::cap;
@@ -37,10 +25,7 @@ SearchOutcome without_end(const Landing<double>& landing) {
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_impact(flight, horizon);
-  if (landing.outcome == SearchOutcome::undecided) {
-    const Flight<DoubleDouble> finer(SpringConstants<DoubleDouble>(model), DoubleDouble(flight.eta()), flight.launch());
-    landing = rounded(find_impact(finer, DoubleDouble(horizon), DoubleDouble(landing.s)));
-  }
+  if (landing.outcome == SearchOutcome::undecided) landing = find_finer_landing(model, flight, horizon, landing.s);
   if (landing.outcome == SearchOutcome::undecided || landing.outcome == SearchOutcome::cap)
     landing.outcome = without_end(landing);
   return landing;
