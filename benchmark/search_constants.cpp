@@ -1,4 +1,4 @@
-// Evaluations of the gap per impact, over many consecutive impacts at eight drag velocities. search_constants.py
+// Evaluations of the gap per impact, over many consecutive impacts at eight drag velocities. changed_constants.py
 // compiles it with other constants of the search.
 #include <cstdio>
 

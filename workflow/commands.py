@@ -214,7 +214,8 @@ def commands(quick):
         choose("--tau 2000", "--tau 20000"), "--transient 500")
     add("grazes_flight", "grazes --kinds flight", choose("--flights 100 --ordinary 10000",
                                                          "--flights 3000 --ordinary 400000"))
-    add("search_constants", "benchmark/search_constants.py")
+    for study in ("search", "chatter"):
+        add(study + "_constants", "benchmark/changed_constants.py", study)
     add("grazes_start", "grazes --kinds start --ordinary 10 --flights", choose(10, 100))
     add("grazes_tau", "grazes --kinds tau --ordinary 10 --flights", choose(3, 20))
     seconds = choose(15, 110)

@@ -14,8 +14,7 @@
 
 namespace afm::detail {
 
-// The first three limits are measured with benchmark/burst_error (docs/algorithm.md has the table). The others are
-// chosen: half of any of them changes the error at the next impact in 99 of 100 by less than a quarter (same command).
+// docs/algorithm.md has a table of the error with each of them changed.
 struct ChatterLimits {
   static constexpr double kMaxLoss = 0.1;            // w at the entry
   static constexpr double kMaxRatioAtEntry = 0.06;   // adiabaticity ratio at the entry
