@@ -74,6 +74,18 @@ SiUnits to_units_of_lever(double omega_v, double omega_h, double mass, double sp
   return {si, Units(si)};
 }
 
+std::string describe_units(const SiUnits& u) {
+  std::ostringstream text;
+  text << "Units(omega_v_rad_per_s=" << shortest(u.si.omega_v_rad_per_s)
+       << ", omega_h_rad_per_s=" << shortest(u.si.omega_h_rad_per_s) << ", tip_mass_kg=" << shortest(u.si.tip_mass_kg)
+       << ", lattice_spacing_m=" << shortest(u.si.lattice_spacing_m)
+       << ", surface_amplitude_m=" << shortest(u.si.surface_amplitude_m)
+       << ", rest_height_m=" << shortest(u.si.rest_height_m)
+       << ", restitution_gamma=" << shortest(u.si.restitution_gamma) << ", cutoff_speed=" << shortest(u.si.cutoff_speed)
+       << ")";
+  return text.str();
+}
+
 Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, double lateral_quality_factor,
              double kicks_per_tau, std::uint64_t seed) {
   const Bath bath =
@@ -150,7 +162,8 @@ resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in p
       .def_property_readonly("energy", unit(&Units::energy), "[J]")
       .def_property_readonly("force", unit(&Units::force), "[N]")
       .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m_tip/tau")
-      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT");
+      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT")
+      .def("__repr__", &describe_units);
 }
 
 }  // namespace

@@ -254,6 +254,9 @@ class Arrays(unittest.TestCase):
         self.assertNotEqual(afm.Model(gamma=0.8), afm.Model())
         self.assertEqual(eval(repr(afm.Model(gamma=0.1)), {'Model': afm.Model}), afm.Model(gamma=0.1))
         self.assertEqual(eval(repr(afm.Bath(0.3, 50)), {'Bath': afm.Bath}), afm.Bath(0.3, 50))
+        units = afm.Units(lattice_spacing_m=0.399e-9)
+        again = eval(repr(units), {'Units': afm.Units})
+        self.assertEqual((again.model, again.length, again.energy), (units.model, units.length, units.energy))
         with self.assertRaises(AttributeError):
             afm.Model().gamma = 0.5
 

@@ -12,8 +12,8 @@
 
 #include "afm/pacer.h"
 #include "afm/run.h"
-#include "report.h"
 #include "node/params/parameters.h"
+#include "report.h"
 #include "threads.h"
 
 namespace afm::node {
@@ -22,7 +22,8 @@ constexpr double kMaxStepTau = 1e4;  // of one step: 1.6 s of model time at the 
 constexpr std::uint64_t kMaxStepImpacts = 100000;
 constexpr char kTimeRanOut[] = "time ran out";  // a fault of an answer: the step went as far as it says
 
-// Model time per wall time of the run alone, without what it costs to publish, from a trial run of some milliseconds.
+// Model time per processor time of the run alone, without what it costs to publish, from a trial run of some
+// milliseconds.
 double measure_pace(const Parameters& parameters);
 
 class Runner {

@@ -1,19 +1,24 @@
 // The pace that a run will reach, before it begins.
+#include <ctime>
+
 #include "runner.h"
 
 namespace afm::node {
 namespace {
 
 // The first is for caches and the transient of the initial state; the second is long enough for a tenth.
-constexpr std::chrono::milliseconds kWarmUp{5}, kTrial{20};
+constexpr double kWarmUp = 5e-3, kTrial = 20e-3;  // [s]
 
-// Model time that passes [tau] in so much wall time, over that wall time [s].
-double advance_for(std::chrono::nanoseconds wall, Run& run, Batch& batch, std::uint64_t impacts) {
-  const auto begin = monotonic_now();
+// Processor time of this process, whose other threads still wait [s]: the wall clock measures other programs too.
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// Model time that passes [tau] in so many seconds, over these seconds.
+double advance_for(double seconds, Run& run, Batch& batch, std::uint64_t impacts) {
+  const double begin = processor_seconds();
   const ModelTime start = run.now();
-  auto now = begin;
-  for (; now - begin < wall; now = monotonic_now()) run.advance(run.now() + 1.0, impacts, batch);
-  return (run.now() - start) / std::chrono::duration<double>(now - begin).count();
+  double now = begin;
+  for (; now - begin < seconds; now = processor_seconds()) run.advance(run.now() + 1.0, impacts, batch);
+  return (run.now() - start) / (now - begin);
 }
 
 }  // namespace
