@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """With parameters that cannot be, the node reports them in one error, ends with exit code 1 and has advertised nothing.
 parameters_test.cpp tests which those are."""
 import os
@@ -7,7 +6,7 @@ import xmlrpc.client
 from socketserver import ThreadingMixIn
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
-from emulator_under_test import Emulator, NodeTest, run
+from emulator_under_test import Emulator, NodeTest
 from topics import NAMESPACE
 
 
@@ -56,7 +55,3 @@ class BadParameters(NodeTest):
             self.assertIn(text, emulator.output())
         self.assertTrue(spy.calls)
         self.assertEqual(spy.advertised(), [])
-
-
-if __name__ == '__main__':
-    run(BadParameters)

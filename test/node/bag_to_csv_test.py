@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """bag_to_csv writes every number of a recording as rosbag's reader finds it, in SI to the bit and in natural units to
 rounding; what is missing it names, and writes what there is."""
 import csv
@@ -9,7 +8,7 @@ from afm_emulator.msg import Friction
 
 import bags
 from checks import UNCHECKED, USAGE
-from emulator_under_test import ENERGY_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeTest, run
+from emulator_under_test import ENERGY_UNIT, PACKAGE, SPEED_UNIT, TAU_S, NodeTest
 from spoiled_bag import SpoiledBag
 from topics import PATIENCE, Topic
 
@@ -159,7 +158,3 @@ class Incomplete(SpoiledBag):
             answer = call(*arguments)
             self.assertEqual((answer[0], answer[1]), (code, []), answer)
             self.assertIn(words, answer[2])
-
-
-if __name__ == '__main__':
-    run(BagToCsv, Incomplete)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Model time goes as wall time does, and every batch tells its own. A drag command takes effect at a model time that is
 reported, and the friction is the one known for that speed. One that cannot be is counted and changes nothing.
 scripts/soak sends thousands, of every size."""
@@ -6,7 +5,7 @@ import math
 import time
 from fractions import Fraction
 
-from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, EmulatorTest, run
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, EmulatorTest
 from topics import key, tau_between, wait_until
 
 SLOPE = 2 * math.pi * 0.05 / 0.52
@@ -95,7 +94,3 @@ class Commands(EmulatorTest):
         self.assertEqual([m.cause for m in self.applied.messages], ['epoch', 'drag_velocity'])
         self.topics['status'].wait_for(lambda m: m.refused_commands >= before + len(JUNK), 'the refused are counted')
         self.assertEqual(self.status_now().refused_commands, before + len(JUNK))
-
-
-if __name__ == '__main__':
-    run(Commands)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """What a running node comes to is on /diagnostics. diagnosis_test.cpp tests what is said of each state."""
 import math
 
@@ -6,7 +5,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from std_msgs.msg import Float64
 
-from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, run
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest
 from topics import NAMESPACE, Topic, wait_until
 
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
@@ -70,7 +69,3 @@ class Diagnostics(NodeTest):
         self.expect('commands', ERROR, 'too many commands are waiting')
         flood.unregister()
         self.end()
-
-
-if __name__ == '__main__':
-    run(Diagnostics)

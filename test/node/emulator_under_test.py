@@ -4,7 +4,6 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 import xmlrpc.client
@@ -12,7 +11,6 @@ from pathlib import Path
 
 import roslib.packages
 import rospy
-import rostest
 from afm_emulator.srv import Step
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
@@ -148,15 +146,6 @@ def call_service(service, kind, **request):
     return rospy.ServiceProxy(service, kind)(**request)
 
 
-def pid_of_node(name=NAMESPACE):
-    """Of the node of that name that the master knows; None if it does not answer."""
-    _, _, uri = rospy.get_master().lookupNode(name)
-    try:
-        return xmlrpc.client.ServerProxy(uri).getPid('test')[2]
-    except (OSError, xmlrpc.client.Error):
-        return None
-
-
 def connected_to(topic):
     """Names of the nodes that the emulator is connected to and sends this topic."""
     _, _, uri = rospy.get_master().lookupNode(NAMESPACE)
@@ -267,11 +256,3 @@ class EmulatorTest(NodeTest):
 
     def status_now(self):
         return self.topics['status'].wait_for_next()
-
-
-def run(*cases):
-    """rostest takes one class, or the name of what makes a suite."""
-    rospy.init_node('test', anonymous=True)
-    load = unittest.defaultTestLoader.loadTestsFromTestCase
-    sys.modules['__main__'].all_cases = lambda: unittest.TestSuite(load(case) for case in cases)
-    rostest.rosrun(PACKAGE, cases[0].__name__, '__main__.all_cases')

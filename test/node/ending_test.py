@@ -1,22 +1,21 @@
-#!/usr/bin/python3
 """Every Python node that we ship ends within 5 s of SIGINT, whenever that comes after the node's first lines. Before
 them Python itself starts, and may swallow a SIGINT: it prints a KeyboardInterrupt and goes on.
 
-usage: ending_test.py [ROUNDS]     in each round all nodes start at once, and each is stopped at a random moment
+AFM_STOPS, 1 by default: so many rounds, in each of which all nodes start at once, and each is stopped at a random
+moment.
 """
 import os
 import random
 import signal
-import sys
 import time
 
 import roslib.packages
 
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
 from topics import wait_until
 
 NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status', 'panel')
-ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1].isdigit() else 1
+ROUNDS = int(os.environ.get('AFM_STOPS', 1))
 LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0
 
@@ -56,7 +55,3 @@ class Ending(NodeTest):
                 self.assertNotEqual(code, -signal.SIGKILL)
                 worst, by_alarm = max(worst, seconds), by_alarm + (code == -signal.SIGALRM)
         print('%d stops: the slowest took %.1f s; the kernel ended %d' % (ROUNDS * len(NODES), worst, by_alarm))
-
-
-if __name__ == '__main__':
-    run(Ending)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The example nodes do what they are for, started by their launch files as a user starts them."""
 import csv
 import re
@@ -10,7 +9,7 @@ import roslib.packages
 import rospy
 from std_msgs.msg import Float64MultiArray
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, run
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process
 from topics import PATIENCE, Topic, wait_until
 
 SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose nothing
@@ -98,7 +97,3 @@ class Examples(NodeTest):
         # once
         self.assertGreater(applied, 2.0)
         self.assertGreaterEqual(seen, applied)
-
-
-if __name__ == '__main__':
-    run(Examples)

@@ -1,10 +1,11 @@
-#!/usr/bin/python3
 """What happens around a running emulator: it goes on, or says what it did not do; and its recording stays whole."""
+import os
 import signal
 import struct
 import time
 import xmlrpc.client
 from pathlib import Path
+from unittest import mock
 
 import roslib.packages
 import rospy
@@ -13,8 +14,8 @@ from std_srvs.srv import SetBool
 
 import bags
 import checks
-from emulator_under_test import PACKAGE, Emulator, NodeTest, run, set_parameters
-from master import Master
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
+from own_master import own_master
 from tcpros import BareSubscriber
 from topics import NAMESPACE, PATIENCE, Topic, wait_until
 
@@ -39,14 +40,15 @@ class Faults(NodeTest):
     def test_the_master_dies(self):
         """The run, its subscribers and its recording do not need it."""
         self.directory = Path(self.temporary_directory())
-        master = self.start(Master())
-        master.proxy.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
-        emulator = self.start(Emulator(ROS_MASTER_URI=master.uri))
-        wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.proxy.getSystemState('test')[2]),
-                   'the last of it is registered')
-        listener = BareSubscriber('deflection', master=master.proxy)
-        before = listener.read_message()
-        master.stop(signal.SIGKILL)
+        binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
+        with mock.patch.dict(os.environ), own_master() as master:  # for its children alone
+            master.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
+            emulator = self.start(Process([binary, '__name:=' + NAMESPACE[1:]]))
+            wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.getSystemState('test')[2]),
+                       'the last of it is registered')
+            listener = BareSubscriber('deflection', master=master)
+            before = listener.read_message()
+        # the master is killed
         self.assertIsNone(emulator.child.poll())
         while listener.read_message().first_sample < before.first_sample + 100000:
             pass  # half a second of the run
@@ -122,12 +124,6 @@ class Faults(NodeTest):
         self.assertGreater(status.worst_lag, 0.9 * seconds)  # it says so
         self.assertGreater(status.late_batches, 0)
 
-    def test_parameters_of_an_earlier_run(self):
-        set_parameters({'drag_velocity': 5.0e-6, 'no_longer_known': 1})
-        self.launch('emulator.launch')
-        self.assertAlmostEqual(Topic('configuration').wait_for().drag_velocity, 1.1255437575458838e-05, delta=1e-18)
-        self.assertFalse(rospy.has_param(NAMESPACE + '/no_longer_known'))
-
     def test_two_of_one_name(self):
         first = self.recording_emulator()
         second = self.start(Emulator({}))
@@ -138,7 +134,3 @@ class Faults(NodeTest):
         wait_until(lambda: xmlrpc.client.ServerProxy(rospy.get_master().lookupNode(NAMESPACE)[2]).getPid('test')[2]
                    == second.child.pid, 'the second has the name')
         self.assertEqual(second.stop(), 0)
-
-
-if __name__ == '__main__':
-    run(Faults)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """A recording on a small disk ends cleanly before the disk is full, says why, and the node goes on."""
 import errno
 import os
@@ -8,9 +7,8 @@ import tempfile
 import rospy
 from afm_emulator.srv import StartRecording
 
-import bags
 import checks
-from emulator_under_test import Emulator, NodeTest, run
+from emulator_under_test import Emulator, NodeTest
 from topics import Topic
 
 DISK_MB, RESERVE_MB = 24, 16  # a second of the run takes 16 MB
@@ -66,7 +64,6 @@ class FullDisk(NodeTest):
         self.assertIn('disk_reserve_mb', self.wait_for_error())
         self.assertGreaterEqual(self.free_bytes(), RESERVE_MB * 1e6)
         self.assertEqual(os.listdir(self.disk), ['small.bag'])
-        bags.assert_sound(self, self.answer.path)
         checks.assert_identical(self, self.answer.path)
 
     def test_survives_a_disk_that_others_fill(self):
@@ -75,7 +72,3 @@ class FullDisk(NodeTest):
         error = self.wait_for_error()
         closed = os.path.exists(self.answer.path)
         self.assertEqual('reindex' in error, not closed, error)  # says how to recover it only where that is needed
-
-
-if __name__ == '__main__':
-    run(FullDisk)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """What the nodes advertise is what docs/interface.md lists: names, types, and which topics are latched."""
 import re
 
@@ -8,7 +7,7 @@ import rospy
 import rosservice
 from pathlib import Path
 
-from emulator_under_test import PACKAGE, EmulatorTest, Process, run
+from emulator_under_test import PACKAGE, EmulatorTest, Process
 from topics import NAMESPACE, wait_until
 
 ROW = re.compile(r'^\| (in|out) \| `(\S+)` \| (\w+/\w+) \| ?(yes|no|) ?\|', re.M)
@@ -80,7 +79,3 @@ class Interface(EmulatorTest):
         self.assert_come_to(set(services), 2, NAMESPACE)
         for name, kind in services.items():
             self.assertEqual(rosservice.get_service_type(name), kind, name)
-
-
-if __name__ == '__main__':
-    run(Interface)

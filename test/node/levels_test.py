@@ -1,11 +1,10 @@
-#!/usr/bin/python3
 """model: auto takes for every drag velocity the cheapest level that its tolerance allows, and says which."""
 import math
 from pathlib import Path
 
 from std_srvs.srv import Trigger
 
-from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, Emulator, NodeTest, run
+from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, Emulator, NodeTest
 from topics import Topic, key
 
 HEAD = ('# parameters: gamma 0.7 cutoff %.12g frequency_ratio 6.25 amplitude 0.09615384615384616 rest_height 0\n'
@@ -73,7 +72,3 @@ class Levels(NodeTest):
             self.assert_level(self.applied.wait_for(lambda m: getattr(m, name) == value, begin=count), level)
         self.assertTrue(self.emulator.call('reset', Trigger).success)
         self.assert_level(self.applied.wait_for(lambda m: m.epoch == 1), HAMMER)  # of the start
-
-
-if __name__ == '__main__':
-    run(Levels)

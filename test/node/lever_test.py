@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Every lever that is shipped runs on a crystal under a load, in the terms of its owner."""
 import math
 from pathlib import Path
@@ -8,7 +7,7 @@ import roslib.packages
 import yaml
 from afm_emulator.srv import Control
 
-from emulator_under_test import PACKAGE, Emulators, NodeTest, call_service, run
+from emulator_under_test import PACKAGE, Emulators, NodeTest, call_service
 from topics import Topic
 
 CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
@@ -90,7 +89,3 @@ class LeverTest(NodeTest):
         launch.stop()
         self.assertIn('0.1 N/m at 9000 Hz, 50 N/m laterally', launch.output())
         self.assertIn('times real time on this machine', launch.output())
-
-
-if __name__ == '__main__':
-    run(LeverTest)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Under load (200 commands a second, 20 subscribers, one that never reads, every core busy) model time keeps up and the
 recording is whole."""
 import multiprocessing
@@ -10,7 +9,7 @@ import time
 import rospy
 
 import checks
-from emulator_under_test import SPEED_UNIT, TAU_S, NodeTest, run
+from emulator_under_test import SPEED_UNIT, TAU_S, NodeTest
 from tcpros import BareSubscriber, Drain
 from topics import Topic, wait_until
 
@@ -58,7 +57,3 @@ class Load(NodeTest):
         for s, count in drain.bytes.items():
             self.assertGreater(count - before[s], 1000000, 'a subscriber got less than a third of a second')
         checks.assert_identical(self, *self.end(self.emulator))
-
-
-if __name__ == '__main__':
-    run(Load)

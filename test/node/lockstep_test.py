@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """In lockstep the emulator advances when it is asked to; my_controller_test.sh tests that a closed loop repeats. Model
 time on /clock rises strictly, whatever happens."""
 import math
@@ -11,7 +10,7 @@ from afm_emulator.msg import Applied, Configuration
 from afm_emulator.srv import Control, ControlResponse
 from rosgraph_msgs.msg import Clock
 
-from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, run
+from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process
 from topics import Topic, key, tau_between, wait_until
 
 NAN = float('nan')
@@ -168,8 +167,3 @@ class Starting(NodeTest):
         self.topics_of('/never')
         with self.assertRaisesRegex(EmulatorError, '/never/control'):
             Client('/never', timeout=0.5)
-
-
-if __name__ == '__main__':
-    rospy.set_param('/use_sim_time', False)
-    run(Lockstep, Waiting, RealTime, Starting)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """What scripts/run starts listens on loopback only."""
 import os
 import signal
@@ -7,8 +6,8 @@ from pathlib import Path
 
 import roslib.packages
 
-from emulator_under_test import PACKAGE, NodeTest, Process, run
-from master import free_port
+from emulator_under_test import PACKAGE, NodeTest, Process
+from own_master import free_port
 from topics import wait_until
 
 LOOPBACK = ('0100007F', '00000000000000000000000001000000')  # 127.0.0.1 and ::1 as the kernel writes them
@@ -71,7 +70,3 @@ class Loopback(NodeTest):
         found = wait_until(all_listen, 'master, rosout and emulator listen')
         for name, addresses in found.items():
             self.assertTrue(set(addresses) <= set(LOOPBACK), (name, addresses))
-
-
-if __name__ == '__main__':
-    run(Loopback)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The front panel on a display of its own: what is turned and pressed takes effect, what comes is drawn; it greys out
 without an emulator, comes back with it, shows a recording, and ends when it is asked to. Pictures of it go to the
 test's results."""
@@ -11,7 +10,7 @@ import time
 
 import roslib.packages
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process, run
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
 
 
@@ -33,6 +32,7 @@ class Display:
 
 
 DISPLAY = Display()
+tearDownModule = DISPLAY.close
 from PyQt5 import QtCore, QtGui, QtTest, QtWidgets  # noqa: E402
 from afm_emulator.panel.link import Link  # noqa: E402
 from afm_emulator.panel.pictures import BLUE, ORANGE, friction_curve  # noqa: E402
@@ -277,23 +277,16 @@ class Coming(NodeTest):
 
 
 class Ending(NodeTest):
-    NODE = roslib.packages.find_node(PACKAGE, 'panel')[0]
-
     def test_without_a_display(self):
         for display, why in ((None, 'DISPLAY is not set'), (':987', ':987 cannot be opened')):
             environment = {name: value for name, value in os.environ.items()
                            if name not in ('DISPLAY', 'WAYLAND_DISPLAY')}
             if display:
                 environment['DISPLAY'] = display
-            panel = self.start(Process([self.NODE], environment))
+            panel = self.start(Process([roslib.packages.find_node(PACKAGE, 'panel')[0]], environment))
             self.assertEqual(panel.wait(), 1)
             self.assertEqual(panel.output().count('\n'), 1, panel.output())
             self.assertIn(why, panel.output())
-
-    def ended(self, panel, asked):
-        code = panel.wait()
-        self.assertIn(code, (0, -signal.SIGALRM), panel.output())  # else the kernel ends it, after a second
-        print('ended after %.2f s' % (time.monotonic() - asked))
 
     def test_when_its_window_is_closed(self):
         close_it = '''
@@ -310,11 +303,4 @@ sys.exit(application.run())
 '''
         panel = self.start(Process([sys.executable, '-c', close_it]))
         wait_until(lambda: 'closing' in panel.output(), 'it is closed')
-        self.ended(panel, time.monotonic())
-
-
-if __name__ == '__main__':
-    try:
-        run(Knobs, Coming, Ending)
-    finally:
-        DISPLAY.close()
+        self.assertIn(panel.wait(), (0, -signal.SIGALRM), panel.output())  # else the kernel ends it, after a second

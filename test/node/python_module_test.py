@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The Python module simulates a recorded run again to the last bit."""
 import os
 import subprocess
@@ -15,7 +14,7 @@ from std_srvs.srv import SetBool, Trigger
 import afm
 import bags
 import checks
-from emulator_under_test import SPEED_UNIT, NodeTest, run
+from emulator_under_test import SPEED_UNIT, NodeTest
 from topics import Topic, wait_until
 
 EXAMPLE = Path(os.path.realpath(__file__)).parents[2] / 'examples' / 'python' / 'read_bag.py'
@@ -148,7 +147,3 @@ class PythonModule(NodeTest):
                 if keeps(bags.short(topic), message):
                     kept.write(topic, message, stamp)
         return filtered
-
-
-if __name__ == '__main__':
-    run(PythonModule)

@@ -1,7 +1,9 @@
-#!/usr/bin/python3
-"""What is recorded is what was published, message for message. recorder_test.cpp tests what the recorder refuses."""
+"""What is recorded is what was published, message for message, also where the emulator is killed. recorder_test.cpp
+tests what the recorder refuses, and how a recording ends by itself."""
 import itertools
 import os
+import signal
+import subprocess
 
 import roslib.packages
 import rosbag
@@ -11,8 +13,10 @@ from std_srvs.srv import Trigger
 
 import bags
 import checks
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, run, set_parameters
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, set_parameters
 from topics import Topic, wait_until
+
+CHUNK_BYTES = 768 * 1024  # what rosbag writes at once
 
 
 def position(sequence, part):
@@ -22,21 +26,6 @@ def position(sequence, part):
 
 
 class Recording(NodeTest):
-    def setUp(self):
-        super().setUp()
-        self.directory = self.temporary_directory()
-        self.emulator = self.start(Emulator({'bag_directory': self.directory}))
-
-    def tearDown(self):
-        self.emulator.assert_alive()
-        self.assertEqual(self.emulator.stop(), 0)
-
-    def begin(self, name=''):
-        return self.emulator.call('start_recording', StartRecording, name=name)
-
-    def end(self):
-        return self.emulator.call('stop_recording', Trigger)
-
     def assert_holds(self, recorded, published, begin, end):
         """The recorded messages are one piece of the published ones, and contain those from begin to end."""
         self.assertTrue(recorded)
@@ -46,21 +35,22 @@ class Recording(NodeTest):
         self.assertGreaterEqual(first + len(recorded), end, published.name)
 
     def test_records_what_is_published(self):
+        emulator = self.record()
         published = bags.listen()
         published['deflection'].wait_for_more(10)
-        answer = self.begin('run.bag')
+        answer = emulator.call('start_recording', StartRecording, name='run.bag')
         self.assertTrue(answer.success, answer.message)
         published['status'].wait_for_next(lambda m: m.recording == answer.path, 'recording')
         # all that is published from now on must be in the bag, but what comes in first may be older
         published['deflection'].wait_for_more(50)
         begin = bags.count(published)
-        self.emulator.drag(6.6e-6)
+        emulator.drag(6.6e-6)
         published['applied'].wait_for(lambda m: m.drag_velocity == 6.6e-6, 'the command')
         published['deflection'].wait_for_more(150)
         end = bags.count(published)
-        self.assertTrue(self.end().success)
-        self.assertEqual(os.listdir(self.directory), ['run.bag'])
-        bags.assert_sound(self, answer.path)
+        self.assertTrue(emulator.call('stop_recording', Trigger).success)
+        self.assertEqual([path.name for path in self.directory.iterdir()], ['run.bag'])
+        checks.assert_identical(self, answer.path)
         for name, recorded in bags.read_raw(answer.path).items():
             self.assert_holds(recorded, published[name], begin[name], end[name])
         with rosbag.Bag(answer.path) as bag:
@@ -68,9 +58,28 @@ class Recording(NodeTest):
         self.assertEqual([bags.short(topic) for topic in first], list(bags.BEGINNING))
         status = published['status'].wait_for_next(lambda m: not m.recording, 'no longer recording')
         self.assertEqual(status.recorder_error, '')
+        self.end(emulator)
 
+    def test_killed(self):
+        emulator, deflection = self.record(record=True), Topic('deflection')
+        deflection.wait_for(lambda m: m.first_sample > 300000, 'one and a half seconds')
+        emulator.stop(signal.SIGKILL)
+        seen = deflection.messages[-1].first_sample
+        path, = self.directory.iterdir()
+        self.assertTrue(path.name.endswith('.bag.active'))
+        answer = checks.replay_check(path)
+        self.assertEqual(answer.code, checks.UNCHECKED, answer.text)
+        self.assertIn('rosbag reindex', answer.text)
+        subprocess.run(['rosbag', 'reindex', str(path)], check=True, stdout=subprocess.DEVNULL)
+        checks.assert_identical(self, path)
+        lost = seen - bags.read(str(path))['deflection'][-1].first_sample
+        self.assertLess(16 * lost, 2 * CHUNK_BYTES)
 
-class OtherNames(NodeTest):
+    def test_asked_to_record_where_it_cannot(self):
+        emulator = self.start(Emulator({'record': True, 'bag_directory': '/dev/null/bags'}))
+        self.assertEqual(emulator.wait(), 1)
+        self.assertIn('/dev/null', emulator.output())
+
     def test_topics_may_be_remapped(self):
         directory = self.temporary_directory()
         set_parameters({'record': True, 'bag_directory': directory})
@@ -83,7 +92,3 @@ class OtherNames(NodeTest):
         answer = checks.call('bag_to_csv', path, '--topic', 'friction')
         self.assertEqual(answer.code, 0, answer.text)
         self.assertGreater(len(answer.text.splitlines()), 100)
-
-
-if __name__ == '__main__':
-    run(Recording, OtherNames)

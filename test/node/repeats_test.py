@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """A recorded run is simulated again to the last bit, whatever happened in it and wherever the recording begins."""
 import os
 import random
@@ -12,7 +11,7 @@ from afm_emulator.srv import StartRecording, Step
 from std_srvs.srv import SetBool, Trigger
 
 import checks
-from emulator_under_test import PACKAGE, SPEED_UNIT, NodeTest, Process, connected_to, run
+from emulator_under_test import PACKAGE, SPEED_UNIT, NodeTest, Process, connected_to
 from topics import NAMESPACE, Topic, wait_until
 
 ETAS = [0.0, 1.0, 1.0, 2.0, -3.0, 3.4, 5.0, 5.0, 7.5, -1.0]  # contact, chatter, chaos, both directions
@@ -150,7 +149,3 @@ class Repeats(NodeTest):
         self.assertEqual(answer.code, checks.UNCHECKED, answer.text)
         self.assertIn('commands, the first after model time 0 + 0 tau of epoch 0', answer.text)
         self.assertIn('what was compared is identical', answer.text)
-
-
-if __name__ == '__main__':
-    run(Repeats)

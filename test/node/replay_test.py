@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """replay.launch plays a recorded run to the same topics, message for message, to a subscriber that comes late."""
 import os
 import tempfile
@@ -8,7 +7,7 @@ from pathlib import Path
 import rospy
 
 import bags
-from emulator_under_test import Emulator, NodeTest, run
+from emulator_under_test import Emulator, NodeTest
 from topics import NAMESPACE, TOPICS, Topic, wait_until
 
 
@@ -60,7 +59,3 @@ class Replay(NodeTest):
         replay = self.replay(played, delay=0, wait='true')
         self.assert_played({name: Topic(name) for name in played})
         self.assertEqual(replay.wait(), 0)
-
-
-if __name__ == '__main__':
-    run(Replay)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Reset starts the same run again, with the parameters of the start. Pause holds model time. A step goes exactly as far
 as it is asked to, and a slow subscriber loses nothing in it, or what it loses is counted."""
 import math
@@ -6,7 +5,7 @@ import math
 from afm_emulator.srv import Step
 
 import bags
-from emulator_under_test import SPEED_UNIT, EmulatorTest, run
+from emulator_under_test import SPEED_UNIT, EmulatorTest
 from tcpros import BareSubscriber
 from topics import key, tau_between, wait_until
 
@@ -155,7 +154,3 @@ class ResetPauseStep(EmulatorTest):
             self.assertFalse(answer.success, how_far)
             self.assertTrue(answer.message, how_far)
         self.assertEqual(key(self.status_now().time), (0, 0.0))
-
-
-if __name__ == '__main__':
-    run(ResetPauseStep)

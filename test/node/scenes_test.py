@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Every shipped scene has the parameters of its file and shows what that says one sees. All are started paused, and
 stepped: faster than time passes, and with nothing lost."""
 import math
@@ -12,7 +11,7 @@ from afm_emulator.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
-from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulators, NodeTest, call_service, run
+from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulators, NodeTest, call_service
 from topics import TOPICS, Topic, key, wait_until
 
 SCENES = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes'
@@ -135,11 +134,16 @@ class Scenes(NodeTest):
         self.assertEqual(self.events(0.5), [])
         deflection = self.topics['deflection'].messages[-1]
         self.assertEqual(len(set(deflection.vertical) | set(deflection.lateral)), 2)  # not a digit moves
+        others = [Topic('/%s/applied' % path.stem) for path in SCENES.glob('*.yaml') if path.stem != 'rest']
+        for other in others:
+            other.wait_for()
         commands = rospy.Publisher('/rest/drag_velocity', Float64, queue_size=10)
         wait_until(lambda: commands.get_num_connections() > 0, 'it listens')
         commands.publish(4 * SPEED_UNIT)
         self.applied.wait_for(lambda m: m.drag_velocity == 4 * SPEED_UNIT, 'the command')
         self.assertGreater(self.after(1.0).window_k_f_natural, 0.9 * PEAK)
+        causes = {m.cause for other in others for m in other.messages}
+        self.assertLessEqual(causes, {'epoch', 'scene'}, 'a command to one emulator moved another')
 
     def test_sweep_goes_up_and_down_with_hysteresis(self):
         self.play('sweep')
@@ -182,7 +186,3 @@ class Scenes(NodeTest):
         wall = (last.header.stamp - deflection[0].header.stamp).to_sec()
         model = ((last.time.tau + last.time.phase) - (deflection[0].time.tau + deflection[0].time.phase)) * TAU_S
         self.assertAlmostEqual(model / wall, 1e-4, delta=2e-5)
-
-
-if __name__ == '__main__':
-    run(Scenes)

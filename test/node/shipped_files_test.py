@@ -1,18 +1,17 @@
-#!/usr/bin/python3
 """Every launch file that we ship works, and config/emulator.yaml says what the code does by itself."""
 import os
 import re
-import signal
 from pathlib import Path
 
 import roslaunch.config
 import roslaunch.xmlloader
 import roslib.packages
+import rospy
 import yaml
 from afm_emulator.srv import Step
 
-from emulator_under_test import PACKAGE, Emulator, NodeTest, call_service, pid_of_node, run
-from topics import Topic, wait_until
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, call_service
+from topics import Topic
 
 SHARE = Path(roslib.packages.get_pkg_dir(PACKAGE))
 SHIPPED = SHARE / 'config' / 'emulator.yaml'
@@ -43,30 +42,24 @@ class ShippedFiles(NodeTest):
         self.assertEqual(self.configuration_of(shipped), self.configuration_of({}))
         self.assertEqual(set(shipped), self.known_names())
 
-    def test_launch_arguments_reach_the_node(self):
+    def test_launch_arguments_reach_the_node_and_parameters_of_an_earlier_run_do_not(self):
+        rospy.set_param('/lab/tip', {'restitution_gamma': 0.4, 'no_longer_known': 1})
         directory, asked = self.temporary_directory(), {
             'time_scale': 0.5, 'drag_velocity': 6.6e-6, 'sample_rate_hz': 50000.0, 'batch_rate_hz': 50.0,
             'temperature_k': 77.0, 'seed': 5}
-        status, configuration = Topic('/tip/status'), Topic('/tip/configuration')
-        play = self.launch('emulator.launch', scene='rest', record='true', bag_directory=directory, name='tip',
-                           paused='true', **asked)
+        status, configuration = Topic('/lab/tip/status'), Topic('/lab/tip/configuration')
+        play = self.launch('emulator.launch', dict(os.environ, ROS_NAMESPACE='lab'), scene='rest', record='true',
+                           bag_directory=directory, name='tip', paused='true', **asked)
         first = status.wait_for(lambda m: m.recording, 'recording')
         self.assertEqual((first.paused, first.time.tau), (True, 0))
         got = values(configuration.wait_for())
         self.assertEqual({name: got[name] for name in asked}, asked)
-        self.assertEqual(got['initial_u'], 0.0)  # of the scene
-        self.assertTrue(call_service('/tip/step', Step, tau=100.0).success)
+        self.assertEqual((got['initial_u'], got['restitution_gamma']), (0.0, 0.7))  # of the scene, and as shipped
+        self.assertFalse(rospy.has_param('/lab/tip/no_longer_known'))
+        self.assertTrue(call_service('/lab/tip/step', Step, tau=100.0).success)
         play.stop()
         bag, = Path(directory).iterdir()
         self.assertEqual(bag.suffix, '.bag')
-
-    def test_respawn(self):
-        self.launch('emulator.launch', name='tip', respawn='true')
-        status = Topic('/tip/status')
-        status.wait_for()
-        first = pid_of_node('/tip')
-        os.kill(first, signal.SIGKILL)
-        wait_until(lambda: pid_of_node('/tip') not in (None, first), 'another process of that name')
 
     @staticmethod
     def loaded(file, *arguments):
@@ -84,13 +77,19 @@ class ShippedFiles(NodeTest):
                 config = self.loaded(SHARE / 'launch/emulator.launch', 'scene_file:=' + path)
                 self.assertEqual(config.params['/afm/drag_velocity'].value, 4.0e-6)
 
+    def test_respawn(self):
+        """roslaunch starts such a node again; one that is required, too, would end them all."""
+        node, = self.loaded(SHARE / 'launch/emulator.launch', 'respawn:=true').nodes
+        self.assertEqual((node.respawn, node.required), (True, False))
+
+    def test_a_pair_has_a_scene_each(self):
+        parameters = self.loaded(SHARE / 'launch/pair.launch').params
+        for name, eta in ('/left/afm', 3.4), ('/right/afm', 2.0):
+            self.assertAlmostEqual(parameters[name + '/drag_velocity'].value / SPEED_UNIT, eta, delta=1e-9)
+
     def test_launch_files_load(self):
         files = sorted((SHARE / 'launch').glob('*.launch'))
         self.assertTrue(files)
         for file in files:
             with self.subTest(file=file.name):
                 self.assertTrue(self.loaded(file, *(['bag:=some.bag'] if file.name == 'replay.launch' else [])).nodes)
-
-
-if __name__ == '__main__':
-    run(ShippedFiles)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Whatever is altered, lost, renamed or filtered in a recording: both checks say what, in words and by their exit
 codes. What is intact is never called damaged, and what is altered never identical."""
 import subprocess
@@ -9,7 +8,7 @@ from std_msgs.msg import String
 
 import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
-from emulator_under_test import SPEED_UNIT, run
+from emulator_under_test import SPEED_UNIT
 from spoiled_bag import SpoiledBag
 from topics import NAMESPACE
 
@@ -173,7 +172,3 @@ class SpoiledBags(SpoiledBag):
     def test_a_command_that_the_run_did_not_get(self):
         self.of('applied')[-1].edit(drag_velocity=2.1 * SPEED_UNIT)
         self.assert_reported(DIFFERS, 'drag_velocity', sound=False)
-
-
-if __name__ == '__main__':
-    run(SpoiledBags)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Live parameters take effect as they are reported, faulty ones change nothing; the load is set by topics; without
 commands the drag stops."""
 import math
@@ -10,7 +9,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config
 from std_srvs.srv import SetBool
 
-from emulator_under_test import SPEED_UNIT, Emulator, EmulatorTest, NodeTest, run
+from emulator_under_test import SPEED_UNIT, Emulator, EmulatorTest, NodeTest
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
 
 AT_START = {'restitution_gamma': 0.7, 'cutoff_speed': 1.66e-7, 'rest_height_m': 0.0, 'sample_rate_hz': 50000.0,
@@ -133,7 +132,3 @@ class Silence(NodeTest):
         applied.wait_for(lambda m: m.cause == 'timeout', 'stops after the pause', count)
         self.assertGreaterEqual(time.monotonic() - resumed, 0.7)
         emulator.assert_alive()
-
-
-if __name__ == '__main__':
-    run(Steering, Silence)

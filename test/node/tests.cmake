@@ -1,34 +1,40 @@
 # The node, run as a user runs it, and those of its parts that need no master.
 
-# node/NAME.test: a launch file run by rostest, with a master of its own
-function(afm_add_rostest name)
-  add_rostest(node/${name}.test DEPENDENCIES ${ARGN})
-  set_tests_properties(${rostest_prefix}${name}.test PROPERTIES TIMEOUT 180)
-endfunction()
-
+# node/NAME_test.py: the files of a line run one after another with one master, as the rostest of the first name
 set(node_tests
-  commands
-  ending
-  lever
-  lockstep
-  panel
-  replay
-  scenes
-  shipped_files)
-foreach(name IN LISTS node_tests)
-  afm_add_rostest(${name} afm_emulator_node)
+  "commands steering reset_pause_step"
+  "ending shutdown"
+  "examples"
+  "faults"
+  "lever"
+  "load"
+  "lockstep levels diagnostics"
+  "panel"
+  "recording full_disk"
+  "repeats"
+  "replay"
+  "scenes"
+  "shipped_files bad_parameters loopback"
+  "spoiled_bags bag_to_csv"
+  "view interface")
+set(needed afm_emulator_node afm_view_node afm_examples_ros afm_replay_check afm_bag_to_csv)
+if(TARGET afm_python_module)  # where it is built
+  list(APPEND node_tests "python_module")
+  list(APPEND needed afm_python)
+endif()
+foreach(suite IN LISTS node_tests)
+  string(REGEX MATCH "^[a-z_]+" name ${suite})
+  configure_file(node/suite.test.in node/${name}.test @ONLY)
+  add_rostest(${CMAKE_CURRENT_BINARY_DIR}/node/${name}.test DEPENDENCIES ${needed})
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  list(GET tests -1 test)  # the one just added: its name depends on where the build directory is
+  set_tests_properties(${test} PROPERTIES TIMEOUT 180)
+  if(name STREQUAL load)  # keeps every core busy: what ran beside it would starve
+    set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
+  endif()
 endforeach()
 
-# of the picture
-set(view_tests pair view)
-foreach(name IN LISTS view_tests)
-  afm_add_rostest(${name} afm_emulator_node afm_view_node)
-endforeach()
-
-# nodes to copy
-set(example_tests examples)
-afm_add_rostest(examples afm_emulator_node afm_view_node afm_examples_ros)
-# their own tests, as a user writes them
+# nodes to copy have tests of their own, as a user writes them
 foreach(arguments "hold_force.test language:=python" "hold_force.test language:=cpp" "hold_force.test pace:=real_time"
         "seek_peak.test language:=python" "seek_peak.test language:=cpp start:=7.3e-6")
   separate_arguments(arguments)
@@ -36,24 +42,6 @@ foreach(arguments "hold_force.test language:=python" "hold_force.test language:=
   add_rostest(${PROJECT_SOURCE_DIR}/examples/ros/test/${file} ARGS ${arguments}
     DEPENDENCIES afm_emulator_node afm_examples_ros)
 endforeach()
-
-# of the tools that read recordings
-set(recording_tests
-  faults
-  load
-  recording
-  repeats
-  spoiled_bags)
-foreach(name IN LISTS recording_tests)
-  afm_add_rostest(${name} afm_emulator_node afm_replay_check afm_bag_to_csv)
-endforeach()
-# keeps every core busy: what ran beside it would starve
-set_tests_properties(${rostest_prefix}load.test PROPERTIES RUN_SERIAL TRUE)
-
-# of the Python module, where it is built
-if(TARGET afm_python_module)
-  afm_add_rostest(python_module afm_emulator_node afm_replay_check afm_python)
-endif()
 
 # node/NAME_test.cpp: parts of the node that need no master
 foreach(name diagnosis messages parameters recorder)
@@ -66,14 +54,6 @@ endforeach()
 # preloaded by the faults' test
 add_library(afm_clock_jump SHARED EXCLUDE_FROM_ALL node/clock_jump.c)
 add_dependencies(tests afm_clock_jump)
-
-# rostest starts what is executable: in a clone that is what git says, whatever it is in this tree
-execute_process(COMMAND git ls-files --stage -- "node/*_test.py" WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
-  OUTPUT_VARIABLE staged ERROR_QUIET)
-if(staged MATCHES "100644 [0-9a-f]+ [0-9]\t([^\n]+)")
-  message(FATAL_ERROR "git holds test/${CMAKE_MATCH_1} as a file that rostest cannot start: "
-    "git update-index --chmod=+x test/${CMAKE_MATCH_1}")
-endif()
 
 # a short form; scripts/soak alone runs for an hour
 set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 6 --stages 0 3 --part 3 --rate 50)
