@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """package.xml declares every package that the sources include and the scripts import."""
 import re
+import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
@@ -55,6 +56,14 @@ class Package(unittest.TestCase):
         known = self.declared('depend', 'exec_depend', 'test_depend')
         found = [use for use in uses('test', ('.py',), r'^\s*(?:import|from) (\w+)') if is_ros(use[1])]
         self.assert_declared(found, known)
+
+    def test_no_package_is_installed_twice(self):
+        # the second of its name would be missing for ever: apt would be asked each time
+        for options in ([], ['--without-ros'], ['--emulator', '--plot', '--panel'], ['--panel', '--plot', '--view']):
+            names = subprocess.run([str(ROOT / 'scripts/install_dependencies'), *options, '--list'], check=True,
+                                   stdout=subprocess.PIPE, universal_newlines=True).stdout.split()
+            self.assertGreater(len(names), 10)
+            self.assertEqual(sorted(set(names)), sorted(names), options)
 
     def test_somebody_can_be_reached(self):
         for maintainer in self.package.findall('maintainer'):
