@@ -84,7 +84,7 @@ class Panel:
 
     def pixels(self, plot, colour):
         """How many of that colour a picture has."""
-        image, count = plot.grab().toImage(), 0
+        image = plot.grab().toImage()
         wanted = int(colour[1:], 16)
         return sum(image.pixel(x, y) & 0xffffff == wanted for x in range(image.width()) for y in range(image.height()))
 
