@@ -9,6 +9,7 @@ alone: the bytes of the table are the same for any number of workers.
 """
 import argparse
 import itertools
+import logging
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +42,9 @@ def main():
     done = [line for line in whole if line.endswith('\n')]  # a kill may have cut the last one
     options.table.write_text(''.join(done))
     todo = points[len(done):]
-    cluster = options.scheduler or LocalCluster(options.workers, threads_per_worker=1, dashboard_address=None)
+    # silent: a heartbeat that is under way at the end is no error, and one of a task is raised by result()
+    cluster = options.scheduler or LocalCluster(options.workers, threads_per_worker=1, dashboard_address=None,
+                                                silence_logs=logging.CRITICAL)
     with Client(cluster) as client, options.table.open('a') as table:
         tasks = [todo[i:i + POINTS_OF_A_TASK] for i in range(0, len(todo), POINTS_OF_A_TASK)]
         for future in client.map(rows, tasks, duration=options.duration, pure=False):

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 
 namespace afm::node {
 namespace {
@@ -59,12 +60,14 @@ class RecorderTest : public testing::Test {
   std::string record_until_it_ends(Recorder& recorder) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(50);
     while (!recorder.status().recording.empty() && std::chrono::steady_clock::now() < deadline) {
-      recorder.record(topic_, bytes_, Role::ordinary, true);
+      recorder.record(topic_, bytes_, Role::batch_end, true);
     }
     return recorder.status().error;
   }
 
-  std::size_t messages_in_bag() const { return rosbag::View(rosbag::Bag(file("run.bag"))).size(); }
+  std::size_t messages_in_bag(const std::string& name = "run.bag") const {
+    return rosbag::View(rosbag::Bag(file(name))).size();
+  }
 
   const std::string directory_ = testing::TempDir() + "afm_recorder_" + std::to_string(getpid());
   MessageBytes bytes_;
@@ -135,6 +138,31 @@ TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
   record_beginning(recorder);
   EXPECT_TRUE(recorder.stop().success);
   EXPECT_TRUE(fs::exists(file("again.bag")));
+}
+
+// One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
+TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
+  for (const bool whole : {false, true}) {
+    Recorder::Settings split = settings();
+    split.split_bytes = 1;
+    std::promise<void> asked;
+    Recorder recorder(split, [&, calls = 0]() mutable {
+      if (calls++ == 0) asked.set_value();
+    });
+    const std::string name = whole ? "whole" : "part";
+    EXPECT_TRUE(recorder.start(name).success);
+    record_beginning(recorder);
+    ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
+    recorder.record(topic_, bytes_, Role::snapshot, false);
+    recorder.record(topic_, bytes_, Role::ordinary, false);
+    if (whole) recorder.record(topic_, bytes_, Role::batch_end, false);
+    EXPECT_TRUE(recorder.stop().success);
+    EXPECT_EQ(messages_in_bag(name + ".bag"), whole ? 3u : 5u);
+    ASSERT_EQ(fs::exists(file(name + "_001.bag")), whole);
+    if (whole) {
+      EXPECT_EQ(messages_in_bag(name + "_001.bag"), 5u);
+    }
+  }
 }
 
 TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {

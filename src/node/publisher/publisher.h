@@ -41,7 +41,7 @@ class Publisher {
         sources_(std::move(sources)),
         deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize),
         impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
-        friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize),
+        friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize, Role::batch_end),
         status_(node, sources_.recorder, "status", kStatusQueueSize),
         configuration_(node, sources_.recorder, kConfigurationTopic, kLatchedQueueSize, Role::configuration),
         applied_(node, sources_.recorder, kAppliedTopic, kCommandQueueSize, Role::applied),

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <filesystem>
 #include <regex>
+#include <utility>
 
 namespace afm::node {
 namespace {
@@ -136,7 +137,7 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const Messag
     begun_ = true;
     push(lock, {message, {}, configuration_, applied_}, unhurried);
   } else if (begun_) {
-    push(lock, {message, {}, {}, {}}, unhurried);
+    push(lock, {message, {}, {}, {}, role == Role::batch_end}, unhurried);
   }
 }
 
@@ -174,7 +175,7 @@ void Recorder::write_loop() {
     queue_bytes_ -= item.message.bytes.size();
     room_.notify_one();
     lock.unlock();
-    std::string error = write(item);
+    std::string error = take(item);
     lock.lock();
     path_ = bag_->path();
     if (!error.empty()) finish(lock, std::move(error));
@@ -186,12 +187,19 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
   ++messages_;
 }
 
-std::string Recorder::write(const Item& item) {
+// The next bag begins with the snapshot once a batch that follows it is whole. A recording that ends before needs no
+// bag of nothing that could be checked.
+std::string Recorder::take(const Item& item) {
   try {
-    const std::string trouble = bag_->check_space(item.message.bytes.size());
-    if (!trouble.empty()) return "stopped: " + trouble;
-    if (item.is_snapshot()) begin_bag(item);
-    write(item.message, item.stamp);
+    if (!full_ || (held_.empty() && !item.is_snapshot())) {
+      write(item);
+    } else {
+      held_.push_back(item);
+      if (item.ends_batch) {
+        begin_next_bag();
+        write_held();
+      }
+    }
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -202,25 +210,34 @@ std::string Recorder::write(const Item& item) {
   return {};
 }
 
+// Throws why the recording must end.
+void Recorder::write(const Item& item) {
+  const std::string trouble = bag_->check_space(item.message.bytes.size());
+  if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
+  if (item.is_snapshot() && bag_->messages() == 0) {
+    begin_stamp_ = item.stamp;
+    write(item.configuration, item.stamp - ros::Duration(0, 2));
+    write(item.applied, item.stamp - ros::Duration(0, 1));
+  }
+  write(item.message, item.stamp);
+}
+
+void Recorder::write_held() {
+  for (const Item& item : std::exchange(held_, {})) write(item);
+}
+
 bool Recorder::is_full(const ros::Time& stamp) const {
   const bool large = settings_.split_bytes > 0 && bag_->bytes() >= settings_.split_bytes;
   return large || (settings_.split_seconds > 0.0 && (stamp - begin_stamp_).toSec() >= settings_.split_seconds);
 }
 
-// Where this snapshot begins one.
-void Recorder::begin_bag(const Item& snapshot) {
-  if (full_) {
-    auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
-    ++part_;  // only now, as that may fail: then this bag is the last
-    const std::string error = bag_->close();
-    bag_ = std::move(next);
-    full_ = false;
-    if (!error.empty()) throw std::runtime_error(error);
-  }
-  if (bag_->messages() > 0) return;
-  begin_stamp_ = snapshot.stamp;
-  write(snapshot.configuration, snapshot.stamp - ros::Duration(0, 2));
-  write(snapshot.applied, snapshot.stamp - ros::Duration(0, 1));
+void Recorder::begin_next_bag() {
+  auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
+  ++part_;  // only now, as that may fail: then this bag is the last
+  const std::string error = bag_->close();
+  bag_ = std::move(next);
+  full_ = false;
+  if (!error.empty()) throw std::runtime_error(error);
 }
 
 void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
@@ -230,6 +247,11 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
   room_.notify_one();
   if (bag_) {
     lock.unlock();
+    try {
+      write_held();
+    } catch (const std::exception& failure) {
+      if (error.empty()) error = failure.what();
+    }
     const std::string close_error = bag_->close();
     lock.lock();
     if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;

@@ -10,13 +10,15 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "bag_file.h"
 
 namespace afm::node {
 
-// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
-enum class Role { ordinary, configuration, applied, snapshot };
+// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag, and
+// every bag but the first has a whole batch.
+enum class Role { ordinary, batch_end, configuration, applied, snapshot };
 
 // Free on the disk on which the directory is, or would be made [bytes]; negative: unknown.
 std::int64_t free_bytes(const std::string& directory);
@@ -61,15 +63,18 @@ class Recorder {
     Message message;
     ros::Time stamp;
     Message configuration, applied;  // of a snapshot: what a bag that begins with it holds before it
+    bool ends_batch = false;
     bool is_snapshot() const { return configuration.topic != nullptr; }
   };
 
   void push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried);
   void write_loop();
-  std::string write(const Item& item);  // returns why the recording must end, or nothing
+  std::string take(const Item& item);  // returns why the recording must end, or nothing
   void write(const Message& message, const ros::Time& stamp);
+  void write(const Item& item);
+  void write_held();
   bool is_full(const ros::Time& stamp) const;
-  void begin_bag(const Item& snapshot);
+  void begin_next_bag();
   void finish(std::unique_lock<std::mutex>& lock, std::string error);
   std::string part_path(std::uint32_t part) const;
 
@@ -93,7 +98,8 @@ class Recorder {
   // of the thread alone
   std::uint32_t part_ = 0;
   ros::Time begin_stamp_;
-  bool full_ = false;  // a snapshot was asked for
+  bool full_ = false;       // a snapshot was asked for
+  std::vector<Item> held_;  // from this snapshot on, until the end of a batch
   std::thread thread_;
 };
 
