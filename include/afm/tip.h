@@ -24,8 +24,8 @@ struct Deflection {
 };
 
 // The contact tolerance: error allowed in the state at the next impact when chatter is computed as a sequence [a,
-// a/tau]. At the default, and from eta = 0.2 on, half of all sequences have an error below 1e-5, and 99 in 100 below
-// 3e-4 (docs/stability.md).
+// a/tau]. At the default, and from eta = 0.2 on, 99 of 100 sequences have an error below it, and half of them one below
+// 2e-5 (docs/stability.md).
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
