@@ -76,15 +76,15 @@ def main():
         for constant, header, values in study.constants:
             path = work / study.folder / header
             text = path.read_text()
+            found = re.search(r'constexpr double %s = ([-0-9.e]+);' % constant, text)
+            if not found:
+                sys.exit('changed_constants: no constant %s in %s' % (constant, header))
+            in_use = float(found.group(1))
             for value in values:
-                changed, count = re.subn(r'(constexpr double %s = )([-0-9.e]+);' % constant, r'\g<1>%r;' % value, text)
-                if count != 1:
-                    sys.exit('changed_constants: no constant %s in %s' % (constant, header))
-                path.write_text(changed)
+                path.write_text(text[:found.start(1)] + repr(value) + text[found.end(1):])
                 for source in includers:
                     compile_(work, source)
-                in_use = float(re.search(r'%s = ([-0-9.e]+);' % constant, text).group(1)) == value
-                table.writerow([constant, value] + answer(work, study, objects) + ['yes' if in_use else ''])
+                table.writerow([constant, value] + answer(work, study, objects) + ['yes' if value == in_use else ''])
                 sys.stdout.flush()
             path.write_text(text)
 

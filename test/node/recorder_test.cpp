@@ -165,6 +165,30 @@ TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
   }
 }
 
+// As in a pause, in which only the status is published.
+TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
+  Recorder::Settings split = settings();
+  split.split_bytes = 1;
+  std::promise<void> asked[2];
+  Recorder recorder(split, [&, calls = 0]() mutable {
+    if (calls < 2) asked[calls++].set_value();
+  });
+  const auto was_asked = [&](int time) {
+    return asked[time].get_future().wait_for(std::chrono::seconds(50)) == std::future_status::ready;
+  };
+  EXPECT_TRUE(recorder.start("run").success);
+  record_beginning(recorder);
+  ASSERT_TRUE(was_asked(0));
+  recorder.record(topic_, bytes_, Role::snapshot, true);
+  for (int i = 0; i < 120; ++i) recorder.record(topic_, bytes_, Role::ordinary, true);
+  ASSERT_TRUE(was_asked(1));
+  recorder.record(topic_, bytes_, Role::snapshot, true);
+  recorder.record(topic_, bytes_, Role::batch_end, true);
+  EXPECT_TRUE(recorder.stop().success);
+  EXPECT_EQ(messages_in_bag(), 124u);
+  EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
+}
+
 TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
   write_file("run_001.bag");
   Recorder::Settings split = settings();

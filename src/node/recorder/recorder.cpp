@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 // Eight seconds at 1 MHz of samples: longer than a disk stalls to flush its caches.
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
+constexpr std::size_t kMostHeld = 100;  // messages: a batch has three, and ten seconds of a pause have as many as this
 
 // The fault of a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken
 // for another kind of file.
@@ -187,8 +188,8 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
   ++messages_;
 }
 
-// The next bag begins with the snapshot once a batch that follows it is whole. A recording that ends before needs no
-// bag of nothing that could be checked.
+// The next bag begins with the snapshot once a batch that follows it is whole: no bag has nothing that can be checked.
+// Where none comes, as in a pause, what is held goes into this bag, and a later snapshot begins the next.
 std::string Recorder::take(const Item& item) {
   try {
     if (!full_ || (held_.empty() && !item.is_snapshot())) {
@@ -198,6 +199,9 @@ std::string Recorder::take(const Item& item) {
       if (item.ends_batch) {
         begin_next_bag();
         write_held();
+      } else if (held_.size() >= kMostHeld) {
+        write_held();
+        ask_for_snapshot_();
       }
     }
   } catch (const std::exception& error) {
