@@ -36,6 +36,8 @@ namespace {
 
 using Kind = Request::Kind;
 
+// A step may hold one service for seconds: others, and commands, must come through meanwhile.
+constexpr unsigned kSpinnerThreads = 3;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
@@ -136,6 +138,7 @@ class EmulatorNode {
     report_run(parameters, runner_.scheduler());
     advertise(node);
     publisher_->start(runner_.scheduler());  // last: whoever has a message finds the services
+    spinner_.start();
   }
 
   // In order: no more commands, the last batch, all published, the bag closed.
@@ -322,10 +325,10 @@ class EmulatorNode {
   std::vector<ros::Subscriber> commands_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer disk_timer_, clients_timer_;
+  // the last to begin and the first to end: roscpp aborts where a callback publishes on a topic that is withdrawn
+  ros::AsyncSpinner spinner_{kSpinnerThreads};
 };
 
-// A step may hold one service for seconds: others, and commands, must come through meanwhile.
-constexpr unsigned kSpinnerThreads = 3;
 // How soon a shutdown by ROS (rosnode kill) is noticed.
 constexpr std::chrono::milliseconds kShutdownPoll{100};
 constexpr int kLargeBuffer =
@@ -368,9 +371,7 @@ void keep_memory_flat() {
 }
 
 void run(const ros::NodeHandle& handle, const Parameters& parameters) {
-  ros::AsyncSpinner spinner(kSpinnerThreads);  // outlives the node: its services end while they can still be served
-  EmulatorNode node(handle, parameters);
-  spinner.start();
+  const EmulatorNode node(handle, parameters);
   g_running = true;
   while (ros::ok() && !g_stop) g_signalled.wait_for(kShutdownPoll);
 }

@@ -3,17 +3,20 @@ published. AFM_STOPS: so many stops of shipped scenes at random moments; by defa
 import os
 import random
 import signal
+import threading
 import time
 from pathlib import Path
 
 import roslib.packages
 import rospy
 import yaml
+from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure
 
 import bags
 import checks
 from emulator_under_test import PACKAGE, NodeTest, Process
-from topics import PATIENCE, Topic
+from topics import DEADLINE_S, NAMESPACE, PATIENCE, Topic
 
 SCENES = sorted((Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes').glob('*.yaml'))
 STOPS = int(os.environ.get('AFM_STOPS', len(SCENES)))
@@ -37,6 +40,32 @@ class Shutdown(NodeTest):
         self.assertEqual(recorded[0].first_sample, 0)
         self.assertGreaterEqual(recorded[-1].first_sample, seen)
         checks.assert_identical(self, str(paths[0]))
+
+    def test_with_clients_that_change_parameters_until_the_end(self):
+        """roscpp aborts where it publishes on a topic that is withdrawn, and the bag would stay open."""
+        emulator = self.record(record=True)
+        answered, ended, chance = threading.Semaphore(0), threading.Event(), random.Random(7)
+
+        def change():
+            while not ended.is_set():
+                gamma = DoubleParameter('restitution_gamma', chance.uniform(0.3, 0.9))
+                try:
+                    rospy.ServiceProxy(NAMESPACE + '/set_parameters', Reconfigure)(config=Config(doubles=[gamma]))
+                    answered.release()
+                except (rospy.ServiceException, rospy.ROSException):  # it ends
+                    time.sleep(0.001)
+
+        clients = [threading.Thread(target=change) for _ in range(4)]
+        emulator.assert_alive()
+        for client in clients:
+            client.start()
+        try:
+            for _ in range(20):
+                self.assertTrue(answered.acquire(timeout=DEADLINE_S))
+            self.assertEqual(emulator.stop(), 0)
+        finally:
+            ended.set()
+        self.assertEqual([path.suffix for path in self.directory.iterdir()], ['.bag'])
 
     def start_scene(self, scene, name):
         parameters = yaml.safe_load(scene.read_text())
