@@ -28,11 +28,13 @@ SHORT = (
     ('`periodic_orbits` of up to 6 impacts at eta = 3.4', 'rosrun afm_emulator periodic_orbits --eta 3.4 --gamma 0.7'),
     ('`afm.lyapunov(3.4)`, 2000 tau', PYTHON % 'afm.lyapunov(3.4)'),
 )
+WITHOUT_ROS = ('rm -rf $SCRATCH/without_ros && cmake -S . -B $SCRATCH/without_ros -DAFM_ROS=OFF && '
+               'CCACHE_DISABLE=1 cmake --build $SCRATCH/without_ros --parallel 2%s')
 BUILDS = (
     ('the first `scripts/run`: the emulator', BUILD % ('emulator', ' --emulator')),
     ('`scripts/build`: everything', BUILD % ('all', '')),
-    ('without ROS', 'CCACHE_DISABLE=1 cmake -S . -B $SCRATCH/without_ros -DAFM_ROS=OFF && '
-     'CCACHE_DISABLE=1 cmake --build $SCRATCH/without_ros --parallel 2'),
+    ('the Python module without ROS', WITHOUT_ROS % ' --target afm_python'),
+    ('everything without ROS', WITHOUT_ROS % ''),
     ('`scripts/docs`: this site', 'scripts/docs --built $CMAKE_PREFIX_PATH --output $SCRATCH/docs'),
 )
 

@@ -26,7 +26,11 @@ int main(int argc, char** argv) try {
     measured.publish(to_message(force));
     commanded.publish(to_message(height));
     ROS_INFO("force %.1f pN, height %.1f pm", 1e12 * force, 1e12 * height);
+    const double before = height;
     height = std::clamp(height - gain * (setpoint - force), lowest, highest);  // a lower holder presses harder
+    if (height == before) {
+      ROS_WARN("the height is at its limit; the force is %.1f pN, not %.1f", 1e12 * force, 1e12 * setpoint);
+    }
   }
   return 0;
 } catch (const afm_emulator::Shutdown&) {

@@ -26,7 +26,9 @@ def main():
         measured.publish(force)
         commanded.publish(height)
         rospy.loginfo('force %.1f pN, height %.1f pm', 1e12 * force, 1e12 * height)
-        height = min(max(height - gain * (setpoint - force), lowest), highest)  # a lower holder presses harder
+        before, height = height, min(max(height - gain * (setpoint - force), lowest), highest)  # lower presses harder
+        if height == before:
+            rospy.logwarn('the height is at its limit; the force is %.1f pN, not %.1f', 1e12 * force, 1e12 * setpoint)
 
 
 if __name__ == '__main__':

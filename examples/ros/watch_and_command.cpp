@@ -49,10 +49,10 @@ double number(const char* text) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "watch_and_command");
-  ros::NodeHandle node, own("~");
-  const auto emulator = own.param<std::string>("emulator", "/afm");
   std::vector<double> velocities;
   for (int i = 1; i < argc; ++i) velocities.push_back(number(argv[i]));
+  ros::NodeHandle node, own("~");
+  const auto emulator = own.param<std::string>("emulator", "/afm");
   const double hold = own.param("hold_s", 2.0);
 
   Gaps samples, impacts;

@@ -51,7 +51,7 @@ NOT_RUN = [
     (r'^scripts/run --(view|panel)', 'opens a window'),
     (r'^rosrun afm_emulator panel', 'opens a window'),
     (r'^snakemake', 'measures for minutes to hours; the test laboratory runs every rule dry, and some'),
-    (r'^cmake -S \. .*-DAFM_ROS=OFF', 'the test without_ros does it'),
+    (r'^cmake (-S \. .*-DAFM_ROS=OFF|--build build/without_ros)', 'the test without_ros does it'),
     (r'run_tests_my_controller', 'the test my_controller does it'),
     (r'^scripts/fuzz', 'builds with clang for minutes'),
     (r'^scripts/platforms(?! --list)', 'builds with every compiler, or makes roots of other systems and tests in them'),
