@@ -6,10 +6,12 @@
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <thread>
 
 namespace afm::node {
 namespace {
@@ -106,6 +108,25 @@ TEST_F(RecorderTest, MakesOneRecordingAtATime) {
   EXPECT_FALSE(recorder.start("second").success);
   EXPECT_TRUE(recorder.stop().success);
   EXPECT_FALSE(recorder.stop().success);
+}
+
+// Of two clients: a stop used to wait for the recording that began as the one before was closed.
+TEST_F(RecorderTest, AStopEndsTheRecordingThatItFinds) {
+  Recorder recorder(settings(), [] {});
+  std::atomic<bool> done{false};
+  std::thread other([&] {
+    for (int i = 0; !done; ++i) recorder.start("run_" + std::to_string(i));
+  });
+  for (int stopped = 0; stopped < 500;) {
+    const Recorder::Reply reply = recorder.stop();
+    stopped += reply.success;
+    if (reply.message.find("slow disk") != std::string::npos) {
+      ADD_FAILURE() << reply.message;
+      break;
+    }
+  }
+  done = true;
+  other.join();
 }
 
 TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {

@@ -84,7 +84,7 @@ std::string Recorder::part_path(std::uint32_t part) const {
 }
 
 Recorder::Reply Recorder::start(const std::string& name) {
-  const std::lock_guard<std::mutex> one_at_a_time(starting_);
+  const std::lock_guard<std::mutex> one_at_a_time(orders_);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (bag_) return {false, "already recording " + path_, path_};
@@ -111,6 +111,7 @@ Recorder::Reply Recorder::start(const std::string& name) {
 }
 
 Recorder::Reply Recorder::stop() {
+  const std::lock_guard<std::mutex> one_at_a_time(orders_);  // or it would wait for a recording that began meanwhile
   std::unique_lock<std::mutex> lock(mutex_);
   if (!bag_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
   stopping_ = true;

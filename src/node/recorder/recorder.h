@@ -81,7 +81,7 @@ class Recorder {
   const Settings settings_;
   const std::function<void()> ask_for_snapshot_;
   mutable std::mutex mutex_;
-  std::mutex starting_;  // one start at a time, as opening a bag takes its time
+  std::mutex orders_;  // one start or stop at a time: both take their time
   std::condition_variable work_, room_, closed_;
   Message configuration_, applied_;  // the latest
   std::deque<Item> queue_;
