@@ -22,7 +22,7 @@ SUBSTITUTIONS = [
     (r'--eta 1\.6:7:0\.02', '--eta 2.4:2.6:0.02'),
     (r'--eta 0\.1:9:0\.1 --frequency', '--eta 2:3:1 --starts 1 --duration 200 --frequency'),
     (r'--eta 0\.1:9:0\.1$', '--eta 2:2.5:0.5'),
-    (r'--starts 100\b', '--starts 4'),
+    (r'--starts (?:100|400)\b', '--starts 4'),
     (r'--max-length (?:8|10)\b', '--max-length 3'),
     (r'(periodic_orbits --eta 3\.4 --gamma 0\.7)', r'\1 --max-length 2'),
     (r'(periodic_orbits .*)', r'\1 --trajectory 5000 --guesses 50'),
