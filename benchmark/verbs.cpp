@@ -16,7 +16,6 @@ namespace {
 using namespace afm;
 
 constexpr int kStates = 1000;
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 
 // Launches and landings of consecutive impacts after a transient.
 struct Chain {
@@ -24,13 +23,13 @@ struct Chain {
     model.v_c = 0.1 * eta;
     Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, 0.0);
     while (tip.now().tau < 300) tip.advance({300, 0.0});
-    while (tip.advance(kNever) != Outcome::impact) continue;
+    while (tip.advance(kEndOfTime) != Outcome::impact) continue;
     for (int i = 0; i < kStates; ++i) {
       flights.emplace_back(springs, eta, tip.tip_state());
       const Landing<double> landing = find_landing(model, flights.back(), 8.0);
       times.push_back(0.9 * landing.s);
       incidents.push_back(landing.jet);
-      while (tip.advance(kNever) != Outcome::impact) continue;
+      while (tip.advance(kEndOfTime) != Outcome::impact) continue;
     }
   }
 
@@ -88,7 +87,7 @@ void Bounce(benchmark::State& state) {
   Tip tip = saved;
   int impacts = 0;
   for (auto _ : state) {
-    while (tip.advance(kNever) != Outcome::impact) continue;
+    while (tip.advance(kEndOfTime) != Outcome::impact) continue;
     if (++impacts % kStates == 0) tip = saved;
   }
 }
@@ -100,7 +99,7 @@ void MicroBounce(benchmark::State& state) {
   Tip tip = saved;
   int impacts = 0;
   for (auto _ : state) {
-    tip.advance(kNever);
+    tip.advance(kEndOfTime);
     if (++impacts % 300 == 0) tip = saved;
   }
 }

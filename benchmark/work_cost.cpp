@@ -32,7 +32,7 @@ afm::Tip tip_number(long n) {
 }
 
 void fly(afm::Tip& tip, long impacts) {
-  for (long i = 0; i < impacts; ++i) tip.advance({std::int64_t{1} << 60, 0.0});
+  for (long i = 0; i < impacts; ++i) tip.advance(afm::kEndOfTime);
 }
 
 double median(std::vector<double> values) {

@@ -3,19 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <set>
-#include <string>
+
+#include "support/faults.h"
 
 namespace afm {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-std::multiset<std::string> names(const std::vector<ParameterError>& faults) {
-  std::multiset<std::string> result;
-  for (const ParameterError& fault : faults) result.insert(fault.name);
-  return result;
-}
 
 TEST(Units, MicaIsThePapersMica) {
   const SiModel mica;

@@ -19,6 +19,13 @@ T pressure_of(const Model& model, const detail::SlideState<T>& s) {
          (T(1.0) + h.h1 * h.h1);
 }
 
+// Along the surface and in the springs.
+inline double energy_of(const SpringConstants<double>& m, const detail::SlideState<double>& s) {
+  const SurfaceJet<double> h = surface_jet(m.H, s.phase);
+  const double Y = m.omega_v * (h.h - m.y0), X = m.omega_h * s.X;
+  return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
+}
+
 inline double end_of(const SlidePart& part) {
   const double release = detail::find_release(part);
   return release < 0.0 ? part.length() : release;

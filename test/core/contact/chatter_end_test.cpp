@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/chatters.h"
+#include "support/models.h"
 
 namespace afm {
 
@@ -12,15 +13,7 @@ using namespace detail;
 
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 constexpr double kThreshold = 1e-5;
-
-Model model_with(double gamma, double v_c) {
-  Model model;
-  model.gamma = gamma;
-  model.v_c = v_c;
-  return model;
-}
 
 class ChatterEnds : public testing::TestWithParam<double> {};
 
@@ -38,7 +31,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
     ASSERT_GE(run.chatter.n, 1.0);
     if (run.chatter.n > 100.0) continue;
     Tip tip = chatter.every_bounce();
-    for (int n = 1; n <= static_cast<int>(run.chatter.n); ++n) tip.advance(kNever);
+    for (int n = 1; n <= static_cast<int>(run.chatter.n); ++n) tip.advance(kEndOfTime);
     const double bounce = 2.0 * run.chatter.v / chatter.reference.pressure(run.s);
     ASSERT_NEAR(tip.now() - ModelTime{}, run.s, 0.1 * bounce) << i;
     ASSERT_NEAR(project_onto_surface(model, tip.tip_state()).normal_speed, run.chatter.v, 2.0 * kThreshold) << i;
@@ -60,10 +53,10 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
   for (int i = 0; i < 300; ++i) {
     const RandomChatter chatter = random_chatter(model, law, random, -4.0, -2.5);
     Tip bounces = chatter.every_bounce(), tip(model, chatter.reference.eta(), bounces.tip_state());
-    if (tip.advance(kNever) != Outcome::impact || tip.tip_state().g1 > 0.0) continue;  // let go before
+    if (tip.advance(kEndOfTime) != Outcome::impact || tip.tip_state().g1 > 0.0) continue;  // let go before
     const Impact burst = tip.last_impact();
     ASSERT_EQ(burst.kind, ImpactKind::burst);
-    ASSERT_EQ(tip.advance(kNever), Outcome::contact);
+    ASSERT_EQ(tip.advance(kEndOfTime), Outcome::contact);
     const double end = tip.now() - ModelTime{};
     int count = 0;
     const ModelTime late = tip.now() + 1.0;

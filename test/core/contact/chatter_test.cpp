@@ -9,6 +9,7 @@
 
 #include "core/contact/chatter_law.h"
 #include "support/chatters.h"
+#include "support/models.h"
 
 namespace afm {
 
@@ -16,15 +17,7 @@ using namespace detail;
 
 namespace {
 
-constexpr ModelTime kNever{std::int64_t{1} << 60, 0.0};
 constexpr double kThreshold = 1e-5;
-
-Model model_with(double gamma) {
-  Model model;
-  model.gamma = gamma;
-  model.v_c = 0.05;
-  return model;
-}
 
 // The relative error of the law at a bounce: in the number of bounces, and in the normal speed.
 struct LawError {
@@ -64,7 +57,7 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
   const double end = law.run(chatter.reference, 0.0, chatter.reference.length(), start).s;
   double before = 0.0;
   for (int n = 1; n <= most; ++n) {
-    tip.advance(kNever);
+    tip.advance(kEndOfTime);
     const double t = tip.now() - ModelTime{}, v = project_onto_surface(chatter.model, tip.tip_state()).normal_speed;
     if (t >= end) return comparison;
     for (int part = 0; part < parts; ++part) law_step.advance(law, (t - before) / parts);
@@ -82,7 +75,7 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
 
 class Chatters : public testing::TestWithParam<double> {
  protected:
-  const Model model_ = model_with(GetParam());
+  const Model model_ = model_with(GetParam(), 0.05);
   const ChatterLaw law_{model_, kThreshold};
 };
 
@@ -144,7 +137,7 @@ TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAnEighth) {
 // The series end with w^3. The next terms (docs/derive_chatter_law.py) are 1.5 w^5 of the loss and 1.1 w^4 of the
 // duration: at w = 0.1 1.5e-5 and 1.1e-4. With the terms of P' the largest of these errors are 2.6e-5 and 1.1e-4.
 TEST(ChatterLaw, TellsOneBounceToTheOrderOfItsSeries) {
-  const Model model = model_with(0.7);
+  const Model model = model_with(0.7, 0.05);
   const ChatterLaw law(model, kThreshold);
   RandomLaunches random(7);
   int compared = 0;
@@ -172,7 +165,7 @@ TEST_P(Chatters, InOneRunTheGapRateIsGoodToTheThreshold) {
 }
 
 TEST(ChatterLaw, ABounceThatLosesMoreThanATenthIsFlown) {
-  const Model model = model_with(0.7);
+  const Model model = model_with(0.7, 0.05);
   const ChatterLaw law(model, kThreshold);
   const double most = 0.1 * model.v_c / (1.0 - model.gamma);
   RandomLaunches random(4);

@@ -80,12 +80,6 @@ TEST_P(ContactStepOf, MeetsItsToleranceAtItsEndAndTenfoldWithin) {
   }
 }
 
-double energy_of(const SpringConstants<double>& m, const SlideState<double>& s) {
-  const SurfaceJet<double> h = surface_jet(m.H, s.phase);
-  const double Y = m.omega_v * (h.h - m.y0), X = m.omega_h * s.X;
-  return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
-}
-
 TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
   const SpringConstants<double> m(model_of(GetParam()));
   const double eta = GetParam().eta;

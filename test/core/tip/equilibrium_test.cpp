@@ -13,6 +13,7 @@
 #include "afm/tip.h"
 #include "core/run/batch_means.h"
 #include "core/tip/normal_pair.h"
+#include "support/models.h"
 #include "trials/boltzmann.h"
 
 namespace afm {
@@ -23,19 +24,7 @@ namespace {
 
 constexpr double kHolder = 0.1;  // xc [a]: on a slope of 0.36
 
-Model elastic() {
-  Model model;
-  model.gamma = 1.0;
-  return model;
-}
-
-Bath bath_of(double temperature, double kicks_per_tau, double quality_factor) {
-  Bath bath;
-  bath.temperature = temperature;
-  bath.quality_factor = quality_factor;
-  bath.kicks_per_tau = kicks_per_tau;
-  return bath;
-}
+Model elastic() { return model_with(1.0, Model().v_c); }
 
 struct Figure {
   std::string name;
@@ -98,7 +87,7 @@ class EquilibriumAt : public testing::TestWithParam<Setting> {};
 TEST_P(EquilibriumAt, IsTheBoltzmannDistributionAboveTheSurface) {
   const auto [theta, kicks_per_tau] = GetParam();
   Tip tip(elastic(), 0.0, kStart);
-  tip.set_bath(bath_of(theta, kicks_per_tau, 5.0));
+  tip.set_bath(bath_of(theta, 5.0, kicks_per_tau));
   const std::vector<Figure> all = figures(theta);
   const std::vector<double> off = deviations(all, 400, [&](const ModelTime& time) {
     while (tip.advance(time) != Outcome::time_limit) continue;
@@ -160,7 +149,7 @@ TEST(Equilibrium, DoesNotDriftInAMillionTau) {
   constexpr double kTheta = 0.926;
   constexpr int kBatches = 100;
   Tip tip(elastic(), 0.0, kStart);
-  tip.set_bath(bath_of(kTheta, 2.0, 20.0));
+  tip.set_bath(bath_of(kTheta, 20.0, 2.0));
   std::vector<double> energy(kBatches, 0.0);
   for (int i = 0; i < 1000000; ++i) {
     while (tip.advance({i + 1, 0.3}) != Outcome::time_limit) continue;

@@ -8,27 +8,17 @@
 #include <set>
 
 #include "afm/tip.h"
+#include "support/models.h"
 #include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
 
-Bath bath_of(double temperature, double quality_factor, double kicks_per_tau = 2.0) {
-  Bath bath;
-  bath.temperature = temperature;
-  bath.quality_factor = quality_factor;
-  bath.kicks_per_tau = kicks_per_tau;
-  return bath;
-}
-
 Tip tip_of(ModelKind kind, double gamma, double v_c, double eta, double rest_height = 0.0,
            double contact_tolerance = kDefaultContactTolerance) {
-  Model model;
-  model.kind = kind;
-  model.gamma = gamma;
-  model.v_c = v_c;
+  Model model = model_with(gamma, v_c, kind);
   model.y0 = rest_height;
-  return Tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0}, contact_tolerance);
+  return Tip(model, eta, start_at(eta), contact_tolerance);
 }
 
 // On the surface, on a slope.

@@ -27,18 +27,11 @@ struct Known {
   double eta, K_f;
 };
 
-// 4 (1+gamma)/(1-gamma) s^2/(1+s^2), s = 2 pi H: two impacts per tau, each at mid-height of the rising flank
-Known even(double eta) {
-  const Model mica;
-  const double s = kTwoPi * mica.H;
-  return {eta, 4.0 * (1.0 + mica.gamma) / (1.0 - mica.gamma) * s * s / (1.0 + s * s)};
-}
-
 const Known kKnown[] = {
-    even(2.0),
-    even(4.0),
-    even(6.0),
-    even(8.0),
+    {2.0, even_K_f(0.7)},
+    {4.0, even_K_f(0.7)},
+    {6.0, even_K_f(0.7)},
+    {8.0, even_K_f(0.7)},
     // the map of one impact iterated in 34 digits (Python's mpmath, on the flight's closed form) until K_f stood still
     {1.5, 0.2507777307734768407203532},
     {2.25, 1.603774408582840476679226},
