@@ -2,10 +2,11 @@
 // restitution, cutoff and drag speed. Times in tau, lengths in lattice spacings.
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
-#include "trials/burst_trials.h"
 #include "common/command_line.h"
+#include "trials/burst_trials.h"
 
 namespace {
 
@@ -27,15 +28,18 @@ void print_row(double gamma, double cutoff, double eta, const Options& o) {
   std::vector<double> worst;
   double bounces = 0.0;
   const long most_skipped = 2 * static_cast<long>(o.bursts);  // then the row has fewer
-  while (worst.size() < o.bursts && trials.skipped() <= most_skipped) {
-    const afm::BurstTrial t = trials.next();
-    worst.push_back(t.worst());
-    bounces += t.bounces;
+  long skipped = 0;
+  while (worst.size() < o.bursts && skipped <= most_skipped) {
+    std::optional<afm::BurstTrial> t = trials.next();
+    while (!t && ++skipped <= 2 * most_skipped) t = trials.next();
+    if (!t) break;
+    worst.push_back(t->worst());
+    bounces += t->bounces;
   }
   if (worst.empty()) return;
   std::sort(worst.begin(), worst.end());
-  std::printf("%g,%g,%g,%zu,%.0f,%ld,%.2g,%.2g,%.2g\n", gamma, cutoff, eta, worst.size(), bounces,
-              trials.skipped(), quantile(worst, 0.5), quantile(worst, 0.99), worst.back());
+  std::printf("%g,%g,%g,%zu,%.0f,%ld,%.2g,%.2g,%.2g\n", gamma, cutoff, eta, worst.size(), bounces, skipped,
+              quantile(worst, 0.5), quantile(worst, 0.99), worst.back());
   std::fflush(stdout);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "afm/reflection.h"
 #include "afm/tip.h"
@@ -18,6 +19,17 @@ struct BurstTrial {
   double worst() const { return std::max({dt, phase, X, u, g1}); }
 };
 
+// A bounce under pressure: most lead to chatter, which orbits of their own accord seldom do.
+inline Tip pressed_tip(const Model& model, double eta, double tolerance, RandomLaunches& random) {
+  for (;;) {
+    TipState start{random.within(0.0, 1.0), random.within(-0.02, 0.02), eta * random.within(0.7, 1.3), 0.0,
+                   random.power(-2.0, 0.0)};
+    if (model.kind == ModelKind::hammer) start.X = 0.0, start.u = eta;
+    const Flight<double> flight(SpringConstants<double>(model), eta, start);
+    if (flight.start().g2 < 0.0) return {model, eta, start, tolerance};
+  }
+}
+
 class BurstTrials {
  public:
   BurstTrials(const Model& model, double eta, double tolerance, unsigned seed, std::int64_t most_bounces)
@@ -26,44 +38,36 @@ class BurstTrials {
         tolerance_(tolerance),
         random_(seed),
         most_bounces_(most_bounces),
-        tip_(fresh()) {}
+        tip_(pressed_tip(model, eta, tolerance, random_)) {}
 
-  // The next burst of which brute force reaches the end.
-  BurstTrial next() {
-    for (;;) {
-      const TipState bounce = next_burst();
-      Tip burst = tip_, bounces(model_, eta_, bounce, 0.0);
-      double before = ModelTime{} - tip_.now();
-      std::int64_t count = 0;
-      if (to_next_impact(burst, bounces, before, count)) return compare(burst, before, bounces, count);
-      ++skipped_;
-    }
+  // The next burst; nothing where brute force does not reach its end, or where no launch leads to one.
+  std::optional<BurstTrial> next() {
+    const std::optional<TipState> bounce = next_burst();
+    if (!bounce) return {};
+    Tip burst = tip_, bounces(model_, eta_, *bounce, 0.0);
+    double before = ModelTime{} - tip_.now();
+    std::int64_t count = 0;
+    if (!to_next_impact(burst, bounces, before, count)) return {};
+    return compare(burst, before, bounces, count);
   }
-  long skipped() const { return skipped_; }
 
  private:
-  // A bounce under pressure: most lead to chatter, which orbits of their own accord seldom do.
-  Tip fresh() {
-    for (;;) {
-      const TipState start{random_.within(0.0, 1.0), random_.within(-0.02, 0.02), eta_ * random_.within(0.7, 1.3), 0.0,
-                           std::pow(10.0, random_.within(-2.0, 0.0))};
-      const Flight<double> flight(SpringConstants<double>(model_), eta_, start);
-      end_ = {kRun, 0.0};
-      if (flight.start().g2 < 0.0) return {model_, eta_, start, tolerance_};
-    }
-  }
-
   // Runs to where a burst has just begun; the state is that of its first bounce.
-  TipState next_burst() {
-    for (;;) {
-      if (tip_.advance(end_) == Outcome::time_limit) tip_ = fresh();
+  std::optional<TipState> next_burst() {
+    while (launches_ < kMostLaunches) {
+      if (tip_.advance({kRun, 0.0}) == Outcome::time_limit) {
+        tip_ = pressed_tip(model_, eta_, tolerance_, random_);
+        ++launches_;
+      }
       const Impact& impact = tip_.last_impact();
       const TipState slide = tip_.tip_state();
       if (impact.kind != ImpactKind::impact || slide.g != 0.0 || slide.g1 != 0.0) continue;
       const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
       if (!(after > 0.0)) continue;
+      launches_ = 0;
       return detail::leave_surface(model_, {slide.phase, slide.X, slide.u}, after);
     }
+    return {};
   }
 
   // Where the burst lets go, its next bounce; where it has died into contact, the first impact after the release.
@@ -119,16 +123,16 @@ class BurstTrials {
             std::abs(a.g1 - b.g1)};
   }
 
-  static constexpr int kRun = 5;         // [tau] between fresh starts
-  static constexpr double kNear = 1e-3;  // [tau]
+  static constexpr int kRun = 5;              // [tau] between fresh starts
+  static constexpr int kMostLaunches = 1000;  // without a burst: an elastic tip may make none
+  static constexpr double kNear = 1e-3;       // [tau]
 
   Model model_;
   double eta_, tolerance_;
   RandomLaunches random_;
   std::int64_t most_bounces_;
-  ModelTime end_;
   Tip tip_;
-  long skipped_ = 0;
+  int launches_ = 0;  // since the last burst
 };
 
 }  // namespace afm

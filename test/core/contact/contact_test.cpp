@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "afm/friction.h"
@@ -35,7 +36,10 @@ TEST_P(BurstsAt, AreWithinTheToleranceAtTheNextImpact) {
   for (const double tolerance : {1e-4, kDefaultContactTolerance}) {
     BurstTrials trials(mica(GetParam()), GetParam().eta, tolerance, 1, 5000);
     std::vector<double> errors;
-    while (errors.size() < kBursts) errors.push_back(trials.next().worst());
+    for (int i = 0; i < 10000 && errors.size() < kBursts; ++i) {  // some have too many bounces
+      if (const std::optional<BurstTrial> trial = trials.next()) errors.push_back(trial->worst());
+    }
+    ASSERT_EQ(errors.size(), kBursts);
     std::sort(errors.begin(), errors.end());
     EXPECT_LT(errors[kBursts / 2], 0.03 * tolerance) << tolerance;
     EXPECT_LT(errors[kBursts * 95 / 100], 0.2 * tolerance) << tolerance;
