@@ -4,7 +4,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import unittest
 
 import afm
@@ -67,19 +66,6 @@ class Interrupt(unittest.TestCase):
         seen = []
         afm.friction_curve([2.0, 3.0], duration=10, transient=10, progress=lambda *counts: seen.append(counts))
         self.assertEqual(seen[-1], (2, 2))
-
-    def test_two_threads_compute_at_once(self):
-        results = {}
-
-        def compute(key):
-            results[key] = afm.friction_curve([3.4], duration=200, transient=10)
-
-        threads = [threading.Thread(target=compute, args=(i,)) for i in range(2)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(results[0], results[1])
 
 
 if __name__ == '__main__':

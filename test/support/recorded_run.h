@@ -13,11 +13,15 @@ namespace afm {
 struct RecordedRun {
   std::vector<double> vertical, lateral;
   std::vector<Impact> impacts;
+  ModelTime end;
 
   void append(const Batch& batch) {
     ASSERT_EQ(batch.vertical.size(), batch.lateral.size());
     ASSERT_EQ(batch.first_sample, vertical.size());
     ASSERT_EQ(batch.first_impact, impacts.size());
+    ASSERT_TRUE(batch.begin == end);
+    for (const Impact& impact : batch.impacts) ASSERT_TRUE(batch.begin <= impact.time && impact.time <= batch.end);
+    end = batch.end;
     vertical.insert(vertical.end(), batch.vertical.begin(), batch.vertical.end());
     lateral.insert(lateral.end(), batch.lateral.begin(), batch.lateral.end());
     impacts.insert(impacts.end(), batch.impacts.begin(), batch.impacts.end());

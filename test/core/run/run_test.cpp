@@ -45,8 +45,11 @@ TEST_P(RunAt, BatchesOfAnySizeAreOneLongRun) {
     while (recorded.vertical.size() < 12000 - size) {
       ASSERT_EQ(run.advance(batch), Outcome::time_limit);
       ASSERT_EQ(batch.vertical.size(), size);
+      ASSERT_TRUE(batch.first_sample_time == multiply(batch.first_sample, run.settings().sample_period));
       recorded.append(batch);
     }
+    EXPECT_EQ(run.counters().budget_exhausted + run.counters().search_failures, 0u);
+    EXPECT_LT(run.counters().worst_penetration, 1e-13);
     expect_first_of(recorded, truth);
   }
 }
@@ -72,30 +75,6 @@ TEST_P(RunAt, StoppingAnywhereChangesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Temperatures, RunAt, testing::Values(0.0, 0.926));
-
-TEST(Run, SamplesAndImpactsFollowWithoutAGap) {
-  const RunSettings settings = settings_at(5.0, 333);
-  afm::Run run(settings);
-  Batch batch;
-  std::uint64_t samples = 0, impacts = 0;
-  ModelTime end;
-  for (int i = 0; i < 100; ++i) {
-    ASSERT_EQ(run.advance(batch), Outcome::time_limit);
-    ASSERT_EQ(batch.first_sample, samples);
-    ASSERT_EQ(batch.first_impact, impacts);
-    ASSERT_TRUE(batch.begin == end);
-    ASSERT_TRUE(batch.first_sample_time == multiply(samples, settings.sample_period));
-    for (const Impact& impact : batch.impacts) ASSERT_TRUE(batch.begin <= impact.time && impact.time <= batch.end);
-    samples += batch.vertical.size();
-    impacts += batch.impacts.size();
-    end = batch.end;
-    ASSERT_TRUE(end == multiply(samples, settings.sample_period));
-  }
-  EXPECT_GT(impacts, 1000u);
-  EXPECT_EQ(run.counters().budget_exhausted, 0u);
-  EXPECT_EQ(run.counters().search_failures, 0u);
-  EXPECT_LT(run.counters().worst_penetration, 1e-13);
-}
 
 TEST(Run, RunsToAnyTimeWithinABatch) {
   afm::Run run(settings_at(2.0, 1000));  // 30 tau

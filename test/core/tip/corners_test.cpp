@@ -34,6 +34,8 @@ std::vector<Corner> corners() {
       all.push_back(corner("no bounce", eta, 0.0, 0.05, 0.0));
       all.push_back(corner("elastic", eta, 1.0, 0.05, 0.0));
       all.push_back(corner("nearly elastic", eta, 0.999, 0.05, 0.0));
+      all.push_back(corner("elastic, no cutoff", eta, 1.0, 0.0, 0.0));
+      all.push_back(corner("soft, low cutoff", eta, 0.3, 1e-3, 0.0));
       all.push_back(corner("no cutoff", eta, 0.7, 0.0, 0.0));
       all.push_back(corner("no bounce, no cutoff", eta, 0.0, 0.0, 0.0));
       all.push_back(corner("high cutoff", eta, 0.7, 100.0, 0.0));
