@@ -1,5 +1,5 @@
-// The Jacobian of a chatter sequence against the product of those of its bounces, which jacobian_test.cpp and
-// hammer_jacobian_test.cpp compare with quad precision.
+// The Jacobian of a chatter sequence against the product of those of its bounces, which jacobian_test.cpp compares
+// with quad precision.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -12,7 +12,7 @@
 #include "afm/tip.h"
 #include "contact_jacobian.h"
 #include "support/models.h"
-#include "trials/random_launches.h"
+#include "trials/burst_trials.h"
 
 namespace afm {
 
@@ -72,15 +72,7 @@ class Bursts {
   ChatterLaw law() const { return {tip_.model(), chatter_threshold(tip_.contact_tolerance())}; }
 
  private:
-  Tip fresh() {
-    for (;;) {
-      TipState start{random_.within(0.0, 1.0), random_.within(-0.02, 0.02), eta_ * random_.within(0.7, 1.3), 0.0,
-                     random_.power(-2.0, 0.0)};
-      if (model_.kind == ModelKind::hammer) start.X = 0.0, start.u = eta_;
-      const Flight<double> flight(SpringConstants<double>(model_), eta_, start);
-      if (flight.start().g2 < 0.0) return {model_, eta_, start};
-    }
-  }
+  Tip fresh() { return pressed_tip(model_, eta_, kDefaultContactTolerance, random_); }
 
   static constexpr ModelTime kEnd{5, 0.0};
   static constexpr std::uint32_t kMostBounces = 400;

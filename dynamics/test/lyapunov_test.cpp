@@ -109,5 +109,21 @@ TEST(Lyapunov, TellsWhenItsBudgetIsSpent) {
   EXPECT_EQ(lyapunov(model_with_cutoff(0.34), 3.4, start_at(3.4), settings).outcome, LyapunovOutcome::budget_spent);
 }
 
+// On the orbit of even eta both multipliers are gamma, over half a tau.
+TEST(Lyapunov, OfTheHammerAtEvenEtaIsThatOfTheRestitution) {
+  const LyapunovSpectrum s = lyapunov(hammer(0.7, 0.05), 4.0, start_at(4.0));
+  EXPECT_NEAR(s.exponents[0], 2.0 * std::log(0.7), 1e-6);
+  EXPECT_NEAR(s.exponents[1], 2.0 * std::log(0.7), 1e-6);
+}
+
+// In contact the hammer has no freedom left.
+TEST(Lyapunov, OfTheHammerAfterContactNothingIsLeft) {
+  const LyapunovSpectrum s = lyapunov(hammer(0.7, 1.4), 7.0, start_at(7.0));
+  ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
+  EXPECT_EQ(s.rank, 0);
+  EXPECT_EQ(s.exponents[0], -INFINITY);
+  EXPECT_EQ(s.volume_rate, -INFINITY);
+}
+
 }  // namespace
 }  // namespace afm

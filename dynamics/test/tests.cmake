@@ -1,7 +1,6 @@
 # The laboratory: NAME_test.cpp with its library, NAME_test.py with its tools.
 
-set(dynamics_tests attractor chatter_jacobian contact_jacobian continuation cycle_expansion hammer_jacobian
-  hammer_orbits
+set(dynamics_tests attractor chatter_jacobian contact_jacobian continuation cycle_expansion hammer_orbits
   heated_sweep jacobian lyapunov periodic_orbit poincare_map sweep symbolic_dynamics)
 set(here ${PROJECT_SOURCE_DIR}/dynamics/test)
 foreach(name IN LISTS dynamics_tests)
