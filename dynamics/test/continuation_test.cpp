@@ -6,14 +6,10 @@
 #include <cmath>
 
 #include "afm/dynamics/orbit_search.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
-
-double closed_form(double gamma) {
-  const double s = kTwoPi * Model().H;
-  return 4.0 * (1.0 + gamma) / (1.0 - gamma) * s * s / (1.0 + s * s);
-}
 
 // Just after an impact of the orbit at even eta: mid-height of the rising flank. Each impact kicks the horizontal
 // spring by -2 U, and half a tau later finds it as it was.
@@ -24,13 +20,11 @@ TipState closed_point(double eta, double gamma) {
 }
 
 PeriodicOrbit orbit_at(double eta, double gamma, std::size_t length) {
-  Model model;
-  model.gamma = gamma;
   OrbitSearchSettings settings;
   settings.longest = static_cast<int>(length);
   settings.trajectory = 20000;
   settings.guesses = 200;
-  return search_orbits(PoincareMap(model, eta), settings).orbits.back().orbit;
+  return search_orbits(PoincareMap(model_with(gamma, Model().v_c), eta), settings).orbits.back().orbit;
 }
 
 const BranchEvent* find(const Branch& branch, BifurcationKind kind) {
@@ -49,15 +43,13 @@ TEST(Continuation, FollowsTheClosedFormDownToWhereItGrazes) {
   const Branch branch = continue_orbit(Model(), 2.0, even_orbit(2.0), Parameter::gamma, 0.1);
   EXPECT_EQ(branch.end, BranchEnd::grazing);
   for (const BranchPoint& point : branch.points) {
-    ASSERT_NEAR(point.orbit.K_f, closed_form(point.parameter), 1e-9) << point.parameter;
+    ASSERT_NEAR(point.orbit.K_f, even_K_f(point.parameter), 1e-9) << point.parameter;
   }
   const BranchEvent* graze = find(branch, BifurcationKind::grazing);
   ASSERT_NE(graze, nullptr);
   // a flight from the closed form, at the gamma where the branch ended: it touches to within rounding
   const double gamma = graze->at.parameter;
-  Model model;
-  model.gamma = gamma;
-  const Flight<double> flight(SpringConstants<double>(model), 2.0, closed_point(2.0, gamma));
+  const Flight<double> flight(SpringConstants<double>(Model()), 2.0, closed_point(2.0, gamma));
   double smallest = INFINITY;
   for (int i = 2000; i < 98000; ++i) smallest = std::min(smallest, flight.gap(0.5 * i / 100000.0).g);
   EXPECT_NEAR(smallest, 0.0, 1e-8);

@@ -9,15 +9,10 @@
 
 #include "afm/dynamics/cycle_expansion.h"
 #include "afm/dynamics/orbit_search.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
-
-PoincareMap hammer_map(double eta) {
-  Model model;
-  model.kind = ModelKind::hammer;
-  return PoincareMap(model, eta);
-}
 
 // Never two b in a row, otherwise by chance: as many words of n letters as Fibonacci says, and one forbidden word.
 TEST(Words, OfTheGoldenMeanShiftAreCountedAsFibonacciCounts) {
@@ -51,7 +46,7 @@ TEST(Words, OfAnOrbitDoNotDependOnWhereItBegins) {
 
 // A partition tells no more than the map makes, and a good one nearly all of it (Pesin: entropy = exponent).
 TEST(SymbolicDynamics, AtEta3_2TheWordsTellTheWholeMotion) {
-  const SymbolicRun run = run_on_section(hammer_map(3.2), 300000, 1);
+  const SymbolicRun run = run_on_section(PoincareMap(hammer(), 3.2), 300000, 1);
   ASSERT_TRUE(run.on_section);
   const Partition partition = find_partition(run.points);
   ASSERT_EQ(partition.letters(), 4u);
@@ -64,7 +59,7 @@ TEST(SymbolicDynamics, AtEta3_2TheWordsTellTheWholeMotion) {
 }
 
 TEST(SymbolicDynamics, AtEta3_2OrbitsHaveNamesAndGiveTheFriction) {
-  const PoincareMap map = hammer_map(3.2);
+  const PoincareMap map(hammer(), 3.2);
   const SymbolicRun run = run_on_section(map, 100000, 1);
   const Partition partition = find_partition(run.points);
   OrbitSearchSettings settings;
@@ -80,9 +75,8 @@ TEST(SymbolicDynamics, AtEta3_2OrbitsHaveNamesAndGiveTheFriction) {
   }
   EXPECT_EQ(words.size(), orbits.size());
   // an eleventh stretches by 1419: few guesses lead to it, and it weighs next to nothing
-  const auto moderate = std::count_if(orbits.begin(), orbits.end(), [](const PeriodicOrbit& orbit) {
-    return std::abs(orbit.multipliers[0]) < 500.0;
-  });
+  const auto moderate = std::count_if(
+      orbits.begin(), orbits.end(), [](const PeriodicOrbit& orbit) { return std::abs(orbit.multipliers[0]) < 500.0; });
   EXPECT_EQ(moderate, 10);
   constexpr double kDirect = 0.148786;  // +- 3e-5, over 4e5 tau
   EXPECT_NEAR(zeta_averages(orbits, 3.2, 7).back().K_f, kDirect, 0.01 * kDirect);
@@ -90,10 +84,7 @@ TEST(SymbolicDynamics, AtEta3_2OrbitsHaveNamesAndGiveTheFriction) {
 
 // A map that settles into contact has no section to cut.
 TEST(SymbolicDynamics, SaysWhereThereIsNone) {
-  Model model;
-  model.kind = ModelKind::hammer;
-  model.v_c = 0.0;
-  EXPECT_FALSE(run_on_section(PoincareMap(model, 0.0), 100000, 1).on_section);
+  EXPECT_FALSE(run_on_section(PoincareMap(hammer(0.7, 0.0), 0.0), 100000, 1).on_section);
 }
 
 }  // namespace
