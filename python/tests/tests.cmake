@@ -2,8 +2,7 @@
 if(TARGET afm_python_module AND AFM_DYNAMICS)
   function(afm_add_python_test name)
     afm_add_test(python_${name} 300 ${CMAKE_COMMAND} -E env PYTHONPATH=${afm_python_path} PYTHONDONTWRITEBYTECODE=1
-      AFM_MODULE=$<TARGET_FILE:afm_python_module> ${PYTHON_EXECUTABLE}
-      ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})
+      ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/python/tests/${name}_test.py ${ARGN})
   endfunction()
   afm_add_python_test(interface)
   afm_add_python_test(interrupt)

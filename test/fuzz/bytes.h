@@ -14,7 +14,6 @@ class Bytes {
   Bytes(const std::uint8_t* data, std::size_t size) : next_(data), left_(size) {}
 
   bool empty() const { return left_ == 0; }
-  std::size_t left() const { return left_; }
 
   template <class T>
   T raw() {

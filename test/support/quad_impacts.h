@@ -43,10 +43,8 @@ class QuadImpacts {
       s -= step;
       if (abs(step) < 1e-32) break;
     }
-    time_ = s;
     return reflected(x, X, u, W);
   }
-  const Quad& time() const { return time_; }
   const Quad& speed() const { return speed_; }  // normal, of the last impact
 
  private:
@@ -68,7 +66,7 @@ class QuadImpacts {
     return {x, X, u2, w2 - slope * u2};
   }
 
-  Quad eta_, gamma_, v_c_, H_, y0_, wv_, wh_, time_, speed_;
+  Quad eta_, gamma_, v_c_, H_, y0_, wv_, wh_, speed_;
   bool held_;
 };
 

@@ -1,5 +1,8 @@
 #!/usr/bin/python3
-"""package.xml declares every package that the sources include and the scripts import."""
+"""package.xml declares every package that the sources include and the scripts import.
+
+Usage: package_test.py ROOT
+"""
 import re
 import subprocess
 import sys
@@ -7,7 +10,7 @@ import unittest
 import xml.etree.ElementTree
 from pathlib import Path
 
-ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else __file__).resolve()
+ROOT = Path(sys.argv.pop(1)).resolve()
 PYTHON_PACKAGES = {'matplotlib': 'python3-matplotlib', 'numpy': 'python3-numpy'}
 # what catkin, roscpp and rospy bring, by the names that are included or imported
 BROUGHT_BY = {'ros': 'roscpp', 'genpy': 'rospy', 'roslib': 'rospy', 'rosunit': 'rostest', 'XmlRpcValue': 'roscpp'}
@@ -71,4 +74,4 @@ class Package(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main(argv=sys.argv[:1])
+    unittest.main()

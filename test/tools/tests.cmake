@@ -23,11 +23,9 @@ endif()
 afm_add_test(stress 120 afm_stress --seconds 3)
 afm_add_test(stress_shipped 120 afm_stress --shipped --tau 100000 --scenes 3)
 
-if(TARGET afm_stability_matrix)
-  # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first
-  # instant
-  afm_add_test(stability 120 afm_stability_matrix --quick --methods exact)
-endif()
+# the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first
+# instant
+afm_add_test(stability 120 afm_stability_matrix --quick --methods exact)
 
 afm_add_test(arrows 30 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/arrows_test.py ${PROJECT_SOURCE_DIR})
 
