@@ -258,12 +258,10 @@ class Coming(NodeTest):
         panel.keep('without_emulator')
 
     def test_shows_a_recording(self):
-        directory = self.temporary_directory()
-        emulator = self.start(Emulator({'record': True, 'bag_directory': directory}))
+        emulator = self.record(record=True)
         status = Topic('status')
         status.wait_for(lambda m: m.time.tau > 7000, 'a second of the run')
-        self.assertEqual(emulator.stop(), 0)
-        bag = os.path.join(directory, os.listdir(directory)[0])
+        bag, = self.end(emulator)
         panel = Panel()
         self.addCleanup(panel.close)
         self.start(Process(['rosbag', 'play', '--quiet', '--loop', bag]))

@@ -2,13 +2,12 @@
 import math
 import os
 import re
-from pathlib import Path
 
 import rospy
 from afm_emulator.msg import Impact
 from visualization_msgs.msg import MarkerArray
 
-from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, EmulatorTest, NodeTest
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, EmulatorTest, NodeTest
 from pictures import CELLS, CONTACT_RED, Picture, Reported, View, luminance, open_rviz, surface
 from topics import Topic, wait_until
 
@@ -221,12 +220,10 @@ class Launched(NodeTest):
         play.stop()
 
     def test_a_replay_looks_the_same(self):
-        directory = self.temporary_directory()
-        emulator = self.start(Emulator({'record': True, 'bag_directory': directory}))
+        emulator = self.record(record=True)
         Topic('deflection').wait_for(lambda m: m.first_sample >= 200000, 'a second of the run')
-        self.assertEqual(emulator.stop(), 0)
+        bag, = self.end(emulator)
         environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
-        bag = next(Path(directory).glob('*.bag'))
         replay = self.launch('replay.launch', environment, view='true', bag=bag)
         markers = Topic('/afm_view/markers', MarkerArray)
         drawn = markers.wait_for(lambda m: Picture(m).has('tip') and Picture(m).has('positions'), 'the tip')

@@ -64,7 +64,7 @@ class SameBytes(Case):
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         deadline = time.monotonic() + DEADLINE
         while self.lines('stopped.csv') < 4 and process.poll() is None and time.monotonic() < deadline:
-            pass
+            time.sleep(0.001)
         process.send_signal(number)
         reported = process.communicate(timeout=DEADLINE)[1]
         before = self.lines('stopped.csv')
