@@ -18,19 +18,19 @@ struct FrictionEstimate {
   double force_std_error = 0.0;
   double K_f = 0.0;  // [m_tip/tau]
   double K_f_std_error = 0.0;
-  double energy_loss = 0.0;  // since the last change of drag velocity [m a^2 / tau^2]
+  double energy_loss = 0.0;  // since the last restart [m a^2 / tau^2]
   std::uint64_t impact_count = 0;
   double window_force = 0.0;  // over the sliding window
   double window_K_f = 0.0;
   double window_K_f_std_error = 0.0;
-  double mean_lateral_force = 0.0;  // of the holder on the tip, exact over the time since the last change [m a / tau^2]
+  double mean_lateral_force = 0.0;  // of the holder on the tip, exact since the last restart [m a / tau^2]
   // Too large in short runs, because the tip carries momentum across the ends of the bins. At eta = 3.4 it is 2.5 times
   // too large after 1000 tau, and 1.2 times after 10000 (test friction).
   double mean_lateral_force_std_error = 0.0;
   double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;
   double mean_normal_force = 0.0;  // of the holder on the tip towards the surface, mean of the samples [m a/tau^2]
-  double heat_to_bath = 0.0;       // since the last change of drag velocity [m a^2/tau^2]
+  double heat_to_bath = 0.0;       // since the last restart [m a^2/tau^2]
 };
 
 // Energy or impulse in equal bins of time. Full bins merge in pairs, so a run of any length fits. The scatter of the
@@ -94,7 +94,7 @@ class Friction {
   explicit Friction(double window_tau) : sums_(window_tau) {}
   explicit Friction(const FrictionSums& sums) : sums_(sums) {}
 
-  // A new drag velocity: the whole estimate restarts at `now`.
+  // After a change of drag velocity, model, level or bath: the whole estimate restarts at `now`.
   void restart(const ModelTime& now, double eta);
   void set_window(const ModelTime& now, double window_tau);  // the window alone restarts at `now`
   void add(const Segment& segment);                          // segments since restart(), in order

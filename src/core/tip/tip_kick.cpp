@@ -13,7 +13,7 @@ namespace {
 
 // The bounces that a kick starts in contact are one event if they move the tip by less than this times the contact
 // tolerance times the normal speed of the kick. K_f by work then changes by less than a standard error (measured:
-// benchmark collapse_friction).
+// benchmark/tolerance_friction.py collapse).
 constexpr double kDisplacedByKick = 10.0;
 
 }  // namespace
@@ -21,7 +21,8 @@ constexpr double kDisplacedByKick = 10.0;
 void Tip::set_bath(const Bath& bath) {
   thermostat_.set(bath, model_.frequency_ratio, now_);
   // a search ends at the next kick
-  if (Flying* flying = std::get_if<Flying>(&phase_)) find_landing(*flying);
+  if (Flying* flying = std::get_if<Flying>(&phase_)) return now_ == start_ ? find_landing(*flying) : fly(tip_state());
+  split_record();
 }
 
 // Both velocities relative to the holder change. The hammer's lateral velocity is that of its holder and stays.

@@ -6,6 +6,7 @@
 
 #include "support/commands.h"
 #include "support/recorded_run.h"
+#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
@@ -128,6 +129,31 @@ TEST(RunChange, BeginsTheFrictionThatItConcernsAnew) {
   energy = 0.0;
   for (const Impact& impact : b.impacts) energy += impact.energy_loss;
   EXPECT_NEAR(b.friction.energy_loss, energy, 1e-12 * energy);
+}
+
+// Work of the drag = energy lost in impacts + heat to the bath + change of the stored energy, all since the change.
+TEST(RunChange, OfTheBathBeginsTheBalanceAnew) {
+  for (const double eta : {2.0, 3.4, 6.0}) {
+    RunSettings settings = settings_at(eta, 0.03, 100);
+    settings.contact_tolerance = 0.0;  // no chatter sequence, along which the state is that of the reference slide
+    afm::Run run(settings);
+    Batch batch;
+    for (int i = 1; i < 40; ++i) {
+      run.advance(batch);
+      LiveSettings live = live_settings(run.settings());
+      live.bath.quality_factor = i % 3 == 0 ? 0.0 : 20.0 + i;
+      live.bath.temperature = 0.1 * (i % 4);
+      run.apply(live);
+      const ModelTime change = run.now();
+      const double stored = stored_energy(run.settings().model, run.state());
+      advance_to(change + 0.37, run, batch);
+      const double work = eta * batch.friction.mean_lateral_force * (run.now() - change);
+      const double gain = stored_energy(run.settings().model, run.state()) - stored;
+      double lost = 0.0;
+      for (const Impact& impact : batch.impacts) lost += impact.energy_loss;
+      ASSERT_NEAR(work, lost + batch.friction.heat_to_bath + gain, 1e-9) << eta << ", " << i;
+    }
+  }
 }
 
 // The holder is where its spring says, also after a change to the hammer, which moves it above the tip.
