@@ -114,7 +114,7 @@ class EmulatorNode {
       : parameters_(parameters),
         queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
         runner_(parameters, queue_),
-        recorder_(recorder_settings(parameters), [this] { runner_.submit(Request(Kind::snapshot)); }) {
+        recorder_(recorder_settings(parameters), [this] { return runner_.submit(Request(Kind::snapshot)); }) {
     if (parameters.publish_clock) {
       const std::string other = find_clock_publisher();
       if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
@@ -125,9 +125,11 @@ class EmulatorNode {
     }
     free_bytes_ = free_bytes(parameters.bag_directory);
     report_pace(parameters);
-    live_server_.emplace(node, parameters, refusals_, [this](const Live& live) {
+    live_server_.emplace(node, parameters, refusals_, [this](const Live& shown, const Live& wanted) {
       Request change(Kind::change);
-      change.live = live;
+      change.live = wanted;
+      // a command may have moved the holder since
+      if (wanted.si.rest_height_m != shown.si.rest_height_m) change.rest_height = wanted.si.rest_height_m;
       Answer unused;
       return ask(change, unused);
     });

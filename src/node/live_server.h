@@ -20,8 +20,8 @@ namespace afm::node {
 
 class LiveServer {
  public:
-  // Returns why the change did not take effect, or nothing when it has.
-  using Apply = std::function<std::string(const Live&)>;
+  // From what is shown to what is wanted. Returns why the change did not take effect, or nothing when it has.
+  using Apply = std::function<std::string(const Live& shown, const Live& wanted)>;
 
   // The server begins with the values of the parameter server, cut to the ranges of its sliders: its first call puts
   // those in force back. It holds its mutex whenever it calls.
@@ -47,7 +47,8 @@ class LiveServer {
 
   // Shows clients what was applied. Any other thread.
   void update_clients() {
-    const boost::recursive_mutex::scoped_lock lock(server_mutex_);
+    const boost::recursive_mutex::scoped_try_lock lock(server_mutex_);
+    if (!lock) return;  // a change holds it until it has taken effect: after a step, which may take seconds
     const Config config = to_config(in_force());
     if (values_of(config) == values_of(shown_)) return;
     shown_ = config;
@@ -94,13 +95,14 @@ class LiveServer {
     const std::vector<double> not_asked = values_of(untouched);
     auto other = not_asked.begin();
     Parameters changed = start_;
-    live_of(changed) = in_force();
+    const Live before = in_force();
+    live_of(changed) = before;
     for_each_live(config, changed, [&](double asked, double& value) {
       if (asked != *other++) value = asked;
     });
-    if (values_of(to_config(changed)) == values_of(to_config(in_force()))) return;
+    if (values_of(to_config(changed)) == values_of(to_config(before))) return;
     std::string fault = describe(find_faults(changed));
-    if (fault.empty()) fault = apply_(changed);
+    if (fault.empty()) fault = apply_(before, changed);
     if (fault.empty()) return;
     refusals_.add(Refusal::faulty_change, fault);
     ROS_WARN_STREAM("change of parameters refused: " << fault);

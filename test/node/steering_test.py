@@ -2,6 +2,7 @@
 commands the drag stops."""
 import math
 import subprocess
+import threading
 import time
 
 import dynamic_reconfigure.client
@@ -109,6 +110,18 @@ class Steering(EmulatorTest):
         self.emulator.publisher('rest_height').publish(-2.5e-11)
         self.applied.wait_for(lambda m: m.rest_height_m == -2.5e-11)
         self.assertEqual(self.emulator.set(restitution_gamma=0.5)['rest_height_m'], -2.5e-11)
+        # nor one that waits behind a step together with the change
+        self.pause(True)
+        before = len(self.applied.messages)
+        step = threading.Thread(target=self.step, kwargs={'tau': 10000.0})
+        step.start()
+        self.emulator.publisher('rest_height').publish(-3.5e-11)
+        self.emulator.set(restitution_gamma=0.6)
+        step.join()
+        causes = wait_until(lambda: {m.cause for m in self.applied.messages[before:]} >= {'rest_height', 'parameters'},
+                            'both are applied')
+        self.assertTrue(causes)
+        self.assertEqual(self.applied.messages[-1].rest_height_m, -3.5e-11)
 
 
 class Silence(NodeTest):

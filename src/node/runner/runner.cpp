@@ -127,6 +127,7 @@ Answer Runner::serve(const Request& request) {
     case Kind::change: {
       Live live = request.live;
       live.drag_velocity = parameters_.drag_velocity;
+      live.si.rest_height_m = std::isnan(request.rest_height) ? parameters_.si.rest_height_m : request.rest_height;
       apply(live, "parameters");
       break;
     }
