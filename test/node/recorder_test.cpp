@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool can_be_asked() { return true; }  // for a snapshot
+
 constexpr int kMessages = 400;  // together half more than fits into the queue
 
 class RecorderTest : public testing::Test {
@@ -49,7 +51,7 @@ class RecorderTest : public testing::Test {
 
   // Records a run of messages, faster than any disk.
   Recorder::Status record(bool unhurried) {
-    Recorder recorder(settings(), [] {});
+    Recorder recorder(settings(), can_be_asked);
     const Recorder::Reply started = recorder.start("run");
     EXPECT_TRUE(started.success) << started.message;
     record_beginning(recorder, unhurried);
@@ -89,7 +91,7 @@ TEST_F(RecorderTest, CountsWhatFindsNoRoom) {
 
 TEST_F(RecorderTest, RefusesNamesThatLeadElsewhereAndThoseThatAreTaken) {
   write_file("kept.bag");
-  Recorder recorder(settings(), [] {});
+  Recorder recorder(settings(), can_be_asked);
   for (const char* name : {"/tmp/away.bag", "../away.bag", "sub/away.bag", "..", ".", "sub/", "kept.bag"}) {
     const Recorder::Reply reply = recorder.start(name);
     EXPECT_FALSE(reply.success) << name;
@@ -102,7 +104,7 @@ TEST_F(RecorderTest, RefusesNamesThatLeadElsewhereAndThoseThatAreTaken) {
 }
 
 TEST_F(RecorderTest, MakesOneRecordingAtATime) {
-  Recorder recorder(settings(), [] {});
+  Recorder recorder(settings(), can_be_asked);
   EXPECT_FALSE(recorder.stop().success);
   EXPECT_TRUE(recorder.start("run").success);
   EXPECT_FALSE(recorder.start("second").success);
@@ -112,7 +114,7 @@ TEST_F(RecorderTest, MakesOneRecordingAtATime) {
 
 // Of two clients: a stop used to wait for the recording that began as the one before was closed.
 TEST_F(RecorderTest, AStopEndsTheRecordingThatItFinds) {
-  Recorder recorder(settings(), [] {});
+  Recorder recorder(settings(), can_be_asked);
   std::atomic<bool> done{false};
   std::thread other([&] {
     for (int i = 0; !done; ++i) recorder.start("run_" + std::to_string(i));
@@ -133,7 +135,7 @@ TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {
   for (const char* directory : {"/sys/kernel", "/dev/null/bags"}) {  // where not even root can make a file
     Recorder::Settings elsewhere = settings();
     elsewhere.directory = directory;
-    const Recorder::Reply reply = Recorder(elsewhere, [] {}).start("run");
+    const Recorder::Reply reply = Recorder(elsewhere, can_be_asked).start("run");
     EXPECT_FALSE(reply.success);
     EXPECT_NE(reply.message.find(directory), std::string::npos) << reply.message;
   }
@@ -142,14 +144,14 @@ TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {
 TEST_F(RecorderTest, DoesNotStartWithoutRoom) {
   Recorder::Settings all_kept = settings();
   all_kept.reserve_bytes = std::uint64_t{1} << 60;
-  const Recorder::Reply reply = Recorder(all_kept, [] {}).start("run");
+  const Recorder::Reply reply = Recorder(all_kept, can_be_asked).start("run");
   EXPECT_FALSE(reply.success);
   EXPECT_NE(reply.message.find("disk_reserve_mb"), std::string::npos) << reply.message;
   EXPECT_TRUE(fs::is_empty(directory_));
 }
 
 TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
-  Recorder recorder(settings(), [] {});
+  Recorder recorder(settings(), can_be_asked);
   EXPECT_TRUE(recorder.start("run").success);
   record_beginning(recorder);
   fs::remove_all(directory_);
@@ -169,6 +171,7 @@ TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
     std::promise<void> asked;
     Recorder recorder(split, [&, calls = 0]() mutable {
       if (calls++ == 0) asked.set_value();
+      return true;
     });
     const std::string name = whole ? "whole" : "part";
     EXPECT_TRUE(recorder.start(name).success);
@@ -193,6 +196,7 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
   std::promise<void> asked[2];
   Recorder recorder(split, [&, calls = 0]() mutable {
     if (calls < 2) asked[calls++].set_value();
+    return true;
   });
   const auto was_asked = [&](int time) {
     return asked[time].get_future().wait_for(std::chrono::seconds(50)) == std::future_status::ready;
@@ -210,12 +214,37 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
   EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
 }
 
+TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
+  Recorder::Settings split = settings();
+  split.split_bytes = 1;
+  std::promise<void> asked;
+  Recorder recorder(split, [&, calls = 0]() mutable {
+    if (++calls == 3) asked.set_value();
+    return calls > 2;
+  });
+  EXPECT_TRUE(recorder.start("run").success);
+  record_beginning(recorder);
+  for (int i = 0; i < 2; ++i) recorder.record(topic_, bytes_, Role::ordinary, false);  // it asks once at each
+  EXPECT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
+}
+
+TEST_F(RecorderTest, LeavesNoBagWhereNothingCame) {
+  Recorder recorder(settings(), can_be_asked);
+  EXPECT_TRUE(recorder.start("run").success);
+  EXPECT_TRUE(recorder.stop().success);
+  EXPECT_TRUE(fs::is_empty(directory_));
+  EXPECT_TRUE(recorder.start("run").success);
+}
+
 TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
   write_file("run_001.bag");
   Recorder::Settings split = settings();
   split.split_bytes = 5'000'000;
   Recorder* self = nullptr;
-  Recorder recorder(split, [&] { self->record(topic_, bytes_, Role::snapshot, false); });
+  Recorder recorder(split, [&] {
+    self->record(topic_, bytes_, Role::snapshot, false);
+    return true;
+  });
   self = &recorder;
   EXPECT_TRUE(recorder.start("run").success);
   record_beginning(recorder);

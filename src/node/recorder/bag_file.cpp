@@ -52,7 +52,12 @@ BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::C
     throw std::runtime_error(path_ + ": " + trouble);
   }
   auto bag = std::make_unique<rosbag::Bag>();
-  bag->open(active_path_, rosbag::bagmode::Write);
+  try {
+    bag->open(active_path_, rosbag::bagmode::Write);
+  } catch (const std::exception&) {
+    unlink(active_path_.c_str());
+    throw;
+  }
   bag->setCompression(compression);
   bag_ = std::move(bag);
 }
@@ -89,6 +94,10 @@ std::string BagFile::close() {
            " recovers what is in it";
   }
   bag_.reset();
+  if (messages_ == 0) {
+    unlink(active_path_.c_str());
+    return {};
+  }
   malloc_trim(0);  // what waited for a slow disk has left holes all over the heap
   if (rename_without_overwriting(active_path_, path_)) return {};
   return active_path_ + " is closed but could not be renamed: " + std::strerror(errno);

@@ -64,7 +64,7 @@ std::int64_t free_bytes(const std::string& directory) {
   return -1;
 }
 
-Recorder::Recorder(const Settings& settings, std::function<void()> ask_for_snapshot)
+Recorder::Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot)
     : settings_(settings), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
 
 Recorder::~Recorder() {
@@ -120,6 +120,7 @@ Recorder::Reply Recorder::stop() {
     return {false, path_ + " is still being written to a slow disk", path_};
   }
   if (!error_.empty()) return {false, error_, path_};
+  if (messages_ == 0) return {true, "nothing came to be recorded: there is no bag", ""};
   return {true, path_ + ": " + std::to_string(messages_) + " messages", path_};
 }
 
@@ -202,16 +203,13 @@ std::string Recorder::take(const Item& item) {
         write_held();
       } else if (held_.size() >= kMostHeld) {
         write_held();
-        ask_for_snapshot_();
+        full_ = ask_for_snapshot_();
       }
     }
   } catch (const std::exception& error) {
     return error.what();
   }
-  if (!full_ && is_full(item.stamp)) {
-    full_ = true;
-    ask_for_snapshot_();
-  }
+  if (!full_ && is_full(item.stamp)) full_ = ask_for_snapshot_();
   return {};
 }
 
@@ -240,7 +238,10 @@ void Recorder::begin_next_bag() {
   auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
   ++part_;  // only now, as that may fail: then this bag is the last
   const std::string error = bag_->close();
-  bag_ = std::move(next);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    bag_ = std::move(next);
+  }
   full_ = false;
   if (!error.empty()) throw std::runtime_error(error);
 }

@@ -44,7 +44,8 @@ class Recorder {
   };
 
   // ask_for_snapshot: called by the recorder's thread when the bag is full; the next one begins with that snapshot.
-  Recorder(const Settings& settings, std::function<void()> ask_for_snapshot);
+  // False: it could not be asked for, and is asked for again.
+  Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot);
   ~Recorder();  // writes what waits and closes
 
   Reply start(const std::string& name);  // empty: a name from the time. It begins with the next snapshot
@@ -79,7 +80,7 @@ class Recorder {
   std::string part_path(std::uint32_t part) const;
 
   const Settings settings_;
-  const std::function<void()> ask_for_snapshot_;
+  const std::function<bool()> ask_for_snapshot_;
   mutable std::mutex mutex_;
   std::mutex orders_;  // one start or stop at a time: both take their time
   std::condition_variable work_, room_, closed_;
