@@ -17,6 +17,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -149,7 +150,9 @@ class Client {
     const double end = ros::WallTime::now().toSec() + timeout_;
     do {
       if (ros::WallTime::now().toSec() > end) {
-        throw EmulatorError(publisher.getTopic() + ": " + std::to_string(value) + " had no effect: refused?");
+        std::ostringstream text;
+        text << publisher.getTopic() << ": " << value << " had no effect: refused?";
+        throw EmulatorError(text.str());
       }
       publisher.publish(to_message(value));
     } while (!comes_true([&] { return applied_ != before && holds(value, field); }, kAgain));
@@ -161,8 +164,11 @@ class Client {
     r.success = true;
     r.epoch = since.epoch;
     r.applied = since.number;
+    r.begin = since.time;
+    queue_.callAvailable();  // what came while nobody measured is of the past
     batches_.clear();
     impacts_.clear();
+    std::uint32_t first = 0, last = 0;  // batches that count
     double seconds = 0.0, vertical = 0.0, lateral = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
     while (seconds < duration) {
       wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
@@ -170,7 +176,8 @@ class Client {
       if (batch.epoch != since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
       const double age = static_cast<double>(batch.time.tau - since.time.tau) + (batch.time.phase - since.time.phase);
       if (age >= 0.0) {
-        if (r.samples == 0) r.begin = batch.time;
+        if (r.samples == 0) r.begin = batch.time, first = batch.header.seq;
+        last = batch.header.seq;
         r.samples += batch.vertical.size();
         for (const double y : batch.vertical) vertical += y, vertical_squares += y * y;
         for (const double x : batch.lateral) lateral += x, lateral_squares += x * x;
@@ -178,7 +185,11 @@ class Client {
       }
       batches_.pop_front();
     }
+    // impacts come on a connection of their own
+    const auto has_come = [&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; };
+    if (r.samples > 0) wait_for(has_come, name_ + "/impacts");
     for (const ImpactArray::ConstPtr& batch : impacts_) {
+      if (r.samples == 0 || batch->header.seq < first || batch->header.seq > last) continue;
       for (const Impact& impact : batch->impacts) {
         r.impact_count += impact.count;
         r.energy_loss += impact.energy_loss;

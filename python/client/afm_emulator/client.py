@@ -183,36 +183,48 @@ class Client:
                 raise EmulatorError('%s/%s: %g had no effect within %g s: refused, or no emulator there?'
                                     % (self.name, topic, value, self.timeout))
 
+    def _next(self, topic, seconds):
+        self._wait_for(lambda: self._batches, '%s/%s' % (self.name, topic), seconds)
+        with self._news:
+            return self._batches.pop(0)
+
     def _measure(self, applied, duration):
         """As the emulator measures in lockstep, from the batches that it publishes."""
         with self._news:
             self._batches = []
-        answer, squares = ControlResponse(success=True, epoch=applied.epoch, applied=applied.number), [0.0, 0.0]
-        seconds = 0.0
-        while seconds < duration:
-            self._wait_for(lambda: self._batches, self.name + '/deflection',
-                           self.timeout + duration / self.configuration.time_scale)
+        try:
+            return self._measured(applied, duration)
+        finally:
             with self._news:
-                batch = self._batches.pop(0)
+                self._batches = None
+
+    def _measured(self, applied, duration):
+        answer, squares = ControlResponse(success=True, epoch=applied.epoch, applied=applied.number), [0.0, 0.0]
+        answer.begin = applied.time
+        seconds, first, last, impacts = 0.0, None, None, {}  # impacts: by the number of their batch
+        # impacts come on a connection of their own
+        while seconds < duration or (first is not None and max(impacts, default=-1) < last):
+            batch = self._next('deflection', self.timeout + duration / self.configuration.time_scale)
             if batch.epoch != applied.epoch:
                 raise EmulatorError('%s: reset while it was measured' % self.name)
             if isinstance(batch, ImpactArray):
-                answer.impact_count += sum(i.count for i in batch.impacts)
-                answer.energy_loss += sum(i.energy_loss for i in batch.impacts)
+                impacts[batch.header.seq] = batch.impacts
                 continue
-            if tau_between(applied.time, batch.time) < 0.0:
+            if tau_between(applied.time, batch.time) < 0.0 or not seconds < duration:
                 continue
-            if answer.samples == 0:
-                answer.begin = batch.time
+            if first is None:
+                answer.begin, first = batch.time, batch.header.seq
+            last = batch.header.seq
             answer.samples += len(batch.vertical)
             answer.mean_vertical += sum(batch.vertical)
             answer.mean_lateral_force -= sum(batch.lateral)
             squares[0] += sum(y * y for y in batch.vertical)
             squares[1] += sum(x * x for x in batch.lateral)
             seconds += len(batch.vertical) * batch.sample_period
-        with self._news:
-            self._batches = None
-        n = answer.samples
+        counted = [i for seq, them in impacts.items() if first is not None and first <= seq <= last for i in them]
+        answer.impact_count = sum(i.count for i in counted)
+        answer.energy_loss = math.fsum(i.energy_loss for i in counted)
+        n = answer.samples or math.nan
         answer.mean_vertical /= n
         answer.rms_vertical = math.sqrt(squares[0] / n)
         answer.mean_lateral_force *= self.lateral_stiffness / n
@@ -221,6 +233,6 @@ class Client:
         total = answer.begin.phase + seconds / self.tau_s
         answer.end.tau, answer.end.phase = answer.begin.tau + math.floor(total), total - math.floor(total)
         v0 = applied.drag_velocity or float('nan')
-        answer.k_f = answer.energy_loss / (v0 * v0 * seconds)
+        answer.k_f = answer.energy_loss / (v0 * v0 * (seconds or math.nan))
         answer.k_f_work = answer.mean_lateral_force / v0
         return answer
