@@ -22,7 +22,7 @@ namespace {
 class Gaps {
  public:
   void add(std::uint32_t epoch, std::uint64_t first, std::size_t count) {
-    if (begun_ && epoch == epoch_) lost_ += first - next_;
+    if (begun_ && epoch == epoch_ && first > next_) lost_ += first - next_;  // less: it was started again
     begun_ = true;
     epoch_ = epoch;
     next_ = first + count;

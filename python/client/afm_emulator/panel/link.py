@@ -62,7 +62,7 @@ class Link:
         self._batches, self._impacts = (collections.deque(maxlen=WAITING_BATCHES) for _ in range(2))
         self._heard = self._asked = -math.inf
         self._subscribers, self._jobs, self._wanted = [], queue.Queue(), {}
-        self._lock = threading.Lock()
+        self._lock, self._asking = threading.Lock(), threading.Lock()
         self._commands = {topic: rospy.Publisher('%s/%s' % (name, topic), Float64, queue_size=10, tcp_nodelay=True)
                           for topic in ('drag_velocity', 'rest_height', 'load')}
         threading.Thread(target=self._work, daemon=True).start()
@@ -102,16 +102,25 @@ class Link:
         they did not come in time."""
         while self._batches:
             arrived, batch = self._batches[0]
-            have_come = self._impacts and self._impacts[-1][0] >= batch.header.seq
+            waiting = self._impacts  # another thread may replace it
+            have_come = waiting and waiting[-1][0] >= batch.header.seq
             if not have_come and time.monotonic() - arrived < PAIRING_S:
                 return
             self._batches.popleft()
             impacts = []
-            while self._impacts and self._impacts[0][0] <= batch.header.seq:
-                impacts.append(self._impacts.popleft()[1:])
+            while waiting and waiting[0][0] <= batch.header.seq:
+                impacts.append(waiting.popleft()[1:])
             yield batch, impacts
 
     def _subscribe(self):
+        if not self._asking.acquire(blocking=False):
+            return  # the master has not answered yet
+        try:
+            self._subscribe_again()
+        finally:
+            self._asking.release()
+
+    def _subscribe_again(self):
         with self._lock:
             for subscriber in self._subscribers:
                 subscriber.unregister()
@@ -137,7 +146,7 @@ class Link:
         if is_of(message, subject[1]):
             impacts = read_impacts(message._buff)
             if self._impacts and impacts[0] < self._impacts[-1][0]:
-                self._impacts.clear()  # another emulator of that name
+                self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name
             self._impacts.append(impacts)
 
     def _keep_diagnostics(self, message):
