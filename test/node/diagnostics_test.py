@@ -50,7 +50,7 @@ class Diagnostics(NodeTest):
         self.expect('commands', WARN, 'no command for 2 s')
         self.emulator.drag(math.nan)
         self.assertEqual(self.expect('commands', WARN,
-                                     'drag_velocity = nan m/s: must be finite')['refused drag commands'], '1')
+                                     'drag_velocity = nan m/s: must be finite')['refused commands'], '1')
         self.emulator.set(rest_height_m=6e-11)
         reported = self.expect('commands', WARN, 'rest_height_m = 6e-11: ')
         self.assertEqual(reported['refused changes of parameters'], '1')

@@ -65,10 +65,11 @@ std::vector<std::string> find_traps(const Parameters& p) {
 
 std::string find_pace_fault(const Parameters& p, double pace) {
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return {};
-  const double kicks = suitable_kicks(p.si);
+  const double kicks = suitable_kicks(p.si), scale = 0.7 * pace;
+  const double digit = std::pow(10.0, std::floor(std::log10(scale)));  // one digit, rounded down
   const bool fewer_suffice = p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > 1.1 * kicks;
   return "this run will not keep its pace: time_scale = " + number_text(p.time_scale) + ", and a trial run made " +
-         rounded(pace, 2) + " times real time. Give time_scale = " + rounded(0.7 * pace, 1) +
+         rounded(pace, 2) + " times real time. Give time_scale = " + rounded(std::floor(scale / digit) * digit, 1) +
          ", a lower sample_rate_hz, a contact_tolerance up to 1e-2," +
          (fewer_suffice ? " kicks_per_tau = " + rounded(kicks, 5) + "," : "") + " or model = hammer";
 }

@@ -148,7 +148,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
     }
   }
   add(set_lever_and_load(parameters.lever, parameters.load_n, parameters.si), faults);
-  set_initial_state(parameters);
+  if (find_faults(parameters.si).empty()) set_initial_state(parameters);
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
   // what could not be read stands at its default here and adds no fault of its own

@@ -146,9 +146,11 @@ class Publisher {
   void publish_status() {
     publish_clock_to_new_subscribers();
     if (is_due(status_due_, kStatusPeriod)) {
-      status_.send(status_tracker_.update_status(sources_.recorder.status(), sources_.refusals.summary(),
-                                                 deflection_.lost() + impacts_.lost() + friction_.lost()),
-                   false);
+      afm_emulator::EmulatorStatus status =
+          status_tracker_.update_status(sources_.recorder.status(), sources_.refusals.summary(),
+                                        deflection_.lost() + impacts_.lost() + friction_.lost());
+      if (clock_) status.header.stamp = latest_clock_;
+      status_.send(std::move(status), false);
     }
     if (is_due(diagnostics_due_, kDiagnosticsPeriod)) {
       status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), sources_.free_bytes,

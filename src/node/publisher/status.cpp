@@ -113,7 +113,7 @@ void diagnose_commands(const Health& health, Diagnosis& out) {
     out.mergeSummaryf(Severity::WARN, "the drag was stopped: no command for %g s (command_timeout_s)",
                       health.command_timeout_s);
   }
-  out.add("refused drag commands", health.status.refused_commands);
+  out.add("refused commands", health.status.refused_commands);
   out.add("refused changes of parameters", health.refused_changes);
   out.add("drag stopped as no command came", health.timed_out);
 }
