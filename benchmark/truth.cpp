@@ -38,8 +38,6 @@ TrueImpact next_impact_in_quad(const Model& model, double eta, const TipState& s
   t.X = q.X;
   t.u = eta + q.U + (1 + e) * surface.h1 * g1 / n2;
   t.w = surface.h1 * t.u - e * g1;
-  t.normal_speed = static_cast<double>(speed);
-  t.energy_loss = static_cast<double>((1 - e * e) * speed * speed / 2);
   t.after = {wrap_phase(static_cast<double>(t.phase)), static_cast<double>(t.X), static_cast<double>(t.u), 0.0,
              static_cast<double>(-e * g1)};
   return t;

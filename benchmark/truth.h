@@ -11,7 +11,6 @@ namespace afm {
 struct TrueImpact {
   bool impact;              // false: none within the horizon
   Quad dt, phase, X, u, w;  // after the impact, lab velocities
-  double normal_speed, energy_loss;
   TipState after;  // the same in doubles
 };
 

@@ -26,12 +26,6 @@ print_help() {
   awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
 }
 
-# For builds with one version of each function (sanitizers): where the machine has fused multiply-add and they do not
-# use it, each is a call of the C library, and what computes takes 1.6 to 15 times as long. The bits are the same.
-fused_multiply_add_flag() {
-  if grep -qsw fma /proc/cpuinfo; then echo -mfma; fi
-}
-
 # from here on, unless the user has said otherwise: roscpp binds every node's slave API to all interfaces
 listen_on_loopback_only() {
   if [[ -z ${ROS_IP:-} && $ROS_HOSTNAME == localhost ]]; then

@@ -231,8 +231,7 @@ def commands(quick):
                   "--temperature 0.926 --quality-factor 100 --kicks-per-tau", kicks, "--frequency-ratio", ratio,
                   "--duration", choose(200, 50000))
 
-    # levels, scenes, recording, control
-    add("levels", "level_table")
+    # scenes, recording, control
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep", choose("--duration 500", ""))
     add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
     add("topic_rates", "benchmark/topic_rates.py --seconds", choose(2, 10))

@@ -205,8 +205,6 @@ std::string Attractor::name() const {
       return "rest";
     default:
       return "undecided";
-    case AttractorKind::thermal:
-      return "thermal";
   }
 }
 

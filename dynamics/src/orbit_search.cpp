@@ -57,7 +57,8 @@ class Search {
   Search(const PoincareMap& map, const OrbitSearchSettings& settings, const std::function<void(double)>& progress)
       : map_(map), settings_(settings), progress_(progress), random_(settings.seed) {
     constexpr std::size_t kTransientImpacts = 1000;  // a choice
-    run_ = run(map, static_cast<std::size_t>(settings.trajectory) + kTransientImpacts, random_);
+    run_ = run(map, static_cast<std::size_t>(std::max(settings.trajectory, settings.longest + 1)) + kTransientImpacts,
+               random_);
     run_.erase(run_.begin(), run_.begin() + kTransientImpacts);
   }
 

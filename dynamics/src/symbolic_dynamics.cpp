@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 #include <string_view>
 
 #include "core/run/batch_means.h"
@@ -99,6 +98,7 @@ void improve(Partition& partition, std::size_t k, const std::vector<TipState>& p
   for (const TipState& p : points) {
     if (band(partition.begins, p.phase) == k) rates.push_back(p.g1);
   }
+  if (rates.empty()) return;
   std::sort(rates.begin(), rates.end());
   double best = INFINITY, best_cut = partition.cuts[k];
   for (std::size_t i = 1; i < kTrials; ++i) {

@@ -56,7 +56,8 @@ void print_impacts(afm::Tip& tip, double value, int impacts, const std::string& 
   constexpr double kLongest = 1000.0;  // [tau]
   const afm::ModelTime end = tip.now() + kLongest;
   for (int i = 0; i < impacts;) {
-    if (tip.advance(end) == afm::Outcome::time_limit) return;
+    const afm::Outcome outcome = tip.advance(end);
+    if (outcome == afm::Outcome::time_limit || outcome == afm::Outcome::search_failed) return;
     const afm::Impact& impact = tip.last_impact();
     if (impact.kind != afm::ImpactKind::impact) continue;
     ++i;

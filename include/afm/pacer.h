@@ -32,7 +32,7 @@ class Pacer {
   std::uint64_t batches_ = 0, late_ = 0;
   double lag_ = 0.0, worst_lag_ = 0.0;
   // real-time factor: a reference point that moves up about once a second
-  Duration mark_time_, last_time_;
+  Duration mark_time_;
   Duration emulated_{0};  // since the reference point
   double factor_ = 1.0;
 };

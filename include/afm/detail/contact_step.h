@@ -14,9 +14,9 @@ namespace afm::detail {
 constexpr std::size_t kGaussNodes = 8;  // two vector registers of four numbers
 using AtGaussNodes = double[kGaussNodes];
 
-// At a state on the surface: h, h', 1 + h'^2, x'' [a/tau^2], the reaction along y [a/tau^2], and -dx''/dx [1/tau^2].
+// At a state on the surface: h, 1 + h'^2, x'' [a/tau^2], the reaction along y [a/tau^2], and -dx''/dx [1/tau^2].
 struct ContactForces {
-  double h, h1, N2, force, reaction, stiffness;
+  double h, N2, force, reaction, stiffness;
 };
 
 constexpr double kFinestStep = 2e-15;  // the smallest tolerance of a step [a]: rounding allows no finer one

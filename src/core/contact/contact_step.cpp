@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/surface.h"
 #include "gauss.h"
 #include "release_noise.h"
 
@@ -77,7 +76,7 @@ inline ContactForces forces(const SpringConstants<double>& m, const SinCos<doubl
   const double push = k2 * (h - m.y0) + h2 * u2, pull = wh2 * X, N2 = 1.0 + free * h1 * h1;
   const double force = -free * (pull + h1 * push) / N2;
   const double slope = wh2 + h2 * push + h1 * (h3 * u2 + k2 * h1);
-  return {h, h1, N2, force, (push - h1 * pull) / N2, free * (slope + 2.0 * h1 * h2 * force) / N2};
+  return {h, N2, force, (push - h1 * pull) / N2, free * (slope + 2.0 * h1 * h2 * force) / N2};
 }
 
 // Sine and cosine of the turn from which `turn` is r away, |r| <= kMaxReach: within 1e-12.

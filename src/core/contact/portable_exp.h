@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 
-#include "afm/detail/select.h"
 #include "afm/detail/turns.h"
 
 namespace afm::detail {
@@ -25,36 +24,23 @@ inline double portable_log(double x) {
   return 2.0 * z * sum + exponent * kLog2;
 }
 
-namespace exp_detail {
-
-// e^r 2^k, where power(k + kRounder) is 2^k. The terms are added in pairs, which shortens the chain of dependent
-// operations.
-template <class T, class Power>
-inline T exp_of(const T& x, const Power& power) {
-  constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
-  const T shifted = x * T(1.4426950408889634) + T(kRounder), k = shifted - T(kRounder);
-  const T r = mul_add(T(-k), T(kLog2Low), mul_add(T(-k), T(kLog2High), x));
-  const T r2 = r * r, r4 = r2 * r2;
-  const auto pair = [&](double c0, double c1) { return mul_add(r, T(c1), T(c0)); };
-  const T p0 = mul_add(r2, pair(1.0 / 2, 1.0 / 6), T(T(1.0) + r));
-  const T p4 = mul_add(r2, pair(1.0 / 720, 1.0 / 5040), pair(1.0 / 24, 1.0 / 120));
-  const T p8 = mul_add(r2, pair(1.0 / 3628800, 1.0 / 39916800), pair(1.0 / 40320, 1.0 / 362880));
-  const T p12 = pair(1.0 / 479001600, 1.0 / 6227020800.0);
-  return mul_add(T(r4 * r4), mul_add(r4, p12, p8), mul_add(r4, p4, p0)) * power(shifted);
-}
-
-}  // namespace exp_detail
-
 // e^x for |x| < 700, error below 1e-15 of it. Beyond that the result means nothing, but is the same on every machine.
+// The terms are added in pairs, which shortens the chain of dependent operations.
 inline double portable_exp(double x) {
-  return exp_detail::exp_of(x, [](double shifted) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &shifted, sizeof bits);
-    bits = (bits + 1023) << 52;
-    double power;
-    std::memcpy(&power, &bits, sizeof power);
-    return power;
-  });
+  constexpr double kLog2High = 0.693147180369123816490, kLog2Low = 1.90821492927058770002e-10;
+  const double shifted = x * 1.4426950408889634 + kRounder, k = shifted - kRounder;
+  const double r = std::fma(-k, kLog2Low, std::fma(-k, kLog2High, x)), r2 = r * r, r4 = r2 * r2;
+  const auto pair = [&](double c0, double c1) { return std::fma(r, c1, c0); };
+  const double p0 = std::fma(r2, pair(1.0 / 2, 1.0 / 6), 1.0 + r);
+  const double p4 = std::fma(r2, pair(1.0 / 720, 1.0 / 5040), pair(1.0 / 24, 1.0 / 120));
+  const double p8 = std::fma(r2, pair(1.0 / 3628800, 1.0 / 39916800), pair(1.0 / 40320, 1.0 / 362880));
+  const double p12 = pair(1.0 / 479001600, 1.0 / 6227020800.0);
+  std::uint64_t bits;  // of 2^k
+  std::memcpy(&bits, &shifted, sizeof bits);
+  bits = (bits + 1023) << 52;
+  double power;
+  std::memcpy(&power, &bits, sizeof power);
+  return std::fma(r4 * r4, std::fma(r4, p12, p8), std::fma(r4, p4, p0)) * power;
 }
 
 }  // namespace afm::detail

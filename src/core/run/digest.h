@@ -1,5 +1,4 @@
-// A 64-bit hash of numbers, bit for bit and in order. Its state is its value: a digest can be taken up where another
-// left off.
+// A 64-bit hash of numbers, bit for bit and in order.
 #pragma once
 
 #include <cinttypes>
@@ -12,9 +11,6 @@ namespace afm {
 
 class Digest {
  public:
-  Digest() = default;
-  explicit Digest(std::uint64_t value) : hash_(value) {}
-
   // Each step is one to one in the state: a single number that differs always shows. Six cycles a number.
   void add(std::uint64_t word) {
     hash_ = (hash_ ^ word) * 0x9e3779b97f4a7c15u;
@@ -30,9 +26,6 @@ class Digest {
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
-
-inline bool operator==(const Digest& a, const Digest& b) { return a.value() == b.value(); }
-inline bool operator!=(const Digest& a, const Digest& b) { return a.value() != b.value(); }
 
 inline std::string to_text(const Digest& digest) {
   char text[17];

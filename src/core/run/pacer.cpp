@@ -10,8 +10,7 @@ constexpr double kFactorSpan = 1.0;  // [s] averaging time of the real-time fact
 
 }  // namespace
 
-Pacer::Pacer(Duration period, Duration start)
-    : period_(period), origin_(start + period), mark_time_(start), last_time_(start) {}
+Pacer::Pacer(Duration period, Duration start) : period_(period), origin_(start + period), mark_time_(start) {}
 
 Pacer::Duration Pacer::deadline() const { return origin_ + due_ * period_; }
 
@@ -22,7 +21,6 @@ void Pacer::batch_done(Duration now) {
   ++due_;
   ++batches_;
   emulated_ += period_;
-  last_time_ = now;
   const double span = seconds(now - mark_time_);
   if (span < kFactorSpan) return;
   factor_ = seconds(emulated_) / span;
@@ -33,7 +31,7 @@ void Pacer::batch_done(Duration now) {
 void Pacer::resume(Duration now) {
   origin_ = now + period_;
   due_ = 0;
-  mark_time_ = last_time_ = now;
+  mark_time_ = now;
   emulated_ = Duration(0);
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "afm/ensemble.h"
 #include "afm/interruption.h"
 #include "afm/surface.h"
 #include "afm/tip.h"

@@ -14,10 +14,9 @@ enum class AttractorKind : std::uint8_t {
   periodic,
   quasi_periodic,
   chaotic,
-  contact,    // in contact, in chatter or in bounces below 0.01 a/tau for more than half of the time
-  rest,       // no drag: the motion ends without losses
-  undecided,  // the budget ran out, or a search for an impact failed
-  thermal     // with a heat bath: a distribution, not an orbit
+  contact,   // in contact, in chatter or in bounces below 0.01 a/tau for more than half of the time
+  rest,      // no drag: the motion ends without losses
+  undecided  // the budget ran out, or a search for an impact failed
 };
 
 struct AttractorSettings {
@@ -39,7 +38,7 @@ struct Attractor {
   double rotation_number = 0.0;   // if quasi-periodic: turns about the centre of the section per impact, in [0, 1/2]
   LyapunovSpectrum lyapunov;      // if periodic: logarithms of the multipliers over the period
 
-  // period-N, quasi-periodic, chaotic, contact, rest, undecided, thermal
+  // period-N, quasi-periodic, chaotic, contact, rest, undecided
   std::string name() const;
 };
 
