@@ -28,9 +28,9 @@ constexpr double kSearchHorizon = 8.0;
 
 // Searches from the start of the flight to the horizon [tau], in double precision. If rounding leaves the result
 // undecided, the search is repeated in double-double from the same start (Lemma 7). Guarantee: an impact or a miss is
-// that of exact arithmetic on the given doubles, down to a gap of 1e-30 a. If double-double cannot decide either, or
-// the evaluations run out, the outcome is: an impact if the gap is at most 1e-17 a, clear if at least 0.1 tau are
-// certified, otherwise cap.
+// that of exact arithmetic on the given doubles, down to the rounding of double-double, about 2e-31 (|y0| + 1) a. If
+// double-double cannot decide either, or the evaluations run out, the outcome is: an impact if the gap is at most 1e-17
+// a, clear if at least 0.1 tau are certified, otherwise cap.
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon);
 
 }  // namespace afm

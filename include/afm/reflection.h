@@ -33,7 +33,7 @@ inline Reflection reflect(const Model& model, double eta, const GapJet<double>& 
   const double loss = fast ? 1.0 - model.gamma : (1.0 - model.gamma) / model.v_c * -g1 * inverse_n;
   const double gamma_eff = fast ? model.gamma : 1.0 - loss, one_plus_gamma = fast ? 1.0 + model.gamma : 2.0 - loss;
   const double after_u = std::fma(slope * g1 * inverse_n2, one_plus_gamma, u);
-  return {{wrapped(incident.state.phase), incident.state.X, after_u, 0.0, -gamma_eff * g1},
+  return {{wrap_phase(incident.state.phase), incident.state.X, after_u, 0.0, -gamma_eff * g1},
           speed,
           std::fma(slope, std::fma(h1, u, g1), u) * inverse_n,
           0.5 * loss * one_plus_gamma * (speed * speed)};

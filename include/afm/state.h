@@ -22,7 +22,7 @@ inline ModelTime operator+(const ModelTime& t, double dt) {
   return {t.tau + static_cast<std::int64_t>(whole) + (carried ? 1 : 0), carried ? 0.0 : phase};
 }
 
-// b - a [tau], exact to an ulp of the difference.
+// b - a [tau], with an error below 6e-17 tau, or an ulp of the difference if that is larger.
 inline double operator-(const ModelTime& b, const ModelTime& a) {
   return static_cast<double>(b.tau - a.tau) + (b.phase - a.phase);
 }

@@ -1,4 +1,4 @@
-// The mica surface h(x) = H cos(2 pi x) (paper, section III), crest at x = 0 [a].
+// The surface h(x) = H cos(2 pi x) (paper, section III), crest at x = 0 [a].
 #pragma once
 
 #include <cmath>
@@ -24,14 +24,10 @@ inline SurfaceJet<T> surface_jet(const T& H, const T& phase) {
 }
 
 // x mod 1 in [0, 1).
-template <class T>
-T wrapped(const T& x) {
-  using std::floor;
-  const T phase = x - floor(x);
-  return phase < T(1.0) ? phase : T(0.0);
+inline double wrap_phase(double x) {
+  if (x > 0.0 && x < 1.0) return x;  // most are: a predicted branch is faster than the rounding
+  const double phase = x - std::floor(x);
+  return phase < 1.0 ? phase : 0.0;
 }
-// Most phases are in the interval already, and a predicted branch is faster than the rounding.
-inline double wrapped(double x) { return x > 0.0 && x < 1.0 ? x : wrapped<double>(x); }
-inline double wrap_phase(double x) { return wrapped(x); }
 
 }  // namespace afm

@@ -96,7 +96,7 @@ class Tip {
   // Both are reported as events at now().
   double set_model(ModelKind kind, double contact_tolerance);
 
-  // Another heat bath from now() on; a new tip has none. Every advance includes its kicks (docs/temperature.md). A kick
+  // Another heat bath from now() on; a new tip has none. It splits the flight or the record under way. Every advance includes its kicks (docs/temperature.md). A kick
   // splits the phase under way at its time. In contact, a kick into the surface is an impact at once, and a kick away
   // from it starts a flight. Where the bounces that follow hardly move the tip, they are one event, and contact goes
   // on. A chatter sequence ends with the bounce under way. Precondition: a bath without faults.
@@ -111,6 +111,7 @@ class Tip {
   bool in_contact() const { return std::holds_alternative<Sliding>(phase_); }
   bool in_chatter() const { return std::holds_alternative<Chattering>(phase_); }
   const Impact& last_impact() const { return last_impact_; }
+  // In a chatter sequence state and deflection are those of the reference slide, without the bounces.
   TipState tip_state() const;  // at now()
   FreeState state() const { return to_free_state(model_.H, tip_state()); }
   Deflection deflection(const ModelTime& t) const;  // precondition: now() <= t < segment_end()

@@ -31,7 +31,7 @@ const FlightBounds<T>& bounds_of(const Flight<T>& flight) {
 
 // True: within the time s every angle turns by at most kSmallTurn.
 template <class T>
-auto is_small(const FlightBounds<T>& b, const T& s) {
+bool is_small(const FlightBounds<T>& b, const T& s) {
   return s * b.fastest <= T(kSmallTurn);
 }
 

@@ -6,7 +6,7 @@
 #include "afm/spring_constants.h"
 #include "afm/state.h"
 #include "afm/surface.h"
-#include "select.h"
+#include "rounded.h"
 #include "turns.h"
 
 namespace afm::detail {

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "afm/spring_constants.h"
-#include "select.h"
+#include "rounded.h"
 #include "turns.h"
 
 namespace afm::detail {

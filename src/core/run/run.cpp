@@ -29,7 +29,7 @@ std::vector<ParameterError> find_faults(const RunSettings& s) {
   const auto require_within = [&](const char* name, double value, double most, const char* reason) {
     require(std::abs(value) <= most, name, value, reason);
   };
-  require_within("initial_phase", i.phase, 1e6, "must be finite");
+  require_within("initial_phase", i.phase, 1e6, "must be within a million lattice spacings");
   require_within("initial_extension", i.X, 10.0, "must be within 10 lattice spacings");
   require_within("initial_height", i.y, 100.0, "must be within 100 lattice spacings");
   require_within("initial_u", i.u, kMaxEta, "must be within 1000 lattice spacings per tau");

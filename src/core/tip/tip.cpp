@@ -80,7 +80,7 @@ void Tip::set_laws(const Model& model) {
 
 // --- A phase begins now ---
 
-// A pull within rounding is no release (spring_constants.h): on the glide at eta = 1 the reaction is zero for ever.
+// A pull within rounding is no release (release_noise.h): on the glide at eta = 1 the reaction is zero for ever.
 bool Tip::rests(const Flight<double>& flight, Leaves leaves) const {
   const TipState& start = flight.launch();
   const double rounding = leaves == Leaves::above_rounding ? release_noise(springs_, start.u, start.X) : 0.0;
