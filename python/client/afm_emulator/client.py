@@ -183,8 +183,8 @@ class Client:
                 raise EmulatorError('%s/%s: %g had no effect within %g s: refused, or no emulator there?'
                                     % (self.name, topic, value, self.timeout))
 
-    def _next(self, topic, seconds):
-        self._wait_for(lambda: self._batches, '%s/%s' % (self.name, topic), seconds)
+    def _next_batch(self, seconds):
+        self._wait_for(lambda: self._batches, self.name + '/deflection', seconds)
         with self._news:
             return self._batches.pop(0)
 
@@ -204,7 +204,7 @@ class Client:
         seconds, first, last, impacts = 0.0, None, None, {}  # impacts: by the number of their batch
         # impacts come on a connection of their own
         while seconds < duration or (first is not None and max(impacts, default=-1) < last):
-            batch = self._next('deflection', self.timeout + duration / self.configuration.time_scale)
+            batch = self._next_batch(self.timeout + duration / self.configuration.time_scale)
             if batch.epoch != applied.epoch:
                 raise EmulatorError('%s: reset while it was measured' % self.name)
             if isinstance(batch, ImpactArray):
