@@ -110,6 +110,7 @@ class Client {
   }
 
  private:
+  static constexpr std::size_t kKeptImpacts = 100;  // messages before a measurement: a second at the default rate
   static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted
 
   double stiffness(double omega) const { return configuration_->tip_mass_kg * omega * omega; }
@@ -167,7 +168,7 @@ class Client {
     r.begin = since.time;
     queue_.callAvailable();  // what came while nobody measured is of the past
     batches_.clear();
-    impacts_.clear();
+    while (impacts_.size() > kKeptImpacts) impacts_.pop_front();  // those of a batch may come before it
     std::uint32_t first = 0, last = 0;  // batches that count
     double seconds = 0.0, vertical = 0.0, lateral = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
     while (seconds < duration) {
@@ -189,7 +190,7 @@ class Client {
     const auto has_come = [&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; };
     if (r.samples > 0) wait_for(has_come, name_ + "/impacts");
     for (const ImpactArray::ConstPtr& batch : impacts_) {
-      if (r.samples == 0 || batch->header.seq < first || batch->header.seq > last) continue;
+      if (r.samples == 0 || batch->header.seq < first || batch->header.seq > last || batch->epoch != since.epoch) continue;
       for (const Impact& impact : batch->impacts) {
         r.impact_count += impact.count;
         r.energy_loss += impact.energy_loss;

@@ -15,6 +15,7 @@ from std_msgs.msg import Float64
 
 AGAIN_S = 1.0  # of wall time: a command without effect is published again, as the emulator may have been restarted
 QUEUE_BYTES = 1 << 22
+KEPT_IMPACTS = 100  # messages before a measurement: a second at the default rate
 
 
 class EmulatorError(RuntimeError):
@@ -41,7 +42,8 @@ class Client:
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
         self._news = threading.Condition()
-        self._batches = None       # Deflection and ImpactArray messages, while something is measured
+        self._batches = None       # Deflection messages, while something is measured
+        self._impacts = []         # ImpactArray messages: those of a batch may come before it
         self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
                                                    tcp_nodelay=True)
                             for topic in ('drag_velocity', 'rest_height')}
@@ -152,9 +154,13 @@ class Client:
 
     def _take(self, message):
         with self._news:
-            if self._batches is not None:
+            if isinstance(message, ImpactArray):
+                self._impacts.append(message)
+                if self._batches is None:
+                    del self._impacts[:-KEPT_IMPACTS]
+            elif self._batches is not None:
                 self._batches.append(message)
-                self._news.notify_all()
+            self._news.notify_all()
 
     def _wait_for(self, condition, what, seconds=None, may_fail=False):
         """Whether it came true in that time."""
@@ -192,6 +198,7 @@ class Client:
         """As the emulator measures in lockstep, from the batches that it publishes."""
         with self._news:
             self._batches = []
+            del self._impacts[:-KEPT_IMPACTS]
         try:
             return self._measured(applied, duration)
         finally:
@@ -201,16 +208,12 @@ class Client:
     def _measured(self, applied, duration):
         answer, squares = ControlResponse(success=True, epoch=applied.epoch, applied=applied.number), [0.0, 0.0]
         answer.begin = applied.time
-        seconds, first, last, impacts = 0.0, None, None, {}  # impacts: by the number of their batch
-        # impacts come on a connection of their own
-        while seconds < duration or (first is not None and max(impacts, default=-1) < last):
+        seconds, first, last = 0.0, None, None
+        while seconds < duration:
             batch = self._next_batch(self.timeout + duration / self.configuration.time_scale)
             if batch.epoch != applied.epoch:
                 raise EmulatorError('%s: reset while it was measured' % self.name)
-            if isinstance(batch, ImpactArray):
-                impacts[batch.header.seq] = batch.impacts
-                continue
-            if tau_between(applied.time, batch.time) < 0.0 or not seconds < duration:
+            if tau_between(applied.time, batch.time) < 0.0:
                 continue
             if first is None:
                 answer.begin, first = batch.time, batch.header.seq
@@ -221,7 +224,12 @@ class Client:
             squares[0] += sum(y * y for y in batch.vertical)
             squares[1] += sum(x * x for x in batch.lateral)
             seconds += len(batch.vertical) * batch.sample_period
-        counted = [i for seq, them in impacts.items() if first is not None and first <= seq <= last for i in them]
+        counted = []
+        if first is not None:  # impacts come on a connection of their own
+            self._wait_for(lambda: self._impacts and self._impacts[-1].header.seq >= last, self.name + '/impacts')
+            with self._news:
+                counted = [i for m in self._impacts if first <= m.header.seq <= last and m.epoch == applied.epoch
+                           for i in m.impacts]
         answer.impact_count = sum(i.count for i in counted)
         answer.energy_loss = math.fsum(i.energy_loss for i in counted)
         n = answer.samples or math.nan
