@@ -66,9 +66,16 @@ class Scenes(NodeTest):
             self.topics[name].wait_for(lambda m: m.header.seq == estimate.header.seq, 'of the same time')
         return estimate
 
-    def last_of_each_command(self):
+    def commands(self, count):
+        """Of the scene, `count` at least: they may come after an estimate of friction that is later."""
+        def come():
+            found = [m for m in self.applied.messages if m.cause == 'scene']
+            return found if len(found) >= count else None
+        return wait_until(come, '%d commands of the scene' % count)
+
+    def last_of_each_command(self, count):
         """The last estimate of friction that each command of the scene came to, in order."""
-        begins = [key(m.time) for m in self.applied.messages if m.cause == 'scene']
+        begins = [key(m.time) for m in self.commands(count)]
         ends = {}
         for m in self.friction.messages:
             ends[sum(begin <= key(m.begin) for begin in begins) - 1] = m
@@ -149,9 +156,9 @@ class Scenes(NodeTest):
         self.play('sweep')
         eta = self.parameters['commands_eta']
         self.after(len(eta) * self.parameters['commands_hold_s'])
-        reported = [round(m.drag_velocity / SPEED_UNIT, 9) for m in self.applied.messages if m.cause == 'scene']
+        reported = [round(m.drag_velocity / SPEED_UNIT, 9) for m in self.commands(len(eta))]
         self.assertEqual(reported[:len(eta)], eta)
-        friction = [m.k_f_natural for m in self.last_of_each_command()]
+        friction = [m.k_f_natural for m in self.last_of_each_command(len(eta))]
         top = eta.index(max(eta))
         self.assertAlmostEqual(friction[eta.index(6.0)], PEAK, delta=0.02 * PEAK)
         self.assertAlmostEqual(friction[eta.index(5.65)], 1.257, delta=0.03)
@@ -167,7 +174,7 @@ class Scenes(NodeTest):
     def test_loop_opens_by_twice_the_friction(self):
         self.play('loop')
         self.after(12 * self.parameters['commands_hold_s'])
-        traces = self.last_of_each_command()[:12]
+        traces = self.last_of_each_command(12)[:12]
         self.assertEqual({math.copysign(1, m.mean_lateral_force) for m in traces[::2]},
                          {math.copysign(1, traces[0].eta)})
         opening = [(a.mean_lateral_force - b.mean_lateral_force) * math.copysign(1, a.eta)

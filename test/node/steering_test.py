@@ -118,9 +118,8 @@ class Steering(EmulatorTest):
         self.emulator.publisher('rest_height').publish(-3.5e-11)
         self.emulator.set(restitution_gamma=0.6)
         step.join()
-        causes = wait_until(lambda: {m.cause for m in self.applied.messages[before:]} >= {'rest_height', 'parameters'},
-                            'both are applied')
-        self.assertTrue(causes)
+        wait_until(lambda: {m.cause for m in self.applied.messages[before:]} >= {'rest_height', 'parameters'},
+                   'both are applied')
         self.assertEqual(self.applied.messages[-1].rest_height_m, -3.5e-11)
 
 
