@@ -37,7 +37,8 @@ class Thermostat {
   const SampleGrid& grid() const { return grid_; }  // kick n comes at its n-th time
   std::uint64_t count() const { return kicks_; }    // so far
 
-  Kick draw();  // takes the next kick
+  double noise() const { return scale_.vertical.noise; }  // standard deviation of a kick [a/tau]
+  Kick draw();                                            // takes the next kick
 
  private:
   void prepare(double frequency_ratio);

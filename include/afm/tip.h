@@ -96,10 +96,11 @@ class Tip {
   // Both are reported as events at now().
   double set_model(ModelKind kind, double contact_tolerance);
 
-  // Another heat bath from now() on; a new tip has none. It splits the flight or the record under way. Every advance includes its kicks (docs/temperature.md). A kick
-  // splits the phase under way at its time. In contact, a kick into the surface is an impact at once, and a kick away
-  // from it starts a flight. Where the bounces that follow hardly move the tip, they are one event, and contact goes
-  // on. A chatter sequence ends with the bounce under way. Precondition: a bath without faults.
+  // Another heat bath from now() on; a new tip has none. It splits the flight or the record under way. Every advance
+  // includes its kicks (docs/temperature.md). A kick splits the phase under way at its time. In contact, a kick into the
+  // surface is an impact at once, and a kick away from it starts a flight. Where the bounces after a kick, or with a
+  // temperature after an impact, hardly move the tip, they are one event, and the tip is in contact. A chatter sequence
+  // ends with the bounce under way. Precondition: a bath without faults.
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 
@@ -162,9 +163,11 @@ class Tip {
   void leave_now();
   void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;
-  Outcome collapse(const TipState& before, const TipState& after, const detail::Projection& onto, double bounces,
-                   Segments* ended);
   Outcome kick(Segments* ended);
+  std::optional<detail::Collapse> collapse(const detail::SlideState<double>& from, double v, double kick,
+                                           const Impact& first) const;
+  std::optional<detail::Collapse> collapse_kick(const TipState& before, const TipState& after) const;
+  std::optional<detail::Collapse> collapse_landing(const Flying& flying, const Impact& impact) const;
 
   // energy balance (tip_account.cpp)
   Chatter chatter_now(const Chattering& chattering) const;
@@ -179,6 +182,7 @@ class Tip {
   Account chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const;
   Segment segment_to(const Account& end) const;
   Segment impact_record(double slope, double gap_rate_change) const;
+  Segment collapse_segment(double slope, double gap_rate) const;
   Segment impact_segment(const Landing<double>& landing, const Flight<double>& after) const;
   Segment kick_segment(const TipState& before, const TipState& after) const;
 

@@ -9,6 +9,7 @@
 #include "afm/flight.h"
 #include "afm/model.h"
 #include "afm/state.h"
+#include "contact_step.h"
 #include "slide_segment.h"
 
 namespace afm::detail {
@@ -69,10 +70,10 @@ class ChatterLaw {
   // From the start of the reference slide to a time s before the end of the sequence.
   Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;
 
-  // How many bounces a sequence has that begins with the normal speed v, if contact can begin at once in its place: it
-  // moves the tip by less than `allowed` [a, a/tau], and ends while the surface presses. Otherwise 0.
-  double collapsing(const SpringConstants<double>& springs, double eta, const SlideState<double>& at, double v,
-                    double allowed) const;
+  // The end of a sequence that begins with the normal speed v on a slide from `at`, as if it took no time. n = 0 if it
+  // moves the tip by more than `allowed` [a, a/tau], lasts longer than `time` [tau], or outlasts the reaction.
+  Chatter collapsed(const SpringConstants<double>& springs, double eta, const SlideState<double>& at, double v,
+                    double allowed, double time) const;
 
   const ChatterConstants& constants() const { return constants_; }
 
@@ -80,6 +81,9 @@ class ChatterLaw {
   ChatterConstants constants_;
   double loss_, cutoff_;  // of the restitution: 1 - gamma, and v_c [a/tau]
 };
+
+// Its duration times twice the fastest rate of the springs and of the slope. Precondition: the surface presses.
+double turn_of(const Flight<double>& bounce);
 
 // The tip at a bounce without its normal velocity. The tangential velocity stays.
 struct Projection {

@@ -69,6 +69,12 @@ struct SequenceState {
   Sequence sequence;
 };
 
+// Bounces that are one event, and where contact goes on.
+struct Collapse {
+  Impact impact;
+  SlideState<double> end;
+};
+
 // A tip at rest on the surface leaves it under any pull, or only under one above the rounding of the reaction.
 enum class Leaves { under_any_pull, above_rounding };
 

@@ -17,6 +17,29 @@ double w_over_log(double w) {
   return w < 1.0 ? -w / portable_log(1.0 - w) : 0.0;
 }
 
+// Does the reaction along the slide from `at` stay above `least` until its impulse is S? By its two derivatives where
+// they are sure, or say no; else on the slide.
+bool stays_above(double least, double S, const SpringConstants<double>& springs, double eta,
+                 const SlideState<double>& at, const ReferenceForces<double>& f) {
+  constexpr double kSureChange = 0.3, kSureFall = kSureChange + 0.5 * kSureChange * kSureChange;
+  const double low = (1.0 - kSureFall) * f.P;
+  if (low > least && S / low * change_rates(springs, at.u, f).change < kSureChange) return true;
+  const double t = S / f.P, turns = -f.P1 / f.P2;  // the parabola turns there
+  const double at_turn = turns > 0.0 && turns < t ? f.P + 0.5 * f.P1 * turns : f.P;
+  if (!(std::min(at_turn, f.P + t * (f.P1 + 0.5 * t * f.P2)) > least)) return false;
+  constexpr double kTolerance = 1e-5;  // [a]
+  constexpr int kMaxSteps = 2;         // a longer sequence is made
+  ContactStep step(springs, eta, at, kTolerance, {});
+  for (int i = 1; step.is_accurate(); ++i) {
+    const double below = step.first_below(least);
+    S -= step.impulse(below < 0.0 ? step.length() : below);
+    if (S <= 0.0) return true;
+    if (below >= 0.0 || i == kMaxSteps) return false;
+    step = step.following();
+  }
+  return false;
+}
+
 }  // namespace
 
 double chatter_threshold(double contact_tolerance) {
@@ -55,6 +78,11 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
   }
 }
 
+double turn_of(const Flight<double>& bounce) {
+  const GapJet<double>& start = bounce.start();
+  return 2.0 * start.g1 * std::max(bounce.springs().ratio, std::abs(bounce.launch().u)) / -start.g2;
+}
+
 bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const TipState& launch = bounce.launch();
   const GapJet<double>& start = bounce.start();
@@ -63,8 +91,7 @@ bool ChatterLaw::holds(const Flight<double>& bounce) const {
   if (!(start.g2 < 0.0) || v > constants_.max_entry_speed) return false;
   const SpringConstants<double>& m = bounce.springs();
   const double limit = ChatterLimits::kMaxRatioAtEntry * constants_.fineness;
-  // most bounces are refused by this faster test
-  if (2.0 * v * std::max(m.ratio, std::abs(launch.u)) > limit * -start.g2) return false;
+  if (turn_of(bounce) > limit) return false;  // most bounces are refused by this faster test
   const auto p = projected<double>(m.is_free_along_x, m.H, {launch.phase, launch.X, launch.u, start.g1});
   const ReferenceForces<double> f = reference_forces(m, bounce.eta(), p.reference);
   return f.P > 0.0 && 2.0 * p.normal_speed * change_rates(m, p.reference.u, f).fastest <= limit * f.P;
@@ -79,29 +106,30 @@ Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Ch
   return ChatterIntegration<double>(constants_, reference).follow(0.0, s, start, false).chatter;
 }
 
-// The averaged law at its lowest order, with a constant reaction (docs/algorithm.md, "Collapse").
-double ChatterLaw::collapsing(const SpringConstants<double>& springs, double eta, const SlideState<double>& at,
-                              double v, double allowed) const {
-  constexpr double kMostChange = 0.7;  // less than sqrt(3) - 1: a reaction that changes by x + x^2/2 stays above zero
+// The averaged law at its lowest order (docs/algorithm.md, "Collapse").
+Chatter ChatterLaw::collapsed(const SpringConstants<double>& springs, double eta, const SlideState<double>& at,
+                              double v, double allowed, double time) const {
   constexpr double kLnTen = 2.302585092994046;
-  if (v <= constants_.threshold || loss_ == 0.0) return 0.0;
-  const ReferenceForces<double> f = reference_forces(springs, eta, at);
-  if (!(f.P > 0.0)) return 0.0;
-  // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k P t/2)
+  const Chatter none{v, 0.0};
+  if (v <= constants_.threshold || loss_ == 0.0) return none;
+  // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k S/2)
   const double end = constants_.constant_loss ? constants_.threshold : std::min(v, cutoff_);
   const double gamma = 1.0 - loss_;
-  double time = 2.0 * (v - end) / (f.P * loss_);
-  double squares = 2.0 * (v * v * v - end * end * end) / (f.P * (1.0 - gamma * gamma * gamma));
-  double bounces = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
+  double S = 2.0 * (v - end) / loss_;
+  double cubes = 2.0 * (v * v * v - end * end * end) / (1.0 - gamma * gamma * gamma);
+  double n = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
   if (!constants_.constant_loss) {
     const double k = constants_.dw_dv;
-    time += 2.0 * kLnTen / (k * f.P);
-    squares += end * end / (k * f.P);
-    bounces += (1.0 / constants_.threshold - 1.0 / end) / k;
+    S += 2.0 * kLnTen / k;
+    cubes += end * end / k;
+    n += (1.0 / constants_.threshold - 1.0 / end) / k;
   }
-  const double displacement = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn)) * squares / (3.0 * f.P);
-  return displacement <= allowed && time * change_rates(springs, at.u, f).change <= kMostChange ? std::max(bounces, 1.0)
-                                                                                                : 0.0;
+  const ReferenceForces<double> f = reference_forces(springs, eta, at);
+  const double per_height = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn));
+  const double least = std::sqrt(per_height * cubes / (3.0 * allowed));  // reaction: the displacement goes like 1/P^2
+  if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return none;
+  const double height = cubes / (3.0 * f.P * f.P);  // its time integral
+  return {0.0, std::max(n, 1.0), 2.0 * f.turn * height, f.c_height * height};
 }
 
 Projection project_onto_surface(const Model& model, const TipState& state) {

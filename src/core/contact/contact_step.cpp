@@ -129,9 +129,11 @@ class ContactSolver {
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
 // into the velocity, or where the swing turns back, into the place.
 SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
-  // of the energy of the swing: beyond it the swing is as small as rounding. A velocity can take nearly all of it.
+  // of the energy of the swing: beyond it the swing is as small as rounding, or as the error. A velocity can take nearly
+  // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
-  constexpr int kMaxTries = 8;  // two are enough, as the convergence is quadratic
+  constexpr double kRounding = 1e-13;  // of the energy
+  constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
   SlideState<double> q{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
   if (s.m_.is_free_along_x == 0.0) return q;
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
@@ -143,8 +145,11 @@ SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, do
     const double surplus = (to.N2 * (u * u) - kinetic + springs + work) / to.N2;  // of twice the energy, over N2
     const double u2 = u * u, swing = to.force * to.force / s.stiffness_;
     const bool by_velocity = u2 >= 0.25 * swing;
-    if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2)))
+    if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
+      const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
+      if (surplus < u2 && std::fabs(surplus) > kRounding * energy) q.u = std::copysign(std::sqrt(u2 - surplus), u);
       return q;
+    }
     if (by_velocity && surplus < u2) {
       q.u = std::copysign(std::sqrt(u2 - surplus), u);
       return q;
@@ -298,7 +303,7 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
 
 ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
                          double tolerance, const Hint& hint)
-    : m_(springs), eta_(eta), start_(start) {
+    : m_(springs), eta_(eta), tolerance_(tolerance), start_(start) {
   ContactSolver::solve(*this, tolerance, hint);
 }
 
@@ -337,6 +342,27 @@ double ContactStep::extension_integral(double s) const {
 double ContactStep::pressure(const SlideState<double>& q) const {
   return forces(m_, sin_cos_turns(q.phase), q.X, q.u).reaction;
 }
+
+double ContactStep::first_below(double reaction) const {
+  constexpr int kHalvings = 4;
+  AtGaussNodes b;
+  ContactSolver::enclose_reaction(*this, b);
+  for (double& x : b) x -= reaction;
+  return first_fall(b, 0.0, length_, kHalvings);
+}
+
+double ContactStep::impulse(double s) const {
+  const double part = s / length_;
+  double sum = 0.0;
+  for (std::size_t m = kN; m-- > 0;) {
+    double a = 0.0;
+    for (std::size_t j = 0; j < kN; ++j) a += kGauss.power.at[m][j] * reaction_[j];
+    sum = sum * part + a / static_cast<double>(m + 1);
+  }
+  return sum * s;
+}
+
+ContactStep ContactStep::following() const { return {m_, eta_, end_, tolerance_, hint_}; }
 
 double ContactStep::find_release() const {
   constexpr int kHalvings = 12;               // to 1/4000 of the step; the rest is done on the reaction itself

@@ -155,6 +155,13 @@ Segment Tip::impact_record(double slope, double gap_rate_change) const {
   return s;
 }
 
+// Of bounces that are one event, after which the gap rate is zero.
+Segment Tip::collapse_segment(double slope, double gap_rate) const {
+  Segment s = impact_record(slope, -gap_rate);
+  s.stored = s.work() - s.loss;
+  return s;
+}
+
 // `after` is the flight that begins with the impact, also where the tip does not fly it.
 Segment Tip::impact_segment(const Landing<double>& landing, const Flight<double>& after) const {
   const GapJet<double>& left = after.start();

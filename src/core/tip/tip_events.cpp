@@ -1,6 +1,7 @@
 // The transitions at the end of a phase of motion: impact, chatter, contact, release (docs/algorithm.md).
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "afm/reflection.h"
 #include "afm/tip.h"
@@ -56,6 +57,14 @@ Outcome Tip::land(Flying& flying, Segments* ended) {
   new (&flying.flight) Flight<double>(springs_, eta_, after);
   const double loss = rests ? 0.5 * r.normal_speed * r.normal_speed : r.energy_loss;
   last_impact_ = {now_, r.after.phase, r.normal_speed, r.tangential_velocity, loss, ImpactKind::impact, 1};
+  if (thermostat_.noise() > 0.0 && !rests) {
+    if (const std::optional<Collapse> all = collapse_landing(flying, last_impact_)) {
+      last_impact_ = all->impact;
+      if (ended != nullptr) ended->add(collapse_segment(landing.jet.h1, landing.jet.g1));
+      touch({wrap_phase(all->end.phase), all->end.X, all->end.u, 0.0, 0.0});
+      return Outcome::impact;
+    }
+  }
   if (ended != nullptr) ended->add(impact_segment(landing, flying.flight));
   start_ = now_;
   leave_or_press(flying);

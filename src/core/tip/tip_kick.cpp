@@ -1,6 +1,8 @@
 // A kick of the bath, in flight, in a chatter sequence, in contact (docs/temperature.md).
 #include <cmath>
+#include <optional>
 
+#include "afm/reflection.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
 #include "tip_motion.h"
@@ -12,9 +14,10 @@ using namespace detail;
 namespace {
 
 // The bounces that a kick starts in contact are one event if they move the tip by less than this times the contact
-// tolerance times the normal speed of the kick. K_f by work then changes by less than a standard error (measured:
-// benchmark/tolerance_friction.py collapse).
-constexpr double kDisplacedByKick = 10.0;
+// tolerance times the normal speed of the kick; with a temperature also, like those after an impact, if by less than
+// kDisplacedByNoise times the tolerance times the noise of a kick. K_f by work then changes by less than a standard
+// error (measured: benchmark/tolerance_friction.py collapse).
+constexpr double kDisplacedByKick = 10.0, kDisplacedByNoise = 300.0;
 
 }  // namespace
 
@@ -45,20 +48,42 @@ Segment Tip::kick_segment(const TipState& before, const TipState& after) const {
   return s;
 }
 
-// The bounces of the kick are one event, after which contact goes on. Their energy is lost at once.
-Outcome Tip::collapse(const TipState& before, const TipState& after, const Projection& onto, double bounces,
-                      Segments* ended) {
-  const double v = std::fabs(onto.normal_speed), loss = 0.5 * v * v;
-  last_impact_ = {now_, before.phase, v, onto.tangential_velocity, loss, ImpactKind::burst, whole_count(bounces)};
-  if (ended != nullptr) {
-    Segment impact = impact_record(surface_jet(model_.H, before.phase).h1, -after.g1);
-    impact.stored = impact.work() - loss;
-    ended->add(segment());
-    ended->add(kick_segment(before, after));
-    ended->add(impact);
+// `first`: the impact before the bounces, if there is one. Its event becomes that of all, and they lose the energy that
+// the tip does not keep.
+std::optional<Collapse> Tip::collapse(const SlideState<double>& from, double v, double kick,
+                                      const Impact& first) const {
+  const double allowed = std::fmax(kDisplacedByKick * kick, kDisplacedByNoise * thermostat_.noise());
+  const Chatter bounces =
+      law_.collapsed(springs_, eta_, from, v, contact_tolerance_ * allowed, thermostat_.next() - now_);
+  if (bounces.n == 0.0) return std::nullopt;
+  Collapse all{first, displaced_reference(model_, from, bounces)};
+  const double loss = 0.5 * v * v + slide_energy(springs_, from) - slide_energy(springs_, all.end);
+  if (!(loss > 0.0)) return std::nullopt;
+  all.impact.kind = ImpactKind::burst;
+  all.impact.energy_loss += loss;
+  all.impact.count = whole_count(all.impact.count + bounces.n);
+  return all;
+}
+
+// A kick into the surface begins with an impact, one away from it with a bounce.
+std::optional<Collapse> Tip::collapse_kick(const TipState& before, const TipState& after) const {
+  const Projection onto = project_onto_surface(model_, after);
+  const double kick = std::fabs(onto.normal_speed);
+  Impact first{now_, before.phase, kick, onto.tangential_velocity, 0.0, ImpactKind::burst, 0};
+  double v = kick;
+  if (after.g1 < 0.0) {
+    v *= restitution(model_, kick);
+    first.energy_loss = 0.5 * (kick - v) * (kick + v);
+    first.count = 1;
   }
-  slide(onto.reference);
-  return Outcome::impact;
+  return collapse(onto.reference, v, kick, first);
+}
+
+std::optional<Collapse> Tip::collapse_landing(const Flying& flying, const Impact& impact) const {
+  constexpr double kMaxTurn = 0.5;  // a longer bounce is refused at once
+  if (!(flying.flight.start().g2 < 0.0) || turn_of(flying.flight) > kMaxTurn) return std::nullopt;
+  const Projection onto = project_onto_surface(model_, flying.flight.launch());
+  return collapse(onto.reference, onto.normal_speed, 0.0, impact);
 }
 
 Outcome Tip::kick(Segments* ended) {
@@ -66,10 +91,16 @@ Outcome Tip::kick(Segments* ended) {
   bool stays = false;
   if (in_contact()) {
     const TipState before = tip_state(), after = kicked(kick, before);
-    const Projection onto = project_onto_surface(model_, after);
-    const double v = std::fabs(onto.normal_speed), allowed = kDisplacedByKick * contact_tolerance_ * v;
-    const double bounces = law_.collapsing(springs_, eta_, onto.reference, v, allowed);
-    if (bounces > 0.0) return collapse(before, after, onto, bounces, ended);
+    if (const std::optional<Collapse> all = collapse_kick(before, after)) {
+      if (ended != nullptr) {
+        ended->add(segment());
+        ended->add(kick_segment(before, after));
+      }
+      last_impact_ = all->impact;
+      if (ended != nullptr) ended->add(collapse_segment(surface_jet(model_.H, before.phase).h1, after.g1));
+      slide(all->end);
+      return Outcome::impact;
+    }
     // below the threshold at which chatter becomes contact, contact goes on without an event
     stays = std::fabs(after.g1) < std::fmax(slowest_chatter_, kMinGapRate);
   }

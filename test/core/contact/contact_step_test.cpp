@@ -80,6 +80,16 @@ TEST_P(ContactStepOf, MeetsItsToleranceAtItsEndAndTenfoldWithin) {
   }
 }
 
+// The swing nearly rests where this step ends: its energy is as small as the error. Once the error stayed.
+TEST(ContactStepAt, TheEndOfASwingBalancesItsEnergyToo) {
+  constexpr double kEta = 0.3;
+  const SpringConstants<double> m(model_of({6.25, -3.0, kEta}));
+  const SlideState<double> start{0.89353030665614719, -0.039064087653800462, 0.41453471013762361};
+  const ContactStep step(m, kEta, start, 2e-7, {1, 1081.9196393658544});
+  const double s = step.length(), work = -m.omega_h * m.omega_h * kEta * step.extension_integral(s);
+  EXPECT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, start), 1e-13 * energy_of(m, start));
+}
+
 TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
   const SpringConstants<double> m(model_of(GetParam()));
   const double eta = GetParam().eta;
@@ -91,6 +101,40 @@ TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
     const double before = energy_of(m, start), work = -m.omega_h * m.omega_h * eta * step.extension_integral(s);
     ASSERT_NEAR(energy_of(m, step.at(s)) - work, before, 1e-13 * std::max(1.0, before)) << i;
   }
+}
+
+TEST_P(ContactStepOf, ItsImpulseAndItsFallAreThoseOfTheReaction) {
+  const Model model = model_of(GetParam());
+  const SpringConstants<double> m(model);
+  RandomLaunches random(4);
+  constexpr int kParts = 256;
+  int falls = 0;
+  for (int i = 0; i < 100; ++i) {
+    const SlideState<double> start = pressed_start(GetParam(), random);
+    const ContactStep step(m, GetParam().eta, start, 1e-6, {});
+    const double part = step.length() / kParts, level = random.within(0.8, 1.2) * step.pressure(start);
+    const double fall = step.first_below(level);
+    double impulse = 0.0, size = 0.0, first = -1.0;
+    for (int k = 0; k < kParts; ++k) {
+      const double reaction = pressure_of(model, step.at((k + 0.5) * part));
+      if (reaction < level && first < 0.0) first = (k + 0.5) * part;
+      impulse += reaction * part, size += std::abs(reaction) * part;
+      if (k == kParts / 3 - 1) {
+        ASSERT_NEAR(step.impulse((k + 1) * part), impulse, 2e-3 * size) << i;
+      }
+    }
+    ASSERT_NEAR(step.impulse(step.length()), impulse, 2e-3 * size) << i;
+    falls += fall > 0.0 ? 1 : 0;
+    // a fall for less than a part may pass between the samples, but none between them is missed
+    if (first >= 0.0) {
+      ASSERT_GE(fall, 0.0) << i;
+      ASSERT_LE(fall, first + step.length() / 64) << i;
+    }
+    if (fall > 0.0 && first >= 0.0) {
+      ASSERT_GE(fall, first - step.length() / 64) << i;
+    }
+  }
+  EXPECT_GT(falls, 5);
 }
 
 // A tip whose extension is such that the surface presses by 1e-8 to 30 a/tau^2: it may leave at once.
