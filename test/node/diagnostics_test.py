@@ -15,6 +15,7 @@ class Diagnostics(NodeTest):
     def run_emulator(self, **parameters):
         self.emulator = self.start(Emulator(dict({'sample_rate_hz': 20000.0}, **parameters)))
         self.diagnostics = Topic('/diagnostics', DiagnosticArray)
+        self.diagnostics.wait_for_connection()
         Topic('deflection').wait_for()
 
     def end(self):
@@ -46,8 +47,9 @@ class Diagnostics(NodeTest):
         self.assertTrue(pace['scheduler'].startswith(('fifo', 'normal')))
         self.expect('numerics', OK)
         self.assertGreater(float(self.expect('recording', OK, 'not recording')['free [MB]']), 0.0)
-        self.expect('commands', OK)
         self.expect('commands', WARN, 'no command for 2 s')
+        self.emulator.drag(SPEED_UNIT)
+        self.expect('commands', OK)
         self.emulator.drag(math.nan)
         self.assertEqual(self.expect('commands', WARN,
                                      'drag_velocity = nan m/s: must be finite')['refused commands'], '1')

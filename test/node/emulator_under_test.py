@@ -17,7 +17,7 @@ from dynamic_reconfigure.srv import Reconfigure
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
-from topics import NAMESPACE, PATIENCE, TOPICS, Topic, key, wait_until
+from topics import DEADLINE_S, NAMESPACE, PATIENCE, TOPICS, Topic, key, wait_until
 
 PACKAGE = 'afm_emulator'
 
@@ -40,7 +40,7 @@ class Process:
         self.log.seek(0)
         return self.log.read()
 
-    def wait(self, deadline_s=15.0):
+    def wait(self, deadline_s=DEADLINE_S):
         return self.child.wait(timeout=deadline_s * PATIENCE)
 
     def stop(self, with_signal=signal.SIGINT):
@@ -142,7 +142,7 @@ def set_parameters(parameters):
 
 def call_service(service, kind, **request):
     """The emulator advertises its services after its topics: who has heard of it may still have to wait."""
-    rospy.wait_for_service(service, timeout=15.0 * PATIENCE)
+    rospy.wait_for_service(service, timeout=DEADLINE_S * PATIENCE)
     return rospy.ServiceProxy(service, kind)(**request)
 
 
@@ -225,7 +225,7 @@ class EmulatorTest(NodeTest):
         type(self).epoch += 1
         for topic in self.topics.values():
             topic.forget_before(self.epoch)
-        for name in ('status', 'applied', 'snapshot'):
+        for name in ('status', 'applied', 'snapshot', 'configuration'):
             self.topics[name].wait_for(lambda m: m.epoch == self.epoch, 'a new epoch')
         for topic in self.topics.values():
             topic.forget_before(self.epoch)

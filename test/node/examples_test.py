@@ -67,7 +67,7 @@ class Examples(NodeTest):
         rospy.set_param('/use_sim_time', True)  # and nobody publishes /clock
         self.addCleanup(rospy.delete_param, '/use_sim_time')
         output = Path(self.temporary_directory()) / 'force.png'
-        example = self.launch('plot_force.launch', duration=1.5, output=output, time_scale=SLOW_MOTION)
+        example = self.launch('plot_force.launch', duration=5.0, output=output, time_scale=SLOW_MOTION)
         example.wait(deadline_s=60.0)
         text = example.output()
         self.assertGreater(output.stat().st_size, 10000)
@@ -83,7 +83,7 @@ class Examples(NodeTest):
     def test_a_commander_in_cpp(self):
         self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0, 'time_scale': SLOW_MOTION}))
         binary = roslib.packages.find_node(PACKAGE, 'watch_and_command')[0]
-        example = self.start(Process([binary, repr(2 * SPEED_UNIT), repr(3 * SPEED_UNIT), '_hold_s:=0.7']))
+        example = self.start(Process([binary, repr(2 * SPEED_UNIT), repr(3 * SPEED_UNIT), '_hold_s:=2.0']))
         self.assertEqual(example.wait(deadline_s=30.0), 0)
         eta = [float(value) for value in re.findall(r'eta ([\d.]+)', example.output())]
         self.assertEqual([round(value, 3) for value in eta], [2.0, 3.0])

@@ -52,7 +52,7 @@ class FullDisk(NodeTest):
     def begin_recording(self):
         self.answer = self.begin('small.bag')
         self.assertTrue(self.answer.success, self.answer.message)
-        self.status.wait_for(lambda m: m.recording, 'recording')
+        self.status.wait_for(lambda m: m.recording or m.recorder_error, 'recording')
 
     def wait_for_error(self):
         ended = self.status.wait_for(lambda m: not m.recording and m.recorder_error, 'ended by itself')

@@ -70,8 +70,8 @@ class LeverTest(NodeTest):
         """The range of its slider is that of the lever, in which the shipped range of the paper's tip would be lost."""
         lever, cell = settings('levers', 'csc37_b'), settings('surfaces', 'nacl')['lattice_spacing_m']
         load_at = -lever['spring_constant_n_per_m']  # times the rest height
-        client = dynamic_reconfigure.client.Client('/csc37_b', timeout=10)
-        least, most = ({d['name']: d[which] for d in client.get_parameter_descriptions(timeout=5)}
+        client = dynamic_reconfigure.client.Client('/csc37_b', timeout=60)
+        least, most = ({d['name']: d[which] for d in client.get_parameter_descriptions(timeout=60)}
                        for which in ('min', 'max'))
         self.assertAlmostEqual(least['rest_height_m'] * load_at / LOAD, 2.0, delta=1e-12)
         self.assertAlmostEqual(most['cutoff_speed'] / (0.6 * cell * lever['resonance_hz']), 1.0, delta=1e-12)

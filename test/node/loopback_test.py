@@ -27,7 +27,11 @@ def listeners():
 
 
 def sockets_of(pid):
-    for link in Path('/proc/%s/fd' % pid).iterdir():
+    try:
+        links = list(Path('/proc/%s/fd' % pid).iterdir())
+    except OSError:  # it has ended
+        return
+    for link in links:
         try:
             target = os.readlink(str(link))
         except OSError:

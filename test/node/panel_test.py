@@ -117,7 +117,8 @@ class Knobs(EmulatorTest):
         cls.directory.cleanup()
 
     def applied(self, condition, what):
-        until(lambda: self.topics['applied'].messages and condition(self.topics['applied'].messages[-1]), what)
+        until(lambda: self.topics['applied'].messages and condition(self.topics['applied'].messages[-1])
+              and condition(self.panel.link.latest('applied')), what)
 
     def paused_at(self):
         """The time at which it stands, when all of before has come."""
@@ -206,12 +207,12 @@ class Knobs(EmulatorTest):
         for plot, colour, least in ((window.scope.vertical, BLUE, 300), (window.scope.lateral, ORANGE, 300),
                                     (window.path.plot, BLUE, 200), (window.loop_plot.plot, BLUE, 50),
                                     (window.curve.plot, ORANGE, 10)):
-            self.assertGreater(self.panel.pixels(plot, colour), least)
+            until(lambda: self.panel.pixels(plot, colour) > least, 'it is drawn')
         self.panel.keep('eta_2')
         for _ in range(5):
+            before = self.topics['applied'].messages[-1].drag_velocity
             self.panel.press('reverse')
-            end = time.monotonic() + 0.15
-            until(lambda: time.monotonic() > end, '')
+            self.applied(lambda m: m.drag_velocity == -before, 'reversed')
         until(lambda: self.panel.pixels(window.loop_plot.plot, ORANGE) > 50, 'a retrace')
         self.panel.keep('loop')
 

@@ -50,7 +50,7 @@ class Replay(NodeTest):
             self.assertEqual(topic.raw, recorded[name], name)
 
     def test_subscribers_have_a_moment_to_come(self):
-        replay = self.replay(TOPICS, delay=5)
+        replay = self.replay(TOPICS, delay=10)
         self.assert_played(bags.listen())
         self.assertEqual(replay.wait(), 0)
 

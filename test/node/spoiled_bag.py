@@ -50,7 +50,7 @@ class SpoiledBag(NodeTest):
         try:
             deflection, applied = Topic('deflection'), Topic('applied')
             deflection.wait_for(lambda m: m.first_sample > 36000, 'part of a run')
-            dynamic_reconfigure.client.Client(NAMESPACE, timeout=10).update_configuration({'rest_height_m': -2.0e-12})
+            dynamic_reconfigure.client.Client(NAMESPACE, timeout=60).update_configuration({'rest_height_m': -2.0e-12})
             emulator.drag(2.0 * SPEED_UNIT)
             applied.wait_for(lambda m: m.drag_velocity == 2.0 * SPEED_UNIT, 'a command')
             deflection.wait_for(lambda m: m.first_sample > 90000, 'one and a half seconds')

@@ -34,14 +34,14 @@ class Steering(EmulatorTest):
         return self.applied.wait_for(lambda m: m.cause == 'parameters', str(wanted), before)
 
     def test_dynparam_and_clients_work(self):
-        client = dynamic_reconfigure.client.Client(NAMESPACE, timeout=10)
-        wait_until(lambda: {name: client.get_configuration(timeout=5)[name] for name in AT_START} == AT_START,
+        client = dynamic_reconfigure.client.Client(NAMESPACE, timeout=60)
+        wait_until(lambda: {name: client.get_configuration(timeout=60)[name] for name in AT_START} == AT_START,
                    'clients are told of the reset')
-        described = {d['name']: (d['min'], d['max']) for d in client.get_parameter_descriptions(timeout=5)}
+        described = {d['name']: (d['min'], d['max']) for d in client.get_parameter_descriptions(timeout=60)}
         self.assertEqual(set(described), set(AT_START))
         self.assertEqual((described['restitution_gamma'], described['sample_rate_hz']), ((0.0, 1.0), (1e3, 1e6)))
         command = ['rosrun', 'dynamic_reconfigure', 'dynparam', 'set', NAMESPACE, 'restitution_gamma', '0.55']
-        done = subprocess.run(command, timeout=30, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        done = subprocess.run(command, timeout=60, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               universal_newlines=True)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.55, 'dynparam is obeyed')
@@ -60,7 +60,7 @@ class Steering(EmulatorTest):
         # while paused nothing but the change is reported: it is there before the reply
         self.begin(paused=True)
         self.emulator.set(restitution_gamma=0.5)
-        self.applied.wait_for(lambda m: m.restitution_gamma == 0.5, 'reported', deadline_s=0.5)
+        self.applied.wait_for(lambda m: m.restitution_gamma == 0.5, 'reported')
 
     def test_a_new_sample_rate_begins_a_new_grid(self):
         reported = self.change(sample_rate_hz=80000.0)
@@ -126,21 +126,23 @@ class Steering(EmulatorTest):
 class Silence(NodeTest):
     def test_without_commands_the_drag_stops_and_a_pause_does_not_count(self):
         applied, status = Topic('applied'), Topic('status')
-        emulator = self.start(Emulator({'command_timeout_s': 0.7, 'drag_velocity': 2.0 * SPEED_UNIT}))
+        emulator = self.start(Emulator({'command_timeout_s': 2.0, 'drag_velocity': 2.0 * SPEED_UNIT, 'paused': True}))
+        applied.wait_for()
+        self.assertTrue(emulator.call('pause', SetBool, data=False).success)
         stop = applied.wait_for(lambda m: m.cause == 'timeout', 'it stops by itself')
         self.assertEqual([m.drag_velocity for m in applied.messages], [2.0 * SPEED_UNIT, 0.0])
         self.assertGreater(key(stop.time), (0, 0.0))
         # with commands it goes on
         begin, count = time.monotonic(), len(applied.messages)
-        while time.monotonic() - begin < 1.2:
+        while time.monotonic() - begin < 3.0:
             emulator.drag(SPEED_UNIT)
             status.wait_for_next()
         self.assertEqual({m.cause for m in applied.messages[count:]}, {'drag_velocity'})
         self.assertTrue(emulator.call('pause', SetBool, data=True).success)
         begin = time.monotonic()
-        status.wait_for(lambda m: m.paused and time.monotonic() - begin > 1.0, 'time passes')
+        status.wait_for(lambda m: m.paused and time.monotonic() - begin > 2.5, 'time passes')
         count, resumed = len(applied.messages), time.monotonic()
         self.assertTrue(emulator.call('pause', SetBool, data=False).success)
         applied.wait_for(lambda m: m.cause == 'timeout', 'stops after the pause', count)
-        self.assertGreaterEqual(time.monotonic() - resumed, 0.7)
+        self.assertGreaterEqual(time.monotonic() - resumed, 2.0)
         emulator.assert_alive()

@@ -44,7 +44,7 @@ class Topic:
 
     def __init__(self, name, kind=None):
         self.name, self.kind = name, kind or TOPICS[name.rsplit('/', 1)[-1]]
-        self.raw, self.messages = [], []
+        self.raw, self.messages, self._epoch = [], [], 0
         self._subscribe()
         Topic._open.append(self)
 
@@ -67,7 +67,8 @@ class Topic:
         return wait_until(looked_after, self.name + ': ' + what, deadline_s)
 
     def wait_for_connection(self):
-        self._wait_until(lambda: self._subscriber.get_num_connections() > 0, 'connected')
+        """rospy counts a connection before it is made; the publisher's header says that it is."""
+        self._wait_until(lambda: any(c.header for c in self._subscriber.impl.connections), 'connected')
 
     def close(self):
         self._subscriber.unregister()
@@ -84,8 +85,9 @@ class Topic:
         return list(Topic._open)
 
     def forget_before(self, epoch):
-        """Messages of earlier epochs."""
+        """Messages of earlier epochs, also those that are still on their way."""
         with _news:
+            self._epoch = epoch
             kept = [i for i, m in enumerate(self.messages) if m.epoch >= epoch]
             self.messages[:], self.raw[:] = [self.messages[i] for i in kept], [self.raw[i] for i in kept]
 
@@ -96,6 +98,8 @@ class Topic:
             return
         decoded = self.kind().deserialize(message._buff)
         with _news:
+            if getattr(decoded, 'epoch', self._epoch) < self._epoch:
+                return
             self.raw.append(message._buff)
             self.messages.append(decoded)
             _news.notify_all()
