@@ -4,7 +4,7 @@ Natural units. Prints a table.
 
 bursts: against every bounce by itself, where that can be done (docs/stability.md). What is left of the difference
 should be 1e-3 of K_f, or chance: a few standard errors of the two.
-collapse: a heated tip under load, by both estimators; at the finer tolerance nearly all bounces are made
+collapse: a heated tip under load, by both estimators; at the finest tolerance nearly all bounces are made
 (docs/levers.md).
 """
 import argparse
@@ -13,7 +13,7 @@ import math
 
 import afm
 
-FINER = 1e-6  # contact tolerance of `collapse`
+FINER = 1e-9  # contact tolerance of `collapse`
 AT_A_TIME = 100000  # events that are held in memory
 KELVIN_300, QUALITY = 0.926, 100.0  # kT of mica's tip [m a^2/tau^2]
 
@@ -61,7 +61,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('table', choices=('bursts', 'collapse'))
     parser.add_argument('--eta', type=float, nargs='+', help='drag velocities [a/tau]')
-    parser.add_argument('--tau', type=int, default=3000, help='measured time of each')
+    parser.add_argument('--tau', type=int, default=10000, help='measured time of each')
     parser.add_argument('--most-events', type=float, default=2e7, help='a run of more is stopped')
     arguments = parser.parse_args()
     (bursts if arguments.table == 'bursts' else collapse)(arguments)
