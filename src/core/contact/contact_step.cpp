@@ -13,6 +13,34 @@ namespace {
 
 constexpr std::size_t kN = kGaussNodes;
 
+// docs/algorithm.md, "Contact", says where each of them stands.
+struct ContactLimits {
+  static constexpr double kMaxReach = 0.25;  // [a] from the middle of a step: turned_by() holds up to there
+
+  // the iteration; the first three are squares
+  static constexpr double kFirst = 1e-4;          // a first change so small, over the tolerance, is the last one
+  static constexpr double kSafety = 16.0;         // of the estimate of what is left
+  static constexpr double kMaxContraction = 0.1;  // beyond it a shorter step is faster
+  static constexpr int kMaxEvaluations = 12;      // of a step
+  static constexpr double kLeastStiffness =
+      0.25;  // of the swing, over that of the spring and of the surface that passes
+
+  // the interpolation
+  static constexpr double kTail = 1e-4;  // integrals of the first coefficient left out, over those of the last one
+  static constexpr double kFall = 0.3;   // from one coefficient to the next; one may vanish by chance, so we take two
+
+  // a step so far within its limits is followed by one of the level before
+  static constexpr double kEasyTail = 0.05;   // over the tolerance
+  static constexpr double kEasyReach = 0.7;   // over kMaxReach
+  static constexpr int kEasyEvaluations = 4;  // at most
+
+  // a close call
+  static constexpr double kPathError = 10.0;  // over the tolerance
+  static constexpr double kAtOnce = 0.05;     // of the step, between the earliest and the latest fall
+  static constexpr int kFinerLevels = 4;      // of the step that is made again
+};
+using Limits = ContactLimits;
+
 // In a step of level n the swing turns by 2 pi (3/4)^n. From kLevels on, steps are so short that it is not split off.
 constexpr int kLevels = 8, kLastLevel = 60;
 constexpr double kLevelRatio = 0.75;
@@ -53,7 +81,6 @@ constexpr LastButOne make_last_but_one() {
 }
 constexpr LastButOne kLastButOne = make_last_but_one();
 
-constexpr double kMaxReach = 0.25;    // [a] from the middle of a step: the series of sine and cosine hold up to there
 constexpr double kMaxLength = 8.0;    // [tau] a choice: as far as a flight is searched at once
 constexpr double kMinLength = 1e-12;  // [tau] only a corrupted state is so fast
 
@@ -79,7 +106,7 @@ inline ContactForces forces(const SpringConstants<double>& m, const SinCos<doubl
   return {h, N2, force, (push - h1 * pull) / N2, free * (slope + 2.0 * h1 * h2 * force) / N2};
 }
 
-// Sine and cosine of the turn from which `turn` is r away, |r| <= kMaxReach: within 1e-12.
+// Sine and cosine of the turn from which `turn` is r away, |r| <= 1/4: within 1e-12.
 inline SinCos<double> turned_by(const SinCos<double>& turn, double r) {
   const double z = r * r, z2 = z * z, z4 = z2 * z2;
   const double s_low = (kSine[0] + z * kSine[1]) + z2 * (kSine[2] + z * kSine[3]);
@@ -129,8 +156,8 @@ class ContactSolver {
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
 // into the velocity, or where the swing turns back, into the place.
 SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
-  // of the energy of the swing: beyond it the swing is as small as rounding, or as the error. A velocity can take nearly
-  // all of it.
+  // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly all
+  // of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
@@ -163,15 +190,11 @@ SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, do
 
 // One step of the given level; false if it does not meet the tolerance.
 bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double tolerance) {
-  // Squares: an evaluation multiplies the error by the contraction now / before. The estimate of what is left is taken
-  // four times larger. Beyond a contraction of a third, a shorter step is faster.
-  constexpr double kFirst = 1e-4, kSafety = 16.0, kMaxContraction = 0.1;
-  constexpr int kMaxEvaluations = 12;
   const SpringConstants<double>& m = s.m_;
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
   const double u0 = s.start_.u, X0 = s.start_.X, eta = s.eta_, H = m.H, y0 = m.y0;
   const SwingTable& table = kSwing.of[free == 0.0 ? kLevels : std::min(level, kLevels)];
-  const double least = 0.25 * (wh2 * free + k2 * u0 * u0);
+  const double least = Limits::kLeastStiffness * (wh2 * free + k2 * u0 * u0);
   const double longest = std::min(kMaxLength, kAngle.of[level] / std::sqrt(std::max(stiffness, least)));
   const double h = std::max(kMinLength, longest);
   const double h2 = h * h, inverse_h = 1.0 / h, kappa = table.angle * table.angle / h2;
@@ -186,6 +209,7 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
     d[i] = n_u * table.x_per_u[i] + (n0 * table.x_per_one[i] + n1 * table.x_per_c[i]);
     u[i] = (n_u * table.u_per_u[i] + (n0 * table.u_per_one[i] + n1 * table.u_per_c[i])) * inverse_h;
   }
+  // squares: an evaluation multiplies the error by the contraction now / before
   const double limit = static_cast<double>(kN) * tolerance * tolerance;
   double before = 0.0, reach = 0.0;
   int evaluations = 0;
@@ -195,7 +219,7 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
       const double r = std::fabs(d[i] - middle);
       reach = r > reach ? r : reach;
     }
-    if (!(reach <= kMaxReach)) return false;
+    if (!(reach <= Limits::kMaxReach)) return false;
     ++evaluations;
     for (std::size_t i = 0; i < kN; ++i) {
       const SinCos<double> there = turned_by(turn, d[i] - middle);
@@ -215,21 +239,24 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
       d[i] = x, u[i] = w * inverse_h;
     }
     const double now = sum_of_products(change, change);
-    if (evaluations == 1 ? now <= kFirst * limit : now <= limit || kSafety * now * now <= limit * before) break;
-    if (evaluations > 1 && (!(now < kMaxContraction * before) || evaluations == kMaxEvaluations)) return false;
+    if (evaluations == 1 ? now <= Limits::kFirst * limit
+                         : now <= limit || Limits::kSafety * now * now <= limit * before) {
+      break;
+    }
+    const bool contracts = now < Limits::kMaxContraction * before;
+    if (evaluations > 1 && (!contracts || evaluations == Limits::kMaxEvaluations)) return false;
     before = now;
   }
   for (std::size_t i = 0; i < kN; ++i) {
     s.force_[i] = rest[i] * (inverse_h * inverse_h) - kappa * d[i];
     s.reaction_[i] = reaction[i];
   }
-  // A coefficient may vanish by chance, so we take two. The integrals of the first one left out are 1e-3 of it.
-  constexpr double kTail = 1e-4, kFall = 0.3;
   const double last = std::fabs(sum_of_products(kGauss.last, s.force_));
-  const double before_last = kFall * std::fabs(sum_of_products(kLastButOne.weight, s.force_));
-  const double tail = kTail * h2 * (last > before_last ? last : before_last);
+  const double before_last = Limits::kFall * std::fabs(sum_of_products(kLastButOne.weight, s.force_));
+  const double tail = Limits::kTail * h2 * (last > before_last ? last : before_last);
   if (!(tail <= tolerance)) return false;
-  const bool may_be_longer = tail * 20.0 < tolerance && reach < 0.7 * kMaxReach && evaluations <= 4;
+  const bool may_be_longer = tail < Limits::kEasyTail * tolerance && reach < Limits::kEasyReach * Limits::kMaxReach &&
+                             evaluations <= Limits::kEasyEvaluations;
   const ContactForces there = forces(m, turn, X0 + middle, 0.0);
   s.stiffness_ = std::max(there.stiffness, least);
   s.hint_ = {may_be_longer ? std::max(0, level - 1) : level, s.stiffness_};
@@ -260,13 +287,12 @@ void ContactSolver::rest(ContactStep& s) {
 // The step in which the tip may leave is made to the last digits if it is a close call: the reaction is zero for ever
 // on the glide at eta = 1.
 void ContactSolver::solve(ContactStep& s, double tolerance, ContactStep::Hint hint) {
-  constexpr int kFinerLevels = 4;
   s.first_ = forces(s.m_, sin_cos_turns(s.start_.phase), s.start_.X, s.start_.u);
   if (s.eta_ == 0.0 && s.start_.u == 0.0 && s.first_.force == 0.0) return rest(s);
   const int level = try_levels(s, tolerance, hint);
   if (tolerance <= kFinestStep || !is_close_call(s, tolerance)) return;
   const ContactStep::Hint next = s.hint_;
-  try_levels(s, kFinestStep, {std::min(level + kFinerLevels, kLastLevel), s.stiffness_});
+  try_levels(s, kFinestStep, {std::min(level + Limits::kFinerLevels, kLastLevel), s.stiffness_});
   s.hint_ = next;
 }
 
@@ -281,11 +307,10 @@ void ContactSolver::enclose_reaction(const ContactStep& s, AtGaussNodes& b) {
 
 // True if the reaction neither stays above zero for certain, nor falls through it at once.
 bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
-  constexpr int kHalvings = 4;      // of the step: enough to enclose a swing
-  constexpr double kAtOnce = 0.05;  // of the step
+  constexpr int kHalvings = 4;  // of the step: enough to enclose a swing
   const double k = two_pi<double>(), wh2 = s.m_.omega_h * s.m_.omega_h, u = std::fabs(s.start_.u);
   const double by_x = wh2 + k * k * (1.0 + u * u) + k * wh2 * std::fabs(s.start_.X);
-  const double of_path = 10.0 * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
+  const double of_path = Limits::kPathError * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
   const double of_interpolation = std::fabs(sum_of_products(kGauss.last, s.reaction_)) +
                                   std::fabs(sum_of_products(kLastButOne.weight, s.reaction_));
   const double error = kReleaseNoise + of_path + of_interpolation;
@@ -298,7 +323,7 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
   if (earliest < 0.0) return false;
   for (double& x : b) x += 2.0 * error;
   const double latest = first_fall(b, 0.0, 1.0, kHalvings);
-  return latest < 0.0 || latest - earliest > kAtOnce;
+  return latest < 0.0 || latest - earliest > Limits::kAtOnce;
 }
 
 ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
