@@ -37,7 +37,7 @@ class Thermostat {
   const SampleGrid& grid() const { return grid_; }  // kick n comes at its n-th time
   std::uint64_t count() const { return kicks_; }    // so far
 
-  double noise() const { return scale_.vertical.noise; }  // standard deviation of a kick [a/tau]
+  double noise() const { return scale_.vertical.noise; }  // standard deviation of a vertical kick [a/tau]
   Kick draw();                                            // takes the next kick
 
  private:

@@ -1,35 +1,23 @@
 """replay.launch plays a recorded run to the same topics, message for message, to a subscriber that comes late."""
 import os
-import tempfile
 import time
-from pathlib import Path
 
 import rospy
 
 import bags
-from emulator_under_test import Emulator, NodeTest
+from emulator_under_test import NodeTest
 from topics import NAMESPACE, TOPICS, Topic, wait_until
 
 
 class Replay(NodeTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.holder = tempfile.TemporaryDirectory()
-        directory = cls.holder.name + "/one's own"
-        os.mkdir(directory)
-        emulator = Emulator({'record': True, 'bag_directory': directory})
-        try:
-            Topic('deflection').wait_for(lambda m: m.first_sample >= 200000, 'part of a run')
-            emulator.assert_alive()
-            assert emulator.stop() == 0
-        finally:
-            emulator.clean_up()
-            Topic.close_all()
-        cls.path = str(next(Path(directory).glob('*.bag')))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.holder.cleanup()
+    def setUp(self):
+        super().setUp()
+        emulator = self.record(record=True)
+        Topic('deflection').wait_for(lambda m: m.first_sample >= 200000, 'part of a run')
+        bag, = self.end(emulator)
+        self.path = os.path.join(os.path.dirname(bag), "one's own.bag")
+        os.rename(bag, self.path)
+        Topic.close_all()
 
     def replay(self, topics, **arguments):
         """Returns when all topics are there and a second has passed: to play at once would be noticed."""

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "afm/flight.h"
 #include "afm/model.h"
@@ -70,10 +71,10 @@ class ChatterLaw {
   // From the start of the reference slide to a time s before the end of the sequence.
   Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;
 
-  // The end of a sequence that begins with the normal speed v on a slide from `at`, as if it took no time. n = 0 if it
-  // moves the tip by more than `allowed` [a, a/tau], lasts longer than `time` [tau], or outlasts the reaction.
-  Chatter collapsed(const SpringConstants<double>& springs, double eta, const SlideState<double>& at, double v,
-                    double allowed, double time) const;
+  // The end of a sequence that begins with the normal speed v on a slide from `at`, as if it took no time. Nothing if it
+  // moves the tip by more than `allowed` [a/tau], lasts longer than `time` [tau], or outlasts the reaction.
+  std::optional<Chatter> collapsed(const SpringConstants<double>& springs, double eta, const SlideState<double>& at,
+                                   double v, double allowed, double time) const;
 
   const ChatterConstants& constants() const { return constants_; }
 
@@ -82,7 +83,7 @@ class ChatterLaw {
   double loss_, cutoff_;  // of the restitution: 1 - gamma, and v_c [a/tau]
 };
 
-// Its duration times twice the fastest rate of the springs and of the slope. Precondition: the surface presses.
+// The duration of a bounce times the fastest rate of the springs and of the slope. Precondition: the surface presses.
 double turn_of(const Flight<double>& bounce);
 
 // The tip at a bounce without its normal velocity. The tangential velocity stays.

@@ -44,11 +44,10 @@ class ContactStep {
   // or the last digit of the time. Negative if it does not fall so far.
   double find_release() const;
 
-  // The first time in [0, length()] at which the reaction falls below `reaction`, to a 64th of the length. Negative if
-  // there is none.
+  // The first time in [0, length()] at which Bernstein's coefficients of the reaction, on 16ths of the step, fall below
+  // `reaction`: within a 16th of the fall. Negative: it does not fall. A reaction that comes near may count as a fall.
   double first_below(double reaction) const;
   double impulse(double s) const;  // of the reaction over the first s [a/tau]
-  ContactStep following() const;   // the step after this one
 
   double length() const { return length_; }          // [tau]
   bool is_accurate() const { return is_accurate_; }  // false: no length meets the tolerance, as of a corrupted state
@@ -61,7 +60,7 @@ class ContactStep {
   friend class ContactSolver;  // contact_step.cpp
 
   SpringConstants<double> m_;
-  double eta_ = 0.0, tolerance_ = 0.0;
+  double eta_ = 0.0;
   SlideState<double> start_{};
   ContactForces first_{};  // at the start
   double length_ = 0.0;

@@ -69,7 +69,7 @@ struct SequenceState {
   Sequence sequence;
 };
 
-// Bounces that are one event, and where contact goes on.
+// Bounces that are one event, and where contact goes on or begins.
 struct Collapse {
   Impact impact;
   SlideState<double> end;

@@ -29,13 +29,14 @@ bool stays_above(double least, double S, const SpringConstants<double>& springs,
   if (!(std::min(at_turn, f.P + t * (f.P1 + 0.5 * t * f.P2)) > least)) return false;
   constexpr double kTolerance = 1e-5;  // [a]
   constexpr int kMaxSteps = 2;         // a longer sequence is made
+  // its reaction is along y, and never above P: that is on the safe side
   ContactStep step(springs, eta, at, kTolerance, {});
   for (int i = 1; step.is_accurate(); ++i) {
     const double below = step.first_below(least);
     S -= step.impulse(below < 0.0 ? step.length() : below);
     if (S <= 0.0) return true;
     if (below >= 0.0 || i == kMaxSteps) return false;
-    step = step.following();
+    step = ContactStep(springs, eta, step.at(step.length()), kTolerance, step.hint());
   }
   return false;
 }
@@ -107,11 +108,11 @@ Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Ch
 }
 
 // The averaged law at its lowest order (docs/algorithm.md, "Collapse").
-Chatter ChatterLaw::collapsed(const SpringConstants<double>& springs, double eta, const SlideState<double>& at,
-                              double v, double allowed, double time) const {
+std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& springs, double eta,
+                                             const SlideState<double>& at, double v, double allowed,
+                                             double time) const {
   constexpr double kLnTen = 2.302585092994046;
-  const Chatter none{v, 0.0};
-  if (v <= constants_.threshold || loss_ == 0.0) return none;
+  if (v <= constants_.threshold || loss_ == 0.0) return std::nullopt;
   // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k S/2)
   const double end = constants_.constant_loss ? constants_.threshold : std::min(v, cutoff_);
   const double gamma = 1.0 - loss_;
@@ -125,11 +126,12 @@ Chatter ChatterLaw::collapsed(const SpringConstants<double>& springs, double eta
     n += (1.0 / constants_.threshold - 1.0 / end) / k;
   }
   const ReferenceForces<double> f = reference_forces(springs, eta, at);
-  const double per_height = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn));
+  // a spring that is displaced by sigma gains the speed omega_h sigma
+  const double per_height = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn) * std::max(springs.omega_h, 1.0));
   const double least = std::sqrt(per_height * cubes / (3.0 * allowed));  // reaction: the displacement goes like 1/P^2
-  if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return none;
+  if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return std::nullopt;
   const double height = cubes / (3.0 * f.P * f.P);  // its time integral
-  return {0.0, std::max(n, 1.0), 2.0 * f.turn * height, f.c_height * height};
+  return Chatter{0.0, std::max(n, 1.0), 2.0 * f.turn * height, f.c_height * height};
 }
 
 Projection project_onto_surface(const Model& model, const TipState& state) {

@@ -174,7 +174,8 @@ SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, do
     const bool by_velocity = u2 >= 0.25 * swing;
     if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
       const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
-      if (surplus < u2 && std::fabs(surplus) > kRounding * energy) q.u = std::copysign(std::sqrt(u2 - surplus), u);
+      if (surplus < u2 && std::fabs(surplus) * to.N2 > kRounding * energy)
+        q.u = std::copysign(std::sqrt(u2 - surplus), u);
       return q;
     }
     if (by_velocity && surplus < u2) {
@@ -328,7 +329,7 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
 
 ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
                          double tolerance, const Hint& hint)
-    : m_(springs), eta_(eta), tolerance_(tolerance), start_(start) {
+    : m_(springs), eta_(eta), start_(start) {
   ContactSolver::solve(*this, tolerance, hint);
 }
 
@@ -386,8 +387,6 @@ double ContactStep::impulse(double s) const {
   }
   return sum * s;
 }
-
-ContactStep ContactStep::following() const { return {m_, eta_, end_, tolerance_, hint_}; }
 
 double ContactStep::find_release() const {
   constexpr int kHalvings = 12;               // to 1/4000 of the step; the rest is done on the reaction itself

@@ -49,19 +49,24 @@ Segment Tip::kick_segment(const TipState& before, const TipState& after) const {
 }
 
 // `first`: the impact before the bounces, if there is one. Its event becomes that of all, and they lose the energy that
-// the tip does not keep.
+// the tip does not keep. A tolerance above the default allows no more: the law is of the lowest order.
 std::optional<Collapse> Tip::collapse(const SlideState<double>& from, double v, double kick,
                                       const Impact& first) const {
   const double allowed = std::fmax(kDisplacedByKick * kick, kDisplacedByNoise * thermostat_.noise());
-  const Chatter bounces =
-      law_.collapsed(springs_, eta_, from, v, contact_tolerance_ * allowed, thermostat_.next() - now_);
-  if (bounces.n == 0.0) return std::nullopt;
-  Collapse all{first, displaced_reference(model_, from, bounces)};
+  const double tolerance = std::fmin(contact_tolerance_, kDefaultContactTolerance);
+  const std::optional<Chatter> bounces =
+      law_.collapsed(springs_, eta_, from, v, tolerance * allowed, thermostat_.next() - now_);
+  if (!bounces) return std::nullopt;
+  const bool is_held = springs_.is_free_along_x == 0.0;
+  Collapse all{first, is_held ? from : displaced_reference(model_, from, *bounces)};
   const double loss = 0.5 * v * v + slide_energy(springs_, from) - slide_energy(springs_, all.end);
   if (!(loss > 0.0)) return std::nullopt;
+  const TipState end{wrap_phase(all.end.phase), all.end.X, all.end.u, 0.0, 0.0};
+  all.impact.surface_phase = end.phase;
+  all.impact.tangential_velocity = project_onto_surface(model_, end).tangential_velocity;
   all.impact.kind = ImpactKind::burst;
   all.impact.energy_loss += loss;
-  all.impact.count = whole_count(all.impact.count + bounces.n);
+  all.impact.count = whole_count(all.impact.count + bounces->n);
   return all;
 }
 
@@ -69,7 +74,7 @@ std::optional<Collapse> Tip::collapse(const SlideState<double>& from, double v, 
 std::optional<Collapse> Tip::collapse_kick(const TipState& before, const TipState& after) const {
   const Projection onto = project_onto_surface(model_, after);
   const double kick = std::fabs(onto.normal_speed);
-  Impact first{now_, before.phase, kick, onto.tangential_velocity, 0.0, ImpactKind::burst, 0};
+  Impact first{now_, before.phase, kick, onto.tangential_velocity, 0.0, ImpactKind::impact, 0};
   double v = kick;
   if (after.g1 < 0.0) {
     v *= restitution(model_, kick);
@@ -92,12 +97,12 @@ Outcome Tip::kick(Segments* ended) {
   if (in_contact()) {
     const TipState before = tip_state(), after = kicked(kick, before);
     if (const std::optional<Collapse> all = collapse_kick(before, after)) {
+      last_impact_ = all->impact;
       if (ended != nullptr) {
         ended->add(segment());
         ended->add(kick_segment(before, after));
+        ended->add(collapse_segment(surface_jet(model_.H, before.phase).h1, after.g1));
       }
-      last_impact_ = all->impact;
-      if (ended != nullptr) ended->add(collapse_segment(surface_jet(model_.H, before.phase).h1, after.g1));
       slide(all->end);
       return Outcome::impact;
     }

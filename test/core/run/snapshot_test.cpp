@@ -28,16 +28,19 @@ struct Scene {
   double eta, v_c, contact_tolerance;
   ModelKind kind;
   double temperature;  // 0: no bath
+  double rest_height = 0.0;
 };
 
 std::ostream& operator<<(std::ostream& out, const Scene& s) {
-  return out << name(s.kind) << ", eta " << s.eta << ", tolerance " << s.contact_tolerance << ", T " << s.temperature;
+  return out << name(s.kind) << ", eta " << s.eta << ", tolerance " << s.contact_tolerance << ", T " << s.temperature
+             << ", y0 " << s.rest_height;
 }
 
 RunSettings settings_of(const Scene& scene) {
   RunSettings s;
   s.model.v_c = scene.v_c;
   s.model.kind = scene.kind;
+  s.model.y0 = scene.rest_height;
   s.eta = s.initial.u = scene.eta;
   s.contact_tolerance = scene.contact_tolerance;
   s.bath.temperature = scene.temperature;
@@ -252,18 +255,16 @@ TEST_P(Snapshots, LeaveTheSumsOfTheFrictionAsTheyAre) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Snapshots,
-                         testing::Values(Scene{0.05, 0.005, 0.0, ModelKind::oscillator, 0.0},
-                                         Scene{0.05, 0.005, 1e-3, ModelKind::oscillator, 0.0},
-                                         Scene{0.5, 0.05, 1e-3, ModelKind::oscillator, 0.0},
-                                         Scene{2.0, 0.05, 0.0, ModelKind::oscillator, 0.0},
-                                         Scene{3.0, 0.02, 1e-3, ModelKind::hammer, 0.0},
-                                         Scene{3.4, 0.05, 1e-3, ModelKind::oscillator, 0.0},
-                                         Scene{3.4, 0.05, 1e-3, ModelKind::oscillator, 0.926},
-                                         Scene{5.0, 0.01, 1e-3, ModelKind::oscillator, 0.0},
-                                         Scene{0.3, 0.02, 1e-3, ModelKind::oscillator, 1e-3},
-                                         Scene{0.5, 0.02, 1e-3, ModelKind::hammer, 0.3},
-                                         Scene{7.0, 0.7, 1e-3, ModelKind::oscillator, 0.0}));
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Snapshots,
+    testing::Values(
+        Scene{0.05, 0.005, 0.0, ModelKind::oscillator, 0.0}, Scene{0.05, 0.005, 1e-3, ModelKind::oscillator, 0.0},
+        Scene{0.5, 0.05, 1e-3, ModelKind::oscillator, 0.0}, Scene{2.0, 0.05, 0.0, ModelKind::oscillator, 0.0},
+        Scene{3.0, 0.02, 1e-3, ModelKind::hammer, 0.0}, Scene{3.4, 0.05, 1e-3, ModelKind::oscillator, 0.0},
+        Scene{3.4, 0.05, 1e-3, ModelKind::oscillator, 0.926}, Scene{5.0, 0.01, 1e-3, ModelKind::oscillator, 0.0},
+        Scene{0.3, 0.02, 1e-3, ModelKind::oscillator, 1e-3}, Scene{0.5, 0.02, 1e-3, ModelKind::hammer, 0.3},
+        Scene{0.3, 0.05, 1e-3, ModelKind::oscillator, 0.926, -1.0},
+        Scene{0.3, 0.05, 1e-2, ModelKind::hammer, 0.926, -1.0}, Scene{7.0, 0.7, 1e-3, ModelKind::oscillator, 0.0}));
 
 // One number of a snapshot, set to any value.
 struct Field {
