@@ -98,9 +98,9 @@ class Tip {
 
   // Another heat bath from now() on; a new tip has none. It splits the flight or the record under way. Every advance
   // includes its kicks (docs/temperature.md). A kick splits the phase under way at its time. In contact, a kick into
-  // the surface is an impact at once, and a kick away from it starts a flight. Where the bounces after a kick, or with a
-  // temperature after an impact, hardly move the tip, they are one event, and the tip is in contact. A chatter sequence
-  // ends with the bounce under way. Precondition: a bath without faults.
+  // the surface is an impact at once, and a kick away from it starts a flight. Where the bounces after a kick, or with
+  // a temperature after an impact, hardly move the tip, they are one event, and the tip is in contact. A chatter
+  // sequence ends with the bounce under way. Precondition: a bath without faults.
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 

@@ -66,7 +66,7 @@ class Client {
   const Configuration& configuration() const { return *configuration_; }
   const Applied& applied() const { return *applied_; }  // what is in force
   bool is_lockstep() const { return configuration_->pace == "lockstep"; }
-  double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }  // [s]
+  double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }              // [s]
   double lateral_stiffness() const { return stiffness(configuration_->omega_h_rad_per_s); }  // [N/m]
   double vertical_stiffness() const { return stiffness(configuration_->omega_v_rad_per_s); }
 
@@ -90,8 +90,9 @@ class Client {
   Applied command_and_wait(double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
     if (is_lockstep()) {
       control(0.0, drag_velocity, rest_height);
-      wait_for([&] { return holds(drag_velocity, &Applied::drag_velocity) && holds(rest_height, &Applied::rest_height_m); },
-               name_ + "/applied");
+      wait_for(
+          [&] { return holds(drag_velocity, &Applied::drag_velocity) && holds(rest_height, &Applied::rest_height_m); },
+          name_ + "/applied");
     } else {
       command(drag_publisher_, drag_velocity, &Applied::drag_velocity);
       command(height_publisher_, rest_height, &Applied::rest_height_m);
@@ -101,7 +102,8 @@ class Client {
 
   // Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after
   // what is commanded holds.
-  double mean_force(double duration, double settle = 0.0, double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
+  double mean_force(double duration, double settle = 0.0, double drag_velocity = kAsItIs,
+                    double rest_height = kAsItIs) {
     if (settle > 0.0) {
       control(settle, drag_velocity, rest_height);
       drag_velocity = rest_height = kAsItIs;
@@ -169,7 +171,7 @@ class Client {
     queue_.callAvailable();  // what came while nobody measured is of the past
     batches_.clear();
     while (impacts_.size() > kKeptImpacts) impacts_.pop_front();  // those of a batch may come before it
-    std::uint32_t first = 0, last = 0;  // batches that count
+    std::uint32_t first = 0, last = 0;                            // batches that count
     double seconds = 0.0, vertical = 0.0, lateral = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
     while (seconds < duration) {
       wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
@@ -190,7 +192,8 @@ class Client {
     const auto has_come = [&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; };
     if (r.samples > 0) wait_for(has_come, name_ + "/impacts");
     for (const ImpactArray::ConstPtr& batch : impacts_) {
-      if (r.samples == 0 || batch->header.seq < first || batch->header.seq > last || batch->epoch != since.epoch) continue;
+      const bool counts = batch->epoch == since.epoch && batch->header.seq >= first && batch->header.seq <= last;
+      if (r.samples == 0 || !counts) continue;
       for (const Impact& impact : batch->impacts) {
         r.impact_count += impact.count;
         r.energy_loss += impact.energy_loss;

@@ -1,5 +1,5 @@
-"""Model time goes as wall time does. The friction is the one known for the speed of a drag command. A command that cannot
-be is counted and changes nothing. scripts/soak sends thousands, of every size."""
+"""Model time goes as wall time does. The friction is the one known for the speed of a drag command. A command that
+cannot be is counted and changes nothing. scripts/soak sends thousands, of every size."""
 import math
 import time
 

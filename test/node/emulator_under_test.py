@@ -40,7 +40,7 @@ class Process:
         self.log.seek(0)
         return self.log.read()
 
-    def wait(self, deadline_s=DEADLINE_S):
+    def wait(self, deadline_s=15.0):
         return self.child.wait(timeout=deadline_s * PATIENCE)
 
     def stop(self, with_signal=signal.SIGINT):

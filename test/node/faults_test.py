@@ -34,7 +34,7 @@ class Faults(NodeTest):
         """Over half a second of wall time."""
         begin, since = self.status.wait_for_next(), time.monotonic()
         end = self.status.wait_for_next(lambda m: m.time.tau - begin.time.tau > 0.5 * MODEL_RATE, 'half a second on')
-        self.assertLess(time.monotonic() - since, 15.0 * PATIENCE)
+        self.assertLess(time.monotonic() - since, 5.0)
         self.assertLess(end.lag, 1.0)
 
     def test_the_master_dies(self):
@@ -54,7 +54,7 @@ class Faults(NodeTest):
             pass  # half a second of the run
         asked = time.monotonic()
         self.assertEqual(emulator.stop(), 0)
-        self.assertLess(time.monotonic() - asked, 15.0 * PATIENCE)
+        self.assertLess(time.monotonic() - asked, 5.0 * PATIENCE)
         path, = self.directory.iterdir()
         checks.assert_identical(self, str(path))
 
@@ -120,7 +120,8 @@ class Faults(NodeTest):
         self.emulator.child.send_signal(signal.SIGCONT)
         self.deflection.wait_for_next(
             lambda m: m.time.tau - before.time.tau > seconds * MODEL_RATE, 'all that time made up for')
-        status = self.status.wait_for_next(lambda m: m.lag < 0.5 and m.worst_lag > 0.9 * seconds, 'was late, and says so')
+        status = self.status.wait_for_next(lambda m: m.lag < 0.5 and m.worst_lag > 0.9 * seconds,
+                                           'was late, and says so')
         self.assertGreater(status.late_batches, 0)
 
     def test_two_of_one_name(self):

@@ -51,7 +51,7 @@ class Load(NodeTest):
         wall_s, model_s = time.monotonic() - since, (status.time.tau - begin.time.tau) * TAU_S
         print('%d commands in %.2f s; model time %.2f s; worst lag %.4f s, %d late batches; scheduler: %s' % (
             COMMANDS, wall_s, model_s, status.worst_lag, status.late_batches, status.scheduler))
-        self.assertLess(abs(model_s - wall_s), 2.0)
+        self.assertLess(abs(model_s - wall_s), 1.0)
         self.assertEqual((status.refused_commands, status.search_failures), (0, 0))
         self.assertGreater(status.worst_lag, 0.0)
         for s, count in drain.bytes.items():

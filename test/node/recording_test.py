@@ -73,7 +73,7 @@ class Recording(NodeTest):
         subprocess.run(['rosbag', 'reindex', str(path)], check=True, stdout=subprocess.DEVNULL)
         checks.assert_identical(self, path)
         lost = seen - bags.read(str(path))['deflection'][-1].first_sample
-        self.assertLess(16 * lost, 4 * CHUNK_BYTES)  # of 6 in all
+        self.assertLess(16 * lost, 2 * CHUNK_BYTES)
 
     def test_asked_to_record_where_it_cannot(self):
         emulator = self.start(Emulator({'record': True, 'bag_directory': '/dev/null/bags'}))

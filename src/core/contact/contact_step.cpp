@@ -18,12 +18,11 @@ struct ContactLimits {
   static constexpr double kMaxReach = 0.25;  // [a] from the middle of a step: turned_by() holds up to there
 
   // the iteration; the first three are squares
-  static constexpr double kFirst = 1e-4;          // a first change so small, over the tolerance, is the last one
-  static constexpr double kSafety = 16.0;         // of the estimate of what is left
-  static constexpr double kMaxContraction = 0.1;  // beyond it a shorter step is faster
-  static constexpr int kMaxEvaluations = 12;      // of a step
-  static constexpr double kLeastStiffness =
-      0.25;  // of the swing, over that of the spring and of the surface that passes
+  static constexpr double kFirst = 1e-4;           // a first change so small, over the tolerance, is the last one
+  static constexpr double kSafety = 16.0;          // of the estimate of what is left
+  static constexpr double kMaxContraction = 0.1;   // beyond it a shorter step is faster
+  static constexpr int kMaxEvaluations = 12;       // of a step
+  static constexpr double kLeastStiffness = 0.25;  // over that of the spring and of the surface that passes
 
   // the interpolation
   static constexpr double kTail = 1e-4;  // integrals of the first coefficient left out, over those of the last one
@@ -88,6 +87,12 @@ inline double sum_of_products(const AtGaussNodes& a, const AtGaussNodes& b) {
   double sum[4];
   for (std::size_t i = 0; i < 4; ++i) sum[i] = a[i] * b[i] + a[i + 4] * b[i + 4];
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+// Of the power m of the part of the step, in the interpolation of values at the nodes.
+inline double coefficient(std::size_t m, const AtGaussNodes& values) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < kN; ++j) sum += kGauss.power.at[m][j] * values[j];
+  return sum;
 }
 inline double least_of(const AtGaussNodes& a) {
   double least = a[0];
@@ -156,8 +161,8 @@ class ContactSolver {
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
 // into the velocity, or where the swing turns back, into the place.
 SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
-  // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly all
-  // of it.
+  // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly
+  // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
@@ -338,9 +343,7 @@ Series<double> ContactStep::displacement() const {
   d[1] = start_.u;
   double scale = 1.0;
   for (std::size_t m = 0; m < kN; ++m) {
-    double a = 0.0;
-    for (std::size_t j = 0; j < kN; ++j) a += kGauss.power.at[m][j] * force_[j];
-    d[m + 2] = a * scale / static_cast<double>((m + 1) * (m + 2));
+    d[m + 2] = coefficient(m, force_) * scale / static_cast<double>((m + 1) * (m + 2));
     scale /= length_;
   }
   return d;
@@ -381,9 +384,7 @@ double ContactStep::impulse(double s) const {
   const double part = s / length_;
   double sum = 0.0;
   for (std::size_t m = kN; m-- > 0;) {
-    double a = 0.0;
-    for (std::size_t j = 0; j < kN; ++j) a += kGauss.power.at[m][j] * reaction_[j];
-    sum = sum * part + a / static_cast<double>(m + 1);
+    sum = sum * part + coefficient(m, reaction_) / static_cast<double>(m + 1);
   }
   return sum * s;
 }
