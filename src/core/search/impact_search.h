@@ -40,20 +40,22 @@ Landing<T> land(const Flight<T>& f, const T& s, const GapJet<T>& jet, int evalua
 // Lemma 6: finishes the certified root near `jet`, the jet at time s. Each evaluation shrinks the interval of the root.
 // A step of the series that would leave the interval is replaced by bisection.
 template <class T>
-Landing<T> finish(const Flight<T>& f, const T& s, GapJet<T> jet, const RootInterval<T>& root, int evaluations) {
+Landing<T> finish(const Flight<T>& f, const T& s, const GapJet<T>& start, const RootInterval<T>& root,
+                  int evaluations) {
   using std::abs;
   constexpr int kMaxFinishSteps = 60;  // bisection alone: 53 bits of a double, and a few for the exponent
-  if (jet.g1 < T(0.0) && abs(jet.g) <= f.gap_error(s)) return land(f, s, jet, evaluations);
-  T t(0.0), step = root.estimate, low = root.low, high = root.high;
+  if (start.g1 < T(0.0) && abs(start.g) <= f.gap_error(s)) return land(f, s, start, evaluations);
+  T t = root.estimate, low = root.low, high = root.high;
+  GapJet<T> jet = gap_near(f, start, s, t);
   for (int i = 0; i < kMaxFinishSteps; ++i) {
-    jet = gap_near(f, jet, T(s + t), step);
-    t = t + step;
     ++evaluations;
     if (!(jet.g1 < T(0.0))) break;
     if (abs(jet.g) <= f.gap_error(s + t)) return land(f, s + t, jet, evaluations);
-    step = root_step(f, jet);
+    T step = root_step(f, jet);
     (jet.g > T(0.0) ? low : high) = t;
     if (!(low <= t + step && t + step <= high)) step = (low + high) / T(2.0) - t;  // also for NaN
+    jet = gap_near(f, jet, T(s + t), step);
+    t = t + step;
   }
   return hidden_root(f, s, root, evaluations);
 }
