@@ -12,7 +12,7 @@ struct Options {
   std::uint64_t seed = 1, scenes = 0;
   std::int64_t tau = 1000;
   double seconds = 20.0;
-  bool mica = false, shipped = false;
+  bool mica = false, shipped = false, levers = false;
 };
 
 void add(afm::TipCount& sum, const afm::TipCount& c) {
@@ -54,11 +54,12 @@ int main(int argc, char** argv) {
   app.flag("mica", o.mica, "the paper's model at cutoffs of 0.001 to 0.1, dragged at up to 9 a/tau either way");
   app.flag("shipped", o.shipped,
            "the node's defaults, commands as scripts/soak sends them; no batch may spend its budget of impacts");
+  app.flag("levers", o.levers, "levers on crystals under loads of up to 100 nN, with a heat bath and without");
   return app.run(argc, argv, [&] {
     const auto start = std::chrono::steady_clock::now();
     const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     using Kind = afm::StressScene::Kind;
-    const Kind kind = o.shipped ? Kind::shipped : o.mica ? Kind::mica : Kind::any;
+    const Kind kind = o.levers ? Kind::lever : o.shipped ? Kind::shipped : o.mica ? Kind::mica : Kind::any;
     afm::TipCount sum;
     std::uint64_t most_events = 0;
     std::uint64_t scenes = 0, violations = 0;

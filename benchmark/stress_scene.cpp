@@ -8,7 +8,7 @@
 namespace afm {
 namespace {
 
-constexpr double kBatch = 63.66;               // [tau] of the node: 10 ms
+constexpr double kBatch = 63.66;                   // [tau] of the node: 10 ms
 constexpr double kBetweenShippedCommands = 128.0;  // [tau] of scripts/soak
 
 }  // namespace
@@ -19,10 +19,44 @@ StressScene::StressScene(std::uint64_t seed, Kind kind)
       random_(seed),
       model_(random_model()),
       eta_(random_eta()),
-      tip_(model_, eta_, random_start(), kDefaultContactTolerance) {}
+      tip_(model_, eta_, random_start(), kDefaultContactTolerance) {
+  if (kind_ == Kind::lever) tip_.set_bath(random_bath());
+}
+
+// Nominal values of levers in contact mode and for force modulation, and of crystals that are cleaved for friction.
+Model StressScene::random_lever() {
+  lever_.omega_v_rad_per_s = kTwoPi * decades(5e3, 100e3);
+  lever_.omega_h_rad_per_s = within(1.5, 40.0) * lever_.omega_v_rad_per_s;
+  lever_.tip_mass_kg = decades(0.01, 5.0) / (lever_.omega_v_rad_per_s * lever_.omega_v_rad_per_s);
+  lever_.lattice_spacing_m = within(0.2e-9, 0.6e-9);
+  lever_.surface_amplitude_m = within(0.01e-9, 0.1e-9);
+  lever_.restitution_gamma = one_in(4) ? within(0.3, 1.0) : 0.7;
+  return Units(lever_).to_natural(lever_);
+}
+
+// Of a load of none, or of 10 pN to 100 nN [a].
+double StressScene::random_rest_height() {
+  const double load = one_in(6) ? 0.0 : decades(0.01e-9, 100e-9);
+  return -load / (spring_constant(lever_) * lever_.lattice_spacing_m);
+}
+
+Bath StressScene::random_bath() {
+  if (one_in(3)) return {};
+  SiBath bath;
+  bath.temperature_k = one_in(4) ? 0.0 : within(4.0, 400.0);
+  bath.quality_factor = decades(2.0, 1000.0);
+  bath.kicks_per_tau = one_in(3) ? bath.kicks_per_tau : 0.618 * model_.frequency_ratio;
+  bath.seed = seed_;
+  return Units(lever_).to_natural(bath);
+}
 
 Model StressScene::random_model() {
   Model m;
+  if (kind_ == Kind::lever) {
+    m = random_lever();
+    m.y0 = random_rest_height();
+    return m;
+  }
   if (kind_ == Kind::mica) m.v_c = std::pow(10.0, within(-3.0, -1.0));
   if (kind_ != Kind::any) return m;
   m.gamma = one_in(8) ? 0.0 : one_in(8) ? 1.0 : within(0.0, 1.0);
@@ -35,6 +69,7 @@ Model StressScene::random_model() {
 double StressScene::random_eta() {
   if (one_in(10)) return 0.0;
   if (kind_ != Kind::shipped && one_in(10)) return one_in(2) ? 1.0 : -1.0;
+  if (kind_ == Kind::lever) return (one_in(2) ? 1.0 : -1.0) * decades(1e-9, 100e-6) / Units(lever_).velocity();
   const double size = kind_ == Kind::mica      ? mica_eta()
                       : kind_ == Kind::shipped ? std::pow(10.0, within(-4.0, 1.0))
                                                : std::pow(10.0, within(-6.0, 2.0));
@@ -48,6 +83,7 @@ double StressScene::mica_eta() {
 }
 
 FreeState StressScene::random_start() {
+  if (kind_ == Kind::lever && is_held_down(model_)) return lowered_tip(model_.H);
   return {within(0.0, 1.0), within(-0.05, 0.05), model_.H + within(1e-6, 0.2), eta_ + within(-1.0, 1.0),
           within(-1.0, 1.0)};
 }
@@ -68,6 +104,10 @@ bool StressScene::run(std::int64_t tau) {
 
 // The same again now and then; now and then a row of them at once.
 void StressScene::command() {
+  if (kind_ == Kind::lever && one_in(4)) {
+    model_.y0 = random_rest_height();
+    return tip_.set_parameters(model_);
+  }
   for (int n = kind_ == Kind::shipped && one_in(100) ? 20 : 1; n > 0; --n) {
     eta_ = one_in(20) ? eta_ : random_eta();
     tip_.drag(eta_);
@@ -85,7 +125,7 @@ bool StressScene::keeps_budget() {
 }
 
 std::string StressScene::report() const {
-  const char* const options[] = {"", " --mica", " --shipped"};
+  const char* const options[] = {"", " --mica", " --shipped", " --levers"};
   return (spent_ ? "a batch spends its budget: " + std::to_string(most_events_) + " events" : "") + tip_.violation() +
          "\n  again by: --seed " + std::to_string(seed_) + options[static_cast<int>(kind_)] + " --scenes 1";
 }

@@ -221,6 +221,7 @@ def commands(quick):
     seconds = choose(15, 110)
     add("stress_any", "stress --seed 41000000 --seconds", seconds, may_fail=True)
     add("stress_mica", "stress --mica --tau 10000 --seed 91000 --seconds", seconds, may_fail=True)
+    add("stress_levers", "stress --levers --tau 1000 --seed 51000000 --seconds", seconds, may_fail=True)
     add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"),
         may_fail=True)
 

@@ -54,11 +54,12 @@ STRESS = re.compile(r"(\d+) scenes of (\d+) tau: (\d+) commands, (\d+) \w+, (\d+
                     r"in a tau (\d+), deepest (\S+) a, worst imbalance (\S+)")
 
 
-@table("stress_any", "stress_mica", "stress_shipped")
+@table("stress_any", "stress_mica", "stress_shipped", "stress_levers")
 def stress(tables):
     rows = []
     for name, models in (("any", "any model, drag 1e-6 to 100"), ("mica", "mica, drag up to 9"),
-                         ("shipped", "the shipped node's budget")):
+                         ("shipped", "the shipped node's budget"),
+                         ("levers", "levers, crystals, loads to 100 nN, baths")):
         found = STRESS.findall(tables.text("stress_" + name))
         scenes, tau, commands, segments, _, bounces, most, deepest, imbalance = found[-1]
         rows.append({"models": models, "tau": "%.2g" % (int(scenes) * int(tau)), "commands": "%.2g" % int(commands),

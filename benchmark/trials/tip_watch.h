@@ -23,7 +23,6 @@ struct TipCount {
 
 class TipWatch {
  public:
-  // `start` is in the air.
   TipWatch(const Model& model, double eta, const FreeState& start, double contact_tolerance)
       : model_(model), tip_(model, eta, start, contact_tolerance), balance_(tip_) {}
 
@@ -52,6 +51,12 @@ class TipWatch {
 
   void drag(double eta) {
     balance_.command(tip_, [&] { tip_.drag(eta); });
+    ++count_.commands;
+  }
+
+  void set_parameters(const Model& model) {
+    model_ = model;
+    balance_.command(tip_, [&] { tip_.set_parameters(model); });
     ++count_.commands;
   }
 

@@ -145,10 +145,17 @@ __attribute__((noinline)) double first_fall(const AtGaussNodes& b, double low, d
 
 }  // namespace
 
+// A state, and the integral of x - xc up to it [a tau].
+struct Balanced {
+  SlideState<double> state;
+  double integral;
+};
+
 class ContactSolver {
  public:
   static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
-  static SlideState<double> balanced(const ContactStep& s, double time, double d, double u, double integral);
+  static Balanced balanced(const ContactStep& s, double time, double d, double u, double integral);
+  static Balanced balanced_at(const ContactStep& s, double time);
   static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
 
  private:
@@ -159,39 +166,48 @@ class ContactSolver {
 };
 
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
-// into the velocity, or where the swing turns back, into the place.
-SlideState<double> ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
+// into the velocity, or where the swing turns back, into the place. Where the tip nearly rests in a valley neither can
+// take it: there it goes into the work of the drag.
+Balanced ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
   // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly
   // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
+  constexpr double kMaxShift = 1e-7;   // [a] of the mean extension, by what the work takes
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
-  SlideState<double> q{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
-  if (s.m_.is_free_along_x == 0.0) return q;
+  Balanced to{{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u}, integral};
+  if (s.m_.is_free_along_x == 0.0) return to;
+  SlideState<double>& q = to.state;
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
   const double work = 2.0 * s.eta_ * wh2 * integral, kinetic = s.first_.N2 * (s.start_.u * s.start_.u);
   for (int i = 0; i < kMaxTries; ++i) {
-    const ContactForces to = forces(s.m_, sin_cos_turns(q.phase), q.X, u);
+    const ContactForces there = forces(s.m_, sin_cos_turns(q.phase), q.X, u);
     const double springs = wh2 * (q.X - s.start_.X) * (q.X + s.start_.X) +
-                           k * k * (to.h - s.first_.h) * (to.h + s.first_.h - 2.0 * s.m_.y0);
-    const double surplus = (to.N2 * (u * u) - kinetic + springs + work) / to.N2;  // of twice the energy, over N2
-    const double u2 = u * u, swing = to.force * to.force / s.stiffness_;
+                           k * k * (there.h - s.first_.h) * (there.h + s.first_.h - 2.0 * s.m_.y0);
+    // of twice the energy, over N2
+    const double surplus = (there.N2 * (u * u) - kinetic + springs + work) / there.N2;
+    const double u2 = u * u, swing = there.force * there.force / s.stiffness_;
     const bool by_velocity = u2 >= 0.25 * swing;
     if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
       const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
-      if (surplus < u2 && std::fabs(surplus) * to.N2 > kRounding * energy)
+      if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
+      const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
+      if (surplus < u2) {
         q.u = std::copysign(std::sqrt(u2 - surplus), u);
-      return q;
+      } else if (std::fabs(shift) < kMaxShift * time) {
+        to.integral -= shift;
+      }
+      return to;
     }
     if (by_velocity && surplus < u2) {
       q.u = std::copysign(std::sqrt(u2 - surplus), u);
-      return q;
+      return to;
     }
-    if (std::fabs(surplus) < 1e-15 * swing) return q;
-    const double dx = 0.5 * surplus / to.force;
+    if (std::fabs(surplus) < 1e-15 * swing) return to;
+    const double dx = 0.5 * surplus / there.force;
     q.phase += dx, q.X += dx;
   }
-  return q;
+  return to;
 }
 
 // One step of the given level; false if it does not meet the tolerance.
@@ -266,9 +282,10 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
   const ContactForces there = forces(m, turn, X0 + middle, 0.0);
   s.stiffness_ = std::max(there.stiffness, least);
   s.hint_ = {may_be_longer ? std::max(0, level - 1) : level, s.stiffness_};
-  s.end_integral_ = h * ((X0 - 0.5 * eta * h) + sum_of_products(kGauss.weight, d));
-  s.end_ = balanced(s, h, n_u + h2 * sum_of_products(kGauss.weight2, s.force_),
-                    u0 + h * sum_of_products(kGauss.weight, s.force_), s.end_integral_);
+  const Balanced end = balanced(s, h, n_u + h2 * sum_of_products(kGauss.weight2, s.force_),
+                                u0 + h * sum_of_products(kGauss.weight, s.force_),
+                                h * ((X0 - 0.5 * eta * h) + sum_of_products(kGauss.weight, d)));
+  s.end_ = end.state, s.end_integral_ = end.integral;
   return true;
 }
 
@@ -349,24 +366,20 @@ Series<double> ContactStep::displacement() const {
   return d;
 }
 
-SlideState<double> ContactStep::at(double s) const {
-  if (s == length_) return end_;
-  const Series<double> c = displacement();
+Balanced ContactSolver::balanced_at(const ContactStep& s, double time) {
+  if (time == s.length_) return {s.end_, s.end_integral_};
+  const Series<double> c = s.displacement();
   double d = 0.0, u = 0.0, integral = 0.0;
   for (std::size_t m = kN + 1; m >= 1; --m) {
-    d = s * (d + c[m]), u = u * s + c[m] * static_cast<double>(m);
-    integral = s * (integral + c[m] / static_cast<double>(m + 1));
+    d = time * (d + c[m]), u = u * time + c[m] * static_cast<double>(m);
+    integral = time * (integral + c[m] / static_cast<double>(m + 1));
   }
-  return ContactSolver::balanced(*this, s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
+  return balanced(s, time, d, u, time * ((s.start_.X - 0.5 * s.eta_ * time) + integral));
 }
 
-double ContactStep::extension_integral(double s) const {
-  if (s == length_) return end_integral_;
-  const Series<double> c = displacement();
-  double integral = 0.0;
-  for (std::size_t m = kN + 1; m >= 1; --m) integral = s * (integral + c[m] / static_cast<double>(m + 1));
-  return s * ((start_.X - 0.5 * eta_ * s) + integral);
-}
+SlideState<double> ContactStep::at(double s) const { return ContactSolver::balanced_at(*this, s).state; }
+
+double ContactStep::extension_integral(double s) const { return ContactSolver::balanced_at(*this, s).integral; }
 
 double ContactStep::pressure(const SlideState<double>& q) const {
   return forces(m_, sin_cos_turns(q.phase), q.X, q.u).reaction;

@@ -90,6 +90,30 @@ TEST(ContactStepAt, TheEndOfASwingBalancesItsEnergyToo) {
   EXPECT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, start), 1e-13 * energy_of(m, start));
 }
 
+// The tip nearly rests at the end of a whole swing, as each time when a holder has begun to move: neither velocity nor
+// place can take the error.
+TEST(ContactStepAt, ACuspBalancesItsEnergyToo) {
+  constexpr double kEta = -0.55392796115547704;
+  Model model;
+  model.H = 0.094768114406325293, model.y0 = -1.6555162499288678, model.frequency_ratio = 37.1742936899699;
+  const SpringConstants<double> m(model);
+  const SlideState<double> start{0.50122482544297264, 2.5963106884377033e-06, 0.00041762567616257951};
+  const ContactStep step(m, kEta, start, 2e-7, {0, 54785.637978331688});
+  for (int i = 900; i <= 1000; ++i) {
+    const double s = step.length() * i / 1000, work = -m.omega_h * m.omega_h * kEta * step.extension_integral(s);
+    ASSERT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, start), 1e-13 * energy_of(m, start)) << i;
+  }
+  // the work is that of steps of the least tolerance
+  double integral = 0.0;
+  SlideState<double> q = start;
+  for (double left = step.length(); left > 0.0;) {
+    const ContactStep finer(m, kEta, q, kFinestStep, {});
+    const double s = std::min(left, finer.length());
+    integral += finer.extension_integral(s), q = finer.at(s), left -= s;
+  }
+  EXPECT_NEAR(step.extension_integral(step.length()), integral, 2e-9 * step.length());
+}
+
 TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
   const SpringConstants<double> m(model_of(GetParam()));
   const double eta = GetParam().eta;
