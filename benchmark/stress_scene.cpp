@@ -104,7 +104,10 @@ bool StressScene::run(std::int64_t tau) {
 
 // The same again now and then; now and then a row of them at once.
 void StressScene::command() {
+  if (kind_ == Kind::lever && one_in(8)) return tip_.set_bath(random_bath());
   if (kind_ == Kind::lever && one_in(4)) {
+    if (one_in(4)) model_.gamma = within(0.3, 1.0);
+    if (one_in(4)) model_.v_c = std::pow(10.0, within(-5.0, 0.0));
     model_.y0 = random_rest_height();
     return tip_.set_parameters(model_);
   }

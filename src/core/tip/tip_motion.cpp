@@ -13,9 +13,12 @@ double slide_energy(const SpringConstants<double>& m, const SlideState<double>& 
                 m.omega_v * m.omega_v * Y * Y);
 }
 
-// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed.
+// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Near rest the energy
+// is quadratic along it: there a step may take most of it.
 BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide& at, double energy) {
-  constexpr int kSteps = 3;  // each squares the relative error, which is 1e-4 at the start
+  constexpr int kSteps = 3;            // each squares the relative error, which is 1e-4 at the start
+  constexpr double kLinear = 0.1;      // of the square of the gradient: less needs no root
+  constexpr double kMostTaken = 0.45;  // of it: one half would be all
   SlideState<double> r = at.slide;
   double v = at.v;
   for (int i = 0; i < kSteps; ++i) {
@@ -25,8 +28,10 @@ BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide&
     const double force = wh2 * r.X + wv2 * Y * h.h1 + h.h1 * h.h2 * r.u * r.u;  // dE/dx
     const double left = energy - 0.5 * (speed2 + wh2 * r.X * r.X + wv2 * Y * Y + v * v);
     const double gradient2 = speed2 + force * force / wh2 + v * v;
-    if (!(std::fabs(left) < 0.1 * gradient2)) break;
-    const double part = left / gradient2, dx = part * force / wh2;
+    const double ratio = left / gradient2;
+    if (!(-kMostTaken < ratio && ratio < 1.0)) break;
+    const double part = std::fabs(ratio) < kLinear ? ratio : std::sqrt(1.0 + 2.0 * ratio) - 1.0;
+    const double dx = part * force / wh2;
     r.phase += dx, r.X += dx, r.u += part * r.u, v += part * v;
   }
   return {r, v};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "core/tip/tip_motion.h"
 #include "support/models.h"
 #include "trials/energy_balance.h"
 
@@ -50,6 +51,23 @@ INSTANTIATE_TEST_SUITE_P(WithBursts, EnergyAt,
                          testing::Values(Drag{0.05, 0.1}, Drag{0.2, 0.1}, Drag{0.2, 0.01}, Drag{0.5, 0.01},
                                          Drag{-0.5, 0.01}, Drag{2.75, 0.01}, Drag{3.0, 0.01}, Drag{5.0, 0.01},
                                          Drag{9.0, 0.01}, Drag{50.0, 0.01}));
+
+// A bouncing tip that is nearly at rest, of a lever of 33 times the vertical frequency: up to nine tenths of its energy
+// of motion are taken from it, or as much is given to it.
+TEST(WithEnergy, ATipNearlyAtRestGetsTheEnergyThatItShouldHave) {
+  Model model;
+  model.frequency_ratio = 33.238413000223808, model.H = 0.14353317622964801;
+  const SpringConstants<double> m(model);
+  const detail::BouncingSlide at{{0.81885416001572175, -5.4748e-05, 0.00194285}, 0.00186914};
+  const auto energy_of = [&](const detail::BouncingSlide& tip) {
+    return detail::slide_energy(m, tip.slide) + 0.5 * tip.v * tip.v;
+  };
+  constexpr double kOfMotion = 7.1e-6;  // [m a^2/tau^2], of the bounces, along the surface and about the place of rest
+  for (int percent = -85; percent <= 90; percent += 5) {
+    const double wanted = energy_of(at) + 1e-2 * percent * kOfMotion;
+    ASSERT_NEAR(energy_of(detail::with_energy(m, at, wanted)), wanted, 1e-6 * kOfMotion) << percent;
+  }
+}
 
 // What an elastic tip at rest gains in a million impacts, as a part of its energy.
 double drift_at_rest(double phase, double velocity) {
