@@ -20,7 +20,7 @@ StressScene::StressScene(std::uint64_t seed, Kind kind)
       model_(random_model()),
       eta_(random_eta()),
       tip_(model_, eta_, random_start(), kDefaultContactTolerance) {
-  if (kind_ == Kind::lever) tip_.set_bath(random_bath());
+  if (has_bath()) tip_.set_bath(random_bath());
 }
 
 // Nominal values of levers in contact mode and for force modulation, and of crystals that are cleaved for friction.
@@ -42,6 +42,15 @@ double StressScene::random_rest_height() {
 
 Bath StressScene::random_bath() {
   if (one_in(3)) return {};
+  if (kind_ == Kind::any) {
+    Bath bath;
+    bath.temperature = one_in(4) ? 0.0 : decades(1e-6, kMaxTemperature);
+    bath.quality_factor = decades(kMinQualityFactor, 1e6);
+    bath.lateral_quality_factor = one_in(2) ? 0.0 : decades(kMinQualityFactor, 1e6);
+    bath.kicks_per_tau = decades(kMinKickRate, 300.0);
+    bath.seed = seed_;
+    return bath;
+  }
   SiBath bath;
   bath.temperature_k = one_in(4) ? 0.0 : within(4.0, 400.0);
   bath.quality_factor = decades(2.0, 1000.0);
@@ -104,7 +113,7 @@ bool StressScene::run(std::int64_t tau) {
 
 // The same again now and then; now and then a row of them at once.
 void StressScene::command() {
-  if (kind_ == Kind::lever && one_in(8)) return tip_.set_bath(random_bath());
+  if (has_bath() && one_in(8)) return tip_.set_bath(random_bath());
   if (kind_ == Kind::lever && one_in(4)) {
     if (one_in(4)) model_.gamma = within(0.3, 1.0);
     if (one_in(4)) model_.v_c = std::pow(10.0, within(-5.0, 0.0));

@@ -13,7 +13,7 @@ namespace afm {
 
 class StressScene {
  public:
-  // any: model and drag speed; mica: the paper's model at any usual cutoff, dragged at up to 9 a/tau; shipped: the
+  // any: model, drag speed and bath; mica: the paper's model at any usual cutoff, dragged at up to 9 a/tau; shipped: the
   // node's own, commands as scripts/soak sends them, and no batch of the node may spend its budget; lever: a lever on a
   // crystal under a load, in a bath or not, all of them as they are sold or measured.
   enum class Kind { any, mica, shipped, lever };
@@ -30,6 +30,7 @@ class StressScene {
   Model random_model();
   Model random_lever();
   double random_rest_height();
+  bool has_bath() const { return kind_ == Kind::any || kind_ == Kind::lever; }
   Bath random_bath();
   FreeState random_start();
   double random_eta();

@@ -57,7 +57,7 @@ STRESS = re.compile(r"(\d+) scenes of (\d+) tau: (\d+) commands, (\d+) \w+, (\d+
 @table("stress_any", "stress_mica", "stress_shipped", "stress_levers")
 def stress(tables):
     rows = []
-    for name, models in (("any", "any model, drag 1e-6 to 100"), ("mica", "mica, drag up to 9"),
+    for name, models in (("any", "any model and bath, drag 1e-6 to 100"), ("mica", "mica, drag up to 9"),
                          ("shipped", "the shipped node's budget"),
                          ("levers", "levers, crystals, loads to 100 nN, baths")):
         found = STRESS.findall(tables.text("stress_" + name))
