@@ -172,7 +172,6 @@ class Tip {
   // energy balance (tip_account.cpp)
   Chatter chatter_now(const Chattering& chattering) const;
   SequenceState sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const;
-  double slide_impulse(const detail::ContactStep& step, double s) const;
   double bounce_impulse(const detail::SlideState<double>& at, double v) const;
   Account account() const;
   Account account_at_begin() const;

@@ -19,6 +19,12 @@ struct ContactForces {
   double h, N2, force, reaction, stiffness;
 };
 
+// Where a step has come to.
+struct ContactPoint {
+  SlideState<double> state;
+  double extension_integral;  // of x - xc since its start [a tau]
+};
+
 constexpr double kFinestStep = 2e-15;  // the smallest tolerance of a step [a]: rounding allows no finer one
 
 class ContactStep {
@@ -34,9 +40,9 @@ class ContactStep {
   ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, double tolerance,
               const Hint& hint);
 
-  // Guarantee: with extension_integral() the energy balances to rounding at every s in [0, length()].
-  SlideState<double> at(double s) const;
-  double extension_integral(double s) const;           // of x - xc over the first s [a tau]
+  // Guarantee: the energy balances to rounding at every s in [0, length()].
+  ContactPoint point(double s) const;
+  SlideState<double> at(double s) const { return point(s).state; }
   double pressure(const SlideState<double>& q) const;  // the reaction along y [a/tau^2]
   Series<double> displacement() const;                 // x - x(start) in powers of the time
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bernstein_fall.h"
 #include "gauss.h"
 #include "release_noise.h"
 
@@ -122,40 +123,13 @@ inline SinCos<double> turned_by(const SinCos<double>& turn, double r) {
   return {turn.sin * cosine + turn.cos * sine, turn.cos * cosine - turn.sin * sine};
 }
 
-// The first zero of a polynomial in Bernstein's basis over [low, low + width]; negative if there is none. The interval
-// is halved until the first change of sign is near the zero.
-__attribute__((noinline)) double first_fall(const AtGaussNodes& b, double low, double width, int halvings) {
-  std::size_t first = 0;
-  while (first < kN && b[first] > 0.0) ++first;
-  if (first == kN) return -1.0;
-  if (first == 0) return low;
-  if (halvings == 0) {
-    const double part = static_cast<double>(first - 1) + b[first - 1] / (b[first - 1] - b[first]);
-    return low + width * part / static_cast<double>(kN - 1);
-  }
-  AtGaussNodes head, tail;
-  for (std::size_t i = 0; i < kN; ++i) tail[i] = b[i];
-  for (std::size_t i = 0; i < kN; ++i) {  // de Casteljau's scheme
-    head[i] = tail[0];
-    for (std::size_t j = 0; j + i + 1 < kN; ++j) tail[j] = 0.5 * (tail[j] + tail[j + 1]);
-  }
-  const double fall = first_fall(head, low, 0.5 * width, halvings - 1);
-  return fall >= 0.0 ? fall : first_fall(tail, low + 0.5 * width, 0.5 * width, halvings - 1);
-}
-
 }  // namespace
-
-// A state, and the integral of x - xc up to it [a tau].
-struct Balanced {
-  SlideState<double> state;
-  double integral;
-};
 
 class ContactSolver {
  public:
   static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
-  static Balanced balanced(const ContactStep& s, double time, double d, double u, double integral);
-  static Balanced balanced_at(const ContactStep& s, double time);
+  static ContactPoint balanced(const ContactStep& s, double time, double d, double u, double integral);
+  static ContactPoint balanced_at(const ContactStep& s, double time);
   static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
 
  private:
@@ -168,14 +142,14 @@ class ContactSolver {
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
 // into the velocity, or where the swing turns back, into the place. Where the tip nearly rests in a valley neither can
 // take it: there it goes into the work of the drag.
-Balanced ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
+ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
   // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly
   // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
   constexpr double kMaxShift = 1e-7;   // [a] of the mean extension, by what the work takes
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
-  Balanced to{{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u}, integral};
+  ContactPoint to{{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u}, integral};
   if (s.m_.is_free_along_x == 0.0) return to;
   SlideState<double>& q = to.state;
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
@@ -195,7 +169,7 @@ Balanced ContactSolver::balanced(const ContactStep& s, double time, double d, do
       if (surplus < u2) {
         q.u = std::copysign(std::sqrt(u2 - surplus), u);
       } else if (std::fabs(shift) < kMaxShift * time) {
-        to.integral -= shift;
+        to.extension_integral -= shift;
       }
       return to;
     }
@@ -282,10 +256,10 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
   const ContactForces there = forces(m, turn, X0 + middle, 0.0);
   s.stiffness_ = std::max(there.stiffness, least);
   s.hint_ = {may_be_longer ? std::max(0, level - 1) : level, s.stiffness_};
-  const Balanced end = balanced(s, h, n_u + h2 * sum_of_products(kGauss.weight2, s.force_),
-                                u0 + h * sum_of_products(kGauss.weight, s.force_),
-                                h * ((X0 - 0.5 * eta * h) + sum_of_products(kGauss.weight, d)));
-  s.end_ = end.state, s.end_integral_ = end.integral;
+  const ContactPoint end = balanced(s, h, n_u + h2 * sum_of_products(kGauss.weight2, s.force_),
+                                    u0 + h * sum_of_products(kGauss.weight, s.force_),
+                                    h * ((X0 - 0.5 * eta * h) + sum_of_products(kGauss.weight, d)));
+  s.end_ = end.state, s.end_integral_ = end.extension_integral;
   return true;
 }
 
@@ -366,7 +340,7 @@ Series<double> ContactStep::displacement() const {
   return d;
 }
 
-Balanced ContactSolver::balanced_at(const ContactStep& s, double time) {
+ContactPoint ContactSolver::balanced_at(const ContactStep& s, double time) {
   if (time == s.length_) return {s.end_, s.end_integral_};
   const Series<double> c = s.displacement();
   double d = 0.0, u = 0.0, integral = 0.0;
@@ -377,9 +351,7 @@ Balanced ContactSolver::balanced_at(const ContactStep& s, double time) {
   return balanced(s, time, d, u, time * ((s.start_.X - 0.5 * s.eta_ * time) + integral));
 }
 
-SlideState<double> ContactStep::at(double s) const { return ContactSolver::balanced_at(*this, s).state; }
-
-double ContactStep::extension_integral(double s) const { return ContactSolver::balanced_at(*this, s).integral; }
+ContactPoint ContactStep::point(double s) const { return ContactSolver::balanced_at(*this, s); }
 
 double ContactStep::pressure(const SlideState<double>& q) const {
   return forces(m_, sin_cos_turns(q.phase), q.X, q.u).reaction;

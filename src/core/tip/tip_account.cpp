@@ -31,12 +31,6 @@ double held_impulse(const SpringConstants<double>& m, double eta, const SlideSta
 
 }  // namespace
 
-double Tip::slide_impulse(const ContactStep& step, double s) const {
-  if (springs_.is_free_along_x > 0.0) return spring_impulse(springs_, step.extension_integral(s));
-  const double work = slide_energy(springs_, step.at(s)) - slide_energy(springs_, step.start());
-  return held_impulse(springs_, eta_, step.start(), step.pressure(step.start()), s, work);
-}
-
 Chatter Tip::chatter_now(const Chattering& chattering) const {
   return law_.at(chattering.reference, now_ - start_, chattering.chatter);
 }
@@ -79,7 +73,13 @@ Account Tip::flight_account(const Flying& flying, const FlightState<double>& q) 
 }
 
 Account Tip::contact_account(const Sliding& sliding, double s) const {
-  return {now_, slide_impulse(sliding.step, s), 0.0, slide_energy(springs_, sliding.step.at(s)), 0};
+  const ContactStep& step = sliding.step;
+  const ContactPoint to = step.point(s);
+  const double energy = slide_energy(springs_, to.state), work = energy - slide_energy(springs_, step.start());
+  const double impulse = springs_.is_free_along_x > 0.0
+                             ? spring_impulse(springs_, to.extension_integral)
+                             : held_impulse(springs_, eta_, step.start(), step.pressure(step.start()), s, work);
+  return {now_, impulse, 0.0, energy, 0};
 }
 
 Account Tip::chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const {

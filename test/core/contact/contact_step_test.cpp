@@ -86,7 +86,7 @@ TEST(ContactStepAt, TheEndOfASwingBalancesItsEnergyToo) {
   const SpringConstants<double> m(model_of({6.25, -3.0, kEta}));
   const SlideState<double> start{0.89353030665614719, -0.039064087653800462, 0.41453471013762361};
   const ContactStep step(m, kEta, start, 2e-7, {1, 1081.9196393658544});
-  const double s = step.length(), work = -m.omega_h * m.omega_h * kEta * step.extension_integral(s);
+  const double s = step.length(), work = -m.omega_h * m.omega_h * kEta * step.point(s).extension_integral;
   EXPECT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, start), 1e-13 * energy_of(m, start));
 }
 
@@ -100,7 +100,7 @@ TEST(ContactStepAt, ACuspBalancesItsEnergyToo) {
   const SlideState<double> start{0.50122482544297264, 2.5963106884377033e-06, 0.00041762567616257951};
   const ContactStep step(m, kEta, start, 2e-7, {0, 54785.637978331688});
   for (int i = 900; i <= 1000; ++i) {
-    const double s = step.length() * i / 1000, work = -m.omega_h * m.omega_h * kEta * step.extension_integral(s);
+    const double s = step.length() * i / 1000, work = -m.omega_h * m.omega_h * kEta * step.point(s).extension_integral;
     ASSERT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, start), 1e-13 * energy_of(m, start)) << i;
   }
   // the work is that of steps of the least tolerance
@@ -109,9 +109,9 @@ TEST(ContactStepAt, ACuspBalancesItsEnergyToo) {
   for (double left = step.length(); left > 0.0;) {
     const ContactStep finer(m, kEta, q, kFinestStep, {});
     const double s = std::min(left, finer.length());
-    integral += finer.extension_integral(s), q = finer.at(s), left -= s;
+    integral += finer.point(s).extension_integral, q = finer.at(s), left -= s;
   }
-  EXPECT_NEAR(step.extension_integral(step.length()), integral, 2e-9 * step.length());
+  EXPECT_NEAR(step.point(step.length()).extension_integral, integral, 2e-9 * step.length());
 }
 
 TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
@@ -122,7 +122,7 @@ TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
     const SlideState<double> start = pressed_start(GetParam(), random);
     const ContactStep step(m, eta, start, 1e-6, {});
     const double s = i % 4 == 0 ? step.length() : random.within(0.0, 1.0) * step.length();
-    const double before = energy_of(m, start), work = -m.omega_h * m.omega_h * eta * step.extension_integral(s);
+    const double before = energy_of(m, start), work = -m.omega_h * m.omega_h * eta * step.point(s).extension_integral;
     ASSERT_NEAR(energy_of(m, step.at(s)) - work, before, 1e-13 * std::max(1.0, before)) << i;
   }
 }
@@ -219,7 +219,7 @@ TEST(ContactStep, BalancesItsEnergyWhereASwingTurnsBackCloseToACrest) {
   const SlideState<double> start{0.97439721479529662, -0.00023039710013049094, 0.00035161483916327293};
   const ContactStep step(m, kEta, start, 2e-7, {0, 0.0});
   for (int i = 9000; i <= 10000; ++i) {
-    const double s = step.length() * i / 10000, work = -m.omega_h * m.omega_h * kEta * step.extension_integral(s);
+    const double s = step.length() * i / 10000, work = -m.omega_h * m.omega_h * kEta * step.point(s).extension_integral;
     ASSERT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, start), 1e-14) << i;
   }
 }
