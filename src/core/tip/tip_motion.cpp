@@ -13,8 +13,8 @@ double slide_energy(const SpringConstants<double>& m, const SlideState<double>& 
                 m.omega_v * m.omega_v * Y * Y);
 }
 
-// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Near rest the energy
-// is quadratic along it: there a step may take most of it.
+// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Near rest the
+// energy is quadratic along it: there a step may take most of it.
 BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide& at, double energy) {
   constexpr int kSteps = 3;            // each squares the relative error, which is 1e-4 at the start
   constexpr double kLinear = 0.1;      // of the square of the gradient: less needs no root
