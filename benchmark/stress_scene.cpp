@@ -17,13 +17,14 @@ StressScene::StressScene(std::uint64_t seed, Kind kind)
     : seed_(seed),
       kind_(kind),
       random_(seed),
+      has_bath_((kind == Kind::any || kind == Kind::lever) && one_in(2)),
       model_(random_model()),
       eta_(random_eta()),
       tip_(model_, eta_, random_start(), kDefaultContactTolerance) {
-  if (has_bath()) tip_.set_bath(random_bath());
+  if (has_bath_) tip_.set_bath(random_bath());
 }
 
-// Nominal values of levers in contact mode and for force modulation, and of crystals that are cleaved for friction.
+// A choice: a decade around the levers and crystals in config/, each way.
 Model StressScene::random_lever() {
   lever_.omega_v_rad_per_s = kTwoPi * decades(5e3, 100e3);
   lever_.omega_h_rad_per_s = within(1.5, 40.0) * lever_.omega_v_rad_per_s;
@@ -34,14 +35,14 @@ Model StressScene::random_lever() {
   return Units(lever_).to_natural(lever_);
 }
 
-// Of a load of none, or of 10 pN to 100 nN [a].
+// The rest height [a] under no load, or under 10 pN to 100 nN.
 double StressScene::random_rest_height() {
   const double load = one_in(6) ? 0.0 : decades(0.01e-9, 100e-9);
   return -load / (spring_constant(lever_) * lever_.lattice_spacing_m);
 }
 
 Bath StressScene::random_bath() {
-  if (one_in(3)) return {};
+  if (one_in(6)) return {};
   if (kind_ == Kind::any) {
     Bath bath;
     bath.temperature = one_in(4) ? 0.0 : decades(1e-6, kMaxTemperature);
@@ -54,7 +55,7 @@ Bath StressScene::random_bath() {
   SiBath bath;
   bath.temperature_k = one_in(4) ? 0.0 : within(4.0, 400.0);
   bath.quality_factor = decades(2.0, 1000.0);
-  bath.kicks_per_tau = one_in(3) ? bath.kicks_per_tau : 0.618 * model_.frequency_ratio;
+  bath.kicks_per_tau = one_in(3) ? bath.kicks_per_tau : 0.618 * model_.frequency_ratio;  // as docs/levers.md advises
   bath.seed = seed_;
   return Units(lever_).to_natural(bath);
 }
@@ -113,7 +114,7 @@ bool StressScene::run(std::int64_t tau) {
 
 // The same again now and then; now and then a row of them at once.
 void StressScene::command() {
-  if (has_bath() && one_in(8)) return tip_.set_bath(random_bath());
+  if (has_bath_ && one_in(8)) return tip_.set_bath(random_bath());
   if (kind_ == Kind::lever && one_in(4)) {
     if (one_in(4)) model_.gamma = within(0.3, 1.0);
     if (one_in(4)) model_.v_c = std::pow(10.0, within(-5.0, 0.0));

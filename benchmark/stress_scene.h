@@ -13,9 +13,9 @@ namespace afm {
 
 class StressScene {
  public:
-  // any: model, drag speed and bath; mica: the paper's model at any usual cutoff, dragged at up to 9 a/tau; shipped: the
-  // node's own, commands as scripts/soak sends them, and no batch of the node may spend its budget; lever: a lever on a
-  // crystal under a load, in a bath or not, all of them as they are sold or measured.
+  // any: model, drag speed and bath; mica: the paper's model at any usual cutoff, dragged at up to 9 a/tau; shipped:
+  // the node's own, commands as scripts/soak sends them, and no batch of the node may spend its budget; lever: a lever
+  // on a crystal under a load, in a bath or not.
   enum class Kind { any, mica, shipped, lever };
   StressScene(std::uint64_t seed, Kind kind);
 
@@ -30,7 +30,6 @@ class StressScene {
   Model random_model();
   Model random_lever();
   double random_rest_height();
-  bool has_bath() const { return kind_ == Kind::any || kind_ == Kind::lever; }
   Bath random_bath();
   FreeState random_start();
   double random_eta();
@@ -44,6 +43,7 @@ class StressScene {
   std::uint64_t seed_;
   Kind kind_;
   std::mt19937_64 random_;
+  bool has_bath_;  // all the time, or never
   SiModel lever_;
   Model model_;
   double eta_;

@@ -52,16 +52,27 @@ class EnergyBalance {
     return static_cast<double>(gross_) + tip.stored_energy() + std::abs(stored_);
   }
   double lost() const { return static_cast<double>(lost_); }
+  // The largest imbalance of a segment, as a part of what the segment turned over. The stored energy is rounded: that
+  // much is no imbalance.
+  double worst_segment() const { return worst_segment_; }
 
  private:
   void add(const Segment& segment) {
+    constexpr double kRounding = 1e-13;  // of the stored energy, as the steps in contact allow themselves
+    constexpr double kOfPlaces = 1e-15;  // [m a^2/tau^2] places are rounded as parts of a cell, however slow the tip
+    const double moved = std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
+    const double rounding = kOfPlaces + kRounding * std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
+    const double excess = std::abs(segment.imbalance()) - rounding;
+    const double turned = moved + std::abs(segment.stored) + 0.5 * segment.eta * segment.eta;
+    if (excess > 0.0) worst_segment_ = std::max(worst_segment_, excess / turned);
     lost_ += segment.loss;
-    gross_ += std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
+    gross_ += moved;
     imbalance_ += segment.imbalance();
     stored_ += segment.stored;
   }
 
   double stored_;  // by the records
+  double worst_segment_ = 0.0;
   long double lost_ = 0.0L, gross_ = 0.0L, imbalance_ = 0.0L;
 };
 

@@ -24,7 +24,7 @@ struct TipCount {
 class TipWatch {
  public:
   TipWatch(const Model& model, double eta, const FreeState& start, double contact_tolerance)
-      : model_(model), tip_(model, eta, start, contact_tolerance), balance_(tip_) {}
+      : tip_(model, eta, start, contact_tolerance), balance_(tip_) {}
 
   // One segment, or to the limit. False: what violation() tells has happened.
   bool advance_segment(const ModelTime& limit, Outcome& outcome) {
@@ -55,13 +55,13 @@ class TipWatch {
   }
 
   void set_parameters(const Model& model) {
-    model_ = model;
     balance_.command(tip_, [&] { tip_.set_parameters(model); });
     ++count_.commands;
   }
 
   void set_bath(const Bath& bath) {
     balance_.command(tip_, [&] { tip_.set_bath(bath); });
+    ++count_.commands;
   }
 
   const Tip& tip() const { return tip_; }
@@ -69,12 +69,14 @@ class TipWatch {
 
   std::string violation() const {
     const TipState s = tip_.tip_state();
+    const Model& model = tip_.model();
+    const Bath& bath = tip_.thermostat().bath();
     std::ostringstream text;
     text.precision(17);
-    text << violation_ << "\n  at " << tip_.now().tau << " + " << tip_.now().phase << "\n  gamma " << model_.gamma
-         << " v_c " << model_.v_c << " H " << model_.H << " y0 " << model_.y0 << " ratio " << model_.frequency_ratio
-         << " eta " << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 "
-         << s.g1
+    text << violation_ << "\n  at " << tip_.now().tau << " + " << tip_.now().phase << "\n  gamma " << model.gamma
+         << " v_c " << model.v_c << " H " << model.H << " y0 " << model.y0 << " ratio " << model.frequency_ratio
+         << " kT " << bath.temperature << " Q " << bath.quality_factor << " kicks " << bath.kicks_per_tau << " eta "
+         << tip_.eta() << "\n  phase " << s.phase << " X " << s.X << " u " << s.u << " g " << s.g << " g1 " << s.g1
          << (tip_.in_contact()   ? " in contact"
              : tip_.in_chatter() ? " in a burst"
                                  : "");
@@ -126,8 +128,11 @@ class TipWatch {
     turnover_ = std::max({turnover_, balance_.turnover(tip_), 0.5 * tip_.eta() * tip_.eta()});
     const double part = balance_.imbalance(tip_) / turnover_;
     count_.worst_imbalance = std::max(count_.worst_imbalance, part);
-    return part <= kMostImbalance ||
-           violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
+    if (part > kMostImbalance)
+      return violated("energy from nothing: " + std::to_string(part * 1e9) + "e-9 of the turnover");
+    const double of_segment = balance_.worst_segment();
+    return of_segment <= kMostImbalance ||
+           violated("energy from nothing: " + std::to_string(of_segment * 1e9) + "e-9 of the turnover of a segment");
   }
 
   bool check_rate() {
@@ -147,7 +152,6 @@ class TipWatch {
     if (tip_.last_impact().kind == ImpactKind::burst) ++count_.bursts;
   }
 
-  Model model_;
   Tip tip_;
   EnergyBalance balance_;
   TipCount count_;

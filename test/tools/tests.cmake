@@ -22,7 +22,7 @@ endif()
 # a short form; for longer ones give the program more --seconds
 afm_add_test(stress 120 afm_stress --seconds 3)
 afm_add_test(stress_shipped 120 afm_stress --shipped --tau 100000 --scenes 3)
-afm_add_test(stress_levers 120 afm_stress --levers --tau 30 --seed 1200 --scenes 300)
+afm_add_test(stress_levers 120 afm_stress --levers --tau 30 --scenes 300 --seconds 100)
 
 # the scenes of docs/stability.md that ours must pass; not `glide`: put exactly on it, the tip stays at its first
 # instant

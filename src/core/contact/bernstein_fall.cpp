@@ -4,7 +4,7 @@
 
 namespace afm::detail {
 
-double first_fall(const AtGaussNodes& b, double low, double width, int halvings) {
+double first_bernstein_fall(const AtGaussNodes& b, double low, double width, int halvings) {
   constexpr std::size_t kN = kGaussNodes;
   std::size_t first = 0;
   while (first < kN && b[first] > 0.0) ++first;
@@ -24,8 +24,8 @@ double first_fall(const AtGaussNodes& b, double low, double width, int halvings)
 #pragma GCC unroll 8
     for (std::size_t j = 0; j + i + 1 < kN; ++j) tail[j] = 0.5 * (tail[j] + tail[j + 1]);
   }
-  const double fall = first_fall(head, low, 0.5 * width, halvings - 1);
-  return fall >= 0.0 ? fall : first_fall(tail, low + 0.5 * width, 0.5 * width, halvings - 1);
+  const double fall = first_bernstein_fall(head, low, 0.5 * width, halvings - 1);
+  return fall >= 0.0 ? fall : first_bernstein_fall(tail, low + 0.5 * width, 0.5 * width, halvings - 1);
 }
 
 }  // namespace afm::detail

@@ -1,13 +1,13 @@
-// Where a polynomial in Bernstein's basis first falls to zero.
+// Where Bernstein's coefficients of a polynomial, which enclose it, first fall to zero. In a file of its own, without
+// vectors: each element would wait for its neighbour.
 #pragma once
 
 #include "afm/detail/contact_step.h"
 
 namespace afm::detail {
 
-// The first zero of the polynomial with the coefficients b over [low, low + width]; negative if there is none. The
-// interval is halved, at most so many times, until the first change of sign is near the zero: within 1/8 of the last
-// part.
-double first_fall(const AtGaussNodes& b, double low, double width, int halvings);
+// Over [low, low + width], with the coefficients b, after so many halvings: within the last part in which they fall. No
+// fall of the polynomial is passed; one that comes near may count. Negative: they do not fall.
+double first_bernstein_fall(const AtGaussNodes& b, double low, double width, int halvings);
 
 }  // namespace afm::detail

@@ -129,7 +129,6 @@ class ContactSolver {
  public:
   static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
   static ContactPoint balanced(const ContactStep& s, double time, double d, double u, double integral);
-  static ContactPoint balanced_at(const ContactStep& s, double time);
   static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
 
  private:
@@ -140,14 +139,14 @@ class ContactSolver {
 };
 
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
-// into the velocity, or where the swing turns back, into the place. Where the tip nearly rests in a valley neither can
-// take it: there it goes into the work of the drag.
+// into the velocity, or where the swing turns back, into the place. Where the tip is nearly at rest, the energy hardly
+// depends on its state: there an error of energy is one of the work, and the integral takes it.
 ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
   // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly
   // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
-  constexpr double kMaxShift = 1e-7;   // [a] of the mean extension, by what the work takes
+  constexpr double kMaxShift = 1e-7;   // [a] by so much its mean may change: half the default tolerance of a step
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
   ContactPoint to{{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u}, integral};
   if (s.m_.is_free_along_x == 0.0) return to;
@@ -166,10 +165,10 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
       const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
       if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
       const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
-      if (surplus < u2) {
-        q.u = std::copysign(std::sqrt(u2 - surplus), u);
-      } else if (std::fabs(shift) < kMaxShift * time) {
+      if (std::fabs(shift) < kMaxShift * time) {
         to.extension_integral -= shift;
+      } else if (surplus < u2) {
+        q.u = std::copysign(std::sqrt(u2 - surplus), u);
       }
       return to;
     }
@@ -316,10 +315,10 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
   if (least_of(b) > error) return false;
   if (!(s.first_.reaction > error)) return true;
   for (double& x : b) x -= error;
-  const double earliest = first_fall(b, 0.0, 1.0, kHalvings);
+  const double earliest = first_bernstein_fall(b, 0.0, 1.0, kHalvings);
   if (earliest < 0.0) return false;
   for (double& x : b) x += 2.0 * error;
-  const double latest = first_fall(b, 0.0, 1.0, kHalvings);
+  const double latest = first_bernstein_fall(b, 0.0, 1.0, kHalvings);
   return latest < 0.0 || latest - earliest > Limits::kAtOnce;
 }
 
@@ -340,18 +339,16 @@ Series<double> ContactStep::displacement() const {
   return d;
 }
 
-ContactPoint ContactSolver::balanced_at(const ContactStep& s, double time) {
-  if (time == s.length_) return {s.end_, s.end_integral_};
-  const Series<double> c = s.displacement();
+ContactPoint ContactStep::point(double s) const {
+  if (s == length_) return {end_, end_integral_};
+  const Series<double> c = displacement();
   double d = 0.0, u = 0.0, integral = 0.0;
   for (std::size_t m = kN + 1; m >= 1; --m) {
-    d = time * (d + c[m]), u = u * time + c[m] * static_cast<double>(m);
-    integral = time * (integral + c[m] / static_cast<double>(m + 1));
+    d = s * (d + c[m]), u = u * s + c[m] * static_cast<double>(m);
+    integral = s * (integral + c[m] / static_cast<double>(m + 1));
   }
-  return balanced(s, time, d, u, time * ((s.start_.X - 0.5 * s.eta_ * time) + integral));
+  return ContactSolver::balanced(*this, s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
 }
-
-ContactPoint ContactStep::point(double s) const { return ContactSolver::balanced_at(*this, s); }
 
 double ContactStep::pressure(const SlideState<double>& q) const {
   return forces(m_, sin_cos_turns(q.phase), q.X, q.u).reaction;
@@ -362,7 +359,7 @@ double ContactStep::first_below(double reaction) const {
   AtGaussNodes b;
   ContactSolver::enclose_reaction(*this, b);
   for (double& x : b) x -= reaction;
-  return first_fall(b, 0.0, length_, kHalvings);
+  return first_bernstein_fall(b, 0.0, length_, kHalvings);
 }
 
 double ContactStep::impulse(double s) const {
@@ -388,7 +385,7 @@ double ContactStep::find_release() const {
   b[0] = low_p;
   double s = 0.0, p = low_p;
   for (int i = 0; i < kMaxTries && p > zero; ++i) {
-    s = first_fall(b, 0.0, length_, kHalvings);
+    s = first_bernstein_fall(b, 0.0, length_, kHalvings);
     if (s < 0.0) return -1.0;
     p = pressed(s);
     if (p > 0.0) low = s, low_p = p;

@@ -37,16 +37,15 @@ Landing<T> land(const Flight<T>& f, const T& s, const GapJet<T>& jet, int evalua
   return {SearchOutcome::impact, s + step, gap_near(f, jet, s, step), evaluations + 1};
 }
 
-// Lemma 6: finishes the certified root near `jet`, the jet at time s. Each evaluation shrinks the interval of the root.
-// A step of the series that would leave the interval is replaced by bisection.
+// Lemma 6: finishes the certified root near `at_s`, the jet at time s. Each evaluation shrinks the interval of the
+// root. A step of the series that would leave the interval is replaced by bisection.
 template <class T>
-Landing<T> finish(const Flight<T>& f, const T& s, const GapJet<T>& start, const RootInterval<T>& root,
-                  int evaluations) {
+Landing<T> finish(const Flight<T>& f, const T& s, const GapJet<T>& at_s, const RootInterval<T>& root, int evaluations) {
   using std::abs;
   constexpr int kMaxFinishSteps = 60;  // bisection alone: 53 bits of a double, and a few for the exponent
-  if (start.g1 < T(0.0) && abs(start.g) <= f.gap_error(s)) return land(f, s, start, evaluations);
+  if (at_s.g1 < T(0.0) && abs(at_s.g) <= f.gap_error(s)) return land(f, s, at_s, evaluations);
   T t = root.estimate, low = root.low, high = root.high;
-  GapJet<T> jet = gap_near(f, start, s, t);
+  GapJet<T> jet = gap_near(f, at_s, s, t);
   for (int i = 0; i < kMaxFinishSteps; ++i) {
     ++evaluations;
     if (!(jet.g1 < T(0.0))) break;

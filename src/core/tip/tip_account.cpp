@@ -46,6 +46,7 @@ Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, c
   sequence.loss += chatter.loss;
   if (springs_.is_free_along_x == 0.0) {
     const double along = slide_energy(springs_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
+    if (eta_ == 0.0) sequence.loss -= gain;  // a holder at rest gives nothing
     const double pressure = slide.pressure(0.0);
     sequence.impulse += held_impulse(springs_, eta_, slide.start(), pressure, s, along - start) +
                         held_impulse(springs_, eta_, slide.start(), pressure, 0.0, gain);
@@ -75,11 +76,10 @@ Account Tip::flight_account(const Flying& flying, const FlightState<double>& q) 
 Account Tip::contact_account(const Sliding& sliding, double s) const {
   const ContactStep& step = sliding.step;
   const ContactPoint to = step.point(s);
-  const double energy = slide_energy(springs_, to.state), work = energy - slide_energy(springs_, step.start());
-  const double impulse = springs_.is_free_along_x > 0.0
-                             ? spring_impulse(springs_, to.extension_integral)
-                             : held_impulse(springs_, eta_, step.start(), step.pressure(step.start()), s, work);
-  return {now_, impulse, 0.0, energy, 0};
+  const double energy = slide_energy(springs_, to.state);
+  if (springs_.is_free_along_x > 0.0) return {now_, spring_impulse(springs_, to.extension_integral), 0.0, energy, 0};
+  const double work = energy - slide_energy(springs_, step.start()), pressure = step.pressure(step.start());
+  return {now_, held_impulse(springs_, eta_, step.start(), pressure, s, work), 0.0, energy, 0};
 }
 
 Account Tip::chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const {

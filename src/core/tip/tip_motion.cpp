@@ -13,12 +13,12 @@ double slide_energy(const SpringConstants<double>& m, const SlideState<double>& 
                 m.omega_v * m.omega_v * Y * Y);
 }
 
-// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Near rest the
-// energy is quadratic along it: there a step may take most of it.
+// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Where the tip is
+// nearly at rest, a step may take most of its energy: that is quadratic in them, with the stiffness that the load adds.
 BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide& at, double energy) {
-  constexpr int kSteps = 3;            // each squares the relative error, which is 1e-4 at the start
-  constexpr double kLinear = 0.1;      // of the square of the gradient: less needs no root
-  constexpr double kMostTaken = 0.45;  // of it: one half would be all
+  constexpr int kSteps = 3;  // each squares the relative error, which is 1e-4 but for a tip nearly at rest
+  // of the square of the gradient: less needs no root; one half would take all; what gives more is another state
+  constexpr double kLinear = 0.1, kMostTaken = 0.45, kMostGiven = 1.0;
   SlideState<double> r = at.slide;
   double v = at.v;
   for (int i = 0; i < kSteps; ++i) {
@@ -27,11 +27,14 @@ BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide&
     const double speed2 = slope2 * r.u * r.u, wh2 = m.omega_h * m.omega_h, wv2 = m.omega_v * m.omega_v;
     const double force = wh2 * r.X + wv2 * Y * h.h1 + h.h1 * h.h2 * r.u * r.u;  // dE/dx
     const double left = energy - 0.5 * (speed2 + wh2 * r.X * r.X + wv2 * Y * Y + v * v);
-    const double gradient2 = speed2 + force * force / wh2 + v * v;
-    const double ratio = left / gradient2;
-    if (!(-kMostTaken < ratio && ratio < 1.0)) break;
-    const double part = std::fabs(ratio) < kLinear ? ratio : std::sqrt(1.0 + 2.0 * ratio) - 1.0;
-    const double dx = part * force / wh2;
+    double stiffness = wh2, part = left / (speed2 + force * force / wh2 + v * v);
+    if (!(std::fabs(part) < kLinear)) {
+      stiffness = std::fmax(wh2, wh2 + wv2 * (Y * h.h2 + h.h1 * h.h1));
+      const double ratio = left / (speed2 + force * force / stiffness + v * v);
+      if (!(-kMostTaken < ratio && ratio < kMostGiven)) break;
+      part = std::sqrt(1.0 + 2.0 * ratio) - 1.0;
+    }
+    const double dx = part * force / stiffness;
     r.phase += dx, r.X += dx, r.u += part * r.u, v += part * v;
   }
   return {r, v};
