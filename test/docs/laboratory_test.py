@@ -44,6 +44,9 @@ class Laboratory(unittest.TestCase):
         text = ''.join(path.read_text() for path in [ROOT / 'README.md', *(ROOT / 'docs').glob('*.md')])
         for name in set(re.findall(r'(?:data|images)/(\w+)\.(?:csv|png|svg)', text)) - BY_OTHER_MEANS - rendered:
             self.assertIn('scene_pictures' if re.match('scene_(?!levels)', name) else name, rules)
+        # and what documents give to snakemake by name
+        for names in re.findall(r'^snakemake((?: \w+)+)', text, re.M):
+            self.assertLessEqual(set(names.split()), rules)
 
     def test_tables_and_a_picture(self):
         shutil.rmtree(str(BUILD / 'laboratory_test'), ignore_errors=True)
