@@ -193,8 +193,10 @@ def commands(quick):
     for lever in LEVERS:
         for crystal in CRYSTALS:
             words, most = lever_scene(lever, crystal)
+            points = choose(5, 20)
+            step = float("%.6g" % (most / points))  # so short that the range ends at 0 to the digit
             curve("lever_%s_%s" % (lever, crystal), words, "--rest-height",
-                  "%.9g:0:%.9g --duration %d" % (-most, most / choose(5, 20), choose(300, 4000)))
+                  "%.9g:0:%.9g --duration %d" % (-points * step, step, choose(300, 4000)))
     add("levers", "levers", choose("--tau 30 --transient 20", ""))
 
     # accuracy, speed, stability
