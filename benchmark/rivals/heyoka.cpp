@@ -31,7 +31,9 @@ Integrator make_integrator(double tolerance) {
 
 class Heyoka : public Method {
  public:
-  explicit Heyoka(double tolerance) : integrator_(make_integrator(tolerance)) {}
+  explicit Heyoka(double tolerance) : integrator_(make_integrator(tolerance)) {
+    heyoka::set_logger_level_err();  // its warnings would stand in our tables
+  }
 
   Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
     const Oscillator o(model, eta, start);
