@@ -75,8 +75,9 @@ def lever_friction(tables):
             stiffness, a = spring["spring_constant_n_per_m"], surface["lattice_spacing_m"]
             # K_f v0 = k_f (m_tip/tau) v0, with m_tip = k / (2 pi f0)^2 and tau = 1/f0
             newtons = stiffness / (style.TWO_PI ** 2 * spring["resonance_hz"]) * LEVER_SPEED
-            rows += [(lever, crystal, -1e9 * stiffness * a * row["rest_height"], 1e12 * newtons * row["k_f_work"],
-                      1e12 * newtons * row["k_f_work_std_error"]) for row in tables.rows("lever_%s_%s" % (lever, crystal))]
+            curve = tables.rows("lever_%s_%s" % (lever, crystal))
+            rows += [(lever, crystal, 0.0 - 1e9 * stiffness * a * row["rest_height"], 1e12 * newtons * row["k_f_work"],
+                      1e12 * newtons * row["k_f_work_std_error"]) for row in curve]
     return ("lever", "crystal", "load_nn", "force_pn", "force_std_error_pn"), rows
 
 
