@@ -58,7 +58,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for what, command in (BUILDS if arguments.builds else ()) + SHORT:
             if arguments.only in what:
-                table.writerow([what, '%.2g' % processor_seconds(command, scratch)])
+                table.writerow([what, '%g' % float('%.2g' % processor_seconds(command, scratch))])
                 sys.stdout.flush()
 
 
