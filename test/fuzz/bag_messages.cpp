@@ -4,6 +4,9 @@
 #include <topic_tools/shape_shifter.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <new>
+
 #include "afm/fingerprint.h"
 #include "bytes.h"
 #include "node/publisher/messages.h"
@@ -12,6 +15,18 @@
 #include "tools/bags/run_check.h"
 
 #include <sys/mman.h>
+
+// An altered length may ask for more memory than any machine has. It gets the answer of a small one, as the address
+// sanitizer would rather end the program.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  constexpr std::size_t kMemory = std::size_t{1} << 30;
+  void* const block = size > kMemory ? nullptr : std::malloc(size);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+// not inlined: GCC would see free() of what came from new
+__attribute__((noinline)) void operator delete(void* block) noexcept { std::free(block); }
+__attribute__((noinline)) void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 namespace {
 
