@@ -24,7 +24,7 @@ StressScene::StressScene(std::uint64_t seed, Kind kind)
   if (has_bath_) tip_.set_bath(random_bath());
 }
 
-// A choice: a decade around the levers and crystals in config/, each way.
+// A choice: levers and crystals beyond those in config/, each way.
 Model StressScene::random_lever() {
   lever_.omega_v_rad_per_s = kTwoPi * decades(5e3, 100e3);
   lever_.omega_h_rad_per_s = within(1.5, 40.0) * lever_.omega_v_rad_per_s;
@@ -32,7 +32,9 @@ Model StressScene::random_lever() {
   lever_.lattice_spacing_m = within(0.2e-9, 0.6e-9);
   lever_.surface_amplitude_m = within(0.01e-9, 0.1e-9);
   lever_.restitution_gamma = one_in(4) ? within(0.3, 1.0) : 0.7;
-  return Units(lever_).to_natural(lever_);
+  Model m = Units(lever_).to_natural(lever_);
+  m.y0 = random_rest_height();
+  return m;
 }
 
 // The rest height [a] under no load, or under 10 pN to 100 nN.
@@ -61,16 +63,12 @@ Bath StressScene::random_bath() {
 }
 
 Model StressScene::random_model() {
+  if (kind_ == Kind::lever) return random_lever();
   Model m;
-  if (kind_ == Kind::lever) {
-    m = random_lever();
-    m.y0 = random_rest_height();
-    return m;
-  }
-  if (kind_ == Kind::mica) m.v_c = std::pow(10.0, within(-3.0, -1.0));
+  if (kind_ == Kind::mica) m.v_c = decades(1e-3, 0.1);
   if (kind_ != Kind::any) return m;
   m.gamma = one_in(8) ? 0.0 : one_in(8) ? 1.0 : within(0.0, 1.0);
-  m.v_c = one_in(8) ? 0.0 : std::pow(10.0, within(-4.0, 1.0));
+  m.v_c = one_in(8) ? 0.0 : decades(1e-4, 10.0);
   if (one_in(2)) m.y0 = one_in(4) ? 0.999999 * m.H : one_in(4) ? -10.0 : within(-1.0, m.H);
   if (one_in(4)) m.frequency_ratio = within(0.5, 20.0);
   return m;
@@ -79,10 +77,10 @@ Model StressScene::random_model() {
 double StressScene::random_eta() {
   if (one_in(10)) return 0.0;
   if (kind_ != Kind::shipped && one_in(10)) return one_in(2) ? 1.0 : -1.0;
-  if (kind_ == Kind::lever) return (one_in(2) ? 1.0 : -1.0) * decades(1e-9, 100e-6) / Units(lever_).velocity();
   const double size = kind_ == Kind::mica      ? mica_eta()
-                      : kind_ == Kind::shipped ? std::pow(10.0, within(-4.0, 1.0))
-                                               : std::pow(10.0, within(-6.0, 2.0));
+                      : kind_ == Kind::shipped ? decades(1e-4, 10.0)
+                      : kind_ == Kind::lever   ? decades(1e-9, 100e-6) / Units(lever_).velocity()  // from [m/s]
+                                               : decades(1e-6, 100.0);
   return one_in(2) ? size : -size;
 }
 
@@ -117,7 +115,7 @@ void StressScene::command() {
   if (has_bath_ && one_in(8)) return tip_.set_bath(random_bath());
   if (kind_ == Kind::lever && one_in(4)) {
     if (one_in(4)) model_.gamma = within(0.3, 1.0);
-    if (one_in(4)) model_.v_c = std::pow(10.0, within(-5.0, 0.0));
+    if (one_in(4)) model_.v_c = decades(1e-5, 1.0);
     model_.y0 = random_rest_height();
     return tip_.set_parameters(model_);
   }

@@ -43,7 +43,7 @@ class StressScene {
   std::uint64_t seed_;
   Kind kind_;
   std::mt19937_64 random_;
-  bool has_bath_;  // all the time, or never
+  bool has_bath_;  // most of the time; or never
   SiModel lever_;
   Model model_;
   double eta_;

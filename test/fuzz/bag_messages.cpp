@@ -16,8 +16,8 @@
 
 #include <sys/mman.h>
 
-// An altered length may ask for more memory than any machine has. It gets the answer of a small one, as the address
-// sanitizer would rather end the program.
+// An altered length may ask for more memory than any machine has. That fails here above a gigabyte: the address
+// sanitizer would end the program instead.
 __attribute__((noinline)) void* operator new(std::size_t size) {
   constexpr std::size_t kMemory = std::size_t{1} << 30;
   void* const block = size > kMemory ? nullptr : std::malloc(size);

@@ -13,12 +13,14 @@ double slide_energy(const SpringConstants<double>& m, const SlideState<double>& 
                 m.omega_v * m.omega_v * Y * Y);
 }
 
-// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Where the tip is
-// nearly at rest, a step may take most of its energy: that is quadratic in them, with the stiffness that the load adds.
+// By steps along the gradient, in the coordinates x omega_h, speed along the surface, normal speed. Nearly at rest the
+// energy is quadratic in them, so one step may take most of it. There x counts with the stiffness that the load adds.
 BouncingSlide with_energy(const SpringConstants<double>& m, const BouncingSlide& at, double energy) {
   constexpr int kSteps = 3;  // each squares the relative error, which is 1e-4 but for a tip nearly at rest
-  // of the square of the gradient: less needs no root; one half would take all; what gives more is another state
-  constexpr double kLinear = 0.1, kMostTaken = 0.45, kMostGiven = 1.0;
+  // of the square of the gradient, which is twice the energy of motion
+  constexpr double kLinear = 0.1;      // a smaller change is linear
+  constexpr double kMostTaken = 0.45;  // one half would be all
+  constexpr double kMostGiven = 1.0;   // a choice: more is no correction
   SlideState<double> r = at.slide;
   double v = at.v;
   for (int i = 0; i < kSteps; ++i) {
