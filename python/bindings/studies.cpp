@@ -20,8 +20,8 @@ namespace afm::python {
 namespace {
 
 // For each start at each point: the point, its attractor (a row of the table), and the start.
-py::array labels(const std::vector<SweepPoint>& grid, const std::vector<std::vector<Basin>>& basins,
-                 const BasinSettings& settings) {
+py::array_t<double> labels(const std::vector<SweepPoint>& grid, const std::vector<std::vector<Basin>>& basins,
+                           const BasinSettings& settings) {
   constexpr std::size_t kColumns = 7;
   const auto starts = static_cast<std::size_t>(settings.starts);
   py::array_t<double> table(std::vector<std::size_t>{grid.size() * starts, kColumns});
@@ -37,7 +37,7 @@ py::array labels(const std::vector<SweepPoint>& grid, const std::vector<std::vec
       ++attractor;
     }
   }
-  return std::move(table);
+  return table;
 }
 
 // At every point (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio). Given starts are rows of (phase,
