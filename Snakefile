@@ -27,7 +27,6 @@ OUT = str(BUILD / "laboratory" / MODE)
 COMMANDS = commands(QUICK)
 MADE = {name: table for name, table in TABLES.items() if not (QUICK and table.full_only)}
 EXAMPLES = ("friction_peaks", "bifurcations", "thermal_histogram", "friction_of_lever")  # in Python, with a picture
-SCENES = ("paper", "resonance", "splash", "glide", "rest", "sweep", "slow_motion", "room", "loop")
 SHELL = ('source scripts/environment.bash; ! [[ -f "%s/setup.bash" ]] || source_setup "%s/setup.bash"; '
          'export PATH="%s:$PATH"; ')
 
@@ -67,7 +66,8 @@ for name in list(COMMANDS) + list(MADE):
 for name in PICTURES:
     TARGETS.setdefault(name, []).append(image(name))
 TARGETS.update({name: [image(name)] for name in EXAMPLES})
-TARGETS.update({"view": [image("view")], "scene_pictures": [image("scene_" + scene) for scene in SCENES],
+TARGETS.update({"view": [image("view")],
+                "scene_pictures": [image(name) for name in PICTURES if name.startswith("scene_")],
                 "chart": TARGETS["speed_accuracy"] + TARGETS["pace"]})
 TARGETS["scenes"] = TARGETS["scene_pictures"] + TARGETS["scene_levels"]
 TARGETS["paper"] = [file for name in PICTURES if re.match("fig|model", name) for file in TARGETS[name]] + \
@@ -119,12 +119,6 @@ rule picture:
     input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)]
     wildcard_constraints: name=any_of(PICTURES)
     shell: "workflow/make.py {MODE} picture {wildcards.name} {OUT}/tables {OUT}/data {output}"
-
-rule scene_picture:
-    output: OUT + "/images/scene_{scene}.png"
-    wildcard_constraints: scene=any_of(SCENES)
-    threads: workflow.cores  # plays it in real time
-    shell: "workflow/plotting/scenes.py --output {OUT}/images {wildcards.scene}"
 
 rule example_picture:
     output: OUT + "/images/{name}.png"

@@ -14,8 +14,8 @@ from measure import stamp  # noqa: E402
 from registry import PICTURES, TABLES, Tables, text_of  # noqa: E402
 
 PLOTTING = ("atlas", "bifurcations", "bounce", "chatter", "drawings", "friction", "hammer", "levers", "load",
-            "model", "orbits", "pace", "scaling", "speed_accuracy", "stability", "temperature", "thermal_hops",
-            "work_cost")
+            "model", "orbits", "pace", "scaling", "scenes", "speed_accuracy", "stability", "temperature",
+            "thermal_hops", "work_cost")
 for module in PLOTTING:
     importlib.import_module("plotting." + module)
 
