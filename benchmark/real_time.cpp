@@ -7,9 +7,10 @@
 #include <cstdio>
 #include <vector>
 
+#include "afm/tip.h"
 #include "afm/units.h"
 #include "common/command_line.h"
-#include "timed_tip.h"
+#include "common/cpu_clock.h"
 
 namespace {
 
@@ -34,6 +35,22 @@ struct Figures {
   long search_failures;
 };
 
+struct Losses {
+  double energy = 0.0, impacts = 0.0;  // [m a^2/tau^2]; bounces
+};
+
+// Up to the given time [tau].
+Losses run_tip(afm::Tip& tip, std::int64_t end) {
+  Losses lost;
+  for (;;) {
+    const afm::Outcome outcome = tip.advance({end, 0.0});
+    if (outcome == afm::Outcome::time_limit || outcome == afm::Outcome::search_failed) return lost;
+    if (outcome != afm::Outcome::impact) continue;
+    lost.energy += tip.last_impact().energy_loss;
+    lost.impacts += tip.last_impact().count;
+  }
+}
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // The time of the same tau again, the least of some: what is left when the machine does nothing else in between.
@@ -43,7 +60,7 @@ double least_seconds(const afm::Tip& before, std::int64_t end) {
   for (int i = 0; i < kAgain; ++i) {
     afm::Tip tip = before;
     const auto start = Clock::now();
-    afm::run_tip(tip, end);
+    run_tip(tip, end);
     least = std::min(least, seconds_since(start));
   }
   return least;
@@ -54,19 +71,27 @@ double slowest_tau(afm::Tip tip, const Options& o) {
   for (std::int64_t t = 1; t <= o.transient + o.tau; ++t) {
     const afm::Tip before = tip;
     const auto start = Clock::now();
-    afm::run_tip(tip, t);
+    run_tip(tip, t);
     if (seconds_since(start) > slowest) slowest = std::max(slowest, least_seconds(before, t));
   }
   return slowest;
 }
 
-// Twice the same run: as a whole, and tau by tau, for which the clock is read and the tip copied in between.
+// Twice the same run: as a whole, and tau by tau, for which the clock is read and the tip copied in between. The tip
+// falls on the flank of the surface, or was lowered into a valley if the load holds it down there.
 Figures measure(const Point& point, const Options& o) {
-  const afm::Tip start = afm::tip_at_start(point.model, point.eta, point.bath, o.tolerance);
-  const afm::TimedRun timed = afm::time_tip(start, o.transient, o.tau);
+  const afm::Model& m = point.model;
+  const afm::FreeState flank{0.25, 0.0, 0.2, point.eta, 0.0};
+  afm::Tip tip(m, point.eta, is_held_down(m) ? afm::lowered_tip(m.H) : flank, o.tolerance);
+  tip.set_bath(point.bath);
+  const afm::Tip start = tip;
+  const double begin = afm::thread_seconds();
+  run_tip(tip, o.transient);
+  const Losses lost = run_tip(tip, o.transient + o.tau);
+  const double seconds = (afm::thread_seconds() - begin) / static_cast<double>(o.transient + o.tau);
   const double tau_s = afm::Units(afm::SiModel{}).time(), taus = static_cast<double>(o.tau);
-  return {tau_s / timed.seconds, 1e6 * slowest_tau(start, o), timed.run.energy / (point.eta * point.eta * taus),
-          timed.run.events / taus, timed.run.search_failures};
+  return {tau_s / seconds, 1e6 * slowest_tau(start, o), lost.energy / (point.eta * point.eta * taus),
+          lost.impacts / taus, static_cast<long>(tip.search_failures())};
 }
 
 // Every combination of the options; drag speeds vary fastest.

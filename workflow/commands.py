@@ -197,7 +197,7 @@ def commands(quick):
             step = float("%.6g" % (most / points))  # so short that the range ends at 0 to the digit
             curve("lever_%s_%s" % (lever, crystal), words, "--rest-height",
                   "%.9g:0:%.9g --duration %d" % (-points * step, step, choose(300, 4000)))
-    add("levers", "levers", choose("--tau 30 --transient 20", ""))
+    add("levers", "benchmark/levers.py", choose("--tau 30 --transient 20", ""))
 
     # accuracy, speed, stability
     files = "--output {out}/speed_accuracy.csv --pace {out}/pace.csv"

@@ -7,7 +7,7 @@ from registry import picture, table
 from . import style
 
 NAMES = {"paper": "the paper's", "ppp_cont": "PPP-CONT", "csc37_b": "CSC37-B", "soft": "soft",
-         "fm": "force modulation", "laterally_soft": "laterally soft"}
+         "force_modulation": "force modulation", "laterally_soft": "laterally soft"}
 BATHS = (("times_real_time", "no bath"), ("heated_times_real_time", "300 K"))
 SURFACES = {"mica": "mica", "nacl": "NaCl(001)", "hopg": "HOPG"}
 STEPS = ((0.0, style.ORANGE, "white", "below 1: falls behind"), (1.0, style.YELLOW, "black", "1 to 3"),
