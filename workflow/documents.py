@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Renders what documents show of files: short tables from the long ones in docs/data, tables in documents, and code. A
-document names the file in a line of its own,
+"""Renders what documents show of files: short tables from the long ones in docs/data, tables in documents, code, and
+the interface. A document names it in a line of its own,
 
-    <!-- table: data/thermal_peaks.csv -->      or      <!-- code: ../examples/cpp/one_tip.cpp -->
+    <!-- table: data/thermal_peaks.csv -->    <!-- code: ../examples/cpp/one_tip.cpp -->    or
+    <!-- interface: message Friction -->      (also: parameters; service NAME; launch NAME)
 
-and what follows, up to the line <!-- end of table --> or <!-- end of code -->, is written anew. With --check nothing is
-written, and the exit code is 1 where something differs from its files. With --publish it first copies the tables and
-pictures of a full run that docs/ has too.
+and what follows, up to the line <!-- end of table --> and so on, is written anew. With --check nothing is written, and
+the exit code is 1 where something differs from its files. With --publish it first copies the tables and pictures of a
+full run that docs/ has too.
 """
 import argparse
 import csv
@@ -18,10 +19,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "workflow"))
 import summaries  # noqa: E402,F401  (registers the short tables)
+from interface import interface, markdown  # noqa: E402
 from registry import SHORT_TABLES, Tables, names_read, text_of  # noqa: E402
 
 DATA = ROOT / "docs/data"
-INCLUSION = re.compile(r"(<!-- (table|code): (\S+) -->\n).*?(<!-- end of \2 -->)", re.DOTALL)
+INCLUSION = re.compile(r"(<!-- (table|code|interface): (.+?) -->\n).*?(<!-- end of \2 -->)", re.DOTALL)
 LANGUAGES = {".cpp": "cpp", ".py": "python", ".txt": "cmake"}  # of CMakeLists.txt
 
 
@@ -43,29 +45,25 @@ def short_tables():
             yield DATA / (name + ".csv"), text_of(product, tables)
 
 
-def line(fields):
-    return "| " + " | ".join(fields) + " |\n"
-
-
-def table(path):
+def table(document, name):
+    path = document.parent / name
     if not path.exists():
         return "*Not measured on this version: `snakemake %s` measures it.*\n" % path.stem
     with open(str(path)) as file:  # a first line after a # says where a table comes from
-        header, *rows = csv.reader(row for row in file if not row.startswith("#"))
-    return line(header) + "|" + "---|" * len(header) + "\n" + "".join(line(row) for row in rows)
+        return markdown(*csv.reader(row for row in file if not row.startswith("#")))
 
 
-def code(path):
+def code(document, name):
+    path = document.parent / name
     return "```%s\n%s```\n" % (LANGUAGES[path.suffix], path.read_text())
 
 
 def rendered(document):
     text = document.read_text()
-    if len(INCLUSION.findall(text)) != len(re.findall(r"^<!-- (?:table|code): ", text, re.M)):
-        sys.exit("%s: a table or code without its end" % document)
-    show = {"table": table, "code": code}
-    return INCLUSION.sub(lambda found: found[1] + "\n" + show[found[2]](document.parent / found[3]) + "\n" + found[4],
-                         text)
+    if len(INCLUSION.findall(text)) != len(re.findall(r"^<!-- (?:table|code|interface): ", text, re.M)):
+        sys.exit("%s: something without its end" % document)
+    show = {"table": table, "code": code, "interface": interface}
+    return INCLUSION.sub(lambda found: "%s\n%s\n%s" % (found[1], show[found[2]](document, found[3]), found[4]), text)
 
 
 def main():

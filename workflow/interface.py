@@ -1,31 +1,20 @@
-#!/usr/bin/python3
-"""Renders the tables of docs/interface.md from the files that define the interface. The document names what a table
-is of,
-
-    <!-- interface: message Friction -->
-
-and what follows, up to the line <!-- end of interface -->, is written anew. There are: parameters; message NAME;
-service NAME; launch NAME. With --check nothing is written, and the exit code is 1 where the document differs from its
-sources.
+"""The tables of docs/interface.md, of the files that define the interface: parameters; message NAME; service NAME;
+launch NAME. A document names one in a line of its own (documents.py).
 """
-import argparse
 import re
-import sys
 import textwrap
 import xml.etree.ElementTree
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-DOCUMENT = ROOT / "docs/interface.md"
-TABLE = re.compile(r"(<!-- interface: (\w+) ?(\w*) -->\n).*?(<!-- end of interface -->)", re.DOTALL)
 FIELD = re.compile(r"(?P<type>[\w/]+(?:\[\])?) +(?P<name>\w+)(?P<constant>=\S+)? *(?:# ?(?P<comment>.*))?$")
 PARAMETER = re.compile(r"(?P<name>\w+): +(?P<value>(?:\"[^\"]*\"|[^#\s])+) *(?:# ?(?P<comment>.*))?$")
 LEAST_KNOWN = 4  # parameters in a message from which they are listed in a line of their own
 UNIT = re.compile(r"\[([^\]]*)\]")
 
 
-def table(header, rows):
-    header, *rows = ("| %s |\n" % " | ".join(cell.replace("|", "\\|") for cell in line) for line in [header] + rows)
+def markdown(header, *rows):
+    header, *rows = ("| %s |\n" % " | ".join(cell.replace("|", "\\|") for cell in row) for row in (header, *rows))
     return header + "|" + "---|" * (header.count("|") - 1) + "\n" + "".join(rows)
 
 
@@ -51,8 +40,8 @@ def parameters():
 
 
 def render_parameters(_):
-    return table(["parameter", "default", "unit", "meaning"],
-                 [["`%s`" % name, "`%s`" % value, unit, meaning] for name, value, unit, meaning in parameters()])
+    return markdown(["parameter", "default", "unit", "meaning"],
+                    *(["`%s`" % name, "`%s`" % value, unit, meaning] for name, value, unit, meaning in parameters()))
 
 
 def fields(text):
@@ -74,8 +63,8 @@ def wrapped(text):
 def render_fields(text, left_out=()):
     head, rows = fields(text)
     said = wrapped(" ".join(head)) + "\n\n" if head else ""
-    return said + table(["field", "type", "unit", "meaning"],
-                        [row for row in rows if row[0].strip("`") not in left_out])
+    return said + markdown(["field", "type", "unit", "meaning"],
+                           *(row for row in rows if row[0].strip("`") not in left_out))
 
 
 def render_message(name):
@@ -102,30 +91,13 @@ def render_launch(name):
             rows.append(["`%s`" % argument.get("name"),
                          "" if not default else "depends on `scene`" if "$(" in default else
                          "`%s`" % default, " ".join(argument.get("doc", "").split())])
-    return table(["argument", "default", "meaning"], rows)
+    return markdown(["argument", "default", "meaning"], *rows)
 
 
 RENDER = {"parameters": render_parameters, "message": render_message, "service": render_service,
           "launch": render_launch}
 
 
-def render(document):
-    return TABLE.sub(lambda found: "%s\n%s\n%s" % (found[1], RENDER[found[2]](found[3]), found[4]), document)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="write nothing")
-    arguments = parser.parse_args()
-    text = DOCUMENT.read_text()
-    rendered = render(text)
-    if rendered != text:
-        print("docs/interface.md %s" % ("differs from its sources: run scripts/interface_tables" if arguments.check
-                                        else "written"))
-        if not arguments.check:
-            DOCUMENT.write_text(rendered)
-    sys.exit(1 if arguments.check and rendered != text else 0)
-
-
-if __name__ == "__main__":
-    main()
+def interface(_, subject):
+    kind, _, name = subject.partition(" ")
+    return RENDER[kind](name)
