@@ -25,9 +25,9 @@ inline Hit reflect(const Oscillator& o, const Point& p, double s) {
           0.5 * (1.0 - e * e) * speed * speed};
 }
 
-// The gap and its rate at one time.
+// The gap at one time, and its rate where a method looks for minima.
 struct GapRate {
-  double gap, rate;
+  double gap, rate = 0.0;
 };
 
 template <class Function>
@@ -44,44 +44,25 @@ class CrossingWatch {
  public:
   CrossingWatch(const Oscillator& o, double grid) : from_(o.first_look(grid)), grid_(grid), first_(o.on_surface) {}
 
-  // In [t0, t1], where `gap` can be evaluated; negative where there is none. Spans follow each other.
-  template <class Gap>
-  double look(const Gap& gap, double t0, double t1) {
+  // In [t0, t1], by `at`, which gives gap and rate; negative where there is none. Spans follow each other. Where the
+  // rate changes from falling to rising in a span, the minimum between the samples is found first, and the root before
+  // it if the gap is negative there.
+  template <class At>
+  double look(const At& at, double t0, double t1) {
+    const auto gap = [&at](double s) { return at(s).gap; };
     double low = std::fmax(t0, from_);
     if (low >= t1) return -1.0;
-    double at_low = gap(low);
-    if (first_) {
-      // the flight is shorter than its parabola: back until the gap is positive
-      for (int i = 0; at_low <= 0.0 && i < 60; ++i) at_low = gap(low = t0 + 0.5 * (low - t0));
-      first_ = false;
-    }
-    if (at_low <= 0.0) return low;
-    while (low < t1) {
-      const double high = std::fmin(t1, low + grid_), at_high = gap(high);
-      if (at_high <= 0.0) return solve_bracketed(gap, low, high, at_low, at_high);
-      low = high;
-      at_low = at_high;
-    }
-    return -1.0;
-  }
-
-  // The same with the gap rate as a second event: where it changes from falling to rising in a span, the minimum
-  // between the samples is found first, and the root before it if the gap is negative there. `both` gives gap and rate.
-  template <class Both>
-  double look_with_minima(const Both& both, double t0, double t1) {
-    const auto gap = [&both](double s) { return both(s).gap; };
-    double low = std::fmax(t0, from_);
-    if (low >= t1) return -1.0;
-    GapRate at_low = both(low);
-    for (int i = 0; first_ && at_low.gap <= 0.0 && i < 60; ++i) at_low = both(low = t0 + 0.5 * (low - t0));
+    GapRate at_low = at(low);
+    // where the flight is shorter than its parabola: back until the gap is positive
+    for (int i = 0; first_ && at_low.gap <= 0.0 && i < 60; ++i) at_low = at(low = t0 + 0.5 * (low - t0));
     first_ = false;
     if (at_low.gap <= 0.0) return low;
     while (low < t1) {
       const double high = std::fmin(t1, low + grid_);
-      const GapRate at_high = both(high);
+      const GapRate at_high = at(high);
       if (at_high.gap <= 0.0) return solve_bracketed(gap, low, high, at_low.gap, at_high.gap);
       if (at_low.rate < 0.0 && at_high.rate > 0.0) {
-        const auto rate = [&both](double s) { return both(s).rate; };
+        const auto rate = [&at](double s) { return at(s).rate; };
         const double least = solve_bracketed(rate, low, high, at_low.rate, at_high.rate), at_least = gap(least);
         if (at_least <= 0.0) return solve_bracketed(gap, low, least, at_low.gap, at_least);
       }

@@ -35,20 +35,15 @@ class Odeint : public Method {
     const Oscillator o(model, eta, start);
     const auto rate = [&o](const Point& p, Point& dpdt, double) { dpdt = o.rate(p); };
     Point p;
-    const auto gap = [&](double s) {
+    const auto at = [&](double s) {
       stepper_.calc_state(s, p);
-      return o.gap(p, s);
-    };
-    const auto both = [&](double s) {
-      stepper_.calc_state(s, p);
-      return GapRate{o.gap(p, s), o.gap_rate(p, s)};
+      return GapRate{o.gap(p, s), minima_ ? o.gap_rate(p, s) : 0.0};
     };
     CrossingWatch watch(o, grid(o));
     stepper_.initialize(o.begin, 0.0, first_step_);
     for (;;) {
       const std::pair<double, double> span = stepper_.do_step(rate);
-      const double end = std::fmin(span.second, horizon);
-      const double s = minima_ ? watch.look_with_minima(both, span.first, end) : watch.look(gap, span.first, end);
+      const double s = watch.look(at, span.first, std::fmin(span.second, horizon));
       if (s >= 0.0) {
         stepper_.calc_state(s, p);
         return reflect(o, p, s);

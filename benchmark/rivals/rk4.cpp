@@ -28,8 +28,8 @@ class Rk4 : public Method {
     Point p = o.begin;
     for (double t = 0.0; t < horizon; t += h_) {
       const double h = std::fmin(h_, horizon - t);
-      const auto gap = [&](double s) { return o.gap(step(o, p, s - t), s); };
-      const double s = watch.look(gap, t, t + h);
+      const auto at = [&](double s) { return GapRate{o.gap(step(o, p, s - t), s)}; };
+      const double s = watch.look(at, t, t + h);
       if (s >= 0.0) return reflect(o, step(o, p, s - t), s);
       p = step(o, p, h);
     }

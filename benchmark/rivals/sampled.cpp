@@ -14,19 +14,19 @@ class Sampled : public Method {
 
   Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
     const Oscillator o(model, eta, start);
-    const auto gap = [&o](double s) {
+    const auto at = [&](double s) {
       const Point& b = o.begin;
+      if (minima_) {
+        const Point p = flow(o, s);
+        return GapRate{o.gap(p, s), o.gap_rate(p, s)};
+      }
       const double wh = kTwoPi * o.model.frequency_ratio;
       const double X = b[0] * std::cos(wh * s) + b[1] / wh * std::sin(wh * s);
       const double Y = b[2] * std::cos(kTwoPi * s) + b[3] / kTwoPi * std::sin(kTwoPi * s);
-      return Y + o.model.y0 - o.height(o.c + o.eta * s + X);
+      return GapRate{Y + o.model.y0 - o.height(o.c + o.eta * s + X)};
     };
     CrossingWatch watch(o, spacing_);
-    const auto both = [&o](double s) {
-      const Point p = flow(o, s);
-      return GapRate{o.gap(p, s), o.gap_rate(p, s)};
-    };
-    const double s = minima_ ? watch.look_with_minima(both, 0.0, horizon) : watch.look(gap, 0.0, horizon);
+    const double s = watch.look(at, 0.0, horizon);
     if (s < 0.0) return {Hit::none, horizon, o.tip_state(flow(o, horizon), horizon), 0.0};
     return reflect(o, flow(o, s), s);
   }
