@@ -3,13 +3,13 @@
 in a bag; this is also an example of how to read it."""
 import argparse
 import os
-import struct
 import sys
 
 try:
     import matplotlib
     import numpy as np
     import rosbag
+    from afm_emulator.impacts import read_impacts
 except ImportError as missing:
     sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
              % missing)
@@ -21,20 +21,6 @@ ZOOM_TAU = 6.0  # the end of the run, sample by sample
 BLUE, ORANGE, GREEN, PINK = '#0072B2', '#D55E00', '#009E73', '#CC79A7'
 KINDS = {0: ('impact', BLUE, 3), 1: ('chatter sequence', ORANGE, 14), 2: ('contact begins', GREEN, 12),
          3: ('contact ends', PINK, 12)}
-
-
-# An impact as it lies in a message, in which the list of impacts is the last field: read as an array, a million of them
-# take no longer than a few messages that are unpacked one field at a time.
-IMPACT = np.dtype([('tau', '<i8'), ('phase', '<f8'), ('surface_phase', '<f8'), ('normal_speed', '<f8'),
-                   ('tangential_velocity', '<f8'), ('energy_loss', '<f8'), ('kind', 'u1'), ('count', '<u4')])
-
-
-def impacts_of(data):
-    """The impacts in the bytes of an ImpactArray: after header, epoch, index of the first, and their number."""
-    frame_id, = struct.unpack_from('<I', data, 12)
-    begin = 16 + frame_id + 4 + 8
-    count, = struct.unpack_from('<I', data, begin)
-    return np.frombuffer(data, IMPACT, count, begin + 4)
 
 
 class Run:
@@ -76,7 +62,7 @@ class Run:
                 self.close.pop(0)
 
     def add_impacts(self, data):
-        impacts = impacts_of(data)
+        _, _, impacts = read_impacts(data)
         if len(impacts):
             times = self.offset + (impacts['tau'] + impacts['phase']) * self.unit
             self.last = max(self.last, times[-1])

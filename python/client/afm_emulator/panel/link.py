@@ -6,9 +6,8 @@ import queue
 import threading
 import time
 
-import numpy as np
 import rospy
-from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, Impact, ImpactArray
+from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray
 from afm_emulator.srv import StartRecording, Step
 from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config, DoubleParameter
@@ -17,35 +16,14 @@ from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
+from ..impacts import read_impacts
+
 ASK_AGAIN_S = 2.0     # rospy may miss a publisher that comes back, and a master that comes back knows nobody
 PAIRING_S = 0.1       # that a batch waits for its impacts, which come on another topic
 SERVICE_S = 5.0       # that a service is waited for
 WAITING_BATCHES = 200
 LATEST = {'configuration': Configuration, 'applied': Applied, 'friction': Friction, 'status': EmulatorStatus}
-TYPES = {'float64': '<f8', 'uint8': 'u1', 'uint32': '<u4', 'int64': '<i8'}
-
-
-def record_type(message):
-    """The numpy type of a message of fixed length, as it stands in the bytes of a message that holds it."""
-    fields = []
-    for name, kind in zip(message.__slots__, message._slot_types):
-        nested = getattr(message(), name)
-        fields.append((name, TYPES[kind] if kind in TYPES else record_type(type(nested))))
-    return np.dtype(fields)
-
-
-IMPACT = record_type(Impact)
 NumpyDeflection = numpy_msg(Deflection)
-
-
-def read_impacts(raw):
-    """(seq, epoch, table) of the bytes of an ImpactArray: tens of thousands of impacts a second are too many for Python
-    objects."""
-    seq, name_length = np.frombuffer(raw, '<u4', 4)[[0, 3]]
-    epoch = np.frombuffer(raw, '<u4', 1, 16 + name_length)[0]
-    begin = 16 + name_length + 4 + 8  # first_index
-    count = np.frombuffer(raw, '<u4', 1, begin)[0]
-    return int(seq), int(epoch), np.frombuffer(raw, IMPACT, count, begin + 4)
 
 
 def is_of(message, kind):
@@ -144,7 +122,8 @@ class Link:
 
     def _keep_impacts(self, message, subject):
         if is_of(message, subject[1]):
-            impacts = read_impacts(message._buff)
+            epoch, _, table = read_impacts(message._buff)
+            impacts = int.from_bytes(message._buff[:4], 'little'), epoch, table
             if self._impacts and impacts[0] < self._impacts[-1][0]:
                 self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name
             self._impacts.append(impacts)

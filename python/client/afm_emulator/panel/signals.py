@@ -150,7 +150,7 @@ class Recent:
         begin = samples[0, -1] - duration
         events = [np.empty((4, 0))]
         for table in reversed(self.impacts):
-            t = (table['time']['tau'] - origin) + table['time']['phase']
+            t = (table['tau'] - origin) + table['phase']
             events.append(np.stack([t, table['surface_phase'], table['energy_loss'], table['kind']]))
             if t[0] < begin:
                 break
