@@ -1,8 +1,4 @@
 // Model, Bath, Units.
-#include <sstream>
-#include <type_traits>
-#include <utility>
-
 #include "afm/bath.h"
 #include "afm/units.h"
 #include "convert.h"
@@ -25,17 +21,6 @@ Model to_model(double gamma, double cutoff, double rest_height, double amplitude
   return model;
 }
 
-// The fewest digits that give the same number back.
-std::string shortest(double x) { return py::repr(py::float_(x)); }
-
-std::string describe_model(const Model& m) {
-  std::ostringstream text;
-  text << "Model(gamma=" << shortest(m.gamma) << ", cutoff=" << shortest(m.v_c) << ", rest_height=" << shortest(m.y0)
-       << ", amplitude=" << shortest(m.H) << ", frequency_ratio=" << shortest(m.frequency_ratio) << ", kind='"
-       << name(m.kind) << "')";
-  return text.str();
-}
-
 Bath to_bath(double temperature, double quality_factor, double lateral_quality_factor, double kicks_per_tau,
              std::uint64_t seed, std::uint64_t stream) {
   const Bath bath{temperature, quality_factor, lateral_quality_factor, kicks_per_tau, seed, stream};
@@ -45,45 +30,18 @@ Bath to_bath(double temperature, double quality_factor, double lateral_quality_f
   return bath;
 }
 
-std::string describe_bath(const Bath& b) {
-  std::ostringstream text;
-  text << "Bath(temperature=" << shortest(b.temperature) << ", quality_factor=" << shortest(b.quality_factor)
-       << ", lateral_quality_factor=" << shortest(b.lateral_quality_factor)
-       << ", kicks_per_tau=" << shortest(b.kicks_per_tau) << ", seed=" << b.seed << ", stream=" << b.stream << ")";
-  return text.str();
-}
-
 struct SiUnits {
   SiModel si;
   Units units;
 };
 
 SiUnits to_units(double omega_v, double omega_h, double mass, double spacing, double amplitude, double rest_height,
-                 double gamma, double cutoff) {
-  const SiModel si{omega_v, omega_h, mass, spacing, amplitude, rest_height, gamma, cutoff};
-  refuse(find_faults(si));
-  return {si, Units(si)};
-}
-
-SiUnits to_units_of_lever(double omega_v, double omega_h, double mass, double spacing, double amplitude,
-                          double rest_height, double gamma, double cutoff, double spring_constant, double resonance,
-                          double lateral_spring_constant, double load) {
+                 double gamma, double cutoff, double spring_constant, double resonance,
+                 double lateral_spring_constant, double load) {
   SiModel si{omega_v, omega_h, mass, spacing, amplitude, rest_height, gamma, cutoff};
   refuse(set_lever_and_load(Lever{spring_constant, resonance, lateral_spring_constant}, load, si));
   refuse(find_faults(si));
   return {si, Units(si)};
-}
-
-std::string describe_units(const SiUnits& u) {
-  std::ostringstream text;
-  text << "Units(omega_v_rad_per_s=" << shortest(u.si.omega_v_rad_per_s)
-       << ", omega_h_rad_per_s=" << shortest(u.si.omega_h_rad_per_s) << ", tip_mass_kg=" << shortest(u.si.tip_mass_kg)
-       << ", lattice_spacing_m=" << shortest(u.si.lattice_spacing_m)
-       << ", surface_amplitude_m=" << shortest(u.si.surface_amplitude_m)
-       << ", rest_height_m=" << shortest(u.si.rest_height_m)
-       << ", restitution_gamma=" << shortest(u.si.restitution_gamma) << ", cutoff_speed=" << shortest(u.si.cutoff_speed)
-       << ")";
-  return text.str();
 }
 
 Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, double lateral_quality_factor,
@@ -94,20 +52,40 @@ Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, doub
   return bath;
 }
 
-// The pickled values are the arguments, in their order.
-template <class T, class... Arguments, std::size_t... I>
-T unpickled(T (*make)(Arguments...), const py::tuple& t, std::index_sequence<I...>) {
-  return make(t[I].template cast<std::decay_t<Arguments>>()...);
+// The arguments that make each again, in their order.
+py::dict arguments(const Model& m) {
+  return py::dict("gamma"_a = m.gamma, "cutoff"_a = m.v_c, "rest_height"_a = m.y0, "amplitude"_a = m.H,
+                  "frequency_ratio"_a = m.frequency_ratio, "kind"_a = name(m.kind));
 }
-template <class T, class... Arguments>
-T unpickled(T (*make)(Arguments...), const py::tuple& t) {
-  if (t.size() != sizeof...(Arguments)) throw py::value_error("pickled by another version");
-  return unpickled(make, t, std::index_sequence_for<Arguments...>{});
+py::dict arguments(const Bath& b) {
+  return py::dict("temperature"_a = b.temperature, "quality_factor"_a = b.quality_factor,
+                  "lateral_quality_factor"_a = b.lateral_quality_factor, "kicks_per_tau"_a = b.kicks_per_tau,
+                  "seed"_a = b.seed, "stream"_a = b.stream);
+}
+py::dict arguments(const SiUnits& u) {
+  return py::dict("omega_v_rad_per_s"_a = u.si.omega_v_rad_per_s, "omega_h_rad_per_s"_a = u.si.omega_h_rad_per_s,
+                  "tip_mass_kg"_a = u.si.tip_mass_kg, "lattice_spacing_m"_a = u.si.lattice_spacing_m,
+                  "surface_amplitude_m"_a = u.si.surface_amplitude_m, "rest_height_m"_a = u.si.rest_height_m,
+                  "restitution_gamma"_a = u.si.restitution_gamma, "cutoff_speed"_a = u.si.cutoff_speed);
+}
+
+// Printed and pickled as the call that makes it again.
+template <class T>
+void add_call(py::class_<T>& value) {
+  value.def("__repr__", [](const py::object& self) {
+    py::list words;
+    for (const auto& item : arguments(self.cast<const T&>()))
+      words.append(py::str("{}={!r}").format(item.first, item.second));
+    return py::str("{}({})").format(self.attr("__class__").attr("__name__"), py::str(", ").attr("join")(words));
+  });
+  value.def("__reduce__", [](const py::object& self) {
+    return py::make_tuple(self.attr("__class__"), py::tuple(arguments(self.cast<const T&>()).attr("values")()));
+  });
 }
 
 void add_bath(py::module& m) {
   const Bath none;
-  py::class_<Bath>(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
+  add_call(py::class_<Bath>(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
 
 temperature: kT [m a^2/tau^2]; quality_factor, lateral_quality_factor [-]; kicks_per_tau [1/tau];
 seed, stream: of its random numbers; tips with different streams are independent.)")
@@ -120,26 +98,19 @@ seed, stream: of its random numbers; tips with different streams are independent
       .def_readonly("kicks_per_tau", &Bath::kicks_per_tau, "rate of the kicks [1/tau]: speed against accuracy")
       .def_readonly("seed", &Bath::seed, "of the random numbers")
       .def_readonly("stream", &Bath::stream, "which sequence of the seed; tips with different streams are independent")
-      .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; })
-      .def(py::pickle(
-          [](const Bath& b) {
-            return py::make_tuple(b.temperature, b.quality_factor, b.lateral_quality_factor, b.kicks_per_tau, b.seed,
-                                  b.stream);
-          },
-          [](const py::tuple& t) { return unpickled(&to_bath, t); }))
-      .def("__repr__", &describe_bath);
+      .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; }));
 }
 
 void add_units(py::module& m) {
   const SiModel mica;
   const Bath none;
   const auto unit = [](double (Units::*of)() const) { return [of](const SiUnits& u) { return (u.units.*of)(); }; };
-  py::class_<SiUnits>(m, "Units", R"(A model in SI, and the factors from natural units to SI: value_si = value * factor.
+  add_call(py::class_<SiUnits>(m, "Units", R"(A model in SI, and the factors from natural units to SI: value_si = value * factor.
 
 The defaults are mica's. `model` is the same in natural units; `bath(temperature_k=, ...)` gives a heat bath.
 A lever may be given as its owner knows it, in place of omega_v, omega_h and tip mass: spring_constant_n_per_m,
 resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in place of rest_height_m.)")
-      .def(py::init(&to_units_of_lever), "omega_v_rad_per_s"_a = mica.omega_v_rad_per_s,
+      .def(py::init(&to_units), "omega_v_rad_per_s"_a = mica.omega_v_rad_per_s,
            "omega_h_rad_per_s"_a = mica.omega_h_rad_per_s, "tip_mass_kg"_a = mica.tip_mass_kg,
            "lattice_spacing_m"_a = mica.lattice_spacing_m, "surface_amplitude_m"_a = mica.surface_amplitude_m,
            "rest_height_m"_a = mica.rest_height_m, "restitution_gamma"_a = mica.restitution_gamma,
@@ -147,13 +118,6 @@ resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in p
            "lateral_spring_constant_n_per_m"_a = 0.0, "load_n"_a = 0.0)
       .def_property_readonly(
           "model", [](const SiUnits& u) { return u.units.to_natural(u.si); }, "the Model in natural units")
-      .def(py::pickle(
-          [](const SiUnits& u) {
-            return py::make_tuple(u.si.omega_v_rad_per_s, u.si.omega_h_rad_per_s, u.si.tip_mass_kg,
-                                  u.si.lattice_spacing_m, u.si.surface_amplitude_m, u.si.rest_height_m,
-                                  u.si.restitution_gamma, u.si.cutoff_speed);
-          },
-          [](const py::tuple& t) { return unpickled(&to_units, t); }))
       .def("bath", &bath_of, "temperature_k"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
            "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "The bath in natural units; temperature in K.")
       .def_property_readonly("length", unit(&Units::length), "[m], of a")
@@ -162,15 +126,14 @@ resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in p
       .def_property_readonly("energy", unit(&Units::energy), "[J]")
       .def_property_readonly("force", unit(&Units::force), "[N]")
       .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m_tip/tau")
-      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT")
-      .def("__repr__", &describe_units);
+      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT"));
 }
 
 }  // namespace
 
 void add_model(py::module& m) {
   const Model mica;
-  py::class_<Model>(m, "Model",
+  add_call(py::class_<Model>(m, "Model",
                     R"(Tip, springs and surface, in natural units (a, tau, tip mass m). The defaults are mica's.
 
 gamma: restitution at and above the cutoff [-]; cutoff: speed of the restitution law [a/tau];
@@ -186,18 +149,7 @@ An object cannot be changed. Throws ParameterError.)")
       .def_readonly("frequency_ratio", &Model::frequency_ratio, "omega_h / omega_v")
       .def_property_readonly(
           "kind", [](const Model& model) { return name(model.kind); }, "'oscillator' or 'hammer'")
-      .def("__eq__",
-           [](const Model& a, const Model& b) {
-             return a.gamma == b.gamma && a.v_c == b.v_c && a.y0 == b.y0 && a.H == b.H &&
-                    a.frequency_ratio == b.frequency_ratio && a.kind == b.kind;
-           })
-      .def(py::pickle(
-          [](const Model& model) {
-            return py::make_tuple(model.gamma, model.v_c, model.y0, model.H, model.frequency_ratio,
-                                  std::string(name(model.kind)));
-          },
-          [](const py::tuple& t) { return unpickled(&to_model, t); }))
-      .def("__repr__", &describe_model);
+      .def("__eq__", [](const Model& a, const Model& b) { return arguments(a).equal(arguments(b)); }));
   add_bath(m);
   add_units(m);
 }
