@@ -1,15 +1,11 @@
 // The attractors at given parameters, or over a grid of them.
-#include <atomic>
 #include <cmath>
-#include <condition_variable>
 #include <iostream>
-#include <map>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "afm/dynamics/basins.h"
+#include "common/in_order.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
@@ -29,7 +25,7 @@ struct Options {
   afm::PointOptions dynamics;
   std::string eta = "3.4", gamma = "0.7";
   bool relative_cutoff = false;
-  int threads = 0;
+  unsigned threads = 0;
   afm::BasinSettings basins;
 };
 
@@ -88,45 +84,17 @@ std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& op
   return points;
 }
 
-void print(const afm::SweepPoint& point, const std::vector<afm::Basin>& basins, afm::TableWriter& to) {
-  for (const afm::Basin& basin : basins) write_row(point, basin, to);
-}
-
-// Rows in the order of the grid, whichever thread is first: the same table for any number of threads.
-void compute(const std::vector<afm::SweepPoint>& points, const afm::BasinSettings& settings, std::size_t threads,
-             afm::TableWriter& to) {
-  std::atomic<std::size_t> next{0};
-  std::map<std::size_t, std::vector<afm::Basin>> done;
-  std::mutex mutex;
-  std::condition_variable changed;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < points.size(); i = next++) {
-      auto basins = find_basins(points[i], settings);
-      const std::lock_guard<std::mutex> lock(mutex);
-      done[i] = std::move(basins);
-      changed.notify_one();
-    }
-  };
-  std::vector<std::thread> workers;
-  for (std::size_t i = 0; i < threads; ++i) workers.emplace_back(work);
-  afm::ProgressBar bar(points.size(), 0);
-  for (std::size_t printed = 0; printed < points.size(); ++printed) {
-    std::unique_lock<std::mutex> lock(mutex);
-    changed.wait(lock, [&] { return done.count(printed) != 0; });
-    print(points[printed], done[printed], to);
-    done.erase(printed);
-    bar.show(printed + 1);
-  }
-  for (std::thread& worker : workers) worker.join();
-}
-
 int run(const afm::CommandLine& app, Options& options) {
   take_si(app, options);
   const std::vector<afm::SweepPoint> points = grid(app, options);
-  const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
   afm::TableWriter table(std::cout, afm::basin_columns(), afm::table_units(options.dynamics.si));
   table.write_header();
-  compute(points, options.basins, options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors, table);
+  afm::ProgressBar bar(points.size(), 0);
+  const auto compute = [&](std::size_t i) { return find_basins(points[i], options.basins); };
+  afm::in_order(points.size(), options.threads, compute, [&](std::size_t i, const std::vector<afm::Basin>& basins) {
+    for (const afm::Basin& basin : basins) write_row(points[i], basin, table);
+    bar.show(i + 1);
+  });
   return 0;
 }
 

@@ -1,15 +1,13 @@
 // Makes the table from which `model: auto` takes its levels.
-#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "afm/number_text.h"
 #include "common/csv.h"
+#include "common/in_order.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "level_errors.h"
@@ -60,27 +58,6 @@ std::string to_row(double eta, const afm::MeasuredLevel& m) {
   return afm::number_text(eta) + text;
 }
 
-// A point is a function of its parameters alone, so the threads show nowhere but in the cost.
-std::vector<std::string> measure(const afm::Model& model, const std::vector<double>& etas, const Options& o) {
-  std::vector<std::string> rows(etas.size());
-  std::atomic<std::size_t> next{0}, done{0};
-  std::mutex showing;
-  afm::ProgressBar bar(etas.size(), 0);
-  const auto work = [&] {
-    for (std::size_t i = next++; i < etas.size(); i = next++) {
-      for (const auto& level : measure_levels(model, etas[i], o.settings)) rows[i] += to_row(etas[i], level);
-      const std::lock_guard<std::mutex> lock(showing);
-      bar.show(++done);
-    }
-  };
-  std::vector<std::thread> threads;
-  const unsigned count = o.threads > 0 ? o.threads : std::max(1u, std::thread::hardware_concurrency());
-  for (unsigned i = 1; i < count; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  return rows;
-}
-
 int run(const Options& o) {
   afm::PointOptions at;
   at.gamma = o.gamma;
@@ -88,9 +65,17 @@ int run(const Options& o) {
   at.frequency_ratio = o.frequency_ratio;
   const afm::Model model = afm::checked_model(at);
   const std::vector<double> etas = drag_velocities(o);
-  const std::vector<std::string> rows = measure(model, etas, o);
+  afm::ProgressBar bar(etas.size(), 0);
   std::cout << afm::LevelTable::head(model);
-  for (const std::string& row : rows) std::cout << row;
+  const auto measure = [&](std::size_t i) {
+    std::string rows;
+    for (const auto& level : measure_levels(model, etas[i], o.settings)) rows += to_row(etas[i], level);
+    return rows;
+  };
+  afm::in_order(etas.size(), o.threads, measure, [&](std::size_t i, const std::string& rows) {
+    std::cout << rows << std::flush;
+    bar.show(i + 1);
+  });
   return 0;
 }
 
