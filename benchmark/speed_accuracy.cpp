@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
+#include <stdexcept>
 
 #include "afm/tip.h"
 #include "common/command_line.h"
@@ -15,6 +15,7 @@ namespace {
 
 using afm::Contender;
 using afm::SpeedRow;
+using afm::rivals::is_chosen;
 
 const char kDescription[] =
     "Runs every method on the same flights and writes a CSV table: time per impact (median of alternated rounds, and "
@@ -34,8 +35,7 @@ struct Options {
   std::size_t flights = 400;
   int rounds = 5;
   double seconds = 2.0, tau = 1000.0, run_seconds = 60.0;
-  unsigned seed = 1;
-  std::string output, pace;
+  std::string pace;
 };
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
@@ -59,14 +59,10 @@ std::vector<FlightSceneName> flight_scenes() {
 
 const std::vector<std::string> kFrictionScenes{"kf_2", "kf_3", "kf_3.4"};
 
-bool chosen(const std::vector<std::string>& list, const std::string& name) {
-  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
-}
-
 std::vector<Contender> contenders(const Options& o, bool tips) {
   std::vector<Contender> all;
   for (const afm::rivals::MethodSpec& spec : afm::rivals::methods()) {
-    if (!chosen(o.methods, spec.name)) continue;
+    if (!is_chosen(o.methods, spec.name)) continue;
     std::vector<double> settings = o.quick ? std::vector<double>{spec.usual} : spec.settings;
     if (tips && spec.name == "exact") settings = {0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
     for (const double setting : settings) all.push_back({&spec, setting});
@@ -89,23 +85,13 @@ void shorten(Options& o) {
 }
 
 // Names that are none are an error, not an empty table.
-bool check_names(const Options& o) {
+void check_names(const Options& o) {
   std::vector<std::string> scenes = kFrictionScenes, methods;
   scenes.push_back("all");
   for (const auto& scene : flight_scenes()) scenes.push_back(scene.name);
   for (const auto& spec : afm::rivals::methods()) methods.push_back(spec.name);
-  const auto check = [](const char* kind, const std::vector<std::string>& given,
-                        const std::vector<std::string>& known) {
-    for (const std::string& name : given) {
-      if (chosen(known, name)) continue;
-      std::fprintf(stderr, "speed_accuracy: --%s %s: unknown, or not built in; there are:", kind, name.c_str());
-      for (const std::string& k : known) std::fprintf(stderr, " %s", k.c_str());
-      std::fprintf(stderr, "\n");
-      return false;
-    }
-    return true;
-  };
-  return check("methods", o.methods, methods) && check("scenes", o.scenes, scenes);
+  afm::rivals::check_names("methods", o.methods, methods);
+  afm::rivals::check_names("scenes", o.scenes, scenes);
 }
 
 afm::FrictionScene friction_scene(const std::string& name, const Options& o) {
@@ -114,7 +100,7 @@ afm::FrictionScene friction_scene(const std::string& name, const Options& o) {
   return afm::long_run_scene(name, 3.4, 0.1, o.tau, true);
 }
 
-void run(const Options& o, std::FILE* out, std::FILE* pace) {
+void run(const Options& o, std::FILE* pace) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const afm::Progress progress = [&](const std::string& scene, const Contender& c) {
     if (terminal) std::fprintf(stderr, "\r\033[K%s: %s %g", scene.c_str(), c.spec->name.c_str(), c.setting);
@@ -122,26 +108,26 @@ void run(const Options& o, std::FILE* out, std::FILE* pace) {
   const auto done = [&](const std::string& scene) {
     std::fprintf(stderr, terminal ? "\r\033[K" : "%s done\n", scene.c_str());
   };
-  afm::print_header(out);
+  afm::print_header(stdout);
   if (pace != nullptr) afm::print_pace_header(pace);
   std::vector<std::vector<SpeedRow>> scenes;
   for (const FlightSceneName& name : flight_scenes()) {
-    if (!chosen(o.scenes, name.name)) continue;
+    if (!is_chosen(o.scenes, name.name)) continue;
     afm::Model model;
     model.v_c = name.share * name.eta;
-    const afm::FlightScene scene = afm::sample_attractor(name.name, model, name.eta, o.flights, o.seed);
+    const afm::FlightScene scene = afm::sample_attractor(name.name, model, name.eta, o.flights, 1);
     scenes.push_back(afm::measure_flights(scene, contenders(o, false), o.rounds, o.seconds, progress));
-    for (const SpeedRow& row : scenes.back()) afm::print(row, out);
+    for (const SpeedRow& row : scenes.back()) afm::print(row, stdout);
     done(name.name);
   }
-  if (chosen(o.scenes, "all") && !scenes.empty()) {
-    for (const SpeedRow& row : afm::pool(scenes, "all")) afm::print(row, out);
+  if (is_chosen(o.scenes, "all") && !scenes.empty()) {
+    for (const SpeedRow& row : afm::pool(scenes, "all")) afm::print(row, stdout);
   }
   for (const std::string& name : kFrictionScenes) {
-    if (!chosen(o.scenes, name)) continue;
+    if (!is_chosen(o.scenes, name)) continue;
     const afm::FrictionScene scene = friction_scene(name, o);
     for (const SpeedRow& row : afm::measure_friction(scene, contenders(o, true), o.tau, o.run_seconds, progress)) {
-      afm::print(row, out);
+      afm::print(row, stdout);
       if (pace != nullptr) afm::print_pace(scene, row, pace);
     }
     done(name);
@@ -149,13 +135,6 @@ void run(const Options& o, std::FILE* out, std::FILE* pace) {
 }
 
 bool is_written(std::FILE* file) { return std::ferror(file) == 0 && std::fflush(file) == 0; }
-
-// None where there is no name, or nothing can be written.
-File open_output(const std::string& name) {
-  File file(name.empty() ? nullptr : std::fopen(name.c_str(), "w"), std::fclose);
-  if (!name.empty() && file == nullptr) std::fprintf(stderr, "speed_accuracy: cannot write '%s'\n", name.c_str());
-  return file;
-}
 
 }  // namespace
 
@@ -170,19 +149,17 @@ int main(int argc, char** argv) {
   app.option("seconds", o.seconds, "no further round for a method that has used so much on a scene");
   app.option("tau", o.tau, "length of the runs for K_f", afm::kPositive);
   app.option("run-seconds", o.run_seconds, "a run for K_f ends there, wherever it is");
-  app.option("seed", o.seed, "of the choice of flights");
   app.option("pace", o.pace,
              "file for a second table: processor time per second of model time against the error of K_f");
-  app.option("output", o.output, "file for the table; default: standard output");
   return app.run(argc, argv, [&] {
-    if (!check_names(o)) return 1;
+    check_names(o);
     if (o.quick) shorten(o);
-    const File out = open_output(o.output), pace = open_output(o.pace);
-    if ((!o.output.empty() && out == nullptr) || (!o.pace.empty() && pace == nullptr)) return 1;
-    std::FILE* table = o.output.empty() ? stdout : out.get();
-    run(o, table, pace.get());
-    const bool written = is_written(table) && (pace == nullptr || is_written(pace.get()));
-    if (!written) std::fprintf(stderr, "speed_accuracy: cannot write the output\n");
-    return written ? 0 : 1;
+    const File pace(o.pace.empty() ? nullptr : std::fopen(o.pace.c_str(), "w"), std::fclose);
+    if (!o.pace.empty() && pace == nullptr) throw std::runtime_error("cannot write " + o.pace);
+    run(o, pace.get());
+    if (!is_written(stdout) || (pace != nullptr && !is_written(pace.get()))) {
+      throw std::runtime_error("cannot write the output");
+    }
+    return 0;
   });
 }

@@ -1,7 +1,6 @@
 // Methods against the scenes on which methods fail, each cell measured and judged. CSV.
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -45,20 +44,11 @@ std::vector<Column> columns() {
   return all;
 }
 
-bool chosen(const std::vector<std::string>& list, const std::string& name) {
-  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
-}
-
 template <class T>
-bool known(const char* option, const std::vector<std::string>& given, const std::vector<T>& all) {
-  for (const std::string& name : given) {
-    if (std::any_of(all.begin(), all.end(), [&](const T& t) { return t.name == name; })) continue;
-    std::fprintf(stderr, "stability_matrix: %s %s: unknown, or not built in; there are:", option, name.c_str());
-    for (const T& t : all) std::fprintf(stderr, " %s", t.name.c_str());
-    std::fprintf(stderr, "\n");
-    return false;
-  }
-  return true;
+void check(const char* option, const std::vector<std::string>& chosen, const std::vector<T>& all) {
+  std::vector<std::string> names;
+  for (const T& one : all) names.push_back(one.name);
+  afm::rivals::check_names(option, chosen, names);
 }
 
 void print(const StabilityScene& scene, const Column& column, double setting, const Cell& cell) {
@@ -74,9 +64,9 @@ bool run(const Options& o, const std::vector<StabilityScene>& scenes) {
   bool ours_right = true;
   std::printf("scene,about,method,setting,verdict,number,meaning,ns_per_tau,right_below\n");
   for (const StabilityScene& scene : scenes) {
-    if (!chosen(o.scenes, scene.name)) continue;
+    if (!afm::rivals::is_chosen(o.scenes, scene.name)) continue;
     for (const Column& column : columns()) {
-      if (!chosen(o.methods, column.name)) continue;
+      if (!afm::rivals::is_chosen(o.methods, column.name)) continue;
       if (terminal) std::fprintf(stderr, "\r\033[K%s: %s", scene.name.c_str(), column.name.c_str());
       const double setting = scene.setting ? scene.setting(*column.spec) : column.setting;
       if (scene.setting && column.name == "exact_one_by_one") continue;
@@ -114,7 +104,8 @@ int main(int argc, char** argv) {
   return app.run(argc, argv, [&] {
     std::vector<StabilityScene> scenes = afm::run_scenes();
     for (StabilityScene& scene : afm::flight_scenes(o.effort)) scenes.push_back(std::move(scene));
-    if (!known("--methods", o.methods, columns()) || !known("--scenes", o.scenes, scenes)) return 2;
+    check("methods", o.methods, columns());
+    check("scenes", o.scenes, scenes);
     const bool ours_right = run(o, scenes);
     if (std::ferror(stdout) != 0) throw std::runtime_error("cannot write the output");
     return ours_right ? 0 : 1;

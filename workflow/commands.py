@@ -200,10 +200,9 @@ def commands(quick):
     add("levers", "benchmark/levers.py", choose("--tau 30 --transient 20", ""))
 
     # accuracy, speed, stability
-    files = "--output {out}/speed_accuracy.csv --pace {out}/pace.csv"
-    add("every_method", "speed_accuracy",
+    add("speed_accuracy", "speed_accuracy",
         choose("--flights 60 --rounds 2 --seconds 0.05 --tau 200 --run-seconds 0.3",
-               "--flights 200 --seconds 0.7 --run-seconds 3"), files, sides=["speed_accuracy", "pace"])
+               "--flights 200 --seconds 0.7 --run-seconds 3"), "--pace {out}/pace.csv", sides=["pace"])
     add("stability", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), may_fail=True)
     add("work_cost", "work_cost", choose("--impacts 100000 --tips 10000 --rounds 1", ""))
     for i in range(choose(1, 3)):

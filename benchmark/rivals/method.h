@@ -41,6 +41,12 @@ struct MethodSpec {
 const std::vector<MethodSpec>& methods();
 const MethodSpec* find_method(const std::string& name);
 
+// Whether a name is among those that were chosen; without any all are.
+bool is_chosen(const std::vector<std::string>& chosen, const std::string& name);
+// Throws std::invalid_argument for a chosen name that is none of those that there are.
+void check_names(const std::string& option, const std::vector<std::string>& chosen,
+                 const std::vector<std::string>& there_are);
+
 MethodSpec exact_spec();
 MethodSpec certified_plain_spec();
 MethodSpec sampled_spec();

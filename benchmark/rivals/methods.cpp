@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <stdexcept>
+
 #include "method.h"
 
 namespace afm {
@@ -29,6 +32,20 @@ const MethodSpec* find_method(const std::string& name) {
     if (spec.name == name) return &spec;
   }
   return nullptr;
+}
+
+bool is_chosen(const std::vector<std::string>& chosen, const std::string& name) {
+  return chosen.empty() || std::find(chosen.begin(), chosen.end(), name) != chosen.end();
+}
+
+void check_names(const std::string& option, const std::vector<std::string>& chosen,
+                 const std::vector<std::string>& there_are) {
+  for (const std::string& name : chosen) {
+    if (is_chosen(there_are, name)) continue;
+    std::string all;
+    for (const std::string& other : there_are) all += " " + other;
+    throw std::invalid_argument("--" + option + " " + name + ": unknown, or not built in; there are:" + all);
+  }
 }
 
 }  // namespace rivals
