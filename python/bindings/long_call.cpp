@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
+#include <future>
 #include <thread>
 #include <vector>
 
@@ -16,54 +15,8 @@ namespace {
 
 namespace py = pybind11;
 
-class Workers {
- public:
-  Workers(int threads, const std::function<void()>& work) : working_(threads) {
-    for (int i = 0; i < threads; ++i) threads_.emplace_back([this, &work] { run(work); });
-  }
-  ~Workers() {
-    stop();
-    for (std::thread& thread : threads_) thread.join();
-  }
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
-
-  void stop() { stop_ = true; }
-  bool wait(std::chrono::milliseconds patience) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    return ended_.wait_for(lock, patience, [this] { return working_ == 0; });
-  }
-  void rethrow() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (thrown_) std::rethrow_exception(thrown_);
-  }
-
- private:
-  void run(const std::function<void()>& work) {
-    const Interruptible interruptible(stop_);
-    std::exception_ptr thrown;
-    try {
-      work();
-    } catch (...) {
-      thrown = std::current_exception();
-      stop();  // the others need not go on
-    }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (thrown && !thrown_) thrown_ = thrown;
-    --working_;
-    ended_.notify_all();
-  }
-
-  std::atomic<bool> stop_{false};
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  int working_;
-  std::exception_ptr thrown_;
-  std::vector<std::thread> threads_;
-};
-
-int thread_count(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+unsigned thread_count(int asked) {
+  return asked > 0 ? static_cast<unsigned>(asked) : std::max(1u, std::thread::hardware_concurrency());
 }
 
 void look(const std::function<void()>& watch) {
@@ -74,15 +27,32 @@ void look(const std::function<void()>& watch) {
 
 }  // namespace
 
-// A signal leaves by an exception: the workers' destructor stops and joins them, still without the GIL.
 void run_on_threads(int threads, const std::function<void()>& work, const std::function<void()>& watch) {
   constexpr std::chrono::milliseconds kBetweenLooks(100);
+  std::atomic<bool> stop{false};
+  std::exception_ptr thrown;  // by the first that throws: the others need not go on
+  const auto run = [&] {
+    const Interruptible interruptible(stop);
+    try {
+      work();
+    } catch (...) {
+      if (!stop.exchange(true)) thrown = std::current_exception();
+    }
+  };
   {
     const py::gil_scoped_release released;
-    Workers workers(thread_count(threads), work);
-    while (!workers.wait(kBetweenLooks)) look(watch);
-    workers.rethrow();
+    std::vector<std::future<void>> workers;
+    try {
+      for (unsigned i = thread_count(threads); i > 0; --i) workers.push_back(std::async(std::launch::async, run));
+      for (const std::future<void>& worker : workers) {
+        while (worker.wait_for(kBetweenLooks) != std::future_status::ready) look(watch);
+      }
+    } catch (...) {  // a signal: it goes on from here when the workers have stopped, for which their futures wait
+      stop = true;
+      throw;
+    }
   }
+  if (thrown) std::rethrow_exception(thrown);
   if (watch) watch();
 }
 
