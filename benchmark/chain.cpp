@@ -54,7 +54,7 @@ class TipRunner : public Runner {
 
 class ChainRunner : public Runner {
  public:
-  ChainRunner(const Model& model, const TipState& start, std::unique_ptr<rivals::Method> method)
+  ChainRunner(const Model& model, const TipState& start, rivals::Method method)
       : model_(model), state_(start), method_(std::move(method)) {}
 
   ChainResult run(double tau, double eta, std::uint64_t most_impacts, double most_seconds) override {
@@ -63,7 +63,7 @@ class ChainRunner : public Runner {
     while (r.tau < tau && r.impacts < most_impacts && r.finished && r.sound()) {
       // a part at a time: a method that crawls is stopped between them
       const double part = std::fmin(kPart, tau - r.tau);
-      const rivals::Hit hit = method_->next_impact(model_, eta, state_, part);
+      const rivals::Hit hit = method_(model_, eta, state_, part);
       r.gave_up = hit.kind == rivals::Hit::gave_up;
       r.diverged = hit.kind == rivals::Hit::diverged;
       const double before = r.tau;
@@ -87,7 +87,7 @@ class ChainRunner : public Runner {
   static constexpr int kStuck = 1000;   // impacts without any time between them
   Model model_;
   TipState state_;
-  std::unique_ptr<rivals::Method> method_;
+  rivals::Method method_;
   int stuck_ = 0;
 };
 
@@ -97,15 +97,10 @@ std::unique_ptr<Runner> make_tip_runner(const Model& model, double eta, const Ti
   return std::make_unique<TipRunner>(model, eta, start, tolerance);
 }
 
-std::unique_ptr<Runner> make_chain_runner(const Model& model, const TipState& start,
-                                          std::unique_ptr<rivals::Method> method) {
-  return std::make_unique<ChainRunner>(model, start, std::move(method));
-}
-
 std::unique_ptr<Runner> make_runner(const std::string& method, double setting, const Model& model, double eta,
                                     const TipState& start) {
   if (method == "exact") return make_tip_runner(model, eta, start, setting);
-  return make_chain_runner(model, start, rivals::find_method(method)->make(setting));
+  return std::make_unique<ChainRunner>(model, start, rivals::find_method(method)->make(setting));
 }
 
 }  // namespace afm

@@ -32,8 +32,6 @@ class Runner {
 };
 
 std::unique_ptr<Runner> make_tip_runner(const Model& model, double eta, const TipState& start, double tolerance);
-std::unique_ptr<Runner> make_chain_runner(const Model& model, const TipState& start,
-                                          std::unique_ptr<rivals::Method> method);
 // By the method's name; `exact` is the tip, and its setting the contact tolerance.
 std::unique_ptr<Runner> make_runner(const std::string& method, double setting, const Model& model, double eta,
                                     const TipState& start);

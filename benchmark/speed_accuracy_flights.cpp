@@ -11,21 +11,21 @@ namespace {
 struct Entry {
   Entry(const Contender& c, std::size_t flights) : method(c.spec->make(c.setting)), hits(flights) {}
 
-  std::unique_ptr<rivals::Method> method;
+  rivals::Method method;
   std::vector<rivals::Hit> hits;
   std::vector<double> ns, exact_ns;  // a round each
   double used = 0.0;                 // [s]
 };
 
 // Time for one flight [ns]; short lists are run several times, or the clock would be most of it.
-double pass(const FlightScene& scene, rivals::Method& method, std::vector<rivals::Hit>& hits) {
+double pass(const FlightScene& scene, const rivals::Method& method, std::vector<rivals::Hit>& hits) {
   constexpr double kShortest = 2e-3;  // [s]
   const double start = thread_seconds();
   double seconds = 0.0;
   int passes = 0;
   for (; seconds < kShortest; ++passes, seconds = thread_seconds() - start) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      hits[i] = method.next_impact(scene.model, scene.eta, scene.flights[i].start, kFlightHorizon);
+      hits[i] = method(scene.model, scene.eta, scene.flights[i].start, kFlightHorizon);
     }
   }
   return 1e9 * seconds / (passes * static_cast<double>(hits.size()));
@@ -63,9 +63,9 @@ std::vector<SpeedRow> measure_flights(const FlightScene& scene, const std::vecto
       Entry& e = entries[i];
       if (e.used > most_seconds) continue;
       progress(scene.name, contenders[i]);
-      e.exact_ns.push_back(pass(scene, *exact, exact_hits));
+      e.exact_ns.push_back(pass(scene, exact, exact_hits));
       const double start = thread_seconds();
-      e.ns.push_back(pass(scene, *e.method, e.hits));
+      e.ns.push_back(pass(scene, e.method, e.hits));
       e.used += thread_seconds() - start;
     }
   }

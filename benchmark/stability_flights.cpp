@@ -29,15 +29,15 @@ struct Cases {
   std::vector<Case> cases;
 };
 
-Hit run_case(const Cases& all, const Case& c, Method& method) {
+Hit run_case(const Cases& all, const Case& c, const Method& method) {
   TipState start = c.flight.start;
   if (c.commanded) {
-    const Hit first = method.next_impact(all.scene.model, c.eta_before, c.before, c.until);
+    const Hit first = method(all.scene.model, c.eta_before, c.before, c.until);
     if (first.kind == Hit::impact) return {Hit::impact, -1.0, start, 0.0};  // before the command: none is there
     if (first.kind != Hit::none) return first;
     start = first.after;
   }
-  return method.next_impact(all.scene.model, all.scene.eta, start, kFlightHorizon);
+  return method(all.scene.model, all.scene.eta, start, kFlightHorizon);
 }
 
 Cell judge(const FlightScore& score, std::size_t done, std::size_t all) {
@@ -57,7 +57,7 @@ Cell judge(const FlightScore& score, std::size_t done, std::size_t all) {
 }
 
 Cell measure(const std::vector<Cases>& groups, const MethodSpec& spec, double setting, const Effort& effort) {
-  const std::unique_ptr<Method> method = spec.make(setting);
+  const Method method = spec.make(setting);
   FlightScore score;
   std::size_t done = 0, all = 0;
   double tau = 0.0;
@@ -66,7 +66,7 @@ Cell measure(const std::vector<Cases>& groups, const MethodSpec& spec, double se
     all += group.cases.size();
     for (const Case& c : group.cases) {
       if (thread_seconds() - start > effort.seconds) break;
-      const Hit hit = run_case(group, c, *method);
+      const Hit hit = run_case(group, c, method);
       score.add(c.flight, hit, group.scene);
       tau += std::fmin(kFlightHorizon, std::fmax(0.0, hit.dt));
       ++done;

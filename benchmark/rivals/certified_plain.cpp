@@ -7,10 +7,10 @@
 #include "core/search/impact_steps.h"
 #include "method.h"
 
-namespace afm {
+namespace afm::rivals {
 
 using namespace detail;
-namespace rivals {
+
 namespace {
 
 // Inside [low, high] from time s, on which the gap falls from positive to negative.
@@ -85,18 +85,10 @@ Hit next_plainly(const Model& model, double eta, const TipState& start, double h
   return decide_in_double_double(model, eta, start, horizon, l.s);
 }
 
-class CertifiedPlain : public Method {
- public:
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
-    return next_plainly(model, eta, start, horizon);
-  }
-};
-
 }  // namespace
 
 MethodSpec certified_plain_spec() {
-  return {"certified_plain", "none", {0.0}, 0.0, [](double) { return std::make_unique<CertifiedPlain>(); }};
+  return {"certified_plain", {0.0}, 0.0, [](double) { return next_plainly; }};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

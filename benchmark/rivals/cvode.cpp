@@ -12,8 +12,7 @@
 
 #include "impact_law.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 namespace {
 
 Point point_of(N_Vector v) {
@@ -49,7 +48,7 @@ void check(int flag, const char* what) {
   if (flag < 0) throw std::runtime_error(std::string("CVODE: ") + what);
 }
 
-class Cvode : public Method {
+class Cvode {
  public:
   Cvode(int method, double tolerance, bool minima) {
     SUNContext_Create(nullptr, &context_);
@@ -74,7 +73,7 @@ class Cvode : public Method {
     CVodeSetErrFile(cvode_, nullptr);
     CVodeSetNoInactiveRootWarn(cvode_);
   }
-  ~Cvode() override {
+  ~Cvode() {
     CVodeFree(&cvode_);
     if (fixed_point_ != nullptr) SUNNonlinSolFree(fixed_point_);
     if (linear_ != nullptr) SUNLinSolFree(linear_);
@@ -85,7 +84,7 @@ class Cvode : public Method {
   Cvode(const Cvode&) = delete;
   Cvode& operator=(const Cvode&) = delete;
 
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) {
     Oscillator o(model, eta, start);
     assign(state_, o.begin);
     CVodeReInit(cvode_, 0.0, state_);
@@ -116,8 +115,8 @@ class Cvode : public Method {
 };
 
 MethodSpec spec(const char* name, int method, bool minima, std::vector<double> settings) {
-  return {name, "tolerance", std::move(settings), 1e-10,
-          [=](double tolerance) { return std::make_unique<Cvode>(method, tolerance, minima); }};
+  return {name, std::move(settings), 1e-10,
+          [=](double tolerance) { return make_method<Cvode>(method, tolerance, minima); }};
 }
 
 }  // namespace
@@ -128,5 +127,4 @@ std::vector<MethodSpec> cvode_specs() {
           spec("cvode_bdf", CV_BDF, false, {1e-4, 1e-6, 1e-8, 1e-10})};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

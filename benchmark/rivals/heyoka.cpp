@@ -10,8 +10,7 @@
 
 #include "impact_law.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 namespace {
 
 using Integrator = heyoka::taylor_adaptive<double>;
@@ -29,13 +28,13 @@ Integrator make_integrator(double tolerance) {
                     heyoka::kw::t_events = {impact});
 }
 
-class Heyoka : public Method {
+class Heyoka {
  public:
   explicit Heyoka(double tolerance) : integrator_(make_integrator(tolerance)) {
     heyoka::set_logger_level_err();  // its warnings would stand in our tables
   }
 
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) {
     const Oscillator o(model, eta, start);
     begin(o);
     const double first_look = o.first_look(grid(o));
@@ -70,10 +69,9 @@ class Heyoka : public Method {
 }  // namespace
 
 MethodSpec heyoka_spec() {
-  return {"heyoka", "tolerance", {1e-9, kMachinePrecision}, kMachinePrecision, [](double tolerance) {
-            return std::make_unique<Heyoka>(tolerance);
+  return {"heyoka", {1e-9, kMachinePrecision}, kMachinePrecision, [](double tolerance) {
+            return make_method<Heyoka>(tolerance);
           }};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

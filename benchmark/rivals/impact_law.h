@@ -7,8 +7,7 @@
 #include "method.h"
 #include "oscillator.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 
 inline double restitution(const Model& m, double normal_speed) {
   return normal_speed >= m.v_c ? m.gamma : 1.0 - (1.0 - m.gamma) * normal_speed / m.v_c;
@@ -81,5 +80,4 @@ class CrossingWatch {
 // of the time in which the drag passes a cell.
 inline double grid(const Oscillator& o) { return std::fmin(0.02, 0.1 / std::fabs(o.eta)); }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

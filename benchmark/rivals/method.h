@@ -9,8 +9,7 @@
 #include "afm/model.h"
 #include "afm/state.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 
 struct Hit {
   // none: the horizon came first; gave_up: the method said that it cannot go on; diverged: it left all bounds
@@ -22,19 +21,20 @@ struct Hit {
   double contact = 0.0;  // an impact that takes time began so long before dt [tau]
 };
 
-class Method {
- public:
-  virtual ~Method() = default;
-  // A start with gap 0 is a start just after an impact.
-  virtual Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) = 0;
-};
+// To the next impact. A start with gap 0 is a start just after an impact.
+using Method = std::function<Hit(const Model& model, double eta, const TipState& start, double horizon)>;
+
+// Of a class that keeps something from one flight to the next.
+template <class T, class... Arguments>
+Method make_method(const Arguments&... arguments) {
+  return [kept = std::make_shared<T>(arguments...)](const auto&... flight) { return kept->next_impact(flight...); };
+}
 
 struct MethodSpec {
   std::string name;
-  std::string setting_is;        // what the setting means
-  std::vector<double> settings;  // coarse to fine
+  std::vector<double> settings;  // steps or tolerances, coarse to fine
   double usual;                  // the one a careful user would choose
-  std::function<std::unique_ptr<Method>(double setting)> make;
+  std::function<Method(double setting)> make;
 };
 
 // Those that this program was built with, ours first.
@@ -62,5 +62,4 @@ MethodSpec moreau_jean_spec();
 MethodSpec semi_implicit_euler_spec();
 MethodSpec penalty_spec();
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

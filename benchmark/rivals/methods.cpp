@@ -3,8 +3,7 @@
 
 #include "method.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 
 const std::vector<MethodSpec>& methods() {
   static const std::vector<MethodSpec> all = [] {
@@ -48,5 +47,4 @@ void check_names(const std::string& option, const std::vector<std::string>& chos
   }
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

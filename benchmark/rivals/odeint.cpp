@@ -5,8 +5,7 @@
 
 #include "impact_law.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
@@ -26,12 +25,12 @@ BulirschStoer make_stepper<BulirschStoer>(double tolerance) {
 }
 
 template <class Stepper>
-class Odeint : public Method {
+class Odeint {
  public:
   Odeint(double tolerance, double first_step, bool minima)
       : stepper_(make_stepper<Stepper>(tolerance)), first_step_(first_step), minima_(minima) {}
 
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) {
     const Oscillator o(model, eta, start);
     const auto rate = [&o](const Point& p, Point& dpdt, double) { dpdt = o.rate(p); };
     Point p;
@@ -61,9 +60,9 @@ class Odeint : public Method {
 };
 
 MethodSpec dopri5_spec(const char* name, bool minima) {
-  return {name, "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [minima](double tolerance) {
+  return {name, {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [minima](double tolerance) {
             // near the step at which it arrives by itself
-            return std::make_unique<Odeint<Dopri5>>(tolerance, 0.1 * std::pow(tolerance, 0.2), minima);
+            return make_method<Odeint<Dopri5>>(tolerance, 0.1 * std::pow(tolerance, 0.2), minima);
           }};
 }
 
@@ -73,10 +72,9 @@ MethodSpec dopri5_spec() { return dopri5_spec("odeint_dopri5", false); }
 MethodSpec dopri5_minima_spec() { return dopri5_spec("odeint_dopri5_minima", true); }
 
 MethodSpec bulirsch_stoer_spec() {
-  return {"odeint_bulirsch_stoer", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
-            return std::make_unique<Odeint<BulirschStoer>>(tolerance, 0.02, false);
+  return {"odeint_bulirsch_stoer", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, 1e-10, [](double tolerance) {
+            return make_method<Odeint<BulirschStoer>>(tolerance, 0.02, false);
           }};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

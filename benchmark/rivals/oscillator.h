@@ -8,8 +8,7 @@
 #include "afm/model.h"
 #include "afm/state.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 
 using Point = std::array<double, 4>;  // X = x - xc, U = u - eta, Y = y - y0, W = w
 
@@ -60,5 +59,4 @@ struct Oscillator {
   double begin_rate;  // of the gap
 };
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

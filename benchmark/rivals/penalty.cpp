@@ -4,18 +4,17 @@
 // step.
 #include "impact_law.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 namespace {
 
 constexpr double kPi = 0.5 * kTwoPi;
 constexpr double kStepsAContact = 16.0;
 
-class Penalty : public Method {
+class Penalty {
  public:
   explicit Penalty(double h) : h_(h), omega_(kPi / (kStepsAContact * h)) {}
 
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) {
     const Oscillator o(model, eta, start);
     Point p = o.begin;
     double damping = 0.0, onset = 0.0, before = 0.0;
@@ -96,8 +95,7 @@ class Penalty : public Method {
 }  // namespace
 
 MethodSpec penalty_spec() {
-  return {"penalty", "step", {1e-3, 1e-4, 3e-5, 1e-5}, 3e-5, [](double h) { return std::make_unique<Penalty>(h); }};
+  return {"penalty", {1e-3, 1e-4, 3e-5, 1e-5}, 3e-5, [](double h) { return make_method<Penalty>(h); }};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

@@ -2,8 +2,7 @@
 // it ends on the surface (TOMS 748 over its length).
 #include "impact_law.h"
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 namespace {
 
 Point along(const Point& p, const Point& rate, double h) {
@@ -18,33 +17,26 @@ Point step(const Oscillator& o, const Point& p, double h) {
   return next;
 }
 
-class Rk4 : public Method {
- public:
-  explicit Rk4(double h) : h_(h) {}
-
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
-    const Oscillator o(model, eta, start);
-    CrossingWatch watch(o, h_);
-    Point p = o.begin;
-    for (double t = 0.0; t < horizon; t += h_) {
-      const double h = std::fmin(h_, horizon - t);
-      const auto at = [&](double s) { return GapRate{o.gap(step(o, p, s - t), s)}; };
-      const double s = watch.look(at, t, t + h);
-      if (s >= 0.0) return reflect(o, step(o, p, s - t), s);
-      p = step(o, p, h);
-    }
-    return {Hit::none, horizon, o.tip_state(p, horizon), 0.0};
+Hit next_impact(double step_length, const Model& model, double eta, const TipState& start, double horizon) {
+  const Oscillator o(model, eta, start);
+  CrossingWatch watch(o, step_length);
+  Point p = o.begin;
+  for (double t = 0.0; t < horizon; t += step_length) {
+    const double h = std::fmin(step_length, horizon - t);
+    const auto at = [&](double s) { return GapRate{o.gap(step(o, p, s - t), s)}; };
+    const double s = watch.look(at, t, t + h);
+    if (s >= 0.0) return reflect(o, step(o, p, s - t), s);
+    p = step(o, p, h);
   }
-
- private:
-  double h_;
-};
+  return {Hit::none, horizon, o.tip_state(p, horizon), 0.0};
+}
 
 }  // namespace
 
 MethodSpec rk4_spec() {
-  return {"rk4", "step", {1e-2, 3e-3, 1e-3, 1e-4}, 1e-3, [](double h) { return std::make_unique<Rk4>(h); }};
+  return {"rk4", {1e-2, 3e-3, 1e-3, 1e-4}, 1e-3, [](double h) {
+            return [h](const auto&... flight) { return next_impact(h, flight...); };
+          }};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals

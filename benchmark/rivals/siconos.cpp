@@ -17,8 +17,7 @@
 
 extern "C" void xsetf_(const int* messages);  // of ODEPACK
 
-namespace afm {
-namespace rivals {
+namespace afm::rivals {
 namespace {
 
 // The springs in the comoving frame. Without a mass matrix Siconos need not solve with one.
@@ -79,7 +78,7 @@ class Silence {
   std::streambuf* buffer_;
 };
 
-class SiconosEvents : public Method {
+class SiconosEvents {
  public:
   explicit SiconosEvents(double tolerance) : oscillator_(Model{}, 1.0, TipState{0.0, 0.0, 1.0, 1.0, 0.0}) {
     const int none = 0;
@@ -100,11 +99,11 @@ class SiconosEvents : public Method {
     lsodar_->setIntData(5, 1);  // the options below are read
     lsodar_->setMaxNstep(1000000);
   }
-  ~SiconosEvents() override { flights_->clear(); }
+  ~SiconosEvents() { flights_->clear(); }
   SiconosEvents(const SiconosEvents&) = delete;
   SiconosEvents& operator=(const SiconosEvents&) = delete;
 
-  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) override {
+  Hit next_impact(const Model& model, double eta, const TipState& start, double horizon) {
     const Oscillator& o = oscillator_ = Oscillator(model, eta, start);
     for (unsigned i = 0; i < 2; ++i) {
       (*springs_->q())(i) = o.begin[2 * i];
@@ -141,10 +140,9 @@ class SiconosEvents : public Method {
 }  // namespace
 
 MethodSpec siconos_spec() {
-  return {"siconos", "tolerance", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}, 1e-10, [](double tolerance) {
-            return std::make_unique<SiconosEvents>(tolerance);
+  return {"siconos", {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}, 1e-10, [](double tolerance) {
+            return make_method<SiconosEvents>(tolerance);
           }};
 }
 
-}  // namespace rivals
-}  // namespace afm
+}  // namespace afm::rivals
