@@ -18,16 +18,12 @@ using afm::SpeedRow;
 using afm::rivals::is_chosen;
 
 const char kDescription[] =
-    "Runs every method on the same flights and writes a CSV table: time per impact (median of alternated rounds, and "
-    "its\n"
-    "ratio to ours in the same rounds), error of impact time and state against quad precision (the largest of all, "
-    "units a "
-    "and\n"
-    "tau), impacts missed and phantom. Scenes: etaE_vcS (flights on the attractor at drag velocity E, cutoff S eta), "
-    "all\n"
-    "(these together), kf_2, kf_3, kf_3.4 (the error is that of K_f over a run; missed and phantom count impacts "
-    "against\n"
-    "the reference's rate). `setting` is the tolerance or the step of the method.";
+    "Runs every method on the same flights and writes a CSV table: time per impact (median of alternated rounds,\n"
+    "and its ratio to ours in the same rounds), error of impact time and state against quad precision (the\n"
+    "largest of all, units a and tau), impacts missed and phantom. Scenes: etaE_vcS (flights on the attractor at\n"
+    "drag velocity E, cutoff S eta), all (these together), kf_2, kf_3, kf_3.4 (the error is that of K_f over a\n"
+    "run; missed and phantom count impacts against the reference's rate). `setting` is the tolerance or the step\n"
+    "of the method.";
 
 struct Options {
   bool quick = false;

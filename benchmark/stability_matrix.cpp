@@ -15,14 +15,11 @@ using afm::Verdict;
 using afm::rivals::MethodSpec;
 
 const char kDescription[] =
-    "Runs every method on scenes on which methods fail and writes a CSV table: "
-    "scene,about,method,setting,verdict,number,\n"
-    "meaning,ns_per_tau,right_below. right: every impact found and every error below 1e-6 (K_f: 1e-3, chaotic 5 %). "
-    "stalls: time\n"
-    "freezes, the method gives up, or less than half of the scene is done when --seconds are over; on `hour`, slower "
-    "than\n"
-    "the tip itself. exact_one_by_one is ours without bursts and contact (contact tolerance 0).\n"
-    "Exit code 1 if one of ours (exact) is not right.";
+    "Runs every method on scenes on which methods fail and writes a CSV table:\n"
+    "scene,about,method,setting,verdict,number, meaning,ns_per_tau,right_below. right: every impact found and\n"
+    "every error below 1e-6 (K_f: 1e-3, chaotic 5 %). stalls: time freezes, the method gives up, or less than\n"
+    "half of the scene is done when --seconds are over; on `hour`, slower than the tip itself. exact_one_by_one\n"
+    "is ours without bursts and contact (contact tolerance 0). Exit code 1 if one of ours (exact) is not right.";
 
 struct Options {
   afm::Effort effort;
@@ -52,9 +49,9 @@ void check(const char* option, const std::vector<std::string>& chosen, const std
 }
 
 void print(const StabilityScene& scene, const Column& column, double setting, const Cell& cell) {
-  std::printf("%s,\"%s\",%s,%g,%s,%.3g,%s,%.4g,%g\n", scene.name.c_str(), scene.about.c_str(),
-              column.name.c_str(), setting, afm::name_of(cell.verdict), cell.number, cell.meaning.c_str(),
-              cell.ns_per_tau, scene.right_below);
+  std::printf("%s,\"%s\",%s,%g,%s,%.3g,%s,%.4g,%g\n", scene.name.c_str(), scene.about.c_str(), column.name.c_str(),
+              setting, afm::name_of(cell.verdict), cell.number, cell.meaning.c_str(), cell.ns_per_tau,
+              scene.right_below);
   std::fflush(stdout);
 }
 

@@ -25,25 +25,17 @@
 namespace {
 
 const char kDescription[] =
-    "Compares a level of the model (--model, --contact-tolerance) with the oscillator at --reference-tolerance (0: "
-    "every\n"
-    "bounce), on the same starts (units a, tau, tip mass). --eta, --gamma, --cutoff and --frequency-ratio may be "
-    "ranges\n"
-    "FROM:TO:STEP and lists A,B. A row for each start: K_f of both with standard errors and kinds of attractor; "
-    "k_f_error, relative;\n"
-    "deflection_error, the mean distance of equal quantiles of the vertical deflection, beside that of two halves of "
-    "one\n"
-    "run (deflection_noise) and its rms; tracking_error, the rms difference over one tau from the same height and "
-    "vertical\n"
-    "velocity; rms and largest stretch of the reference's horizontal spring; and the time of this thread for a tau of "
-    "each\n"
-    "(median of alternated runs), with the ratio of reference to level: above 1 the level is cheaper.\n"
-    "With --scene, and no other option but --duration: every level at the parameters of these scenes (config/scenes, "
-    "or "
-    "files), at\n"
-    "their drag velocities, against the finest: errors of K_f and of the deflection, both relative, cost over that of "
-    "the default\n"
-    "level, and whether it is the one that the scene uses.";
+    "Compares a level of the model (--model, --contact-tolerance) with the oscillator at --reference-tolerance\n"
+    "(0: every bounce), on the same starts (units a, tau, tip mass). --eta, --gamma, --cutoff and\n"
+    "--frequency-ratio may be ranges FROM:TO:STEP and lists A,B. A row for each start: K_f of both with standard\n"
+    "errors and kinds of attractor; k_f_error, relative; deflection_error, the mean distance of equal quantiles\n"
+    "of the vertical deflection, beside that of two halves of one run (deflection_noise) and its rms;\n"
+    "tracking_error, the rms difference over one tau from the same height and vertical velocity; rms and largest\n"
+    "stretch of the reference's horizontal spring; and the time of this thread for a tau of each (median of\n"
+    "alternated runs), with the ratio of reference to level: above 1 the level is cheaper. With --scene, and no\n"
+    "other option but --duration: every level at the parameters of these scenes (config/scenes, or files), at\n"
+    "their drag velocities, against the finest: errors of K_f and of the deflection, both relative, cost over\n"
+    "that of the default level, and whether it is the one that the scene uses.";
 
 const char kHeader[] =
     "eta,gamma,cutoff,frequency_ratio,model,contact_tolerance,reference_tolerance,start,k_f,k_f_std_error,attractor,"
