@@ -1,7 +1,7 @@
 // Random models under random commands, every invariant checked after every segment: finite, never below the surface,
 // energy in balance, the search never gives up, time goes on. Ends with the first violation and what reproduces it.
 #include <chrono>
-#include <cstdio>
+#include <iostream>
 
 #include "common/command_line.h"
 #include "stress_scene.h"
@@ -19,8 +19,6 @@ void add(afm::TipCount& sum, const afm::TipCount& c) {
   sum.segments += c.segments;
   sum.impacts += c.impacts;
   sum.bounces += c.bounces;
-  sum.bursts += c.bursts;
-  sum.contacts += c.contacts;
   sum.commands += c.commands;
   sum.most_segments_in_a_tau = std::max(sum.most_segments_in_a_tau, c.most_segments_in_a_tau);
   sum.deepest = std::max(sum.deepest, c.deepest);
@@ -28,17 +26,10 @@ void add(afm::TipCount& sum, const afm::TipCount& c) {
 }
 
 void print(std::uint64_t scenes, std::int64_t tau, const afm::TipCount& c) {
-  std::printf(
-      "%llu scenes of %lld tau: %llu commands, %llu segments, %llu impacts standing for %llu bounces, %llu bursts, "
-      "%llu "
-      "contacts; "
-      "most segments in a tau %llu, deepest %.2g a, worst imbalance %.2g\n",
-      static_cast<unsigned long long>(scenes), static_cast<long long>(tau), static_cast<unsigned long long>(c.commands),
-      static_cast<unsigned long long>(c.segments), static_cast<unsigned long long>(c.impacts),
-      static_cast<unsigned long long>(c.bounces), static_cast<unsigned long long>(c.bursts),
-      static_cast<unsigned long long>(c.contacts), static_cast<unsigned long long>(c.most_segments_in_a_tau), c.deepest,
-      c.worst_imbalance);
-  std::fflush(stdout);
+  std::cout << scenes << " scenes of " << tau << " tau: " << c.commands << " commands, " << c.segments << " segments, "
+            << c.impacts << " impacts standing for " << c.bounces << " bounces; most segments in a tau "
+            << c.most_segments_in_a_tau << ", deepest " << c.deepest << " a, worst imbalance " << c.worst_imbalance
+            << std::endl;
 }
 
 }  // namespace
@@ -56,6 +47,7 @@ int main(int argc, char** argv) {
            "the node's defaults, commands as scripts/soak sends them; no batch may spend its budget of impacts");
   app.flag("levers", o.levers, "levers on crystals under loads of up to 100 nN, with a heat bath and without");
   return app.run(argc, argv, [&] {
+    std::cout.precision(2);
     const auto start = std::chrono::steady_clock::now();
     const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
     using Kind = afm::StressScene::Kind;
@@ -71,7 +63,7 @@ int main(int argc, char** argv) {
       most_events = std::max(most_events, scene.most_events());
       if (!kept) {
         ++violations;
-        std::printf("VIOLATED: %s\n", scene.report().c_str());
+        std::cout << "VIOLATED: " << scene.report() << "\n";
         break;
       }
       if (passed() > progress) {
@@ -80,8 +72,7 @@ int main(int argc, char** argv) {
       }
     }
     print(scenes, o.tau, sum);
-    std::printf("%llu violations; most events in a batch of the node %llu\n",
-                static_cast<unsigned long long>(violations), static_cast<unsigned long long>(most_events));
+    std::cout << violations << " violations; most events in a batch of the node " << most_events << "\n";
     return violations == 0 ? 0 : 1;
   });
 }

@@ -14,7 +14,7 @@
 namespace afm {
 
 struct TipCount {
-  std::uint64_t segments = 0, impacts = 0, bounces = 0, bursts = 0, contacts = 0, commands = 0;
+  std::uint64_t segments = 0, impacts = 0, bounces = 0, commands = 0;
   std::uint64_t events = 0;  // what a batch tells and its budget counts
   std::uint64_t most_segments_in_a_tau = 0;
   double deepest = 0.0;          // below the surface [a], or part of what places are rounded with if more than 1 a
@@ -145,11 +145,9 @@ class TipWatch {
   void enter(Outcome outcome) {
     ++count_.segments;
     if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) ++count_.events;
-    if (outcome == Outcome::contact) ++count_.contacts;
     if (outcome != Outcome::impact) return;
     ++count_.impacts;
     count_.bounces += tip_.last_impact().count;
-    if (tip_.last_impact().kind == ImpactKind::burst) ++count_.bursts;
   }
 
   Tip tip_;
