@@ -23,8 +23,8 @@ def numbers(name: str, values: Any) -> np.ndarray:
         array = np.atleast_1d(np.asarray(values, float))
     except (TypeError, ValueError):
         array = np.empty((0, 0))
-    if array.ndim != 1 or isinstance(values, (str, bytes)):
-        raise ArgumentTypeError(name, values, 'must be a number or a one-dimensional array of numbers')
+    if array.ndim != 1 or not len(array) or isinstance(values, (str, bytes)):
+        raise ArgumentTypeError(name, values, 'must be a number or a one-dimensional array of numbers, one at least')
     return array
 
 

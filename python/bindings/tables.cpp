@@ -26,18 +26,6 @@ namespace {
 using namespace py::literals;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-void check_axes(const CurveSettings& s) {
-  const auto check = [](const char* name, const std::vector<double>& axis) {
-    require(!axis.empty(), name, 0.0, "must hold at least one number");
-  };
-  check("eta", s.eta);
-  check("gamma", s.gamma);
-  check("cutoff", s.cutoff);
-  check("rest_height", s.rest_height);
-  check("amplitude", s.amplitude);
-  check("frequency_ratio", s.frequency_ratio);
-}
-
 SweepDirection direction_of(const std::string& name) {
   if (name == "fresh") return SweepDirection::fresh;
   if (name == "up") return SweepDirection::up;
@@ -58,7 +46,6 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   s.sweep.transient = transient;
   s.sweep.bath = bath;
   s.sweep.seed = s.sweep.bath.seed = seed;
-  check_axes(s);
   refuse(find_faults(s));
   const SweepGrid grid(s);
   CurvePoints points(grid, s);
