@@ -6,7 +6,7 @@
 #include "contact_jacobian.h"
 #include "core/contact/chatter_law.h"
 #include "core/contact/projection.h"
-#include "section_duals.h"
+#include "dual.h"
 
 namespace afm::detail {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "section_duals.h"
+#include "dual.h"
 
 namespace afm::detail {
 
