@@ -1,7 +1,7 @@
 // A run of a method from impact to impact, with its totals: time, energy, impacts, and what it cost.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <string>
 
 #include "rivals/method.h"
@@ -23,18 +23,13 @@ struct ChainResult {
   double K_f(double eta) const { return energy / (eta * eta * tau); }
 };
 
-// A method over model time, from one state to another. Ours is the tip as the emulator has it, with bursts and contact.
-class Runner {
- public:
-  virtual ~Runner() = default;
-  // Goes on for `tau`, with `eta`, until that, `most_impacts` or `most_seconds` of this thread are over.
-  virtual ChainResult run(double tau, double eta, std::uint64_t most_impacts, double most_seconds) = 0;
-};
+// A method over model time, from one state to another: goes on for `tau`, with `eta`, until that, `most_impacts` or
+// `most_seconds` of this thread are over. Ours is the tip as the emulator has it, with bursts and contact.
+using Runner = std::function<ChainResult(double tau, double eta, std::uint64_t most_impacts, double most_seconds)>;
 
-std::unique_ptr<Runner> make_tip_runner(const Model& model, double eta, const TipState& start, double tolerance);
+Runner make_tip_runner(const Model& model, double eta, const TipState& start, double tolerance);
 // By the method's name; `exact` is the tip, and its setting the contact tolerance.
-std::unique_ptr<Runner> make_runner(const std::string& method, double setting, const Model& model, double eta,
-                                    const TipState& start);
+Runner make_runner(const std::string& method, double setting, const Model& model, double eta, const TipState& start);
 
 constexpr std::uint64_t kAnyImpacts = ~std::uint64_t{0};
 

@@ -49,11 +49,11 @@ FrictionScene long_run_scene(const std::string& name, double eta, double cutoff_
   scene.start = settled(scene.model, eta, 1000);
   // a chaotic reference starts elsewhere on the attractor, a periodic one at the same point
   const TipState begin = chaotic ? settled(scene.model, eta, 1777) : scene.start;
-  const auto runner = make_tip_runner(scene.model, eta, begin, 0.0);
+  Runner runner = make_tip_runner(scene.model, eta, begin, 0.0);
   double sum = 0.0, squares = 0.0, impacts = 0.0;
   const int runs = chaotic ? kChaoticRuns : 1;
   for (int i = 0; i < runs; ++i) {
-    const ChainResult r = runner->run(tau, eta, kAnyImpacts, kForever);
+    const ChainResult r = runner(tau, eta, kAnyImpacts, kForever);
     sum += r.K_f(eta);
     squares += r.K_f(eta) * r.K_f(eta);
     impacts += static_cast<double>(r.impacts);
@@ -68,8 +68,7 @@ std::vector<SpeedRow> measure_friction(const FrictionScene& scene, const std::ve
                                        double most_seconds, const Progress& progress) {
   std::vector<SpeedRow> rows;
   const auto run = [&](const std::string& method, double setting) {
-    return make_runner(method, setting, scene.model, scene.eta, scene.start)
-        ->run(tau, scene.eta, kAnyImpacts, most_seconds);
+    return make_runner(method, setting, scene.model, scene.eta, scene.start)(tau, scene.eta, kAnyImpacts, most_seconds);
   };
   for (const Contender& c : contenders) {
     progress(scene.name, c);

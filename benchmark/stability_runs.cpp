@@ -50,7 +50,7 @@ struct FrictionCase {
 
 Cell measure_friction(const FrictionCase& c, const MethodSpec& spec, double setting, const Effort& effort) {
   const ChainResult r =
-      make_runner(spec.name, setting, c.model, c.eta, c.start)->run(c.tau, c.eta, kAnyImpacts, effort.seconds);
+      make_runner(spec.name, setting, c.model, c.eta, c.start)(c.tau, c.eta, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, c.tau, cell)) return cell;
   cell.number = std::abs(r.K_f(c.eta) / c.K_f - 1.0);
@@ -92,9 +92,9 @@ double reference_K_f(double gamma, double eta, const Reference& reference, doubl
   const auto found = known.find(key);
   if (found != known.end()) return found->second;
   const Model model = mica(gamma, reference.share * eta);
-  return known[key] = make_tip_runner(model, eta, settled(model, eta, 777), reference.tolerance)
-                          ->run(tau, eta, kAnyImpacts, kForever)
-                          .K_f(eta);
+  return known[key] =
+             make_tip_runner(model, eta, settled(model, eta, 777), reference.tolerance)(tau, eta, kAnyImpacts, kForever)
+                 .K_f(eta);
 }
 
 StabilityScene friction_scene(const std::string& name, const std::string& about, double gamma, double eta, double share,
@@ -129,7 +129,7 @@ Cell measure_rest(const MethodSpec& spec, double setting, const Effort& effort) 
   const Model model;
   const TipState start = launched(model, 0.05);
   const double tau = effort.quick ? 20.0 : 100.0, before = energy(model, 0.0, start);
-  const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)->run(tau, 0.0, kAnyImpacts, effort.seconds);
+  const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)(tau, 0.0, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, tau, cell) || !r.finished) return cell.verdict = std::max(cell.verdict, Verdict::stalls), cell;
   cell.number = std::abs(before - r.energy - energy(model, 0.0, r.end)) / before;
@@ -142,8 +142,7 @@ Cell measure_elastic(const MethodSpec& spec, double setting, const Effort& effor
   const Model model = mica(1.0, 0.05);
   const TipState start = launched(model, 0.25);
   const std::uint64_t impacts = effort.quick ? 10000 : 100000;
-  const ChainResult r =
-      make_runner(spec.name, setting, model, 0.0, start)->run(1e7, 0.0, impacts, 10.0 * effort.seconds);
+  const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)(1e7, 0.0, impacts, 10.0 * effort.seconds);
   Cell cell;
   if (!r.sound()) return broken(r, 1e7, cell), cell;
   cell.ns_per_tau = 1e9 * r.seconds / r.tau;
@@ -164,7 +163,7 @@ Cell measure_glide(const MethodSpec& spec, double setting, const Effort& effort)
   const Model model;
   const TipState start{0.1, 0.0, 1.0, 0.0, 0.0};
   const double tau = effort.quick ? 20.0 : 100.0;
-  const ChainResult r = make_runner(spec.name, setting, model, 1.0, start)->run(tau, 1.0, kAnyImpacts, effort.seconds);
+  const ChainResult r = make_runner(spec.name, setting, model, 1.0, start)(tau, 1.0, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, tau, cell)) return cell;
   cell.number = distance(r.end, start);
@@ -180,7 +179,7 @@ Cell measure_hour(const MethodSpec& spec, double setting, const Effort& effort) 
   const double tau_s = Units(SiModel{}).time(), hour = std::floor(3600.0 / tau_s);
   const double target = effort.quick ? 20000.0 : hour;
   const ChainResult r =
-      make_runner(spec.name, setting, model, 2.0, start)->run(target, 2.0, kAnyImpacts, 10.0 * effort.seconds);
+      make_runner(spec.name, setting, model, 2.0, start)(target, 2.0, kAnyImpacts, 10.0 * effort.seconds);
   Cell cell;
   cell.ns_per_tau = 1e9 * r.seconds / r.tau;
   const bool slow = cell.ns_per_tau > 1e9 * tau_s;
@@ -191,7 +190,7 @@ Cell measure_hour(const MethodSpec& spec, double setting, const Effort& effort) 
   // where the seconds were over before the hour: on to a whole tau first
   const double rest = std::ceil(r.tau) - r.tau;
   const TipState end =
-      rest > 0.0 ? make_runner(spec.name, setting, model, 2.0, r.end)->run(rest, 2.0, kAnyImpacts, effort.seconds).end
+      rest > 0.0 ? make_runner(spec.name, setting, model, 2.0, r.end)(rest, 2.0, kAnyImpacts, effort.seconds).end
                  : r.end;
   cell.number = distance(end, start);
   cell.meaning = "off the orbit after " + std::to_string(static_cast<long>(r.tau)) + " tau";
