@@ -25,20 +25,10 @@ class Diagnostics(NodeTest):
     def expect(self, name, level, reason=''):
         """The entry, as soon as it is so."""
         def found():
-            for message in self.diagnostics.messages:
-                for status in message.status:
-                    if status.name == 'afm: ' + name and status.level == level and reason in status.message:
-                        return status
-            return None
-        try:
-            entry = wait_until(found, '%s: level %d, "%s"' % (name, level, reason))
-        except AssertionError as error:
-            raise AssertionError('%s; it says %s' % (error, self.latest(name)))
+            return next((s for m in self.diagnostics.messages for s in m.status
+                         if s.name == 'afm: ' + name and s.level == level and reason in s.message), None)
+        entry = wait_until(found, '%s: level %d, "%s"' % (name, level, reason))
         return {value.key: value.value for value in entry.values}
-
-    def latest(self, name):
-        reported = [s for m in self.diagnostics.messages for s in m.status if s.name == 'afm: ' + name]
-        return (reported[-1].level, reported[-1].message) if reported else None
 
     def test_well_then_refusing_then_silent(self):
         self.run_emulator(command_timeout_s=2.0, batch_rate_hz=50.0, bag_directory=self.temporary_directory())

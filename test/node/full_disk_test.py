@@ -1,6 +1,7 @@
 """A recording on a small disk ends cleanly before the disk is full, says why, and the node goes on."""
 import errno
 import os
+import shutil
 import subprocess
 import tempfile
 
@@ -33,24 +34,15 @@ class FullDisk(NodeTest):
         self.emulator.assert_alive()
         self.assertEqual(self.emulator.stop(), 0)
 
-    def free_bytes(self):
-        disk = os.statvfs(self.disk)
-        return disk.f_bavail * disk.f_frsize
-
-    def fill(self, leave_bytes):
+    def fill(self):
         """As another program would, while the node is writing too."""
-        with open(os.path.join(self.disk, 'of_others'), 'wb', buffering=0) as file:
-            while self.free_bytes() > leave_bytes:
-                try:
-                    file.write(bytes(1 << 16))
-                except OSError as error:
-                    self.assertEqual(error.errno, errno.ENOSPC)
-
-    def begin(self, name):
-        return self.emulator.call('start_recording', StartRecording, name=name)
+        with open(os.path.join(self.disk, 'of_others'), 'wb', buffering=0) as file, self.assertRaises(OSError) as full:
+            while True:
+                file.write(bytes(1 << 16))
+        self.assertEqual(full.exception.errno, errno.ENOSPC)
 
     def begin_recording(self):
-        self.answer = self.begin('small.bag')
+        self.answer = self.emulator.call('start_recording', StartRecording, name='small.bag')
         self.assertTrue(self.answer.success, self.answer.message)
         self.status.wait_for(lambda m: m.recording or m.recorder_error, 'recording')
 
@@ -62,13 +54,13 @@ class FullDisk(NodeTest):
     def test_ends_cleanly_before_the_disk_is_full(self):
         self.begin_recording()
         self.assertIn('disk_reserve_mb', self.wait_for_error())
-        self.assertGreaterEqual(self.free_bytes(), RESERVE_MB * 1e6)
+        self.assertGreaterEqual(shutil.disk_usage(self.disk).free, RESERVE_MB * 1e6)
         self.assertEqual(os.listdir(self.disk), ['small.bag'])
         checks.assert_identical(self, self.answer.path)
 
     def test_survives_a_disk_that_others_fill(self):
         self.begin_recording()
-        self.fill(0)
+        self.fill()
         error = self.wait_for_error()
         closed = os.path.exists(self.answer.path)
         self.assertEqual('reindex' in error, not closed, error)  # says how to recover it only where that is needed

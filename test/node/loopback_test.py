@@ -1,7 +1,7 @@
 """What scripts/run starts listens on loopback only."""
+import contextlib
 import os
 import signal
-import subprocess
 from pathlib import Path
 
 import roslib.packages
@@ -14,45 +14,17 @@ LOOPBACK = ('0100007F', '00000000000000000000000001000000')  # 127.0.0.1 and ::1
 LISTENING = '0A'
 
 
-def listeners():
-    """inode: address, of all sockets that listen."""
+def addresses_by_process(marker):
+    """name of a process: addresses that it listens on; of all processes with this in their environment."""
+    rows = [line.split() for table in Path('/proc/net').glob('tcp*') for line in table.read_text().splitlines()[1:]]
+    known = {'socket:[%s]' % row[9]: row[1].split(':')[0] for row in rows if row[3] == LISTENING}
     found = {}
-    for table in ('/proc/net/tcp', '/proc/net/tcp6'):
-        if os.path.exists(table):
-            for line in Path(table).read_text().splitlines()[1:]:
-                fields = line.split()
-                if fields[3] == LISTENING:
-                    found[fields[9]] = fields[1].split(':')[0]
-    return found
-
-
-def sockets_of(pid):
-    try:
-        links = list(Path('/proc/%s/fd' % pid).iterdir())
-    except OSError:  # it has ended
-        return
-    for link in links:
-        try:
-            target = os.readlink(str(link))
-        except OSError:
-            continue
-        if target.startswith('socket:['):
-            yield target[len('socket:['):-1]
-
-
-def addresses_of_family(root):
-    """name of a process: addresses that it listens on; of a process and its children and theirs."""
-    table = subprocess.run(['ps', '-e', '-o', 'pid=,ppid=,comm='], stdout=subprocess.PIPE, universal_newlines=True)
-    rows = [line.split(None, 2) for line in table.stdout.splitlines()]
-    family, known, found = {str(root)}, listeners(), {}
-    while True:
-        more = {pid for pid, parent, _ in rows if parent in family} - family
-        if not more:
-            break
-        family |= more
-    for pid, _, name in rows:
-        if pid in family and os.path.exists('/proc/%s/fd' % pid):
-            found.setdefault(name, []).extend(known[i] for i in sockets_of(pid) if i in known)
+    for process in Path('/proc').glob('[0-9]*'):
+        with contextlib.suppress(OSError):  # of another user, or it has ended
+            if marker in (process / 'environ').read_bytes():
+                sockets = [os.readlink(str(link)) for link in (process / 'fd').iterdir()]
+                name = (process / 'comm').read_text().strip()
+                found.setdefault(name, []).extend(known[s] for s in sockets if s in known)
     return found
 
 
@@ -61,7 +33,8 @@ class Loopback(NodeTest):
         package = Path(roslib.packages.get_pkg_dir(PACKAGE))
         devel = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[2]
         environment = {name: value for name, value in os.environ.items() if name not in ('ROS_IP', 'ROS_HOSTNAME')}
-        environment.update(AFM_BUILD_DIR=str(devel.parent), ROS_MASTER_URI='http://localhost:%d' % free_port())
+        master = 'http://localhost:%d' % free_port()
+        environment.update(AFM_BUILD_DIR=str(devel.parent), ROS_MASTER_URI=master)
         command = ('source "$0/scripts/environment.bash"; listen_on_loopback_only; '
                    'exec roslaunch afm_emulator emulator.launch')
         launch = self.start(Process(['bash', '-c', command, str(package)], env=environment, start_new_session=True))
@@ -69,7 +42,7 @@ class Loopback(NodeTest):
         wanted = {'emulator_node': 2, 'rosout': 2, 'rosmaster': 1, 'roslaunch': 1}
 
         def all_listen():
-            found = addresses_of_family(launch.child.pid)
+            found = addresses_by_process(master.encode())
             return found if all(len(found.get(name, ())) >= n for name, n in wanted.items()) else None
         found = wait_until(all_listen, 'master, rosout and emulator listen')
         for name, addresses in found.items():

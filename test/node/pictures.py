@@ -59,15 +59,6 @@ class Picture:
     def spots(self):
         return len(self.places('impacts')) + len(self.places('contacts'))
 
-    def numbers(self):
-        for m in self.markers.values():
-            pose = m.pose
-            yield from (pose.position.x, pose.position.y, pose.position.z, pose.orientation.w, m.scale.x, m.scale.z)
-            for p in m.points:
-                yield from (p.x, p.y, p.z)
-            for c in m.colors + [m.color]:
-                yield from (c.r, c.g, c.b, c.a)
-
 
 class Reported:
     """What the emulator has reported so far, of its present epoch, and what follows from it."""

@@ -38,12 +38,16 @@ class RecorderTest : public testing::Test {
   }
   ~RecorderTest() override { fs::remove_all(directory_); }
 
-  Recorder::Settings settings() const { return {directory_, 0, 0, 0.0, rosbag::compression::Uncompressed}; }
+  Recorder::Settings settings(std::uint64_t split_bytes = 0, std::uint64_t reserve_bytes = 0) const {
+    return {directory_, reserve_bytes, split_bytes, 0.0, rosbag::compression::Uncompressed};
+  }
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
   void write_file(const std::string& name) const { std::ofstream(file(name)) << "mine"; }
   bool is_untouched(const std::string& name) const { return fs::file_size(file(name)) == 4; }
 
-  void record_beginning(Recorder& recorder, bool unhurried = false) {
+  void begin(Recorder& recorder, const std::string& name = "run", bool unhurried = false) {
+    const Recorder::Reply started = recorder.start(name);
+    EXPECT_TRUE(started.success) << started.message;
     for (const Role role : {Role::configuration, Role::applied, Role::snapshot}) {
       recorder.record(topic_, bytes_, role, unhurried);
     }
@@ -52,9 +56,7 @@ class RecorderTest : public testing::Test {
   // Records a run of messages, faster than any disk.
   Recorder::Status record(bool unhurried) {
     Recorder recorder(settings(), can_be_asked);
-    const Recorder::Reply started = recorder.start("run");
-    EXPECT_TRUE(started.success) << started.message;
-    record_beginning(recorder, unhurried);
+    begin(recorder, "run", unhurried);
     for (int i = 0; i < kMessages; ++i) recorder.record(topic_, bytes_, Role::ordinary, unhurried);
     EXPECT_TRUE(recorder.stop().success);
     return recorder.status();
@@ -142,9 +144,7 @@ TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {
 }
 
 TEST_F(RecorderTest, DoesNotStartWithoutRoom) {
-  Recorder::Settings all_kept = settings();
-  all_kept.reserve_bytes = std::uint64_t{1} << 60;
-  const Recorder::Reply reply = Recorder(all_kept, can_be_asked).start("run");
+  const Recorder::Reply reply = Recorder(settings(0, std::uint64_t{1} << 60), can_be_asked).start("run");
   EXPECT_FALSE(reply.success);
   EXPECT_NE(reply.message.find("disk_reserve_mb"), std::string::npos) << reply.message;
   EXPECT_TRUE(fs::is_empty(directory_));
@@ -152,13 +152,11 @@ TEST_F(RecorderTest, DoesNotStartWithoutRoom) {
 
 TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
   Recorder recorder(settings(), can_be_asked);
-  EXPECT_TRUE(recorder.start("run").success);
-  record_beginning(recorder);
+  begin(recorder);
   fs::remove_all(directory_);
   EXPECT_NE(record_until_it_ends(recorder).find("No such file"), std::string::npos);
   EXPECT_FALSE(recorder.stop().success);
-  EXPECT_TRUE(recorder.start("again").success);
-  record_beginning(recorder);
+  begin(recorder, "again");
   EXPECT_TRUE(recorder.stop().success);
   EXPECT_TRUE(fs::exists(file("again.bag")));
 }
@@ -166,16 +164,13 @@ TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
 // One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
 TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
   for (const bool whole : {false, true}) {
-    Recorder::Settings split = settings();
-    split.split_bytes = 1;
     std::promise<void> asked;
-    Recorder recorder(split, [&, calls = 0]() mutable {
+    Recorder recorder(settings(1), [&, calls = 0]() mutable {
       if (calls++ == 0) asked.set_value();
       return true;
     });
     const std::string name = whole ? "whole" : "part";
-    EXPECT_TRUE(recorder.start(name).success);
-    record_beginning(recorder);
+    begin(recorder, name);
     ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
     recorder.record(topic_, bytes_, Role::snapshot, false);
     recorder.record(topic_, bytes_, Role::ordinary, false);
@@ -191,18 +186,15 @@ TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
 
 // As in a pause, in which only the status is published.
 TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
-  Recorder::Settings split = settings();
-  split.split_bytes = 1;
   std::promise<void> asked[2];
-  Recorder recorder(split, [&, calls = 0]() mutable {
+  Recorder recorder(settings(1), [&, calls = 0]() mutable {
     if (calls < 2) asked[calls++].set_value();
     return true;
   });
   const auto was_asked = [&](int time) {
     return asked[time].get_future().wait_for(std::chrono::seconds(50)) == std::future_status::ready;
   };
-  EXPECT_TRUE(recorder.start("run").success);
-  record_beginning(recorder);
+  begin(recorder);
   ASSERT_TRUE(was_asked(0));
   recorder.record(topic_, bytes_, Role::snapshot, true);
   for (int i = 0; i < 120; ++i) recorder.record(topic_, bytes_, Role::ordinary, true);
@@ -215,15 +207,12 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
 }
 
 TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
-  Recorder::Settings split = settings();
-  split.split_bytes = 1;
   std::promise<void> asked;
-  Recorder recorder(split, [&, calls = 0]() mutable {
+  Recorder recorder(settings(1), [&, calls = 0]() mutable {
     if (++calls == 3) asked.set_value();
     return calls > 2;
   });
-  EXPECT_TRUE(recorder.start("run").success);
-  record_beginning(recorder);
+  begin(recorder);
   for (int i = 0; i < 2; ++i) recorder.record(topic_, bytes_, Role::ordinary, false);  // it asks once at each
   EXPECT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
 }
@@ -238,16 +227,13 @@ TEST_F(RecorderTest, LeavesNoBagWhereNothingCame) {
 
 TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
   write_file("run_001.bag");
-  Recorder::Settings split = settings();
-  split.split_bytes = 5'000'000;
   Recorder* self = nullptr;
-  Recorder recorder(split, [&] {
+  Recorder recorder(settings(5'000'000), [&] {
     self->record(topic_, bytes_, Role::snapshot, false);
     return true;
   });
   self = &recorder;
-  EXPECT_TRUE(recorder.start("run").success);
-  record_beginning(recorder);
+  begin(recorder);
   EXPECT_NE(record_until_it_ends(recorder).find("run_001.bag"), std::string::npos);
   EXPECT_TRUE(is_untouched("run_001.bag"));
   EXPECT_GT(messages_in_bag(), 3u);

@@ -70,16 +70,6 @@ class ResetPauseStep(EmulatorTest):
         self.topics['status'].wait_for_next(lambda m: not m.paused and tau_between(time, m.time) > 500,
                                             'time passes again')
 
-    def test_step_by_time(self):
-        self.begin(paused=True)
-        begin = self.topics['snapshot'].messages[0].time
-        for tau in (0.25, 1e-6, 1.0, 33.3):
-            end = self.step(tau=tau)
-            self.assertAlmostEqual(tau_between(begin, end), tau, delta=1e-13)
-            self.topics['status'].wait_for_next(lambda m, end=end: key(m.time) == key(end) and m.paused,
-                                                'the time reached')
-            begin = end
-
     def test_step_to_the_next_impacts(self):
         self.begin(paused=True)
         reached = [self.step(impacts=count) for count in (1, 7, 200)]

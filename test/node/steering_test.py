@@ -1,5 +1,5 @@
-"""Live parameters take effect as they are reported, faulty ones change nothing; the load is set by topics; without
-commands the drag stops."""
+"""Model time goes as wall time does. Commands and live parameters take effect as they are reported, faulty ones are
+counted and change nothing; without commands the drag stops. scripts/soak sends thousands, of every size."""
 import math
 import subprocess
 import threading
@@ -10,13 +10,16 @@ from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config
 from std_srvs.srv import SetBool
 
-from emulator_under_test import SPEED_UNIT, Emulator, EmulatorTest, NodeTest
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
 
 AT_START = {'restitution_gamma': 0.7, 'cutoff_speed': 1.66e-7, 'rest_height_m': 0.0, 'sample_rate_hz': 50000.0,
             'friction_window_tau': 1000.0, 'temperature_k': 0.0, 'quality_factor': 0.0, 'lateral_quality_factor': 0.0,
             'kicks_per_tau': 29.034}
 STIFFNESS = 408e-12 * 40e3 ** 2  # of the vertical spring [N/m]
+SLOPE = 2 * math.pi * 0.05 / 0.52
+K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed form at even eta [m_tip/tau]
+MOST = 1e-4  # max_drag_velocity [m/s]
 
 
 class Steering(EmulatorTest):
@@ -32,6 +35,32 @@ class Steering(EmulatorTest):
         answer = self.emulator.set(**wanted)
         self.assertEqual({name: answer[name] for name in wanted}, wanted)
         return self.applied.wait_for(lambda m: m.cause == 'parameters', str(wanted), before)
+
+    def test_model_time_goes_as_wall_time_does(self):
+        """For a second: a busy machine holds it up, and then it catches up."""
+        def goes_along():
+            begin, since = self.status_now(), time.monotonic()
+            wait_until(lambda: time.monotonic() > since + 1.0, 'a second passes')
+            ratio = tau_between(begin.time, self.status_now().time) * TAU_S / (time.monotonic() - since)
+            return abs(ratio - 1.0) < 0.05
+        wait_until(goes_along, 'a second in real time')
+        self.topics['status'].wait_for_next(lambda m: abs(m.real_time_factor - 1.0) < 0.05, 'the status says so')
+
+    def test_friction_peaks_at_even_eta_in_both_directions(self):
+        """After long, in every form in which it is reported."""
+        for eta in (2.0, -2.0):
+            self.begin(paused=True)
+            self.drag(eta)
+            friction = self.stepped(10000)
+            for k_f in (friction.k_f_natural, friction.k_f_work_natural, friction.k_f / FRICTION_UNIT,
+                        friction.k_f_work / FRICTION_UNIT):
+                self.assertAlmostEqual(k_f / K_F_AT_PEAK, 1.0, delta=0.01)
+            self.assertAlmostEqual(friction.window_k_f_natural / K_F_AT_PEAK, 1.0, delta=0.05)
+            self.assertAlmostEqual(friction.window_k_f / FRICTION_UNIT / friction.window_k_f_natural, 1.0, delta=1e-9)
+            self.assertAlmostEqual(friction.eta, eta, delta=1e-12)
+            self.assertAlmostEqual(friction.force / (friction.k_f * friction.drag_velocity), 1.0, delta=1e-9)
+            self.assertEqual(friction.force > 0.0, eta > 0.0)
+            self.assertGreater(friction.k_f_std_error, 0.0)
 
     def test_dynparam_and_clients_work(self):
         client = dynamic_reconfigure.client.Client(NAMESPACE, timeout=60)
@@ -50,9 +79,13 @@ class Steering(EmulatorTest):
 
     def test_a_change_takes_effect_at_a_batch_boundary_and_the_reply_follows(self):
         self.friction.wait_for_more(30)
-        reported = self.change(restitution_gamma=0.4, rest_height_m=-1.0e-11)
+        reported = self.change(restitution_gamma=0.4, rest_height_m=-1.0e-11, sample_rate_hz=80000.0)
         batch = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample, 'begins with that sample')
         self.assertEqual(key(batch.time), key(reported.time))
+        # of a new grid
+        self.assertEqual((reported.samples_per_batch, len(batch.vertical), batch.sample_period), (800, 800, 1 / 80000))
+        later = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample + 16000, 'later')
+        self.assertAlmostEqual(tau_between(reported.time, later.time), 16000 * reported.sample_period_tau, delta=1e-9)
         self.assertEqual((reported.model, math.isnan(reported.expected_error)), ('oscillator', True))
         # the friction of the other model is forgotten, and the running estimate is of this batch alone
         first = self.friction.wait_for(lambda m: key(m.begin) == key(reported.time), 'the first batch after it')
@@ -61,15 +94,6 @@ class Steering(EmulatorTest):
         self.begin(paused=True)
         self.emulator.set(restitution_gamma=0.5)
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.5, 'reported')
-
-    def test_a_new_sample_rate_begins_a_new_grid(self):
-        reported = self.change(sample_rate_hz=80000.0)
-        self.assertEqual(reported.samples_per_batch, 800)
-        batch = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample, 'the first of the new grid')
-        self.assertEqual(key(batch.time), key(reported.time))
-        self.assertEqual((len(batch.vertical), batch.sample_period), (800, 1.0 / 80000.0))
-        later = self.deflection.wait_for(lambda m: m.first_sample == reported.first_sample + 16000, 'later')
-        self.assertAlmostEqual(tau_between(reported.time, later.time), 16000 * reported.sample_period_tau, delta=1e-9)
 
     def test_a_faulty_combination_puts_the_old_values_back_and_says_why(self):
         diagnostics, updates = Topic('/diagnostics', DiagnosticArray), Topic('parameter_updates', Config)
@@ -101,7 +125,8 @@ class Steering(EmulatorTest):
             for message, height in zip(applied, expected):
                 self.assertAlmostEqual(message.rest_height_m, height, delta=1e-15 * abs(height))
         refused = self.status_now().refused_commands
-        junk = (('rest_height', 6e-11), ('rest_height', math.nan), ('load', math.inf), ('load', -1e-9))
+        junk = (('rest_height', 6e-11), ('rest_height', math.nan), ('load', math.inf), ('load', -1e-9),
+                ('drag_velocity', math.nan), ('drag_velocity', -math.inf), ('drag_velocity', 1.0000001 * MOST))
         for name, value in junk:
             self.emulator.publisher(name).publish(value)
         self.topics['status'].wait_for(lambda m: m.refused_commands == refused + len(junk), 'refused and counted')
@@ -121,6 +146,8 @@ class Steering(EmulatorTest):
         wait_until(lambda: {m.cause for m in self.applied.messages[before:]} >= {'rest_height', 'parameters'},
                    'both are applied')
         self.assertEqual(self.applied.messages[-1].rest_height_m, -3.5e-11)
+        self.emulator.drag(-MOST)
+        self.applied.wait_for(lambda m: m.drag_velocity == -MOST, 'the fastest there is')
 
 
 class Silence(NodeTest):

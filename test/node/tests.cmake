@@ -2,7 +2,7 @@
 
 # node/NAME_test.py: the files of a line run one after another with one master, as the rostest of the first name
 set(node_tests
-  "commands steering reset_pause_step"
+  "steering reset_pause_step"
   "ending shutdown"
   "examples"
   "faults"

@@ -55,7 +55,8 @@ class ViewTest(EmulatorTest):
         return wait_until(shown, 'a picture of where the emulator has stopped')
 
     def assert_sane(self, picture):
-        self.assertTrue(all(math.isfinite(number) for number in picture.numbers()))
+        shown = ''.join(str(m).replace(m.text, '') for m in picture.markers.values())
+        self.assertNotRegex(shown, r'\b(nan|inf)\b')
         self.assertEqual({m.header.frame_id for m in picture.markers.values()}, {'afm'})
         self.assertEqual([m.pose.orientation.w for m in picture.markers.values()], [1.0] * len(picture.markers))
 
@@ -131,7 +132,7 @@ class SlowMotion(ViewTest):
         wait_until(self.shows_friction, 'K_f as reported')
 
     def test_finds_its_place_when_it_comes_late(self):
-        for eta in (-2.3, 1.7):
+        for eta in (1.7, -2.3):
             self.drag(eta)
             self.stepped(7.7)
         self.view.clean_up()
@@ -140,17 +141,8 @@ class SlowMotion(ViewTest):
         self.wait_for_tip()
         self.pause(True)
         self.stepped(9)
-        self.assert_shows_all()
-
-    def test_obeys_a_command_and_a_reset(self):
-        self.drag(-1.3)
-        self.stepped(9)
         picture, _ = self.assert_shows_all()
-        self.assertEqual(picture.text('eta'), 'eta -1.300')
-        self.begin(paused=True)
-        self.stepped(2)
-        picture, _ = self.assert_shows_all()
-        self.assertEqual(picture.text('eta'), 'eta 3.400')
+        self.assertEqual(picture.text('eta'), 'eta -2.300')
 
     def test_follows_the_holder_up_and_down(self):
         for height in (-3e-11, 2e-11):

@@ -7,13 +7,13 @@ import csv
 import fcntl
 import os
 import pty
-import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+from pathlib import Path
 
 TOOL = None
 HEADER = ('eta,gamma,cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,'
@@ -26,25 +26,19 @@ DEADLINE = 60.0
 
 class Case(unittest.TestCase):
     def setUp(self):
-        self.directory = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.directory = Path(holder.name)
 
     def run_tool(self, arguments, name=None):
-        output = ['--output', self.path(name)] if name else []
+        output = ['--output', str(self.directory / name)] if name else []
         return subprocess.run([TOOL, *arguments, *output], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               timeout=DEADLINE)
-
-    def bytes_of(self, name):
-        with open(self.path(name), 'rb') as file:
-            return file.read()
 
     def table(self, arguments, name):
         done = self.run_tool(arguments, name)
         self.assertEqual((done.returncode, done.stderr), (0, b''))
-        return self.bytes_of(name)
+        return (self.directory / name).read_bytes()
 
     def rows(self, arguments, name='rows.csv'):
         return list(csv.DictReader(self.table(arguments, name).decode().splitlines()))
@@ -60,23 +54,19 @@ class SameBytes(Case):
 
     def interrupted(self, arguments, number):
         """Stopped with some rows there and some not, then finished."""
-        command = [TOOL, *arguments, '--output', self.path('stopped.csv')]
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        stopped = self.directory / 'stopped.csv'
+
+        def lines():
+            return stopped.read_bytes().count(b'\n') if stopped.exists() else 0
+        process = subprocess.Popen([TOOL, *arguments, '--output', str(stopped)], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
         deadline = time.monotonic() + DEADLINE
-        while self.lines('stopped.csv') < 4 and process.poll() is None and time.monotonic() < deadline:
+        while lines() < 4 and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.001)
         process.send_signal(number)
         reported = process.communicate(timeout=DEADLINE)[1]
-        before = self.lines('stopped.csv')
-        self.assertGreaterEqual(before, 4)
-        self.assertLess(before, 120, 'it was finished before it was stopped')
+        self.assertTrue(4 <= lines() < 120, 'it was finished before it was stopped')
         return process.returncode, reported, self.table(arguments, 'stopped.csv')
-
-    def lines(self, name):
-        try:
-            return len(self.bytes_of(name).splitlines())
-        except FileNotFoundError:
-            return 0
 
     def test_interrupted(self):
         for sweep in ('fresh', 'up'):
@@ -86,24 +76,23 @@ class SameBytes(Case):
             self.assertEqual(finished, whole)
             self.assertEqual(code, 130)
             self.assertIn(b'the same command goes on from ' + (b'there' if sweep == 'fresh' else b'the last'), reported)
-            os.remove(self.path('stopped.csv'))
+            (self.directory / 'stopped.csv').unlink()
             code, _, finished = self.interrupted([*long, '--threads', '1'], signal.SIGKILL)
             self.assertEqual((code, finished), (-signal.SIGKILL, whole))
             for name in ('whole.csv', 'stopped.csv'):
-                os.remove(self.path(name))
+                (self.directory / name).unlink()
 
     def test_a_line_cut_short(self):
         for sweep in ('fresh', 'up'):
             whole = self.table([*MAP, '--sweep', sweep], 'cut.csv')
             for size in (0, 150, 400, 2500):
-                with open(self.path('cut.csv'), 'r+b') as table:
-                    table.truncate(size)
+                os.truncate(str(self.directory / 'cut.csv'), size)
                 self.assertEqual(self.table([*MAP, '--sweep', sweep], 'cut.csv'), whole)
-            os.remove(self.path('cut.csv'))
+            (self.directory / 'cut.csv').unlink()
 
     def test_one_run_at_a_time(self):
         self.table(MAP, 'held.csv')
-        with open(self.path('held.csv.settings')) as settings:
+        with (self.directory / 'held.csv.settings').open() as settings:
             fcntl.flock(settings, fcntl.LOCK_EX)
             done = self.run_tool(MAP, 'held.csv')
         self.assertEqual(done.returncode, 2)
@@ -133,24 +122,22 @@ class Refusals(Case):
         self.assert_refused(['stray'], 'stray')
 
     def test_other_settings(self):
-        table = self.table(MAP, 'curve.csv')
-        self.assertEqual(self.run_tool(MAP, 'curve.csv').returncode, 0)
-        self.assertEqual(self.bytes_of('curve.csv'), table)
+        table, curve = self.table(MAP, 'curve.csv'), self.directory / 'curve.csv'
+        self.assertEqual(self.table(MAP, 'curve.csv'), table)
         self.assertEqual(self.run_tool([*MAP[2:], '--eta', '1.5:5.5:0.5'], 'curve.csv').returncode, 2)
         for extra in (['--seed', '2'], ['--sweep', 'up'], ['--si']):
             done = self.run_tool([*MAP, *extra], 'curve.csv')
             self.assertEqual(done.returncode, 2)
             self.assertIn(b'other settings', done.stderr)
-            self.assertEqual(self.bytes_of('curve.csv'), table)
-        os.remove(self.path('curve.csv'))
+            self.assertEqual(curve.read_bytes(), table)
+        curve.unlink()
         self.assertNotEqual(self.table([*MAP, '--seed', '2'], 'curve.csv'), table)
 
     def test_a_file_of_someone_else(self):
-        with open(self.path('notes.csv'), 'w') as file:
-            file.write('mine\n')
-        done = self.run_tool(MAP, 'notes.csv')
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(self.bytes_of('notes.csv'), b'mine\n')
+        notes = self.directory / 'notes.csv'
+        notes.write_text('mine\n')
+        self.assertEqual(self.run_tool(MAP, 'notes.csv').returncode, 2)
+        self.assertEqual(notes.read_text(), 'mine\n')
 
     def test_a_full_disk(self):
         with open('/dev/full', 'w') as full:

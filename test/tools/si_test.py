@@ -3,10 +3,8 @@
 
 Usage: si_test.py FOLDER_OF_THE_TOOLS
 """
-import csv
 import math
 import os
-import subprocess
 import sys
 import unittest
 
@@ -22,8 +20,8 @@ OTHER_NAMES = {'drag_velocity': 'eta'}
 QUICK = ['--trajectory', '20000', '--guesses', '200', '--quiet']
 
 
-def run(tool, *arguments):
-    return run_tool(os.path.join(FOLDER, tool), *map(str, arguments))
+def run(tool, *arguments, text=None):
+    return run_tool(os.path.join(FOLDER, tool), *map(str, arguments), text=text)
 
 
 def unit_of(column):
@@ -54,9 +52,8 @@ class SameNumbers(unittest.TestCase):
                    'mean_energy_loss_j', 'mean_flight_time_s', 'largest_lyapunov_per_s', 'rest_height_m',
                    'amplitude_m', 'k_f_work_kg_per_s', 'k_f_work_std_error_kg_per_s']
         common = ['--duration', 200, '--transient', 100, '--eta', 2]
-        self.compare(run('friction_curve', *common),
-                     run('friction_curve', '--duration', 200 * TAU, '--transient', 100 * TAU,
-                                                         '--eta', 2, '--si'), columns)
+        si = ['--duration', 200 * TAU, '--transient', 100 * TAU, '--eta', 2, '--si']
+        self.compare(run('friction_curve', *common), run('friction_curve', *si), columns)
 
     def test_options_of_friction_curve_are_taken_in_si(self):
         """The table gives them back, and the run is that of their natural values: an orbit, so that rounding does not
@@ -118,19 +115,14 @@ class SameNumbers(unittest.TestCase):
         natural = 'eta,gamma,cutoff,phase,extension,u,w\n3.4,0.7,0.05,0.25,0.1,3.4,2\n'
         si = ('drag_velocity_m_per_s,gamma,cutoff_m_per_s,phase,extension_m,u_m_per_s,w_m_per_s\n' +
               ','.join(repr(v) for v in (3.4 * SPEED, 0.7, 0.05 * SPEED, 0.25, 0.1 * A, 3.4 * SPEED, 2 * SPEED)) + '\n')
-        self.compare(self.filter(natural), self.filter(si, '--si'),
+        self.compare(run('next_impact', text=natural), run('next_impact', '--si', text=si),
                      ['drag_velocity_m_per_s', 'cutoff_m_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s', 'dt_s',
                       'extension_next_m', 'u_next_m_per_s', 'w_next_m_per_s', 'normal_speed_m_per_s',
                       'tangential_velocity_m_per_s', 'energy_loss_j'], tolerance=1e-11)
         # the header says which it is: a table in other units is refused
-        code, rows, complaint = self.filter(natural, '--si')
+        code, rows, complaint = run('next_impact', '--si', text=natural)
         self.assertEqual((code, rows), (1, []))
         self.assertIn('drag_velocity_m_per_s', complaint)
-
-    def filter(self, text, *options):
-        done = subprocess.run([os.path.join(FOLDER, 'next_impact'), *options], input=text, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
-        return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
 
 
 class Refused(unittest.TestCase):
