@@ -9,6 +9,7 @@
 #include "afm/dynamics/sweep.h"
 #endif
 #include "afm/number_text.h"
+#include "common/lever_options.h"
 #include "common/point_options.h"
 #include "common/si_options.h"
 #include "sweep/curve_run.h"
@@ -36,6 +37,7 @@ struct Options {
   int threads = 0;
   afm::CurveSettings settings;
   afm::SiOptions si;
+  afm::LeverOptions lever;
 };
 
 const std::map<std::string, afm::SweepDirection> kDirections{
@@ -67,6 +69,22 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("output", o.output, "the table; - is standard output");
   afm::add_drag_velocity_option(app, o.drag_velocity);
   afm::add_si_options(app, o.si);
+  afm::add_lever_options(app, o.lever);
+}
+
+void take_lever(const afm::CommandLine& app, Options& o) {
+  if (!o.lever.are_given()) return;
+  if (!o.si.on) refuse("lever, surface, load: have a meaning only with --si");
+  afm::CurveSettings& s = o.settings;
+  const afm::LeverScene scene(app, o.lever);
+  o.si.scale = scene.si;
+  scene.take(app, "cutoff", s.cutoff);
+  scene.take(app, "rest-height", s.rest_height);
+  scene.take(app, "amplitude", s.amplitude);
+  scene.take(app, "frequency-ratio", s.frequency_ratio);
+  scene.take(app, "quality-factor", s.sweep.bath.quality_factor);
+  scene.take(app, "lateral-quality-factor", s.sweep.bath.lateral_quality_factor);
+  scene.take(app, "kicks-per-tau", s.sweep.bath.kicks_per_tau);
 }
 
 void take_si(const afm::CommandLine& app, Options& o) {
@@ -83,7 +101,6 @@ void take_si(const afm::CommandLine& app, Options& o) {
 
 void check(const afm::CommandLine& app, Options& o) {
   afm::CurveSettings& s = o.settings;
-  afm::checked_units(app, o.si);
   s.eta = afm::has_drag_velocity(app, o.si) ? afm::range_option("drag-velocity", o.drag_velocity)
                                             : afm::range_option("eta", o.eta);
   s.gamma = afm::range_option("gamma", o.gamma);
@@ -91,6 +108,8 @@ void check(const afm::CommandLine& app, Options& o) {
   s.rest_height = afm::range_option("rest-height", o.rest_height);
   if (!o.amplitude.empty()) s.amplitude = afm::range_option("amplitude", o.amplitude);
   if (!o.frequency_ratio.empty()) s.frequency_ratio = afm::range_option("frequency-ratio", o.frequency_ratio);
+  take_lever(app, o);
+  afm::checked_units(app, o.si);
   take_si(app, o);
   const auto direction = kDirections.find(o.sweep);
   if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");

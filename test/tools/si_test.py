@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""--si of the tools: the same numbers in other units, by columns that name them; nothing else changes.
+"""--si of the tools: the same numbers in other units, by columns that name them; nothing else changes. --lever,
+--surface and --load: the model that follows from them.
 
 Usage: si_test.py FOLDER_OF_THE_TOOLS
 """
 import math
 import os
 import sys
+import tempfile
 import unittest
 
 from tables import run_tool
@@ -125,6 +127,60 @@ class SameNumbers(unittest.TestCase):
         self.assertIn('drag_velocity_m_per_s', complaint)
 
 
+class Levers(unittest.TestCase):
+    """The files of the emulator, in natural units by hand: m = k / (2 pi f0)^2, tau = 1 / f0, y0 = -load / k."""
+    K, F0, K_H, A, LOAD = 0.2, 13e3, 88.2, 3.99e-10, 0.1e-9
+    GIVEN = ['--lever', 'ppp_cont', '--surface', 'nacl', '--load', LOAD]
+    NATURAL = {'amplitude': 5e-11 / A, 'frequency-ratio': math.sqrt(K_H / K), 'rest-height': -LOAD / (K * A),
+               'cutoff': 1.66e-7 / (A * F0), 'quality-factor': 100.0}
+
+    def test_friction_curve(self):
+        theta = BOLTZMANN * 300 / (self.K / (2 * math.pi) ** 2 * self.A ** 2)
+        speed = 3 * self.A * self.F0
+        code, rows, complaint = run('friction_curve', '--si', *self.GIVEN, '--drag-velocity', speed, '--temperature', 300)
+        self.assertEqual(code, 0, complaint)
+        options = [word for name, value in self.NATURAL.items() for word in ('--' + name, repr(value))]
+        expected = run('friction_curve', '--eta', 3, *options, '--kicks-per-tau', 12.979, '--temperature', theta)[1][0]
+        unit = self.K / (4 * math.pi ** 2 * self.F0)  # k = m (2 pi)^2 / tau^2
+        for name in ('k_f', 'k_f_work'):
+            error = float(expected[name + '_std_error'])
+            self.assertAlmostEqual(float(rows[0][name + '_kg_per_s']) / unit, float(expected[name]), delta=5 * error)
+            self.assertLess(error, 0.1 * float(expected[name]))
+        for column, scale in (('rest_height_m', self.A), ('amplitude_m', self.A), ('frequency_ratio', 1)):
+            natural = float(expected[column.replace('_m', '')])
+            self.assertAlmostEqual(float(rows[0][column]) / scale / natural, 1, delta=1e-14, msg=column)
+        self.assertAlmostEqual(float(rows[0]['cutoff_m_per_s']), 1.66e-7, delta=1e-20)
+
+    def test_real_time(self):
+        short = ['real_time', '--eta', 2, '--tau', 20, '--transient', 10]
+        row, = run(*short, *self.GIVEN)[1]
+        for name, value in self.NATURAL.items():
+            self.assertAlmostEqual(float(row[name.replace('-', '_')]) / value, 1, delta=1e-14, msg=name)
+        ratio = float(row['lever_times_real_time']) / float(row['times_real_time'])
+        self.assertAlmostEqual(ratio, 1 / (self.F0 * TAU), delta=1e-3)
+        self.assertNotIn('lever_times_real_time', run(*short, '--cutoff', 0.1)[1][0])
+        self.assertEqual([row['amplitude'] for row in run(*short, '--lever', 'soft', '--amplitude', '0.1,0.2')[1]],
+                         ['0.10000000000000001', '0.20000000000000001'])
+
+    def test_a_file_of_ones_own(self):
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            def refused(text, *words):
+                file.seek(0)
+                file.truncate()
+                file.write(text)
+                file.flush()
+                code, rows, complaint = run('real_time', '--eta', 2, '--tau', 1, '--lever', file.name)
+                self.assertEqual(code, 2 if words else 0, complaint)
+                for word in words:
+                    self.assertIn(word, complaint)
+            lever = 'spring_constant_n_per_m: 0.5\nresonance_hz: 2.0e4\n'
+            refused(lever + 'lateral_spring_constant_n_per_m: 60\n')
+            refused(lever, 'lateral_spring_constant_n_per_m')
+            refused(lever + 'lateral_spring_constant_n_per_m: high\n', file.name, 'lateral_spring_constant_n_per_m must')
+            refused(lever + 'stiffness: 3\n', file.name, 'stiffness')
+            refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')
+
+
 class Refused(unittest.TestCase):
     def refuse(self, words, tool, *arguments):
         code, rows, complaint = run(tool, *arguments)
@@ -140,6 +196,12 @@ class Refused(unittest.TestCase):
         self.refuse('must be positive, between 1e-40 and 1e40', 'next_impact', '--si', '--tip-mass', 1e50)
         self.refuse('drag-velocity = 1e-6:2e-6:1e-6: must be one number', 'return_scan', '--si', '--drag-velocity',
                     '1e-6:2e-6:1e-6')
+        self.refuse('lever, surface, load: have a meaning only with --si', 'friction_curve', '--lever', 'soft')
+        self.refuse('omega-v: is given beside --lever', 'friction_curve', '--si', '--lever', 'soft', '--omega-v', 1e4)
+        self.refuse('rest-height: is given beside --load', 'real_time', '--load', 1e-9, '--rest-height', 0)
+        self.refuse('load_n = nan: must be finite', 'real_time', '--load', 'nan')
+        self.refuse('ppp_cont', 'real_time', '--lever', 'nosuch')
+        self.refuse('mica', 'real_time', '--surface', 'nosuch')
 
 
 if __name__ == '__main__':
