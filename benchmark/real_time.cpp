@@ -22,7 +22,7 @@ struct Options {
   std::vector<double> eta, cutoff{0.1, 0.05, 0.01, 0.001};
   std::vector<double> frequency_ratio{afm::Model{}.frequency_ratio}, amplitude{afm::Model{}.H}, rest_height{0.0};
   std::vector<double> temperature{0.0}, quality_factor{0.0};
-  afm::Bath bath;  // its kicks and its lateral quality factor are those of the lever
+  afm::Bath bath;  // its kicks, and the lateral quality factor of the lever
   double step = 0.05, tolerance = afm::kDefaultContactTolerance;
   std::int64_t tau = 1000, transient = 200;
   afm::LeverOptions lever;
@@ -156,6 +156,7 @@ int main(int argc, char** argv) {
   app.option("rest-height", o.rest_height, "of the holder above mid-surface [a]");
   app.option("temperature", o.temperature, "kT of the heat bath [m a^2/tau^2]");
   app.option("quality-factor", o.quality_factor, "of the cantilever; 0: no bath");
+  app.option("kicks-per-tau", o.bath.kicks_per_tau, "of the heat bath");
   app.option("tau", o.tau, "measured time each");
   app.option("transient", o.transient, "time before that");
   afm::add_lever_options(app, o.lever);
