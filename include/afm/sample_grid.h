@@ -29,8 +29,8 @@ struct SampleGrid {
 
   // The same without a precondition, for numbers read from elsewhere: kEndOfTime for a sample that is not on the grid.
   ModelTime time_or_end(std::uint64_t n) const {
-    const bool reached =
-        n >= first && static_cast<double>(n - first) * period < 0.5 * static_cast<double>(kEndOfTime.tau);
+    const double since = static_cast<double>(n - first) * period;
+    const bool reached = n >= first && since >= 0.0 && since < 0.5 * static_cast<double>(kEndOfTime.tau);
     return reached ? time(n) : kEndOfTime;
   }
 };

@@ -78,7 +78,7 @@ class Examples(NodeTest):
         self.start(Emulator({'time_scale': SLOW_MOTION}))
         # a process of its own, as rospy gives all subscribers of a process one type for each topic
         program = self.start(Process([sys.executable, '-c', REPEATED_COMMAND]))
-        self.assertEqual(program.wait(60.0), 0)
+        self.assertEqual(program.wait(60.0), 0, program.output())
 
     def test_a_commander_in_cpp(self):
         self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0, 'time_scale': SLOW_MOTION}))
