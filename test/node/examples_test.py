@@ -26,9 +26,10 @@ again = tip.command_and_wait(velocity)
 assert key(first) < key(lowered) <= key(again), (first, lowered, again)
 assert abs(tip.mean_force(0.05)) < 1e-9  # it ends
 tip.command_and_wait(rest_height=0.0)
-nothing, periods = tip.control(0.0), [tip.control(0.01) for _ in range(20)]  # of one batch each
+nothing, periods = tip.control(0.0), [tip.control(0.01) for _ in range(20)]  # of so many whole batches each
 assert nothing.samples == 0 and nothing.k_f != nothing.k_f, nothing
-assert all(abs(p.impact_count / (0.01 / tip.tau_s) - 2.0) < 0.2 for p in periods), [p.impact_count for p in periods]
+per_tau = [p.impact_count / ((p.end.tau - p.begin.tau) + (p.end.phase - p.begin.phase)) for p in periods]
+assert all(abs(rate - 2.0) < 0.2 for rate in per_tau), per_tau
 rospy.signal_shutdown('done')
 ''' % (2 * SPEED_UNIT)
 
