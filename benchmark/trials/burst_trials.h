@@ -51,7 +51,6 @@ class BurstTrials {
     return compare(burst, before, bounces, count);
   }
 
- private:
   // Runs to where a burst has just begun; the state is that of its first bounce.
   std::optional<TipState> next_burst() {
     while (launches_ < kMostLaunches) {
@@ -70,6 +69,9 @@ class BurstTrials {
     return {};
   }
 
+  const Tip& tip() const { return tip_; }
+
+ private:
   // Where the burst lets go, its next bounce; where it has died into contact, the first impact after the release.
   bool to_next_impact(Tip& burst, Tip& bounces, double& before, std::int64_t& count) const {
     const ModelTime begin = burst.now();

@@ -49,49 +49,28 @@ struct Burst {
   std::uint32_t count;
 };
 
-// Bursts as a tip makes them that end with a bounce; it is launched anew under pressure every 5 tau.
-class Bursts {
- public:
-  Bursts(const Model& model, double eta) : model_(model), eta_(eta), tip_(fresh()) {}
-
-  Burst next() {
-    for (;;) {
-      if (tip_.advance(kEnd) == Outcome::time_limit) tip_ = fresh();
-      const Impact& impact = tip_.last_impact();
-      if (!tip_.in_chatter() || impact.kind != ImpactKind::impact || !(impact.normal_speed > 0.0)) continue;
-      const TipState slide = tip_.tip_state();
-      const double after = restitution(model_, impact.normal_speed) * impact.normal_speed;
-      const ModelTime begin = tip_.now();
-      const bool ends = tip_.advance(kEnd) == Outcome::impact && tip_.tip_state().g1 > 0.0;
-      if (!ends || tip_.last_impact().count > kMostBounces) continue;
-      if (tip_.now() == begin) continue;  // at the threshold of contact: it ends where it began, without a bounce
-      return {leave_surface(model_, {slide.phase, slide.X, slide.u}, after), tip_.now() - begin,
-              tip_.last_impact().count};
-    }
+// The next burst that ends with a bounce; not at the threshold of contact, where it ends as it begins.
+Burst next_burst(BurstTrials& trials) {
+  constexpr std::uint32_t kMostBounces = 400;
+  for (;;) {
+    const TipState start = trials.next_burst().value();
+    Tip tip = trials.tip();
+    const ModelTime begin = tip.now();
+    const bool bounces = tip.advance(begin + 1000.0) == Outcome::impact && tip.tip_state().g1 > 0.0;
+    const std::uint32_t count = tip.last_impact().count;
+    if (bounces && begin < tip.now() && count <= kMostBounces) return {start, tip.now() - begin, count};
   }
-  ChatterLaw law() const { return {tip_.model(), chatter_threshold(tip_.contact_tolerance())}; }
-
- private:
-  Tip fresh() { return pressed_tip(model_, eta_, kDefaultContactTolerance, random_); }
-
-  static constexpr ModelTime kEnd{5, 0.0};
-  static constexpr std::uint32_t kMostBounces = 400;
-
-  Model model_;
-  double eta_;
-  RandomLaunches random_{1};
-  Tip tip_;
-};
-constexpr ModelTime Bursts::kEnd;
+}
 
 // Relative errors of the Jacobians of the first bursts, the smallest first.
 std::vector<double> errors(const Model& model, double eta) {
   constexpr std::size_t kBursts = 6;
-  Bursts bursts(model, eta);
+  const ChatterLaw law(model, chatter_threshold(kDefaultContactTolerance));
+  BurstTrials trials(model, eta, kDefaultContactTolerance, 1, 0);
   std::vector<double> found;
   while (found.size() < kBursts) {
-    const Burst burst = bursts.next();
-    const auto J = chatter_jacobian(model, bursts.law(), eta, burst.start, burst.duration);
+    const Burst burst = next_burst(trials);
+    const auto J = chatter_jacobian(model, law, eta, burst.start, burst.duration);
     found.push_back(relative_distance(J, bounce(model, eta, burst.start, burst.count).J));
   }
   std::sort(found.begin(), found.end());

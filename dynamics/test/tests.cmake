@@ -1,14 +1,14 @@
 # The laboratory: NAME_test.cpp with its library, NAME_test.py with its tools.
 
-set(dynamics_tests attractor chatter_jacobian contact_jacobian continuation cycle_expansion hammer_orbits
-  heated_sweep jacobian lyapunov periodic_orbit poincare_map sweep symbolic_dynamics)
 set(here ${PROJECT_SOURCE_DIR}/dynamics/test)
-foreach(name IN LISTS dynamics_tests)
-  afm_add_gtest(${name}_test ${here}/${name}_test.cpp)
-  target_include_directories(afm_${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark
+file(GLOB dynamics_tests CONFIGURE_DEPENDS ${here}/*_test.cpp)
+foreach(file IN LISTS dynamics_tests)
+  get_filename_component(name ${file} NAME_WE)
+  afm_add_gtest(${name} ${file})
+  target_include_directories(afm_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark
     ${PROJECT_SOURCE_DIR}/dynamics/src ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(afm_${name}_test afm_emulator_dynamics afm_quad)
-  set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
+  target_link_libraries(afm_${name} afm_emulator_dynamics afm_quad)
+  set_tests_properties(${gtest_prefix}${name} PROPERTIES TIMEOUT 120)
 endforeach()
 target_link_libraries(afm_sweep_test afm_emulator_sweep)
 

@@ -1,61 +1,17 @@
 # The core: physics without ROS.
 
-# core/FOLDER/NAME_test.cpp: one executable each, with the core and nothing else (and quad floats to compare with)
-function(afm_add_core_test path)
-  get_filename_component(name ${path} NAME)
-  afm_add_gtest(${name}_test core/${path}_test.cpp)
-  target_include_directories(afm_${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark
+# NAME_test.cpp: one executable each, with the core and nothing else (and quad floats to compare with)
+file(GLOB_RECURSE core_tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/core/*_test.cpp)
+foreach(file IN LISTS core_tests)
+  get_filename_component(name ${file} NAME_WE)
+  afm_add_gtest(${name} ${file})
+  target_include_directories(afm_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/benchmark
     ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(afm_${name}_test afm_emulator_core afm_quad ${ARGN})
-  target_compile_definitions(afm_${name}_test PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
-  set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 120)
-endfunction()
-
-set(core_tests
-  contact/chatter
-  contact/chatter_end
-  contact/contact
-  contact/contact_step
-  contact/slide
-  contact/slide_release
-  run/batch_means
-  run/run
-  run/run_limits
-  run/snapshot
-  run/ensemble
-  run/friction
-  run/live_changes
-  run/pacer
-  levels/level_table
-  model
-  number_text
-  search/double_double
-  search/first_fall
-  search/flight
-  search/grazing
-  search/impact_search
-  search/reference_flights
-  search/reflection
-  search/slow_departure
-  search/surface
-  search/turns
-  state
-  tip/corners
-  tip/energy
-  tip/equilibrium
-  tip/hammer
-  tip/kick
-  tip/known_orbits
-  tip/set_model
-  tip/set_parameters
-  tip/segment
-  tip/split
-  tip/thermostat
-  tip/tip
-  units)
-foreach(name IN LISTS core_tests)
-  afm_add_core_test(${name})
+  target_link_libraries(afm_${name} afm_emulator_core afm_quad)
+  target_compile_definitions(afm_${name} PRIVATE AFM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/data")
+  set_tests_properties(${gtest_prefix}${name} PROPERTIES TIMEOUT 120)
 endforeach()
+
 # The bits of a run depend on no compiler and no option: reference runs as built here and, portable, without any
 # optimization, against digests that are written down. scripts/platforms --digests does it for every compiler there is,
 # and for older machines.

@@ -13,15 +13,13 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
-NOT_IN_THE_SIDEBAR = {'history', 'genindex', 'search', 'index', 'py-modindex'}
-
 
 class Page(HTMLParser):
-    """Links, what can be linked to, what is loaded, and what the sidebar holds."""
+    """Links, what can be linked to, and what is loaded."""
 
     def __init__(self, path):
         super().__init__()
-        self.path, self.ids, self.links, self.loaded, self.sidebar = path, set(), [], [], []
+        self.path, self.ids, self.links, self.loaded = path, set(), [], []
         self.feed(path.read_text(encoding='utf-8'))
 
     def handle_starttag(self, tag, attributes):
@@ -29,8 +27,6 @@ class Page(HTMLParser):
         self.ids.update(fields[name] for name in ('id', 'name') if fields.get(name))
         if tag == 'a' and fields.get('href'):
             self.links.append(fields['href'])
-            if 'reference internal' in fields.get('class', ''):
-                self.sidebar.append(fields['href'])
         for name in ('src', 'href'):
             if tag in ('img', 'script', 'link', 'iframe') and fields.get(name):
                 self.loaded.append(fields[name])
@@ -60,13 +56,6 @@ def faults_of(page, pages):
             yield 'no anchor %s' % link
 
 
-def check_sidebar(site, pages):
-    linked = {pages[site / 'index.html'].target(link) for link in pages[site / 'index.html'].sidebar}
-    for path in pages:
-        if path.stem not in NOT_IN_THE_SIDEBAR and path not in linked:
-            yield '%s: not in the sidebar' % path.relative_to(site)
-
-
 def check_reference(root, pages):
     text = ''.join(path.read_text() for path in sorted((root / 'docs/api').glob('cpp_*.rst')))
     shown = sorted(re.findall(r'^\.\. doxygenfile:: (\S+)', text, re.M))
@@ -92,7 +81,7 @@ def main(root, devel, output):
     pages = {path: Page(path) for path in sorted(site.rglob('*.html'))}
     faults = ['%s: %s' % (path.relative_to(site), fault)
               for path, page in pages.items() for fault in faults_of(page, pages)]
-    faults += list(check_sidebar(site, pages)) + list(check_reference(root, pages))
+    faults += list(check_reference(root, pages))
     for fault in faults:
         print('FAULT: ' + fault)
     print('%d pages, %d links, %d faults' % (len(pages), sum(len(page.links) for page in pages.values()), len(faults)))

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "afm/run.h"
-#include "support/commands.h"
 #include "support/faults.h"
-#include "support/recorded_run.h"
 
 namespace afm {
 namespace {
@@ -40,41 +38,6 @@ TEST(RunLimits, ASpentBudgetIsCountedAndTimeIsHonest) {
     const std::uint64_t next = batch.first_sample + batch.vertical.size();
     ASSERT_TRUE(batch.end <= multiply(next, settings.sample_period));
     ASSERT_TRUE(next == 0 || multiply(next - 1, settings.sample_period) < batch.end);
-  }
-}
-
-TEST(RunLimits, ASpentBudgetChangesOnlyWhereBatchesEnd) {
-  RunSettings settings = chattering();
-  afm::Run whole(settings);
-  settings.impact_budget = 7;
-  afm::Run starved(settings);
-  RecordedRun truth, recorded;
-  Batch batch;
-  ASSERT_EQ(whole.advance(batch), Outcome::time_limit);
-  truth.append(batch);
-  const ModelTime end = batch.end;
-  while (starved.now() < end) {
-    starved.advance(batch);
-    recorded.append(batch);
-  }
-  EXPECT_TRUE(starved.now() == end);
-  EXPECT_GT(starved.counters().budget_exhausted, 10u);
-  EXPECT_EQ(recorded.vertical.size(), truth.vertical.size());
-  expect_first_of(recorded, truth);
-}
-
-TEST(RunLimits, ATinyCutoffCostsNoMoreThanItsBudget) {
-  RunSettings settings = chattering();
-  settings.model.v_c = 1e-4;
-  settings.impact_budget = 500;
-  afm::Run run(settings);
-  Batch batch;
-  for (int i = 0; i < 50; ++i) {
-    const Outcome outcome = run.advance(batch);
-    ASSERT_LE(batch.impacts.size(), 500u);
-    if (outcome == Outcome::budget_spent) continue;
-    ASSERT_EQ(outcome, Outcome::time_limit);
-    ASSERT_EQ(batch.vertical.size(), batch.first_sample % 2000 == 0 ? 2000u : 2000u - batch.first_sample % 2000);
   }
 }
 

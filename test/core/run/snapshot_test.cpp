@@ -11,7 +11,6 @@
 #include <map>
 #include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "support/commands.h"
@@ -272,8 +271,13 @@ struct Field {
   std::function<void(Snapshot&, double)> set;
 };
 
-std::uint64_t whole(double x) { return x >= 0.0 && x < 0x1p64 ? static_cast<std::uint64_t>(x) : ~std::uint64_t{0}; }
-std::int64_t signed_whole(double x) { return std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : INT64_MIN; }
+void assign(double& number, double x) { number = x; }
+void assign(std::uint64_t& number, double x) {
+  number = x >= 0.0 && x < 0x1p64 ? static_cast<std::uint64_t>(x) : ~std::uint64_t{0};
+}
+void assign(std::int64_t& number, double x) {
+  number = std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : INT64_MIN;
+}
 
 template <class Set>
 void set_sums(Snapshot& s, const Set& set) {
@@ -282,86 +286,44 @@ void set_sums(Snapshot& s, const Set& set) {
   s.friction = Friction(sums);
 }
 
+// clang-format off
+#define AFM_FIELD(number) {#number, [](Snapshot& s, double x) { assign(s.number, x); }}
+#define AFM_SUM(number) \
+  {"friction." #number, [](Snapshot& s, double x) { set_sums(s, [x](FrictionSums& f) { assign(f.number, x); }); }}
+
 std::vector<Field> fields() {
-  std::vector<Field> all;
-  const auto add = [&](const std::string& name, std::function<void(Snapshot&, double)> set) {
-    all.push_back({name, std::move(set)});
-  };
-  const auto add_time = [&](const std::string& name, ModelTime& (*time)(Snapshot&)) {
-    add(name + ".tau", [time](Snapshot& s, double x) { time(s).tau = signed_whole(x); });
-    add(name + ".phase", [time](Snapshot& s, double x) { time(s).phase = x; });
-  };
-  const auto add_sum = [&](const std::string& name, double& (*sum)(FrictionSums&)) {
-    add(name, [sum](Snapshot& s, double x) { set_sums(s, [&](FrictionSums& sums) { sum(sums) = x; }); });
-  };
-  add("gamma", [](Snapshot& s, double x) { s.settings.model.gamma = x; });
-  add("v_c", [](Snapshot& s, double x) { s.settings.model.v_c = x; });
-  add("y0", [](Snapshot& s, double x) { s.settings.model.y0 = x; });
-  add("H", [](Snapshot& s, double x) { s.settings.model.H = x; });
-  add("frequency_ratio", [](Snapshot& s, double x) { s.settings.model.frequency_ratio = x; });
-  add("eta", [](Snapshot& s, double x) { s.settings.eta = x; });
-  add("contact_tolerance", [](Snapshot& s, double x) { s.settings.contact_tolerance = x; });
-  add("sample_period", [](Snapshot& s, double x) { s.settings.sample_period = s.samples.period = x; });
-  add("samples_per_batch", [](Snapshot& s, double x) { s.settings.samples_per_batch = whole(x); });
-  add("impact_budget", [](Snapshot& s, double x) { s.settings.impact_budget = whole(x); });
-  add("friction_window", [](Snapshot& s, double x) {
-    s.settings.friction_window = x;
-    set_sums(s, [&](FrictionSums& sums) { sums.window = PowerWindow(sums.window_tau = x); });
-  });
-  add("temperature", [](Snapshot& s, double x) { s.settings.bath.temperature = x; });
-  add("quality_factor", [](Snapshot& s, double x) { s.settings.bath.quality_factor = x; });
-  add("lateral_quality_factor", [](Snapshot& s, double x) { s.settings.bath.lateral_quality_factor = x; });
-  add("kicks_per_tau", [](Snapshot& s, double x) { s.settings.bath.kicks_per_tau = x; });
-  add("initial_phase", [](Snapshot& s, double x) { s.settings.initial.phase = x; });
-  add("initial_height", [](Snapshot& s, double x) { s.settings.initial.y = x; });
-
-  add("phase", [](Snapshot& s, double x) { s.tip.phase = static_cast<Phase>(whole(x) % 6); });
-  add_time("time", [](Snapshot& s) -> ModelTime& { return s.tip.time; });
-  add("surface_phase", [](Snapshot& s, double x) { s.tip.state.phase = x; });
-  add("extension", [](Snapshot& s, double x) { s.tip.state.X = x; });
-  add("u", [](Snapshot& s, double x) { s.tip.state.u = x; });
-  add("gap", [](Snapshot& s, double x) { s.tip.state.g = x; });
-  add("gap_rate", [](Snapshot& s, double x) { s.tip.state.g1 = x; });
-  add("sequence_normal_speed", [](Snapshot& s, double x) { s.tip.sequence_normal_speed = x; });
-  add("sequence_gain", [](Snapshot& s, double x) { s.tip.sequence_gain = x; });
-  add("chatter_speed", [](Snapshot& s, double x) { s.tip.chatter_speed = x; });
-  add("chatter_count", [](Snapshot& s, double x) { s.tip.chatter_count = x; });
-
-  add("samples.period", [](Snapshot& s, double x) { s.samples.period = x; });
-  add("samples.first", [](Snapshot& s, double x) { s.samples.first = whole(x); });
-  add_time("samples.origin", [](Snapshot& s) -> ModelTime& { return s.samples.origin; });
-  add("next_sample", [](Snapshot& s, double x) { s.next_sample = whole(x); });
-  add("next_impact", [](Snapshot& s, double x) { s.next_impact = whole(x); });
-  add("kicks.period", [](Snapshot& s, double x) { s.kicks.period = x; });
-  add("kicks.first", [](Snapshot& s, double x) { s.kicks.first = whole(x); });
-  add_time("kicks.origin", [](Snapshot& s) -> ModelTime& { return s.kicks.origin; });
-  add("kick_count", [](Snapshot& s, double x) { s.kick_count = whole(x); });
-  add_time("holder.since", [](Snapshot& s) -> ModelTime& { return s.holder.since; });
-  add("holder.from", [](Snapshot& s, double x) { s.holder.from = x; });
-
-  add_sum("window_tau", [](FrictionSums& f) -> double& { return f.window_tau; });
-  add_sum("friction.eta", [](FrictionSums& f) -> double& { return f.eta; });
-  add_sum("start.phase", [](FrictionSums& f) -> double& { return f.start.phase; });
-  add_sum("window_start.phase", [](FrictionSums& f) -> double& { return f.window_start.phase; });
-  add_sum("energy", [](FrictionSums& f) -> double& { return f.energy.value; });
-  add_sum("impulse.rest", [](FrictionSums& f) -> double& { return f.impulse.rest; });
-  add_sum("heat", [](FrictionSums& f) -> double& { return f.heat.value; });
-  add_sum("vertical", [](FrictionSums& f) -> double& { return f.vertical.value; });
-  add_sum("energy_bins.width", [](FrictionSums& f) -> double& { return f.energy_bins.width; });
-  add_sum("energy_bins", [](FrictionSums& f) -> double& { return f.energy_bins.amount[3]; });
-  add_sum("impulse_bins.width", [](FrictionSums& f) -> double& { return f.impulse_bins.width; });
-  add_sum("impulse_bins", [](FrictionSums& f) -> double& { return f.impulse_bins.amount[63]; });
-  add_sum("window.width", [](FrictionSums& f) -> double& { return f.window.width; });
-  add_sum("window.energy", [](FrictionSums& f) -> double& { return f.window.energy[32]; });
-  const auto add_number = [&](const std::string& name, std::int64_t& (*number)(FrictionSums&)) {
-    add(name,
-        [number](Snapshot& s, double x) { set_sums(s, [&](FrictionSums& sums) { number(sums) = signed_whole(x); }); });
-  };
-  add_number("start.tau", [](FrictionSums& f) -> std::int64_t& { return f.start.tau; });
-  add_number("window_start.tau", [](FrictionSums& f) -> std::int64_t& { return f.window_start.tau; });
-  add_number("window.current", [](FrictionSums& f) -> std::int64_t& { return f.window.current; });
-  return all;
+  return {
+      AFM_FIELD(settings.model.gamma), AFM_FIELD(settings.model.v_c), AFM_FIELD(settings.model.y0),
+      AFM_FIELD(settings.model.H), AFM_FIELD(settings.model.frequency_ratio), AFM_FIELD(settings.eta),
+      AFM_FIELD(settings.contact_tolerance),
+      {"sample_period", [](Snapshot& s, double x) { s.settings.sample_period = s.samples.period = x; }},
+      AFM_FIELD(settings.samples_per_batch), AFM_FIELD(settings.impact_budget),
+      {"friction_window", [](Snapshot& s, double x) {
+         s.settings.friction_window = x;
+         set_sums(s, [x](FrictionSums& f) { f.window = PowerWindow(f.window_tau = x); });
+       }},
+      AFM_FIELD(settings.bath.temperature), AFM_FIELD(settings.bath.quality_factor),
+      AFM_FIELD(settings.bath.lateral_quality_factor), AFM_FIELD(settings.bath.kicks_per_tau),
+      AFM_FIELD(settings.initial.phase), AFM_FIELD(settings.initial.y),
+      {"tip.phase", [](Snapshot& s, double x) {
+         std::uint64_t phase = 0;
+         assign(phase, x);
+         s.tip.phase = static_cast<Phase>(phase % 6);
+       }},
+      AFM_FIELD(tip.time.tau), AFM_FIELD(tip.time.phase), AFM_FIELD(tip.state.phase), AFM_FIELD(tip.state.X),
+      AFM_FIELD(tip.state.u), AFM_FIELD(tip.state.g), AFM_FIELD(tip.state.g1), AFM_FIELD(tip.sequence_normal_speed),
+      AFM_FIELD(tip.sequence_gain), AFM_FIELD(tip.chatter_speed), AFM_FIELD(tip.chatter_count),
+      AFM_FIELD(samples.period), AFM_FIELD(samples.first), AFM_FIELD(samples.origin.tau),
+      AFM_FIELD(samples.origin.phase), AFM_FIELD(next_sample), AFM_FIELD(next_impact), AFM_FIELD(kicks.period),
+      AFM_FIELD(kicks.first), AFM_FIELD(kicks.origin.tau), AFM_FIELD(kicks.origin.phase), AFM_FIELD(kick_count),
+      AFM_FIELD(holder.since.tau), AFM_FIELD(holder.since.phase), AFM_FIELD(holder.from),
+      AFM_SUM(window_tau), AFM_SUM(eta), AFM_SUM(start.phase), AFM_SUM(window_start.phase), AFM_SUM(energy.value),
+      AFM_SUM(impulse.rest), AFM_SUM(heat.value), AFM_SUM(vertical.value), AFM_SUM(energy_bins.width),
+      AFM_SUM(energy_bins.amount[3]), AFM_SUM(impulse_bins.width), AFM_SUM(impulse_bins.amount[63]),
+      AFM_SUM(window.width), AFM_SUM(window.energy[32]), AFM_SUM(start.tau), AFM_SUM(window_start.tau),
+      AFM_SUM(window.current)};
 }
+// clang-format on
 
 // A snapshot of each phase, at about 100 tau.
 std::vector<Snapshot> snapshots_of_each_phase() {

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "trials/energy_balance.h"
+#include "trials/tip_watch.h"
 
 namespace afm {
 namespace {
@@ -46,40 +47,17 @@ std::vector<Corner> corners() {
   return all;
 }
 
-// Runs on, with its energy balance; false where it goes on for ever.
-bool run(Tip& tip, EnergyBalance& balance, const ModelTime& end, long most_segments) {
-  for (long segments = 0; segments < most_segments; ++segments) {
-    const ModelTime begin = tip.now();
-    const ModelTime middle = begin + 0.5 * ((tip.segment_end() < end ? tip.segment_end() : end) - begin);
-    const Deflection d = tip.deflection(middle);
-    if (middle < tip.segment_end()) {
-      EXPECT_GE(d.gap, -1e-15 * std::max(1.0, std::abs(d.vertical)));
-    }
-    const Outcome outcome = balance.advance_segment(tip, end);
-    EXPECT_NE(outcome, Outcome::search_failed);
-    EXPECT_TRUE(begin <= tip.now());
-    if (outcome == Outcome::time_limit) return true;
-    if (testing::Test::HasFailure()) return false;
-  }
-  return false;
-}
-
-void expect_balance(const EnergyBalance& balance, const Tip& tip) {
-  EXPECT_LE(balance.imbalance(tip), 1e-12 * balance.turnover(tip));
-}
-
 TEST(Corners, EachKeepsItsEnergyBalanceAndItsTime) {
   constexpr int kTau = 30;
-  constexpr long kMostSegmentsATau = 20000;
+  constexpr std::uint64_t kMostSegmentsATau = 20000;
   for (const Corner& c : corners()) {
     SCOPED_TRACE(c.name);
-    Tip tip(c.model, c.eta, FreeState{0.25, 0.003, 0.2, c.eta, 0.0});
-    EnergyBalance balance(tip);
-    ASSERT_TRUE(run(tip, balance, {kTau, 0.0}, kTau * kMostSegmentsATau));
-    expect_balance(balance, tip);
-    balance.command(tip, [&] { tip.drag(-2.0); });
-    ASSERT_TRUE(run(tip, balance, {2 * kTau, 0.0}, kTau * kMostSegmentsATau));
-    expect_balance(balance, tip);
+    TipWatch watch(c.model, c.eta, FreeState{0.25, 0.003, 0.2, c.eta, 0.0}, kDefaultContactTolerance);
+    ASSERT_TRUE(watch.advance({kTau, 0.0})) << watch.violation();
+    watch.drag(-2.0);
+    ASSERT_TRUE(watch.advance({2 * kTau, 0.0})) << watch.violation();
+    EXPECT_LE(watch.count().worst_imbalance, 1e-12);
+    EXPECT_LE(watch.count().segments, 2 * kTau * kMostSegmentsATau);
   }
 }
 

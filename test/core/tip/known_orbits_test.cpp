@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "afm/surface.h"
 #include "afm/tip.h"
 #include "support/models.h"
 
@@ -44,24 +43,6 @@ TEST(KnownOrbits, TheSimulatedFrictionIsTheKnownOne) {
       EXPECT_NEAR(K_f, known.K_f, 1e-9 * known.K_f) << "eta " << known.eta << ", v_c " << cutoff_share << " eta";
     }
   }
-}
-
-// eta = 3.4, gamma = 0.7: one impact every two cells. It is unstable, so only one turn is compared.
-TEST(KnownOrbits, TheMapReturnsThePeriodOneOrbitOfThePaper) {
-  const Model model;
-  const double eta = 3.4, phase = 0.5290552555567710;
-  const double height = surface_jet(model.H, phase).h;
-  const FreeState start{phase, 0.0036110865500110, height, 3.1709737711578348, 2.0880897958488404};
-  Tip tip(model, eta, start);
-  ASSERT_EQ(tip.advance(kEndOfTime), Outcome::impact);
-  EXPECT_NEAR(tip.now() - ModelTime{}, 2.0 / 3.4, 1e-14);
-  const FreeState after = tip.state();
-  EXPECT_NEAR(after.phase, start.phase, 1e-14);
-  EXPECT_NEAR(after.X, start.X, 1e-14);
-  EXPECT_NEAR(after.u, start.u, 1e-13);
-  EXPECT_NEAR(after.w, start.w, 1e-13);
-  const double K_f = tip.last_impact().energy_loss / (eta * eta * (2.0 / 3.4));
-  EXPECT_NEAR(K_f, 0.22902622884216517, 1e-13);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "support/models.h"
-#include "support/recorded_run.h"
 #include "trials/energy_balance.h"
 #include "trials/random_launches.h"
 
@@ -87,25 +86,6 @@ TEST_P(SetModelAt, EventsAreToldOnce) {
 
 INSTANTIATE_TEST_SUITE_P(Runs, SetModelAt,
                          testing::Values(Run{3.4, 0.3}, Run{0.5, 0.005}, Run{-0.2, 0.002}, Run{3.0, 0.03}));
-
-TEST(SetModel, TheSameLevelInFlightChangesNextToNothing) {
-  RandomLaunches random(6);
-  Tip tip(model_with_cutoff(0.05), 2.2, start_at(2.2));
-  int flights = 0;
-  for (int i = 0; i < 500; ++i) {
-    const ModelTime next = tip.now() + random.within(0.0, 1.0);
-    while (tip.advance(next) != Outcome::time_limit) {
-    }
-    if (!(tip.tip_state().g > 0.0)) continue;
-    Tip other = tip, same = tip;
-    other.set_model(ModelKind::oscillator, 1e-3);
-    for (Tip* t : {&other, &same}) ASSERT_EQ(t->advance(t->now() + 100.0), Outcome::impact);
-    ASSERT_NEAR(other.last_impact().surface_phase, same.last_impact().surface_phase, 1e-12);
-    ASSERT_NEAR(other.now() - same.now(), 0.0, 1e-12);
-    ++flights;
-  }
-  EXPECT_GT(flights, 300);
-}
 
 }  // namespace
 }  // namespace afm
