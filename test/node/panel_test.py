@@ -210,9 +210,9 @@ class Knobs(EmulatorTest):
             until(lambda: self.panel.pixels(plot, colour) > least, 'it is drawn')
         self.panel.keep('eta_2')
         for _ in range(5):
-            before = self.topics['applied'].messages[-1].drag_velocity
+            before = window.link.latest('applied').drag_velocity  # what the panel knows, which others may know sooner
             self.panel.press('reverse')
-            self.applied(lambda m: m.drag_velocity == -before, 'reversed')
+            until(lambda: window.link.latest('applied').drag_velocity == -before, 'reversed')
         until(lambda: self.panel.pixels(window.loop_plot.plot, ORANGE) > 50, 'a retrace')
         self.panel.keep('loop')
 

@@ -76,8 +76,7 @@ def draw(path, title, label, times, values, least, most, window):
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(figsize=(9, 5), layout='constrained' if hasattr(plt.Figure, 'set_layout_engine')
-                                else None)
+    figure, axes = plt.subplots(figsize=(9, 5), constrained_layout=True)
     axes.plot(times, values, color='#0072B2', lw=1)
     axes.axvspan(*window, color='#999999', alpha=0.2, lw=0)
     for bound in (least, most):
