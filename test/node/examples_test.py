@@ -23,7 +23,7 @@ key = lambda applied: (applied.epoch, applied.time.tau, applied.time.phase)
 tip, velocity = Client('/afm'), %r
 first, lowered = tip.command_and_wait(velocity), tip.command_and_wait(rest_height=-0.1e-9)
 again = tip.command_and_wait(velocity)
-assert key(first) < key(lowered) <= key(again), (first, lowered, again)
+assert key(first) <= key(lowered) <= key(again) and first.number < lowered.number, (first, lowered, again)
 assert abs(tip.mean_force(0.05)) < 1e-9  # it ends
 tip.command_and_wait(rest_height=0.0)
 nothing, periods = tip.control(0.0), [tip.control(0.01) for _ in range(20)]  # of so many whole batches each

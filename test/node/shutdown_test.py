@@ -74,6 +74,6 @@ class Shutdown(NodeTest):
                 code = node.wait(SOON_S)
                 print('%-12s %.2f s after its start: ended with %d after %.2f s' %
                       (scene, moment, code, time.monotonic() - asked))
-                self.assertIn(code, (0,) if begun else (0, -signal.SIGINT), scene)
+                self.assertIn(code, (0,) if begun else (0, -signal.SIGINT), scene + ': ' + node.output())
             ended += wave
         self.assertEqual([str(path) for path in self.directory.rglob('*.active')], [])
