@@ -38,6 +38,7 @@ std::vector<Episode> episodes(const Model& model, double eta, std::size_t wanted
     if (tip.last_impact().kind != ImpactKind::impact) continue;
     found.push_back({eta, {s.phase, s.X, s.u}, released - begun, tip.now() - released, release});
   }
+  EXPECT_EQ(found.size(), wanted) << "eta " << eta;
   return found;
 }
 
@@ -87,7 +88,7 @@ constexpr double kEtas[] = {0.5, 3.0, 5.0};
 
 TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
   for (const double eta : kEtas) {
-    const Model model = model_with_cutoff(0.05);
+    const Model model = model_with_cutoff(0.001);
     for (const Episode& episode : episodes(model, eta, 6)) {
       QuadContact exact(model, episode);
       const auto slide = [&](const std::array<Quad, 3>& q) { return exact.slide(q, episode.slide); };
@@ -102,7 +103,7 @@ TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
 // lost.
 TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {
   for (const double eta : kEtas) {
-    const Model model = model_with_cutoff(0.05);
+    const Model model = model_with_cutoff(0.001);
     for (const Episode& episode : episodes(model, eta, 6)) {
       QuadContact exact(model, episode);
       const auto map = [&](const std::array<Quad, 3>& q) { return exact.slide_and_fly(q); };
