@@ -36,8 +36,8 @@ struct SiUnits {
 };
 
 SiUnits to_units(double omega_v, double omega_h, double mass, double spacing, double amplitude, double rest_height,
-                 double gamma, double cutoff, double spring_constant, double resonance,
-                 double lateral_spring_constant, double load) {
+                 double gamma, double cutoff, double spring_constant, double resonance, double lateral_spring_constant,
+                 double load) {
   SiModel si{omega_v, omega_h, mass, spacing, amplitude, rest_height, gamma, cutoff};
   refuse(set_lever_and_load(Lever{spring_constant, resonance, lateral_spring_constant}, load, si));
   refuse(find_faults(si));
@@ -85,11 +85,11 @@ void add_call(py::class_<T>& value) {
 
 void add_bath(py::module& m) {
   const Bath none;
-  add_call(py::class_<Bath>(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
+  py::class_<Bath> bath(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
 
 temperature: kT [m a^2/tau^2]; quality_factor, lateral_quality_factor [-]; kicks_per_tau [1/tau];
-seed, stream: of its random numbers; tips with different streams are independent.)")
-      .def(py::init(&to_bath), "temperature"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
+seed, stream: of its random numbers; tips with different streams are independent.)");
+  bath.def(py::init(&to_bath), "temperature"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
            "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "stream"_a = none.stream)
       .def_readonly("temperature", &Bath::temperature, "kT [m a^2/tau^2]; 0: damping alone")
       .def_readonly("quality_factor", &Bath::quality_factor, "of the vertical spring; 0: no bath")
@@ -98,18 +98,21 @@ seed, stream: of its random numbers; tips with different streams are independent
       .def_readonly("kicks_per_tau", &Bath::kicks_per_tau, "rate of the kicks [1/tau]: speed against accuracy")
       .def_readonly("seed", &Bath::seed, "of the random numbers")
       .def_readonly("stream", &Bath::stream, "which sequence of the seed; tips with different streams are independent")
-      .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; }));
+      .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; });
+  add_call(bath);
 }
 
 void add_units(py::module& m) {
   const SiModel mica;
   const Bath none;
   const auto unit = [](double (Units::*of)() const) { return [of](const SiUnits& u) { return (u.units.*of)(); }; };
-  add_call(py::class_<SiUnits>(m, "Units", R"(A model in SI, and the factors from natural units to SI: value_si = value * factor.
+  py::class_<SiUnits> units(m, "Units",
+                            R"(A model in SI, and the factors from natural units to SI: value_si = value * factor.
 
 The defaults are mica's. `model` is the same in natural units; `bath(temperature_k=, ...)` gives a heat bath.
 A lever may be given as its owner knows it, in place of omega_v, omega_h and tip mass: spring_constant_n_per_m,
-resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in place of rest_height_m.)")
+resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in place of rest_height_m.)");
+  units
       .def(py::init(&to_units), "omega_v_rad_per_s"_a = mica.omega_v_rad_per_s,
            "omega_h_rad_per_s"_a = mica.omega_h_rad_per_s, "tip_mass_kg"_a = mica.tip_mass_kg,
            "lattice_spacing_m"_a = mica.lattice_spacing_m, "surface_amplitude_m"_a = mica.surface_amplitude_m,
@@ -126,20 +129,22 @@ resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in p
       .def_property_readonly("energy", unit(&Units::energy), "[J]")
       .def_property_readonly("force", unit(&Units::force), "[N]")
       .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m_tip/tau")
-      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT"));
+      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT");
+  add_call(units);
 }
 
 }  // namespace
 
 void add_model(py::module& m) {
   const Model mica;
-  add_call(py::class_<Model>(m, "Model",
-                    R"(Tip, springs and surface, in natural units (a, tau, tip mass m). The defaults are mica's.
+  py::class_<Model> model(m, "Model",
+                          R"(Tip, springs and surface, in natural units (a, tau, tip mass m). The defaults are mica's.
 
 gamma: restitution at and above the cutoff [-]; cutoff: speed of the restitution law [a/tau];
 rest_height: of the holder above mid-surface [a]; amplitude: of the surface [a];
 frequency_ratio: omega_h / omega_v; kind: 'oscillator', or 'hammer' without the horizontal spring.
-An object cannot be changed. Throws ParameterError.)")
+An object cannot be changed. Throws ParameterError.)");
+  model
       .def(py::init(&to_model), "gamma"_a = mica.gamma, "cutoff"_a = mica.v_c, "rest_height"_a = mica.y0,
            "amplitude"_a = mica.H, "frequency_ratio"_a = mica.frequency_ratio, "kind"_a = "oscillator")
       .def_readonly("gamma", &Model::gamma, "restitution at and above the cutoff")
@@ -148,8 +153,9 @@ An object cannot be changed. Throws ParameterError.)")
       .def_readonly("amplitude", &Model::H, "of the surface [a]")
       .def_readonly("frequency_ratio", &Model::frequency_ratio, "omega_h / omega_v")
       .def_property_readonly(
-          "kind", [](const Model& model) { return name(model.kind); }, "'oscillator' or 'hammer'")
-      .def("__eq__", [](const Model& a, const Model& b) { return arguments(a).equal(arguments(b)); }));
+          "kind", [](const Model& self) { return name(self.kind); }, "'oscillator' or 'hammer'")
+      .def("__eq__", [](const Model& a, const Model& b) { return arguments(a).equal(arguments(b)); });
+  add_call(model);
   add_bath(m);
   add_units(m);
 }

@@ -1,5 +1,5 @@
-// --lever, --surface and --load of a tool: the files of config/levers and config/surfaces, which the emulator takes too,
-// or files of one's own.
+// --lever, --surface and --load of a tool: the files of config/levers and config/surfaces, which the emulator takes
+// too, or files of one's own.
 #pragma once
 
 #include <string>

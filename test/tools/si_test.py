@@ -137,7 +137,8 @@ class Levers(unittest.TestCase):
     def test_friction_curve(self):
         theta = BOLTZMANN * 300 / (self.K / (2 * math.pi) ** 2 * self.A ** 2)
         speed = 3 * self.A * self.F0
-        code, rows, complaint = run('friction_curve', '--si', *self.GIVEN, '--drag-velocity', speed, '--temperature', 300)
+        given = [*self.GIVEN, '--drag-velocity', speed, '--temperature', 300]
+        code, rows, complaint = run('friction_curve', '--si', *given)
         self.assertEqual(code, 0, complaint)
         options = [word for name, value in self.NATURAL.items() for word in ('--' + name, repr(value))]
         expected = run('friction_curve', '--eta', 3, *options, '--kicks-per-tau', 12.979, '--temperature', theta)[1][0]
@@ -176,7 +177,8 @@ class Levers(unittest.TestCase):
             lever = 'spring_constant_n_per_m: 0.5\nresonance_hz: 2.0e4\n'
             refused(lever + 'lateral_spring_constant_n_per_m: 60\n')
             refused(lever, 'lateral_spring_constant_n_per_m')
-            refused(lever + 'lateral_spring_constant_n_per_m: high\n', file.name, 'lateral_spring_constant_n_per_m must')
+            refused(lever + 'lateral_spring_constant_n_per_m: high\n', file.name,
+                    'lateral_spring_constant_n_per_m must')
             refused(lever + 'stiffness: 3\n', file.name, 'stiffness')
             refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')
 
