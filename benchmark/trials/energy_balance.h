@@ -23,7 +23,7 @@ class EnergyBalance {
   Outcome advance_segment(Tip& tip, const ModelTime& limit) {
     Segments ended;
     const Outcome outcome = tip.advance_segment(limit, &ended);
-    for (const Segment& segment : ended) add(segment);
+    for (const Segment& segment : ended) add(segment, tip);
     return outcome;
   }
 
@@ -33,7 +33,7 @@ class EnergyBalance {
     const Segment before = tip.segment();
     act();
     if (!(tip.segment().begin == tip.now())) return;
-    add(before);
+    add(before, tip);
     stored_ = tip.stored_energy();
   }
 
@@ -57,18 +57,24 @@ class EnergyBalance {
   double worst_segment() const { return worst_segment_; }
 
  private:
-  void add(const Segment& segment) {
+  void add(const Segment& segment, const Tip& tip) {
     constexpr double kRounding = 1e-13;  // of the stored energy, as the steps in contact allow themselves
     constexpr double kOfPlaces = 1e-15;  // [m a^2/tau^2] places are rounded as parts of a cell, however slow the tip
     const double moved = std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
-    const double rounding = kOfPlaces + kRounding * std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
-    const double excess = std::abs(segment.imbalance()) - rounding;
+    const double stored = std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
+    double excess = std::abs(segment.imbalance()) - kOfPlaces - kRounding * stored;
     const double turned = moved + std::abs(segment.stored) + 0.5 * segment.eta * segment.eta;
+    if (excess > 0.0) excess -= slope_rounding(tip) * stored;  // asked for only then, as it takes time
     if (excess > 0.0) worst_segment_ = std::max(worst_segment_, excess / turned);
     lost_ += segment.loss;
     gross_ += moved;
     imbalance_ += segment.imbalance();
     stored_ += segment.stored;
+  }
+
+  // Where the extension is many cells, the place is rounded as it is, and the slope there turns the velocity by so much.
+  static double slope_rounding(const Tip& tip) {
+    return kTwoPi * kTwoPi * tip.model().H * std::abs(tip.tip_state().X) * 0x1p-53;
   }
 
   double stored_;  // by the records
