@@ -62,9 +62,9 @@ class EnergyBalance {
     constexpr double kOfPlaces = 1e-15;  // [m a^2/tau^2] places are rounded as parts of a cell, however slow the tip
     const double moved = std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
     const double stored = std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
-    double excess = std::abs(segment.imbalance()) - kOfPlaces - kRounding * stored;
+    const double rounding = kOfPlaces + (kRounding + slope_rounding(tip.model(), stored)) * stored;
+    const double excess = std::abs(segment.imbalance()) - rounding;
     const double turned = moved + std::abs(segment.stored) + 0.5 * segment.eta * segment.eta;
-    if (excess > 0.0) excess -= slope_rounding(tip) * stored;  // asked for only then, as it takes time
     if (excess > 0.0) worst_segment_ = std::max(worst_segment_, excess / turned);
     lost_ += segment.loss;
     gross_ += moved;
@@ -73,8 +73,10 @@ class EnergyBalance {
   }
 
   // Where the extension is many cells, the place is rounded as it is, and the slope there turns the velocity by so much.
-  static double slope_rounding(const Tip& tip) {
-    return kTwoPi * kTwoPi * tip.model().H * std::abs(tip.tip_state().X) * 0x1p-53;
+  static double slope_rounding(const Model& m, double stored) {
+    if (m.kind == ModelKind::hammer) return 0.0;
+    const double most_extension = std::sqrt(2.0 * stored) / (kTwoPi * m.frequency_ratio);
+    return kTwoPi * kTwoPi * m.H * most_extension * 0x1p-53;
   }
 
   double stored_;  // by the records
