@@ -62,7 +62,8 @@ class EnergyBalance {
     constexpr double kOfPlaces = 1e-15;  // [m a^2/tau^2] places are rounded as parts of a cell, however slow the tip
     const double moved = std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
     const double stored = std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
-    const double rounding = kOfPlaces + (kRounding + slope_rounding(tip.model(), stored)) * stored;
+    double rounding = kOfPlaces + (kRounding + slope_rounding(tip.model(), stored)) * stored;
+    if (segment.kind == SegmentKind::contact) rounding += rest_error(tip);
     const double excess = std::abs(segment.imbalance()) - rounding;
     const double turned = moved + std::abs(segment.stored) + 0.5 * segment.eta * segment.eta;
     if (excess > 0.0) worst_segment_ = std::max(worst_segment_, excess / turned);
@@ -77,6 +78,15 @@ class EnergyBalance {
     if (m.kind == ModelKind::hammer) return 0.0;
     const double most_extension = std::sqrt(2.0 * stored) / (kTwoPi * m.frequency_ratio);
     return kTwoPi * kTwoPi * m.H * most_extension * 0x1p-53;
+  }
+
+  // A tip that slides more slowly than a swing of ten tolerances of a step is at rest as far as the step can tell, and
+  // where the drag is as slow, nothing takes an error of its energy (docs/algorithm.md, "Contact").
+  static double rest_error(const Tip& tip) {
+    constexpr double kTenSteps = 2e-3;  // the tolerance of a step is a 5000th of the contact tolerance
+    const double swing = kTwoPi * tip.model().frequency_ratio * kTenSteps * tip.contact_tolerance();
+    const double u = tip.tip_state().u;
+    return u * u < swing * swing ? swing * swing : 0.0;
   }
 
   double stored_;  // by the records
