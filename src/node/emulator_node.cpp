@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -331,6 +332,12 @@ class EmulatorNode {
   ros::AsyncSpinner spinner_{kSpinnerThreads};
 };
 
+constexpr char kHelp[] =
+    "The AFM tip as a ROS node. It needs a master, takes private parameters alone (_drag_velocity:=5.0e-6), and is "
+    "best\n"
+    "started by: roslaunch afm_emulator emulator.launch\n"
+    "config/emulator.yaml describes every parameter, docs/interface.md the topics and services.\n";
+
 // How soon a shutdown by ROS (rosnode kill) is noticed.
 constexpr std::chrono::milliseconds kShutdownPoll{100};
 constexpr int kLargeBuffer =
@@ -383,6 +390,10 @@ void run(const ros::NodeHandle& handle, const Parameters& parameters) {
 
 int main(int argc, char** argv) {
   using namespace afm::node;  // NOLINT: it is the program
+  if (argc > 1 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h")) {
+    std::cout << kHelp;
+    return 0;
+  }
   keep_memory_flat();
   ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
   handle_signals();

@@ -9,6 +9,7 @@ from afm_emulator import Client, EmulatorError
 from afm_emulator.msg import Applied, Configuration
 from afm_emulator.srv import Control, ControlResponse
 from rosgraph_msgs.msg import Clock
+from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process
 from topics import Topic, key, tau_between, wait_until
@@ -69,6 +70,14 @@ class Lockstep(EmulatorTest):
         self.topics['status'].wait_for_more(3)  # nor by itself
         self.assertEqual(key(self.advance(0.0).begin), now)
 
+    def test_what_is_paused_does_not_advance(self):
+        self.emulator.call('pause', SetBool, data=True)
+        answer = self.control(0.01)
+        self.assertFalse(answer.success)
+        self.assertIn('paused', answer.message)
+        self.emulator.call('pause', SetBool, data=False)
+        self.advance(0.01)
+
     def test_the_clock_rises_over_periods_and_resets(self):
         clock = Topic('/clock', Clock)
         clock.wait_for_connection()
@@ -91,7 +100,48 @@ class Lockstep(EmulatorTest):
         self.assertIn('/afm publishes /clock already', second.output())
 
 
+class Commanded(NodeTest):
+    """By the list of a scene, which turns every 50 ms of model time."""
+    def emulator(self):
+        emulator = Emulator({'pace': 'lockstep', 'commands_eta': [2.0, -2.0], 'commands_hold_s': 0.05})
+        return self.start(emulator)
+
+    def test_it_turns_at_the_same_model_times_however_far_it_is_advanced_at_once(self):
+        emulator = self.emulator()
+        applied = Topic('applied', Applied)
+        turns = []
+        for duration in (0.01, 0.03, 0.25):
+            before = emulator.call('reset', Trigger) and len(applied.messages)
+            for _ in range(round(0.75 / duration)):
+                answer = emulator.call('control', Control, drag_velocity=NAN, rest_height=NAN, duration=duration)
+            applied.wait_for(lambda m: m.epoch == answer.epoch and m.number == answer.applied, 'the last turn')
+            turns.append([round(1e3 * (m.time.tau + m.time.phase) * TAU_S, 6) for m in applied.messages[before:]
+                          if m.epoch == answer.epoch and m.cause == 'scene' and m.time.tau * TAU_S < 0.68])
+        self.assertEqual(turns[0], [50.0 * i for i in range(14)])
+        self.assertEqual(turns, turns[:1] * 3)
+        emulator.assert_alive()
+
+    def test_a_period_with_a_turn_in_it_has_no_friction_coefficient(self):
+        emulator = self.emulator()
+        answers = [emulator.call('control', Control, drag_velocity=NAN, rest_height=NAN, duration=duration)
+                   for duration in (0.05, 0.1)]
+        for value in (answers[0].k_f, answers[0].k_f_work):
+            self.assertTrue(math.isfinite(value), value)
+        for value in (answers[1].k_f, answers[1].k_f_work):
+            self.assertTrue(math.isnan(value), value)
+        emulator.assert_alive()
+
+
 class Waiting(NodeTest):
+    def test_a_period_is_one_of_its_own(self):
+        emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0}))
+        Topic('friction').wait_for()  # the first batch needs no command
+        answers = [emulator.call('control', Control, drag_velocity=v * SPEED_UNIT, rest_height=NAN, duration=0.02)
+                   for v in (2.0, 2.1, 2.2)]
+        for one, next_one in zip(answers, answers[1:]):
+            self.assertEqual(key(one.end), key(next_one.begin))
+        emulator.assert_alive()
+
     def test_a_controller_that_knows_no_service_is_waited_for(self):
         emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0}))
         friction = Topic('friction')

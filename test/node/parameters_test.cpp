@@ -95,6 +95,13 @@ TEST(Parameters, AFaultSaysWhatIsWrong) {
   }
 }
 
+TEST(Parameters, WhatCannotBeReadIsBlamedOnce) {
+  const std::string faults = refusal(
+      {{"spring_constant_n_per_m", "2e-1"}, {"resonance_hz", 13e3}, {"lateral_spring_constant_n_per_m", 88.2}});
+  EXPECT_EQ(faults.find("spring_constant_n_per_m = \"2e-1\""), 0u) << faults;
+  EXPECT_EQ(faults.find('\n'), std::string::npos) << faults;
+}
+
 TEST(Parameters, OnlyWhatIsFaultyIsBlamed) {
   for (const double limit : {-1.0, kNaN, 1e-6}) {
     const std::string faults = refusal({{"max_drag_velocity", limit}});
@@ -163,6 +170,15 @@ TEST(Advice, HeatWithoutDampingHasNoEffect) {
   Faults faults;
   EXPECT_EQ(find_traps(read({{"temperature_k", 300.0}}, faults)).size(), 1u);
   EXPECT_TRUE(find_traps(read({{"temperature_k", 300.0}, {"quality_factor", 100.0}}, faults)).empty());
+}
+
+TEST(Advice, InLockstepOnlyAWaitForCommandsHasATimeout) {
+  Faults faults;
+  const Given lockstep{{"pace", "lockstep"}, {"command_timeout_s", 0.5}};
+  EXPECT_EQ(find_traps(read(lockstep, faults)).size(), 1u);
+  Given waiting = lockstep;
+  waiting["wait_for"] = "command";
+  EXPECT_TRUE(find_traps(read(waiting, faults)).empty());
 }
 
 TEST(Advice, ARunThatIsTooSlowIsToldHowSlowlyItCanRun) {

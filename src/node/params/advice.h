@@ -11,8 +11,8 @@ namespace afm::node {
 // The tip in the terms of its owner.
 std::string describe_tip(const Parameters& parameters);
 
-// What makes the numbers of a run other than its owner expects: kicks that lock to the lateral spring, and heat without
-// damping.
+// What makes a run other than its owner expects: kicks that lock to the lateral spring, heat without damping, and a
+// time-out of commands in lockstep.
 std::vector<std::string> find_traps(const Parameters& parameters);
 
 // What to change where a trial run made too few times real time (`pace`); nothing where it made enough.

@@ -147,12 +147,19 @@ Parameters read_parameters(Value tree, Faults& faults) {
       }
     }
   }
-  add(set_lever_and_load(parameters.lever, parameters.load_n, parameters.si), faults);
+  Faults of_values;
+  add(set_lever_and_load(parameters.lever, parameters.load_n, parameters.si), of_values);
   if (find_faults(parameters.si).empty()) set_initial_state(parameters);
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
+  for (const Fault& fault : find_faults(parameters)) of_values.push_back(fault);
   // what could not be read stands at its default here and adds no fault of its own
-  for (Fault& fault : find_faults(parameters)) faults.push_back(std::move(fault));
+  const std::size_t unread = faults.size();
+  for (Fault& fault : of_values) {
+    const auto has_its_name = [&](const Fault& other) { return other.name == fault.name; };
+    const auto end = faults.begin() + static_cast<std::ptrdiff_t>(unread);
+    if (std::none_of(faults.begin(), end, has_its_name)) faults.push_back(std::move(fault));
+  }
   if (parameters.model == kAuto) load_levels(parameters, faults);
   return parameters;
 }

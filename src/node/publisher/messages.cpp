@@ -231,7 +231,7 @@ afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& 
   const double n = static_cast<double>(m.samples), seconds = (answer.time - m.begin) * units.time();
   const double k_v = spring_constant(si);
   const double k_h = si.tip_mass_kg * si.omega_h_rad_per_s * si.omega_h_rad_per_s;
-  const double v0 = answer.drag_velocity != 0.0 ? answer.drag_velocity : std::numeric_limits<double>::quiet_NaN();
+  const double v0 = m.drag_velocity != 0.0 ? m.drag_velocity : std::numeric_limits<double>::quiet_NaN();
   afm_emulator::Control::Response r;
   r.epoch = answer.epoch;
   r.begin = to_message(m.begin);

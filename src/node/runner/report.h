@@ -28,6 +28,7 @@ struct Measured {
   double lateral = 0.0, lateral_squares = 0.0;    // of x - xc
   std::uint64_t bounces = 0;
   double energy_loss = 0.0;
+  double drag_velocity = 0.0;  // [m/s]; NaN: it changed meanwhile
 
   void add(const Batch& batch) {
     samples += batch.vertical.size();
@@ -44,8 +45,7 @@ struct Answer {
   // of a control period
   Measured measured;
   std::uint32_t epoch = 0;
-  std::uint64_t number = 0;    // of the last `applied`
-  double drag_velocity = 0.0;  // in force [m/s]
+  std::uint64_t number = 0;  // of the last `applied`
 };
 using Reply = std::shared_ptr<std::promise<Answer>>;
 

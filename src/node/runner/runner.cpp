@@ -94,12 +94,15 @@ void Runner::stop_drag_without_commands() {
   apply(live, "timeout");
 }
 
+// Rounding of times is less: what is due so soon is due now, however far the run is advanced at once.
+double Runner::half_a_sample() const { return 0.5 / (parameters_.sample_rate_hz * Units(parameters_.si).time()); }
+
 // The scene's list of commands, in model time: so a scene repeats to the last bit.
 void Runner::play_commands() {
   const auto& eta = parameters_.commands_eta;
   if (eta.empty() || !queue_.has_room_for_request()) return;
   const Units units(parameters_.si);
-  if (run_.now() < multiply(commands_played_, parameters_.commands_hold_s / units.time())) return;
+  if (run_.now() + half_a_sample() < multiply(commands_played_, parameters_.commands_hold_s / units.time())) return;
   Live live = parameters_;
   live.drag_velocity = eta[commands_played_ % eta.size()] * units.velocity();
   ++commands_played_;
@@ -123,6 +126,7 @@ Answer Runner::serve(const Request& request) {
   switch (request.kind) {
     case Kind::command:
       command(request);
+      command_came_ = true;
       break;
     case Kind::change: {
       Live live = request.live;
@@ -161,6 +165,7 @@ void Runner::begin_epoch() {
   last_command_ = monotonic_now();
   state_.timed_out = false;
   commands_played_ = applied_ = 0;
+  command_came_ = true;  // the first batch needs none: whoever listens hears of it
   queue_.offer(make_report(Report::Kind::epoch));
   apply(parameters_, "epoch");
   take_snapshot();
@@ -184,8 +189,8 @@ void Runner::apply(const Live& live, const char* cause) {
   LiveSettings next = live_settings(settings);
   next.level = choice.level;
   in_force_ = {live, choice.level, choice.expected_error, run_.apply(next), cause, applied_++};
+  if (live.drag_velocity != measured_.drag_velocity) measured_.drag_velocity = kAsItIs;
   pacer_.set_period(batch_period(parameters_));
-  command_came_ = true;
   queue_.offer(make_report(Report::Kind::applied));
 }
 
@@ -212,10 +217,11 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
   const Time give_up = monotonic_now() + kStepPatience;
   std::uint64_t taken = 0;
   const char* fault = "";
+  play_commands();
   while (run_.now() < limit && taken < impacts && fault[0] == '\0') {
-    play_commands();
     run_batch_to(limit, std::min(impacts - taken, parameters_.impact_budget));
     taken += last_batch_impacts_;
+    if (run_.now() + half_a_sample() < limit) play_commands();  // at the end they are of what follows
     if (monotonic_now() > give_up) fault = kTimeRanOut;
     if (stopping_) fault = "the emulator is shutting down";
   }
@@ -227,14 +233,16 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
 
 Answer Runner::control(const Request& request) {
   if (!lockstep_) return answer("the emulator keeps time by itself: start it with pace = lockstep");
+  if (state_.paused) return answer("the emulator is paused: resume it first");
   if (request.cause[0] != '\0') command(request);
+  play_commands();  // what is due now holds over the period
   measured_ = {};
   measured_.begin = run_.now();
+  measured_.drag_velocity = parameters_.drag_velocity;
   Answer reached = step(run_.now() + request.tau, kNoLimit);
   reached.measured = measured_;
   reached.epoch = state_.epoch;
   reached.number = in_force_.number;
-  reached.drag_velocity = parameters_.drag_velocity;
   return reached;
 }
 

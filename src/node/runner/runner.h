@@ -47,6 +47,7 @@ class Runner {
   bool may_advance();
   void stop_drag_without_commands();
   void play_commands();
+  double half_a_sample() const;  // [tau]
 
   void serve_requests();
   Answer serve(const Request& request);
@@ -83,7 +84,7 @@ class Runner {
   std::uint64_t last_batch_impacts_ = 0;
   const bool lockstep_;
   // in lockstep that waits for commands
-  bool command_came_ = true;  // the first batch needs none
+  bool command_came_ = false;
   Time command_deadline_{0};
 
   std::mutex submitting_;  // between those who submit; the running thread does not take it
