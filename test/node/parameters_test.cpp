@@ -96,8 +96,8 @@ TEST(Parameters, AFaultSaysWhatIsWrong) {
 }
 
 TEST(Parameters, WhatCannotBeReadIsBlamedOnce) {
-  const std::string faults = refusal(
-      {{"spring_constant_n_per_m", "2e-1"}, {"resonance_hz", 13e3}, {"lateral_spring_constant_n_per_m", 88.2}});
+  const std::string faults =
+      refusal({{"spring_constant_n_per_m", "2e-1"}, {"resonance_hz", 13e3}, {"lateral_spring_constant_n_per_m", 88.2}});
   EXPECT_EQ(faults.find("spring_constant_n_per_m = \"2e-1\""), 0u) << faults;
   EXPECT_EQ(faults.find('\n'), std::string::npos) << faults;
 }
