@@ -6,32 +6,45 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <iostream>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "afm/level.h"
+#include "afm/sweep.h"
 #include "afm/tip.h"
 #include "afm/units.h"
 #include "common/command_line.h"
 #include "common/cpu_clock.h"
 #include "common/lever_options.h"
+#include "common/point_options.h"
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+using Texts = std::vector<std::string>;  // numbers and ranges, as they were given
+
+constexpr double kLongest = 1e12;  // [tau] a choice, as of friction_curve
+
 struct Options {
+  Texts etas, cutoffs, frequency_ratios, amplitudes, rest_heights, temperatures, quality_factors;
+  std::string step = "0.05";
   std::vector<double> eta, cutoff{0.1, 0.05, 0.01, 0.001};
   std::vector<double> frequency_ratio{afm::Model{}.frequency_ratio}, amplitude{afm::Model{}.H}, rest_height{0.0};
   std::vector<double> temperature{0.0}, quality_factor{0.0};
   afm::Bath bath;  // its kicks, and the lateral quality factor of the lever
-  double step = 0.05, tolerance = afm::kDefaultContactTolerance;
+  double tolerance = afm::kDefaultContactTolerance;
   std::int64_t tau = 1000, transient = 200;
   afm::LeverOptions lever;
 };
 
 struct Point {
-  afm::Model model;
+  afm::SweepPoint at;
   afm::Bath bath;
-  double eta;
 };
 
 struct Figures {
@@ -84,9 +97,10 @@ double slowest_tau(afm::Tip tip, const Options& o) {
 // Twice the same run: as a whole, and tau by tau, for which the clock is read and the tip copied in between. The tip
 // falls on the flank of the surface, or was lowered into a valley if the load holds it down there.
 Figures measure(const Point& point, const Options& o) {
-  const afm::Model& m = point.model;
-  const afm::FreeState flank{0.25, 0.0, 0.2, point.eta, 0.0};
-  afm::Tip tip(m, point.eta, is_held_down(m) ? afm::lowered_tip(m.H) : flank, o.tolerance);
+  const afm::Model m = model_of(point.at);
+  const double eta = point.at.eta;
+  const afm::FreeState flank{0.25, 0.0, 0.2, eta, 0.0};
+  afm::Tip tip(m, eta, is_held_down(m) ? afm::lowered_tip(m.H) : flank, o.tolerance);
   tip.set_bath(point.bath);
   const afm::Tip start = tip;
   const double begin = afm::thread_seconds();
@@ -94,13 +108,15 @@ Figures measure(const Point& point, const Options& o) {
   const Losses lost = run_tip(tip, o.transient + o.tau);
   const double seconds = (afm::thread_seconds() - begin) / static_cast<double>(o.transient + o.tau);
   const double tau_s = afm::Units(afm::SiModel{}).time(), taus = static_cast<double>(o.tau);
-  return {tau_s / seconds, 1e6 * slowest_tau(start, o), lost.energy / (point.eta * point.eta * taus),
-          lost.impacts / taus, static_cast<long>(tip.search_failures())};
+  const double K_f = eta == 0.0 ? std::numeric_limits<double>::quiet_NaN() : lost.energy / (eta * eta * taus);
+  return {tau_s / seconds, 1e6 * slowest_tau(start, o), K_f, lost.impacts / taus,
+          static_cast<long>(tip.search_failures())};
 }
 
-// Every combination of the options; drag speeds vary fastest.
+// Every combination of the options; drag speeds vary fastest. Throws std::invalid_argument with the faults of the first
+// that cannot be run.
 std::vector<Point> points_of(const Options& o) {
-  std::vector<Point> points{{{}, o.bath, 0.0}};
+  std::vector<Point> points{{{0.0, afm::Model{}.gamma, 0.0}, o.bath}};
   const auto cross = [&](const std::vector<double>& values, const auto& set) {
     std::vector<Point> all;
     for (const Point& point : points) {
@@ -111,20 +127,57 @@ std::vector<Point> points_of(const Options& o) {
     }
     points = all;
   };
-  cross(o.frequency_ratio, [](Point& p, double value) { p.model.frequency_ratio = value; });
-  cross(o.amplitude, [](Point& p, double value) { p.model.H = value; });
-  cross(o.rest_height, [](Point& p, double value) { p.model.y0 = value; });
+  cross(o.frequency_ratio, [](Point& p, double value) { p.at.frequency_ratio = value; });
+  cross(o.amplitude, [](Point& p, double value) { p.at.H = value; });
+  cross(o.rest_height, [](Point& p, double value) { p.at.y0 = value; });
   cross(o.temperature, [](Point& p, double value) { p.bath.temperature = value; });
   cross(o.quality_factor, [](Point& p, double value) { p.bath.quality_factor = value; });
-  cross(o.cutoff, [](Point& p, double value) { p.model.v_c = value; });
-  cross(o.eta, [](Point& p, double value) { p.eta = value; });
+  cross(o.cutoff, [](Point& p, double value) { p.at.v_c = value; });
+  cross(o.eta, [](Point& p, double value) { p.at.eta = value; });
   for (const Point& point : points) {
-    const auto faults = afm::find_faults(point.model);
-    const auto bath_faults = afm::find_faults(point.bath);
-    if (!faults.empty()) throw faults.front();
-    if (!bath_faults.empty()) throw bath_faults.front();
+    afm::SweepSettings settings;
+    settings.bath = point.bath;
+    auto faults = afm::find_faults(point.at);
+    for (const afm::ParameterError& fault : afm::find_faults(settings)) faults.push_back(fault);
+    if (!faults.empty()) throw std::invalid_argument(afm::describe(faults));
   }
   return points;
+}
+
+void take_ranges(const std::string& name, const Texts& texts, std::vector<double>& values) {
+  if (texts.empty()) return;
+  values.clear();
+  for (const std::string& text : texts) {
+    for (const double value : afm::range_option(name, text)) values.push_back(value);
+  }
+}
+
+void take_ranges(Options& o) {
+  take_ranges("eta", o.etas, o.eta);
+  take_ranges("cutoff", o.cutoffs, o.cutoff);
+  take_ranges("frequency-ratio", o.frequency_ratios, o.frequency_ratio);
+  take_ranges("amplitude", o.amplitudes, o.amplitude);
+  take_ranges("rest-height", o.rest_heights, o.rest_height);
+  take_ranges("temperature", o.temperatures, o.temperature);
+  take_ranges("quality-factor", o.quality_factors, o.quality_factor);
+  if (o.eta.empty()) o.eta = afm::range_option("step", "0:9:" + o.step);
+  if (!has_valid_tolerance(afm::Level{afm::ModelKind::oscillator, o.tolerance})) {
+    throw afm::ParameterError("tolerance", o.tolerance, "must be 0, or between 1e-9 and 0.01");
+  }
+}
+
+// At once, so that a run of hours ends with the first line that is lost.
+void print_line(const std::string& line) {
+  if (!(std::cout << line << std::endl)) throw std::runtime_error("cannot write the output");
+}
+
+void warn_of_traps(const afm::CommandLine& app, const std::vector<Point>& points) {
+  std::set<std::string> texts;
+  for (const Point& p : points) {
+    for (const afm::ParameterError& trap : afm::find_traps(p.at, p.bath)) {
+      if (texts.insert(trap.what()).second) app.warn(trap.what());
+    }
+  }
 }
 
 // As its file, that of the surface and the load say, where no option says otherwise.
@@ -147,36 +200,40 @@ int main(int argc, char** argv) {
   Options o;
   afm::CommandLine app(
       "real_time", "Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units).");
-  app.option("eta", o.eta, "drag speeds [a/tau]; default: 0 to 9 in steps of --step");
-  app.option("step", o.step, "");
-  app.option("cutoff", o.cutoff, "v_c [a/tau]");
+  app.option("eta", o.etas, "drag speeds [a/tau]; default: 0 to 9 in steps of --step");
+  app.option("step", o.step, "of the default drag speeds [a/tau]");
+  app.option("cutoff", o.cutoffs, "v_c [a/tau]; default: 0.1, 0.05, 0.01 and 0.001");
   app.option("tolerance", o.tolerance, "contact tolerance");
-  app.option("frequency-ratio", o.frequency_ratio, "omega_h/omega_v");
-  app.option("amplitude", o.amplitude, "of the surface [a]");
-  app.option("rest-height", o.rest_height, "of the holder above mid-surface [a]");
-  app.option("temperature", o.temperature, "kT of the heat bath [m a^2/tau^2]");
-  app.option("quality-factor", o.quality_factor, "of the cantilever; 0: no bath");
+  app.option("frequency-ratio", o.frequency_ratios, "omega_h/omega_v");
+  app.option("amplitude", o.amplitudes, "of the surface [a]");
+  app.option("rest-height", o.rest_heights, "of the holder above mid-surface [a]");
+  app.option("temperature", o.temperatures, "kT of the heat bath [m a^2/tau^2]");
+  app.option("quality-factor", o.quality_factors, "of the cantilever; 0: no bath");
   app.option("kicks-per-tau", o.bath.kicks_per_tau, "of the heat bath");
-  app.option("tau", o.tau, "measured time each");
-  app.option("transient", o.transient, "time before that");
+  app.option("tau", o.tau, "measured time each", {1.0, kLongest});
+  app.option("transient", o.transient, "time before that", {0.0, kLongest});
   afm::add_lever_options(app, o.lever);
+  app.footer("An option with VALUES takes numbers and ranges FROM:TO:STEP, with spaces or commas between.");
   return app.run(argc, argv, [&] {
-    if (o.eta.empty()) {
-      for (int i = 0; i * o.step <= 9.0 + 1e-9; ++i) o.eta.push_back(i * o.step);
-    }
+    take_ranges(o);
     const double of_lever = afm::Units(take_lever(app, o)).time() / afm::Units(afm::SiModel{}).time();
-    std::printf(
-        "eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures,frequency_ratio,amplitude,"
-        "rest_height,temperature,quality_factor%s\n",
-        o.lever.are_given() ? ",lever_times_real_time" : "");
-    for (const Point& p : points_of(o)) {
+    const std::vector<Point> points = points_of(o);
+    warn_of_traps(app, points);
+    print_line(std::string("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures,"
+                           "frequency_ratio,amplitude,rest_height,temperature,quality_factor") +
+               (o.lever.are_given() ? ",lever_times_real_time" : ""));
+    for (const Point& p : points) {
       const Figures f = measure(p, o);
-      std::printf("%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld,%.17g,%.17g,%.17g,%.17g,%.17g", p.eta, p.model.v_c,
-                  f.times_real_time, f.slowest_tau_us, f.K_f, f.impacts_per_tau, f.search_failures,
-                  p.model.frequency_ratio, p.model.H, p.model.y0, p.bath.temperature, p.bath.quality_factor);
-      if (o.lever.are_given()) std::printf(",%.4g", f.times_real_time * of_lever);
-      std::printf("\n");
-      std::fflush(stdout);
+      char row[400];
+      const int length =
+          std::snprintf(row, sizeof row, "%.17g,%.17g,%.4g,%.4g,%.9g,%.6g,%ld,%.17g,%.17g,%.17g,%.17g,%.17g", p.at.eta,
+                        p.at.v_c, f.times_real_time, f.slowest_tau_us, f.K_f, f.impacts_per_tau, f.search_failures,
+                        p.at.frequency_ratio, p.at.H, p.at.y0, p.bath.temperature, p.bath.quality_factor);
+      if (o.lever.are_given()) {
+        std::snprintf(row + length, sizeof row - static_cast<std::size_t>(length), ",%.4g",
+                      f.times_real_time * of_lever);
+      }
+      print_line(row);
     }
     return 0;
   });

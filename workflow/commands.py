@@ -18,6 +18,8 @@ REFERENCE_KICKS = 122.99
 # omega_h/omega_v of the levers in config/levers with their rate of kicks; and 22, of which 11.09 is half
 LEVER_KICKS = {2: 11.09, 14: 8.652, 17: 10.507, 21: 12.979, 30: 18.541, 22: 11.09}
 MORE_KICKS = (29.034, REFERENCE_KICKS)
+# where a rate of kicks locks to the lateral spring: 11.09 at omega_h/omega_v = 11.1, and 29.034 at 14
+LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS = (11.1, 14), (20, 100), (8.652, 11.09, 29.034, 46.979, REFERENCE_KICKS)
 # coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
 HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),
         6.5: ((0.4397, 0.5056), 50, (0.02, 0.025, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1, 0.12))}
@@ -232,6 +234,13 @@ def commands(quick):
             curve("lever_kicks_%g_%g" % (ratio, kicks), "--eta 2:6:2 --cutoff 0.05 --rest-height -0.3:0:0.3",
                   "--temperature 0.926 --quality-factor 100 --kicks-per-tau", kicks, "--frequency-ratio", ratio,
                   "--duration", choose(200, 50000))
+
+    for ratio in LOCK_RATIOS:
+        for quality in LOCK_QUALITIES:
+            for kicks in LOCK_KICKS:
+                curve("locked_kicks_%g_%g_%g" % (ratio, quality, kicks), "--eta 4 --cutoff 0.05 --temperature 0.926",
+                      "--quality-factor", quality, "--kicks-per-tau", kicks, "--frequency-ratio", ratio,
+                      "--duration", choose(200, 50000))
 
     # scenes, recording, control
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep",

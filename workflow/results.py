@@ -1,8 +1,9 @@
 """Tables made from what programs print."""
+import itertools
 import json
 import re
 
-from commands import FUZZED, LEVER_KICKS, MORE_KICKS
+from commands import FUZZED, LEVER_KICKS, LOCK_KICKS, LOCK_QUALITIES, LOCK_RATIOS, MORE_KICKS
 from registry import table
 
 
@@ -47,6 +48,19 @@ def lever_kicks(tables):
             for name, at in zip(("K_f", *("K_f at %g kicks" % kicks for kicks in MORE_KICKS)), (few, default, many)):
                 row[name] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
             result.append(row)
+    return result
+
+
+@table(*["locked_kicks_%g_%g_%g" % case for case in itertools.product(LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS)])
+def locked_kicks(tables):
+    """K_f by work at rates of kicks of which some lock to the lateral spring."""
+    result = []
+    for ratio, quality in itertools.product(LOCK_RATIOS, LOCK_QUALITIES):
+        row = {"omega_h/omega_v": "%g" % ratio, "Q": "%g" % quality}
+        for kicks in LOCK_KICKS:
+            at, = tables.rows("locked_kicks_%g_%g_%g" % (ratio, quality, kicks))
+            row["K_f at %g kicks" % kicks] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
+        result.append(row)
     return result
 
 

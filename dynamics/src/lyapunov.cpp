@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "afm/dynamics/tangents.h"
-#include "afm/interruption.h"
 #include "core/not_numbers.h"
+#include "core/run/interruptible_advance.h"
 
 namespace afm {
 namespace {
@@ -48,8 +48,7 @@ bool has_numbers(const LyapunovSpectrum& s) {
 bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s) {
   const ModelTime end = tip.now() + time;
   while (tip.now() < end && s.events < most_events) {
-    interruption_point();
-    tip.advance(end);
+    detail::advance_interruptibly(tip, end);
     ++s.events;
   }
   return s.events < most_events;
@@ -69,7 +68,6 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
   Growth growth;
   s.outcome = LyapunovOutcome::measured;
   while (tip.now() < end && s.outcome == LyapunovOutcome::measured) {
-    interruption_point();
     const Outcome outcome = tangents.advance(end);
     if (outcome == Outcome::search_failed) s.outcome = LyapunovOutcome::search_failed;
     if (++s.events >= settings.most_events) s.outcome = LyapunovOutcome::budget_spent;

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "afm/interruption.h"
-#include "afm/tip.h"
+#include "core/run/interruptible_advance.h"
 
 namespace afm {
 
@@ -38,10 +37,9 @@ class Observer {
   // False if the limit, the end of the budget or a failed search came first.
   bool next(const ModelTime& limit) {
     while (left_ > 0 && !failed_) {
-      interruption_point();
       bool held = tip_.in_contact();
       const ModelTime before = tip_.now();
-      const Outcome outcome = tip_.advance(limit);
+      const Outcome outcome = detail::advance_interruptibly(tip_, limit);
       --left_;
       held = held || (outcome == Outcome::impact && is_creeping(tip_.last_impact()));
       if (held) in_contact_ += tip_.now() - before;

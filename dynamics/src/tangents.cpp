@@ -6,6 +6,7 @@
 #include "afm/flight.h"
 #include "afm/reflection.h"
 #include "contact_jacobian.h"
+#include "core/run/interruptible_advance.h"
 
 namespace afm {
 
@@ -46,7 +47,7 @@ bool Tangents::start(double within) {
   while (!tip_.in_contact()) {
     const ModelTime before = tip_.now();
     const TipState launch = tip_.tip_state();
-    const Outcome outcome = tip_.advance(end);
+    const Outcome outcome = advance_interruptibly(tip_, end);
     if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return false;
     if (outcome != Outcome::impact || tip_.last_impact().kind != ImpactKind::impact) continue;
     const GapJet<double> landing = Flight<double>(springs_, tip_.eta(), launch).gap(tip_.now() - before);
@@ -61,7 +62,7 @@ bool Tangents::start(double within) {
 
 Outcome Tangents::advance(const ModelTime& limit) {
   growth_ = {};
-  const Outcome outcome = tip_.advance(limit);
+  const Outcome outcome = advance_interruptibly(tip_, limit);
   const double dt = tip_.now() - since_;
   if (outcome == Outcome::time_limit) {
     if (tip_.in_contact()) carry_slide(dt);  // other segments count when they end

@@ -78,7 +78,7 @@ std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& op
       at.eta = eta;
       at.gamma = gamma;
       if (options.relative_cutoff) at.cutoff *= std::abs(eta);
-      points.push_back({eta, gamma, at.cutoff, checked_model(at).kind});
+      points.push_back({eta, gamma, at.cutoff, checked_model(app, at).kind});
     }
   }
   return points;

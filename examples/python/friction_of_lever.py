@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""The friction of your lever on your crystal at 300 K. Arguments: the files of the lever and of the surface, the load
-[N], and how long each drag speed is measured [tau]."""
-import sys
+"""The friction of your lever on your crystal at 300 K, against the drag speed."""
+import argparse
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -10,16 +9,44 @@ import yaml
 
 import afm
 
-lever, surface, load_n, duration = (sys.argv[1:] + [None] * 4)[:4]
-config = Path(__file__).resolve().parents[2] / 'config'
-lever = yaml.safe_load(Path(lever or config / 'levers/ppp_cont.yaml').read_text())
-surface = yaml.safe_load(Path(surface or config / 'surfaces/nacl.yaml').read_text())
-heat = {name: lever.pop(name) for name in ('quality_factor', 'kicks_per_tau') if name in lever}
-units = afm.Units(load_n=float(load_n or 0.0), **lever, **surface)
+CONFIG = Path(__file__).resolve().parents[2] / 'config'
+BY_SPRINGS = {'spring_constant_n_per_m', 'resonance_hz', 'lateral_spring_constant_n_per_m'}
+BY_MODEL = {'omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg'}
+BATH = {'quality_factor', 'lateral_quality_factor', 'kicks_per_tau'}
 
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument('lever', nargs='?', default='ppp_cont', help='a name in config/levers, or the path of a .yaml')
+parser.add_argument('surface', nargs='?', default='nacl', help='a name in config/surfaces, or the path of a .yaml')
+parser.add_argument('load_n', nargs='?', type=float, default=0.0, help='[N]')
+parser.add_argument('duration', nargs='?', type=float, default=2000.0, help='of each drag speed [tau]')
+options = parser.parse_args()
+
+
+def read(kind, name, *ways):
+    """The numbers of a file, which needs all the keys of one of the ways."""
+    path = Path(name) if name.endswith('.yaml') else CONFIG / kind / (name + '.yaml')
+    try:
+        values = {key: float(value) for key, value in yaml.safe_load(path.read_text()).items()}
+    except (OSError, yaml.YAMLError) as fault:
+        parser.error('%s: %s' % (path, ' '.join(str(fault).split())))
+    except (AttributeError, TypeError, ValueError):
+        parser.error('%s: must hold lines of a key and a number' % path)
+    if not any(way <= set(values) for way in ways):
+        parser.error('%s: must have %s' % (path, ', or '.join(', '.join(sorted(way)) for way in ways)))
+    return values
+
+
+lever = read('levers', options.lever, BY_SPRINGS, BY_MODEL)
+surface = read('surfaces', options.surface, {'lattice_spacing_m', 'surface_amplitude_m'})
+heat = {name: lever.pop(name) for name in BATH & set(lever)}
 eta = np.arange(0.25, 8.1, 0.25)
-curve = afm.friction_curve(eta, model=units.model, bath=units.bath(temperature_k=300.0, **heat),
-                           duration=float(duration or 2000.0))
+try:
+    units = afm.Units(load_n=options.load_n, **lever, **surface)
+    curve = afm.friction_curve(eta, model=units.model, bath=units.bath(temperature_k=300.0, **heat),
+                               duration=options.duration)
+except (TypeError, afm.ParameterError) as fault:
+    parser.error(str(fault).replace('\n', '; '))
+
 speed, force = eta * units.velocity, eta * units.force  # K_f eta is the mean lateral force
 plt.errorbar(1e6 * speed, 1e12 * curve['k_f_work'] * force, 1e12 * curve['k_f_work_std_error'] * force, fmt='.-')
 plt.xlabel('drag speed [um/s]')

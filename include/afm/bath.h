@@ -16,7 +16,7 @@ struct Bath {
   double temperature = 0.0;             // kT [m a^2/tau^2]; 0: damping alone
   double quality_factor = 0.0;          // of the vertical spring; 0: neither damped nor heated
   double lateral_quality_factor = 0.0;  // of the horizontal spring; 0: as the vertical one
-  double kicks_per_tau = 29.034;        // seventh power of the golden ratio: locks to no periodic motion
+  double kicks_per_tau = 29.034;        // seventh power of the golden ratio; see kicks_lock()
   std::uint64_t seed = 1;               // of the random numbers
   std::uint64_t stream = 0;             // which of the seed's sequences: many tips have one each
 
@@ -33,5 +33,17 @@ constexpr double kMaxKickRate = 1000.0;     // [1/tau]
 
 // Every fault, named as in Bath.
 std::vector<ParameterError> find_faults(const Bath& bath);
+
+// Whether the kicks lock to the swing of the lateral spring, because from kick to kick it makes nearly a whole or half
+// number of turns. K_f may then be wrong by up to 14 % (docs/levers.md). False without a bath, and for the hammer,
+// which has no such spring. Precondition of this and of the next two: a model and a bath without faults.
+bool kicks_lock(const Model& model, const Bath& bath);
+
+// A rate of kicks [1/tau] for this model and these quality factors; the rate that the bath has does not count.
+// Guarantee: it does not lock, and is one at which K_f was measured, or the golden section of omega_h/omega_v.
+double suitable_kicks(const Model& model, const Bath& bath);
+
+// What can be run, but is seldom meant, with the remedy: kicks that lock. Named as in Bath.
+std::vector<ParameterError> find_traps(const Model& model, const Bath& bath);
 
 }  // namespace afm

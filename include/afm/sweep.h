@@ -38,6 +38,9 @@ struct SweepResult {
 std::vector<ParameterError> find_faults(const SweepPoint& point);
 std::vector<ParameterError> find_faults(const SweepSettings& settings);
 
+// What can be run, but is seldom meant (bath.h); named as the faults.
+std::vector<ParameterError> find_traps(const SweepPoint& point, const Bath& bath);
+
 Model model_of(const SweepPoint& point);
 
 // The start of the index-th point: above the surface, at a random phase, with velocities of the order of the drag

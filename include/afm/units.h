@@ -39,7 +39,8 @@ std::vector<ParameterError> find_faults(const Lever& lever);
 void set_lever(const Lever& lever, SiModel& si);
 
 // A lever, if it is given, and a load [N] in the terms of their owner, into the model: the rest height is -load / k.
-// Every fault: what is given beside the same in the terms of the model, and a load that is not finite.
+// Every fault: what is given beside the same in the terms of the model, and a load that is not finite or out of range
+// (it is then not set).
 std::vector<ParameterError> set_lever_and_load(const Lever& lever, double load_n, SiModel& si);
 
 // The vertical spring constant k = m omega_v^2 [N/m]. A load is -k times the rest height.
@@ -76,5 +77,8 @@ class Units {
  private:
   double a_, tau_, m_;
 };
+
+// Every fault, named as in SiBath and in SI.
+std::vector<ParameterError> find_faults(const SiBath& bath, const Units& units);
 
 }  // namespace afm

@@ -11,6 +11,7 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
 - Tip, Ensemble, Run: one tip; many on threads; a run in batches, as the node runs it
 - Model, Bath, Units: what they are made of
 - friction_curve, attractors, periodic_orbits, lyapunov, next_impact: what the tools of these names compute
+- kicks_lock, suitable_kicks: whether the kicks of a bath falsify K_f, and a rate that does not
 - from_bag: a recording: its model, its commands, and its run simulated again
 
 Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1 of
@@ -24,7 +25,7 @@ differ.
 """
 from .errors import ArgumentTypeError, ParameterError
 from .values import Batch, Kind, Lyapunov, ModelTime, Samples, State
-from ._afm import Bath, Ensemble, Model, Run, Tip, Units
+from ._afm import Bath, Ensemble, Model, Run, Tip, Units, kicks_lock, suitable_kicks
 from ._afm import VERSION as __version__
 from .arguments import explain
 from .tables import attractors, friction_curve, lyapunov, next_impact, periodic_orbits
@@ -32,7 +33,7 @@ from .recordings import Recording, from_bag
 
 __all__ = ['ArgumentTypeError', 'Bath', 'Batch', 'Ensemble', 'Kind', 'Lyapunov', 'Model', 'ModelTime', 'ParameterError',
            'Recording', 'Run', 'Samples', 'State', 'Tip', 'Units', 'attractors', 'friction_curve', 'from_bag',
-           'lyapunov', 'next_impact', 'periodic_orbits', '__version__']
+           'kicks_lock', 'lyapunov', 'next_impact', 'periodic_orbits', 'suitable_kicks', '__version__']
 
 explain(Bath, Ensemble, Model, Run, Tip, Units)
 del explain

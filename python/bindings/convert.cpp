@@ -51,6 +51,14 @@ void refuse(const std::vector<ParameterError>& faults) {
   throw Faults(renamed);
 }
 
+void warn(const std::vector<ParameterError>& traps) {
+  constexpr int kCallOfOurs = 2;  // the level of the line that calls a function in Python
+  for (const ParameterError& trap : traps) {
+    const std::string text = ParameterError(argument_name(trap.name), trap.value, trap.reason).what();
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), kCallOfOurs) != 0) throw py::error_already_set();
+  }
+}
+
 void require(bool holds, const char* name, double value, const char* reason) {
   if (!holds) refuse({ParameterError(name, value, reason)});
 }

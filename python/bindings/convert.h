@@ -26,6 +26,8 @@ struct Faults : std::exception {
 
 // Throws Faults unless there are none. The names become those of Python's arguments.
 void refuse(const std::vector<ParameterError>& faults);
+// The same as warnings (RuntimeWarning), at the line of the user: each function of ours is called by one in Python.
+void warn(const std::vector<ParameterError>& traps);
 void require(bool holds, const char* name, double value, const char* reason);
 
 // An argument that takes more than one type. Raises afm.ParameterError if it is something else.

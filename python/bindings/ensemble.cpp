@@ -33,7 +33,7 @@ class PyEnsemble {
 
   // In chunks, so that signals are seen. No bit depends on them.
   py::array advance(const py::object& time) {
-    constexpr double kAtATime = 1e5;  // tau of all tips together: about a second
+    constexpr double kAtATime = 1e4;  // tau of all tips together: about a second in contact
     const ModelTime end = to_time(time);
     ModelTime now = end;
     for (std::size_t i = 0; i < size(); ++i) {

@@ -21,12 +21,16 @@ Model to_model(double gamma, double cutoff, double rest_height, double amplitude
   return model;
 }
 
+void require_damping(const char* name, double temperature, const Bath& bath) {
+  require(temperature == 0.0 || bath.is_on(), name, temperature,
+          "needs a quality_factor above 0: without one no heat reaches the tip");
+}
+
 Bath to_bath(double temperature, double quality_factor, double lateral_quality_factor, double kicks_per_tau,
              std::uint64_t seed, std::uint64_t stream) {
   const Bath bath{temperature, quality_factor, lateral_quality_factor, kicks_per_tau, seed, stream};
   refuse(find_faults(bath));
-  require(temperature == 0.0 || bath.is_on(), "temperature", temperature,
-          "needs a quality_factor above 0: without one no heat reaches the tip");
+  require_damping("temperature", temperature, bath);
   return bath;
 }
 
@@ -46,9 +50,10 @@ SiUnits to_units(double omega_v, double omega_h, double mass, double spacing, do
 
 Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, double lateral_quality_factor,
              double kicks_per_tau, std::uint64_t seed) {
-  const Bath bath =
-      u.units.to_natural(SiBath{temperature_k, quality_factor, lateral_quality_factor, kicks_per_tau, seed});
-  refuse(find_faults(bath));
+  const SiBath si{temperature_k, quality_factor, lateral_quality_factor, kicks_per_tau, seed};
+  refuse(find_faults(si, u.units));
+  const Bath bath = u.units.to_natural(si);
+  require_damping("temperature_k", temperature_k, bath);
   return bath;
 }
 
@@ -158,6 +163,10 @@ An object cannot be changed. Throws ParameterError.)");
   add_call(model);
   add_bath(m);
   add_units(m);
+  m.def("kicks_lock", &kicks_lock, "model"_a, "bath"_a,
+        "Whether the kicks of the bath lock to the swing of the lateral spring: K_f is then wrong by up to 14 %.");
+  m.def("suitable_kicks", &suitable_kicks, "model"_a, "bath"_a,
+        "A rate of kicks [1/tau] that does not lock, for the model and the quality factors of the bath.");
 }
 
 }  // namespace afm::python

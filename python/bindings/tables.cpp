@@ -47,6 +47,7 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   s.sweep.bath = bath;
   s.sweep.seed = s.sweep.bath.seed = seed;
   refuse(find_faults(s));
+  warn(find_traps(s));
   const SweepGrid grid(s);
   CurvePoints points(grid, s);
   std::size_t done = 0;

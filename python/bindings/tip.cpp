@@ -23,6 +23,7 @@ PyTip to_tip(const Model& model, double eta, double phase, double extension, dou
   const RunSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(settings));
   PyTip made{Tip(model, eta, settings.initial, contact_tolerance)};
+  warn(find_traps(model, bath));
   made.tip.set_bath(bath);
   return made;
 }
@@ -189,8 +190,12 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
       .def("change", &change, "gamma"_a = py::none(), "cutoff"_a = py::none(), "rest_height"_a = py::none(),
            "Another restitution, cutoff [a/tau] or height of the holder [a] from now on; None: as it is.")
       .def(
-          "set_bath", [](PyTip& self, const Bath& bath) { self.tip.set_bath(bath); }, "bath"_a,
-          "Another heat bath from now on.")
+          "set_bath",
+          [](PyTip& self, const Bath& bath) {
+            warn(find_traps(self.tip.model(), bath));
+            self.tip.set_bath(bath);
+          },
+          "bath"_a, "Another heat bath from now on.")
       .def(
           "copy", [](const PyTip& self) { return self; }, "Another tip in the same state; copy.copy() does the same.")
       .def("__copy__", [](const PyTip& self) { return self; })

@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,9 @@ class Errors(unittest.TestCase):
         self.refused('surface_amplitude_m', 1, afm.Units, surface_amplitude_m=1)
         self.refused('quality_factor', 0.01, afm.Bath, quality_factor=0.01)
         self.refused('temperature', 1, afm.Bath, temperature=1)
+        self.refused('temperature_k', 300, afm.Units().bath, temperature_k=300)
+        self.refused('temperature_k', -1, afm.Units().bath, temperature_k=-1, quality_factor=100)
+        self.refused('lattice_spacing_m', 0.52, afm.Units, lattice_spacing_m=0.52)
         self.refused('y', -1, afm.Tip, y=-1)
         self.refused('eta', 2000, afm.Tip, eta=2000)
         self.refused('eta', 2000, afm.Tip().drag, 2000)
@@ -79,6 +83,7 @@ class Errors(unittest.TestCase):
         self.refused('rest_height_m', -1e-9, afm.Units, rest_height_m=-1e-9, load_n=1e-9)
         self.refused('resonance_hz', 0, afm.Units, spring_constant_n_per_m=0.2, lateral_spring_constant_n_per_m=50)
         self.refused('load_n', math.inf, afm.Units, load_n=math.inf)
+        self.refused('load_n', 1, afm.Units, load_n=1)
 
     def test_a_wrong_type_is_named(self):
         tip, run = afm.Tip(), afm.Run()
@@ -144,6 +149,33 @@ class Errors(unittest.TestCase):
             afm.next_impact(**states)
         table = afm.next_impact(on_error='nan', **states)
         self.assertEqual(list(np.isnan(table['dt'])), [True, False])
+
+
+class Warnings(unittest.TestCase):
+    """Kicks that lock to the swing of the lateral spring falsify K_f."""
+    MODEL, BATH = afm.Model(frequency_ratio=14), afm.Bath(1, 20)
+
+    def test_wherever_a_bath_meets_a_model(self):
+        tip, run = afm.Tip(self.MODEL), afm.Run(self.MODEL)
+        for call in (lambda: afm.Tip(self.MODEL, bath=self.BATH), lambda: tip.set_bath(self.BATH),
+                     lambda: afm.Run(self.MODEL, bath=self.BATH), lambda: run.apply(bath=self.BATH),
+                     lambda: afm.friction_curve(2, model=self.MODEL, bath=self.BATH, duration=10, transient=1),
+                     lambda: afm.friction_curve([1, 2], frequency_ratio=[6.25, 14], temperature=1, quality_factor=20,
+                                                duration=10, transient=1)):
+            with self.assertWarnsRegex(RuntimeWarning, r'kicks_per_tau = 29\.034: .*give 46\.979') as caught:
+                call()
+            self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
+
+    def test_none_with_suitable_kicks(self):
+        self.assertTrue(afm.kicks_lock(self.MODEL, self.BATH))
+        kicks = afm.suitable_kicks(self.MODEL, self.BATH)
+        bath = afm.Bath(1, 20, kicks_per_tau=kicks)
+        self.assertFalse(afm.kicks_lock(self.MODEL, bath))
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')
+            afm.Tip(self.MODEL, bath=bath).copy()
+            afm.friction_curve(2, model=self.MODEL, bath=bath, duration=10, transient=1)
+            afm.Tip(bath=self.BATH)  # mica
 
 
 class Arrays(unittest.TestCase):

@@ -15,6 +15,12 @@ CALLS = {
     'friction_curve with heat': 'afm.friction_curve(3.4, duration=1e10, temperature=1, quality_factor=100)',
     'attractors': 'afm.attractors(3.4, duration=1e8, transient=1e8)',
     'periodic_orbits': 'afm.periodic_orbits(3.4, max_length=30, guesses=1000000)',
+    # held down: no event for ever
+    'lyapunov in contact': 'afm.lyapunov(0.5, model=afm.Model(rest_height=-2.0), duration=1e10)',
+    'lyapunov, before it is measured': 'afm.lyapunov(0.5, model=afm.Model(rest_height=-2.0), transient=1e10)',
+    'attractors in contact': 'afm.attractors(0.5, rest_height=-2.0, duration=1e8, transient=1e8)',
+    'friction_curve in contact': 'afm.friction_curve(0.5, rest_height=-2.0, duration=1e10, transient=1e10)',
+    'Ensemble.advance in contact': 'afm.Ensemble([afm.Tip(afm.Model(rest_height=-2.0), eta=0.5)]).advance(1e10)',
     'lyapunov': 'afm.lyapunov(3.4, duration=1e10, most_events=10**12)',
     'advance': 'afm.Tip().advance(1e10, most_events=10**12)',
     'samples': 'afm.Tip(afm.Model(gamma=0.0), eta=1.0).samples(1e5, 10**7)',

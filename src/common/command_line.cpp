@@ -147,6 +147,8 @@ bool CommandLine::read(int argc, char** argv) {
   return true;
 }
 
+void CommandLine::warn(const std::string& what) const { std::cerr << tool_ << ": warning: " << what << "\n"; }
+
 int CommandLine::run(int argc, char** argv, const std::function<int()>& work) {
   const auto fail = [&](const std::string& what, int code) {
     std::cout.flush();

@@ -36,6 +36,9 @@ class CommandLine {
   // True if the option stands on the command line; false before run() has read it.
   bool is_given(const std::string& name) const { return given_.count(name) > 0; }
 
+  // What the user should know of, on standard error; the work goes on.
+  void warn(const std::string& what) const;
+
   // Reads the options, then works. Exit code 0 for --help; 2 for a wrong option and for std::invalid_argument from the
   // work; 1 for other exceptions, and where the standard output cannot be written; else what the work returns.
   int run(int argc, char** argv, const std::function<int()>& work);

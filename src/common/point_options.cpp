@@ -21,6 +21,26 @@ std::vector<double> values_of(const std::string& name, const std::string& text, 
   return values;
 }
 
+Model model_of(const PointOptions& o) {
+  Model model;
+  model.kind = checked_kind(o.model);
+  model.gamma = o.gamma;
+  model.v_c = o.cutoff;
+  model.frequency_ratio = o.frequency_ratio;
+  return model;
+}
+
+// By the names of the options.
+std::vector<ParameterError> find_faults(const PointOptions& o, const Model& model) {
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(model)) {
+    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+  }
+  if (!(std::abs(o.eta) <= kMaxEta))
+    faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
+  return faults;
+}
+
 }  // namespace
 
 std::vector<double> range_option(const std::string& name, const std::string& text) {
@@ -71,25 +91,25 @@ void add_si_options(CommandLine& app, PointOptions& o) {
 void take_si(const CommandLine& app, PointOptions& o) {
   checked_units(app, o.si);
   take_si(app, o.si, "cutoff", o.cutoff);
-  if (!has_drag_velocity(app, o.si)) return;
-  const std::vector<double> values = range_option("drag-velocity", o.drag_velocity);
-  if (values.size() != 1) throw std::invalid_argument("drag-velocity = " + o.drag_velocity + ": must be one number");
-  o.eta = values.front();
-  take_si(app, o.si, "drag-velocity", o.eta);
+  if (has_drag_velocity(app, o.si)) {
+    const std::vector<double> values = range_option("drag-velocity", o.drag_velocity);
+    if (values.size() != 1) throw std::invalid_argument("drag-velocity = " + o.drag_velocity + ": must be one number");
+    o.eta = values.front();
+    take_si(app, o.si, "drag-velocity", o.eta);
+  }
+  checked_model(app, o);
+}
+
+Model checked_model(const CommandLine& app, const PointOptions& o) {
+  const Model model = model_of(o);
+  const std::vector<ParameterError> faults = as_given(app, o.si, find_faults(o, model));
+  if (!faults.empty()) throw std::invalid_argument(describe(faults));
+  return model;
 }
 
 Model checked_model(const PointOptions& o) {
-  Model model;
-  model.kind = checked_kind(o.model);
-  model.gamma = o.gamma;
-  model.v_c = o.cutoff;
-  model.frequency_ratio = o.frequency_ratio;
-  std::vector<ParameterError> faults;
-  for (const ParameterError& fault : find_faults(model)) {
-    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
-  }
-  if (!(std::abs(o.eta) <= kMaxEta))
-    faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
+  const Model model = model_of(o);
+  const std::vector<ParameterError> faults = find_faults(o, model);
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
   return model;
 }

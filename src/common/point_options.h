@@ -30,6 +30,8 @@ ModelKind checked_kind(const std::string& name);
 
 // Throws std::invalid_argument with every fault, by the names of the options.
 Model checked_model(const PointOptions& options);
+// The same, with values that were given in SI shown in SI.
+Model checked_model(const CommandLine& app, const PointOptions& options);
 
 // The numbers of an option: a range as parse_range() knows it, or several with commas between. Both throw
 // std::invalid_argument with name and text of the option, and the reason.

@@ -1,5 +1,7 @@
 #include "si_options.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <stdexcept>
 
@@ -14,6 +16,16 @@ const std::map<std::string, Quantity> kQuantityOf{
     {"duration", Quantity::time},      {"friction-duration", Quantity::time},  {"range", Quantity::velocity},
     {"rest-height", Quantity::length}, {"temperature", Quantity::temperature}, {"to", Quantity::velocity},
     {"transient", Quantity::time}};
+
+const std::map<Quantity, const char*> kSiUnit{
+    {Quantity::length, "m"}, {Quantity::time, "s"}, {Quantity::velocity, "m/s"}, {Quantity::temperature, "K"}};
+
+// Without the rounding of a conversion there and back.
+std::string rounded(double value, int digits) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
 
 }  // namespace
 
@@ -51,6 +63,25 @@ Units checked_units(const CommandLine& app, const SiOptions& o) {
   }
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
   return Units(o.scale);
+}
+
+std::vector<ParameterError> as_given(const CommandLine& app, const SiOptions& o,
+                                     const std::vector<ParameterError>& faults) {
+  constexpr int kDigits = 14, kFew = 4;
+  std::vector<ParameterError> given;
+  for (const ParameterError& fault : faults) {
+    const std::string name = fault.name == "eta" && app.is_given("drag-velocity") ? "drag-velocity" : fault.name;
+    const auto quantity = kQuantityOf.find(name);
+    if (!o.on || !app.is_given(name) || quantity == kQuantityOf.end()) {
+      given.push_back(fault);
+      continue;
+    }
+    const double unit = si_factor(quantity->second, Units(o.scale));
+    given.emplace_back(name, std::strtod(rounded(fault.value * unit, kDigits).c_str(), nullptr),
+                       fault.reason + " (in natural units, where 1 is " + rounded(unit, kFew) + " " +
+                           kSiUnit.at(quantity->second) + ")");
+  }
+  return given;
 }
 
 TableUnits table_units(const SiOptions& o) { return o.on ? TableUnits::into_si(Units(o.scale)) : TableUnits::plain(); }

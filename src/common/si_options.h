@@ -25,6 +25,10 @@ bool has_drag_velocity(const CommandLine& app, const SiOptions& options);
 // Throws std::invalid_argument where the scale is out of range, or given without --si.
 Units checked_units(const CommandLine& app, const SiOptions& options);
 
+// The same faults as the user knows them: with --si the value of an option that was given is shown in SI.
+std::vector<ParameterError> as_given(const CommandLine& app, const SiOptions& options,
+                                     const std::vector<ParameterError>& faults);
+
 // How the tool's tables of natural numbers are written.
 TableUnits table_units(const SiOptions& options);
 

@@ -6,6 +6,26 @@
 #include "fault_list.h"
 
 namespace afm {
+namespace {
+
+// The hammer has no lateral spring.
+double lateral_ratio(const Model& model) { return is_free_along_x(model) * model.frequency_ratio; }
+
+bool locks(const Model& model, double kicks_per_tau) {
+  constexpr double kFewTurns = 0.4;  // where the spring turns less from kick to kick, the kicks follow its swing
+  constexpr double kNear = 0.05;     // measured: 0.02 of a turn off, K_f is still 2 % wrong (docs/levers.md)
+  const double turns = lateral_ratio(model) / kicks_per_tau;
+  return turns > kFewTurns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < kNear;
+}
+
+// Whether the tip forgets so slowly that few kicks suffice: measured from Q = 100 on (docs/levers.md).
+bool is_slow(const Bath& bath) {
+  constexpr double kSlow = 100.0;
+  const auto slow = [](double q) { return q == 0.0 || q >= kSlow; };
+  return slow(bath.quality_factor) && slow(bath.lateral_quality_factor);
+}
+
+}  // namespace
 
 bool operator==(const Bath& a, const Bath& b) {
   const auto fields = [](const Bath& x) {
@@ -26,6 +46,28 @@ std::vector<ParameterError> find_faults(const Bath& b) {
   require_quality("lateral_quality_factor", b.lateral_quality_factor, "as the vertical one");
   list.require_between(kMinKickRate, kMaxKickRate, "kicks_per_tau", b.kicks_per_tau, "must be");
   return list.faults;
+}
+
+bool kicks_lock(const Model& model, const Bath& bath) { return bath.is_on() && locks(model, bath.kicks_per_tau); }
+
+double suitable_kicks(const Model& model, const Bath& bath) {
+  constexpr double kGolden = 0.618034;  // 1.618 turns of the lateral spring from kick to kick: far from every lock
+  constexpr double kLeast = 8.6;        // the least golden section that was measured (docs/levers.md)
+  const double section = std::round(1000.0 * kGolden * lateral_ratio(model)) / 1000.0;
+  const std::vector<double> few{11.09, 29.034, 46.979}, many{29.034, 46.979, 122.99};  // powers of the golden ratio
+  if (is_slow(bath) && section >= kLeast) return section;
+  for (const double kicks : is_slow(bath) ? few : many) {
+    if (!locks(model, kicks)) return kicks;
+  }
+  return section;  // all of `many` lock only from omega_h/omega_v = 49 on: this is then 30 or more
+}
+
+std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {
+  if (!kicks_lock(model, bath)) return {};
+  return {ParameterError("kicks_per_tau", bath.kicks_per_tau,
+                         "locks to the swing of the lateral spring, as omega_h/omega_v = " +
+                             number_text(std::round(1e4 * model.frequency_ratio) / 1e4) +
+                             ": K_f may be wrong by ten per cent; give " + number_text(suitable_kicks(model, bath)))};
 }
 
 }  // namespace afm

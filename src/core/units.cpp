@@ -3,11 +3,13 @@
 #include <cmath>
 #include <string>
 
+#include "fault_list.h"
+
 namespace afm {
 
 std::vector<ParameterError> find_faults(const SiModel& si) {
   std::vector<ParameterError> faults;
-  // wide enough for every real tip, and no product of units overflows
+  // wide enough for every real tip, and no product of units overflows; a lattice spacing in nm is none in m
   const auto require_scale = [&](const char* name, double value) {
     if (!(value >= 1e-40 && value <= 1e40))
       faults.emplace_back(name, value, "must be positive, between 1e-40 and 1e40");
@@ -15,7 +17,9 @@ std::vector<ParameterError> find_faults(const SiModel& si) {
   require_scale("omega_v_rad_per_s", si.omega_v_rad_per_s);
   require_scale("omega_h_rad_per_s", si.omega_h_rad_per_s);
   require_scale("tip_mass_kg", si.tip_mass_kg);
-  require_scale("lattice_spacing_m", si.lattice_spacing_m);
+  if (!(si.lattice_spacing_m >= 1e-12 && si.lattice_spacing_m <= 1e-4)) {
+    faults.emplace_back("lattice_spacing_m", si.lattice_spacing_m, "must be between 1e-12 and 1e-4 m; mica: 5.2e-10");
+  }
   const bool scaled = faults.empty();
   const auto rename = [&](const ParameterError& fault) {
     if (fault.name == "H") return faults.emplace_back("surface_amplitude_m", si.surface_amplitude_m, fault.reason);
@@ -73,15 +77,36 @@ std::vector<ParameterError> set_lever_and_load(const Lever& lever, double load_n
   }
   if (load_n == 0.0) return faults;
   forbid("rest_height_m", si.rest_height_m, usual.rest_height_m, "load_n");
-  if (std::isfinite(load_n)) {
-    si.rest_height_m = -load_n / spring_constant(si);
-  } else {
+  if (!std::isfinite(load_n)) {
     faults.emplace_back("load_n", load_n, "must be finite");
+    return faults;
   }
+  SiModel loaded = si;
+  loaded.rest_height_m = -load_n / spring_constant(si);
+  bool fits = true;
+  for (const ParameterError& fault : find_faults(loaded)) {
+    if (fault.name != "rest_height_m") continue;
+    fits = false;
+    faults.emplace_back("load_n", load_n, "makes rest_height_m = " + number_text(fault.value) + ": " + fault.reason);
+  }
+  if (fits) si = loaded;
   return faults;
 }
 
 double spring_constant(const SiModel& si) { return si.tip_mass_kg * si.omega_v_rad_per_s * si.omega_v_rad_per_s; }
+
+std::vector<ParameterError> find_faults(const SiBath& bath, const Units& units) {
+  std::vector<ParameterError> faults;
+  for (const ParameterError& fault : find_faults(units.to_natural(bath))) {
+    if (fault.name != "temperature") {
+      faults.push_back(fault);
+      continue;
+    }
+    const double most = std::round(kMaxTemperature * units.temperature());
+    faults.emplace_back("temperature_k", bath.temperature_k, "must be between 0 and " + number_text(most) + " K");
+  }
+  return faults;
+}
 
 Units::Units(const SiModel& si) : a_(si.lattice_spacing_m), tau_(kTwoPi / si.omega_v_rad_per_s), m_(si.tip_mass_kg) {}
 

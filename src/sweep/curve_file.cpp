@@ -101,7 +101,7 @@ void CurveFile::keep_whole_chains(const std::string& header) {
 void CurveFile::add(const SweepResult& result) { write_row(grid_.at(rows_++), result, writer_); }
 
 void CurveFile::flush() {
-  if (!out_.flush()) throw cannot("write", path_);
+  if (!out_.flush()) throw cannot("write", path_ == "-" ? "the standard output" : path_);
 }
 
 }  // namespace afm

@@ -40,6 +40,16 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
   return faults;
 }
 
+std::vector<ParameterError> find_traps(const CurveSettings& s) {
+  std::vector<ParameterError> traps;
+  for (const double ratio : s.frequency_ratio) {
+    SweepPoint point{s.eta.front(), s.gamma.front(), s.cutoff.front(), s.model};
+    point.frequency_ratio = ratio;
+    for (const ParameterError& trap : find_traps(point, s.sweep.bath)) traps.push_back(trap);
+  }
+  return traps;
+}
+
 std::string identity(const CurveSettings& s) {
   std::ostringstream text;
   const auto add = [&](const char* name, const std::vector<double>& axis) {

@@ -26,6 +26,9 @@ struct CurveSettings {
 // Every fault, under the names of the command line.
 std::vector<ParameterError> find_faults(const CurveSettings& settings);
 
+// What can be run, but is seldom meant, once for each frequency ratio; under the names of the command line.
+std::vector<ParameterError> find_traps(const CurveSettings& settings);
+
 // In one line all that the table depends on, and nothing else.
 std::string identity(const CurveSettings& settings);
 

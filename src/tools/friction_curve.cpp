@@ -8,7 +8,6 @@
 #ifdef AFM_DYNAMICS
 #include "afm/dynamics/sweep.h"
 #endif
-#include "afm/number_text.h"
 #include "common/lever_options.h"
 #include "common/point_options.h"
 #include "common/si_options.h"
@@ -122,12 +121,9 @@ void check(const afm::CommandLine& app, Options& o) {
     refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
   if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");
   s.sweep.seed = s.sweep.bath.seed = static_cast<std::uint64_t>(o.seed);
-  if (s.sweep.bath.temperature > 0.0 && !s.sweep.bath.is_on()) {
-    refuse("temperature = " + afm::number_text(s.sweep.bath.temperature) +
-           ": needs a quality-factor above 0: without one no heat reaches the tip");
-  }
-  const std::vector<afm::ParameterError> faults = afm::find_faults(s);
+  const std::vector<afm::ParameterError> faults = afm::as_given(app, o.si, afm::find_faults(s));
   if (!faults.empty()) refuse(afm::describe(faults));
+  for (const afm::ParameterError& trap : afm::find_traps(s)) app.warn(trap.what());
 }
 
 }  // namespace

@@ -37,10 +37,26 @@ std::vector<double> to_natural(const std::vector<double>& inputs, const TableUni
   return natural;
 }
 
+// With every fault, named and valued as in the table.
+void refuse_faults(const FlightInput& input, const TableUnits& units, const std::vector<double>& values) {
+  std::string text;
+  for (const ParameterError& fault : find_faults(input)) {
+    std::string shown = fault.what();
+    for (std::size_t i = 0; i < kInputs; ++i) {
+      if (kImpactColumns[i].name != fault.name) continue;
+      shown = ParameterError(units.name(kImpactColumns[i]), values[i], fault.reason).what();
+    }
+    text += (text.empty() ? "" : "; ") + shown;
+  }
+  if (!text.empty()) throw std::invalid_argument(text);
+}
+
 void compute_row(ModelKind kind, const std::string& line, const TableUnits& units, std::vector<double>& row) {
   parse_inputs(line, units, row);
   const std::vector<double> s = to_natural(row, units);
-  const FlightResult r = fly_to_next_impact({s[0], s[1], s[2], s[3], s[4], s[5], s[6], kind});
+  const FlightInput input{s[0], s[1], s[2], s[3], s[4], s[5], s[6], kind};
+  refuse_faults(input, units, row);
+  const FlightResult r = fly_to_next_impact(input);
   const double results[kOutputs] = {r.dt, r.phase,        r.extension,           r.u,
                                     r.w,  r.normal_speed, r.tangential_velocity, r.energy_loss};
   for (std::size_t i = 0; i < kOutputs; ++i) {

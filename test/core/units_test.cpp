@@ -95,6 +95,34 @@ TEST(Units, AFaultShowsTheValueAsItWasGiven) {
   EXPECT_EQ(faults[0].value, 0.06e-9);
 }
 
+TEST(Units, ALoadOutOfRangeIsNamedByWhoeverGaveIt) {
+  for (const double load : {1.0, -1.0}) {  // 1 N: further down than a holder may be; -1 N: it hovers
+    SiModel si;
+    const std::vector<ParameterError> faults = set_lever_and_load({}, load, si);
+    ASSERT_EQ(faults.size(), 1u);
+    EXPECT_EQ(faults[0].name, "load_n");
+    EXPECT_EQ(faults[0].value, load);
+    EXPECT_TRUE(find_faults(si).empty());  // nothing is set, so there is no second complaint
+  }
+  SiModel si;
+  EXPECT_TRUE(set_lever_and_load({}, 1e-9, si).empty());
+  EXPECT_DOUBLE_EQ(spring_constant(si) * si.rest_height_m, -1e-9);
+}
+
+TEST(Units, ALatticeSpacingInNanometresIsTheOnlyFault) {
+  SiModel si;
+  si.lattice_spacing_m = 0.52;
+  EXPECT_EQ(names(find_faults(si)), std::multiset<std::string>{"lattice_spacing_m"});
+}
+
+TEST(Units, AFaultOfABathShowsKelvin) {
+  const std::vector<ParameterError> faults = find_faults(SiBath{-1.0, 0.01}, Units(SiModel{}));
+  EXPECT_EQ(names(faults), (std::multiset<std::string>{"temperature_k", "quality_factor"}));
+  EXPECT_EQ(faults[0].value, -1.0);
+  EXPECT_NE(faults[0].reason.find(" K"), std::string::npos);
+  EXPECT_TRUE(find_faults(SiBath{300.0, 100.0}, Units(SiModel{})).empty());
+}
+
 TEST(Units, AScaleMustBeOneOfThisWorld) {
   for (double SiModel::*scale : {&SiModel::omega_v_rad_per_s, &SiModel::tip_mass_kg, &SiModel::lattice_spacing_m}) {
     for (const double value : {1e-41, 1e41, 5e-324, 1.7e308}) {

@@ -121,6 +121,16 @@ class Refusals(Case):
         self.assert_refused(['--output', '/no/such/place.csv'], '/no/such/place.csv', 'No such file')
         self.assert_refused(['stray'], 'stray')
 
+    def test_kicks_that_lock_are_warned_of_once(self):
+        heat = ['--temperature', '1', '--quality-factor', '20', '--duration', '20', '--transient', '1']
+        done = self.run_tool(['--eta', '1:3:1', '--frequency-ratio', '6:14:8', *heat])
+        self.assertEqual((done.returncode, len(done.stdout.splitlines())), (0, 7))
+        self.assertEqual(done.stderr.count(b'\n'), 1, done.stderr)
+        for word in (b'warning: kicks-per-tau = 29.034', b'omega_h/omega_v = 14', b'give 46.979'):
+            self.assertIn(word, done.stderr)
+        silent = self.run_tool(['--eta', '2', '--frequency-ratio', '14', '--kicks-per-tau', '46.979', *heat])
+        self.assertEqual(silent.stderr, b'')
+
     def test_other_settings(self):
         table, curve = self.table(MAP, 'curve.csv'), self.directory / 'curve.csv'
         self.assertEqual(self.table(MAP, 'curve.csv'), table)
@@ -142,8 +152,9 @@ class Refusals(Case):
     def test_a_full_disk(self):
         with open('/dev/full', 'w') as full:
             done = subprocess.run([TOOL, *MAP], stdout=full, stderr=subprocess.PIPE, timeout=DEADLINE)
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn(b'cannot write', done.stderr)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b'cannot write the standard output', done.stderr)
+        self.assertNotIn(b'choose another name', done.stderr)
 
 
 class Physics(Case):

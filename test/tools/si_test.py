@@ -181,6 +181,38 @@ class Levers(unittest.TestCase):
                     'lateral_spring_constant_n_per_m must')
             refused(lever + 'stiffness: 3\n', file.name, 'stiffness')
             refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')
+            refused('', file.name, 'a key and a number')
+            refused('- 0.5\n', file.name, 'a key and a number')
+            by_model = 'omega_v_rad_per_s: 4.0e4\nomega_h_rad_per_s: 2.5e5\ntip_mass_kg: 4.0e-10\nquality_factor: 20\n'
+            refused(by_model)
+            refused(by_model.split('\n', 1)[1], file.name, 'lacks omega_v_rad_per_s')
+            refused(by_model + 'resonance_hz: 2.0e4\n', file.name, 'twice')
+            refused(by_model + lever + 'lateral_spring_constant_n_per_m: 60\n', file.name, 'twice')
+
+    def test_a_lever_by_its_frequencies_is_the_same_lever(self):
+        omega_v = 2 * math.pi * self.F0
+        text = 'omega_v_rad_per_s: %r\ntip_mass_kg: %r\nomega_h_rad_per_s: %r\nquality_factor: 100\n' % (
+            omega_v, self.K / omega_v ** 2, omega_v * math.sqrt(self.K_H / self.K))
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write(text)
+            file.flush()
+            row, = run('real_time', '--eta', 2, '--tau', 3, '--transient', 1, '--lever', file.name, *self.GIVEN[2:])[1]
+        for name, value in self.NATURAL.items():
+            self.assertAlmostEqual(float(row[name.replace('-', '_')]) / value, 1, delta=1e-13, msg=name)
+
+    def test_a_surface_of_ones_own(self):
+        with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+            file.write('lattice_spacing_m: 4.0e-10\n')
+            file.flush()
+            code, rows, complaint = run('friction_curve', '--si', '--eta', 2, '--surface', file.name)
+            self.assertEqual((code, rows), (2, []))
+            self.assertIn(file.name + ': it lacks surface_amplitude_m', complaint)
+
+    def test_a_folder_is_no_lever(self):
+        with tempfile.TemporaryDirectory(suffix='.yaml') as folder:
+            code, rows, complaint = run('real_time', '--lever', folder)
+            self.assertEqual((code, rows), (2, []))
+            self.assertIn('lever = %s: it is a folder' % folder, complaint)
 
 
 class Refused(unittest.TestCase):
@@ -188,6 +220,22 @@ class Refused(unittest.TestCase):
         code, rows, complaint = run(tool, *arguments)
         self.assertEqual((code, rows), (2, []), complaint)
         self.assertIn(words, complaint)
+
+    def test_a_value_is_shown_as_it_was_given(self):
+        curve = ['friction_curve', '--si']
+        self.refuse('temperature = 300: needs a quality-factor', *curve, '--temperature', 300)
+        self.refuse('temperature = -1: ', *curve, '--temperature', -1, '--quality-factor', 100)
+        self.refuse('drag-velocity = 1: ', *curve, '--drag-velocity', 1)
+        self.refuse('where 1 is 3.64e-06 m/s', *curve, '--drag-velocity', 1, '--lever', 'soft')
+        self.refuse('duration = -0.1: ', *curve, '--duration', -0.1)
+        self.refuse('lattice-spacing = 0.52: ', *curve, '--lattice-spacing', 0.52)
+        self.refuse('eta = 2000: ', *curve, '--eta', 2000)
+        for tool in ('periodic_orbits', 'attractors'):
+            self.refuse('drag-velocity = 1: ', tool, '--si', '--drag-velocity', 1)
+        header = 'drag_velocity_m_per_s,gamma,cutoff_m_per_s,phase,extension_m,u_m_per_s,w_m_per_s\n'
+        complaint = run('next_impact', '--si', text=header + '1e-5,0.7,-1e-7,0.1,nan,1e-5,1e-5\n')[2]
+        self.assertIn('extension_m = nan: ', complaint)
+        self.assertIn('cutoff_m_per_s = -1e-07: ', complaint)
 
     def test_what_does_not_go_together(self):
         self.refuse('drag-velocity: is taken only with --si', 'friction_curve', '--drag-velocity', 6e-6)
@@ -202,6 +250,8 @@ class Refused(unittest.TestCase):
         self.refuse('omega-v: is given beside --lever', 'friction_curve', '--si', '--lever', 'soft', '--omega-v', 1e4)
         self.refuse('rest-height: is given beside --load', 'real_time', '--load', 1e-9, '--rest-height', 0)
         self.refuse('load_n = nan: must be finite', 'real_time', '--load', 'nan')
+        self.refuse('load_n = 1: ', 'real_time', '--load', 1)
+        self.refuse('load_n = -1: ', 'friction_curve', '--si', '--load', -1)
         self.refuse('ppp_cont', 'real_time', '--lever', 'nosuch')
         self.refuse('mica', 'real_time', '--surface', 'nosuch')
 

@@ -14,6 +14,9 @@ afm_add_test(next_impact 120 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/to
 afm_add_test(friction_curve 180 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/friction_curve_test.py
   $<TARGET_FILE:afm_friction_curve>)
 
+afm_add_test(real_time 120 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/real_time_test.py
+  $<TARGET_FILE:afm_real_time>)
+
 if(AFM_DYNAMICS)
   afm_add_test(si 120 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/si_test.py
     $<TARGET_FILE_DIR:afm_friction_curve>)

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "afm/interruption.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
+#include "core/run/interruptible_advance.h"
 
 namespace afm {
 namespace {
@@ -31,6 +31,11 @@ class Uniform {
  private:
   std::uint64_t state_;
 };
+
+std::string option_of(std::string name) {
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
 
 }  // namespace
 
@@ -61,11 +66,20 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings) {
     faults.emplace_back("transient", settings.transient, "must be at least 0 and at most 1e12 tau");
   }
   for (const ParameterError& fault : find_faults(settings.bath)) {
-    std::string option = fault.name;
-    std::replace(option.begin(), option.end(), '_', '-');
-    faults.emplace_back(option, fault.value, fault.reason);
+    faults.emplace_back(option_of(fault.name), fault.value, fault.reason);
+  }
+  if (settings.bath.temperature > 0.0 && !settings.bath.is_on()) {
+    faults.emplace_back("temperature", settings.bath.temperature,
+                        "needs a quality-factor above 0: without one no heat reaches the tip");
   }
   return faults;
+}
+
+std::vector<ParameterError> find_traps(const SweepPoint& point, const Bath& bath) {
+  std::vector<ParameterError> traps;
+  for (const ParameterError& trap : find_traps(model_of(point), bath))
+    traps.emplace_back(option_of(trap.name), trap.value, trap.reason);
+  return traps;
 }
 
 Model model_of(const SweepPoint& point) {
@@ -94,8 +108,9 @@ SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, 
     tip.set_bath(settings.bath);
     result.attractor = "thermal";
   }
-  for (const ModelTime end = tip.now() + settings.transient; tip.advance(end) != Outcome::time_limit;)
-    interruption_point();
+  const ModelTime end = tip.now() + settings.transient;
+  while (detail::advance_interruptibly(tip, end) != Outcome::time_limit) {
+  }
   result.friction = average_over_time(tip, settings.duration);
   result.end = tip.tip_state();
   return result;

@@ -11,6 +11,7 @@
 #include "afm/interruption.h"
 #include "core/not_numbers.h"
 #include "core/run/batch_means.h"
+#include "core/run/interruptible_advance.h"
 
 namespace afm {
 
@@ -29,7 +30,7 @@ ModelTime quiet_time(Tip tip, double span) {
   ModelTime last = tip.now(), quiet = last;
   double longest = 0.0;
   for (int i = 0; i < kMaxEvents && tip.now() < end; ++i) {
-    tip.advance(end);
+    advance_interruptibly(tip, end);
     const double pause = tip.now() - last;
     if (pause > longest) {
       longest = pause;
@@ -41,7 +42,8 @@ ModelTime quiet_time(Tip tip, double span) {
 }
 
 void bring_to(Tip& tip, const ModelTime& end) {
-  while (tip.advance(end) != Outcome::time_limit) interruption_point();
+  while (advance_interruptibly(tip, end) != Outcome::time_limit) {
+  }
 }
 
 // Sums over an interval of time.

@@ -1,0 +1,86 @@
+#include "afm/bath.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace afm {
+namespace {
+
+Model with_ratio(double frequency_ratio) {
+  Model model;
+  model.frequency_ratio = frequency_ratio;
+  return model;
+}
+
+Bath with(double quality_factor, double kicks_per_tau = Bath{}.kicks_per_tau) {
+  Bath bath;
+  bath.quality_factor = quality_factor;
+  bath.kicks_per_tau = kicks_per_tau;
+  return bath;
+}
+
+// K_f was measured at these (docs/levers.md).
+TEST(Bath, KicksLockWhereKfWasWrong) {
+  EXPECT_TRUE(kicks_lock(with_ratio(14.0), with(20.0, 29.034)));
+  EXPECT_TRUE(kicks_lock(with_ratio(22.0), with(100.0, 11.09)));
+  EXPECT_TRUE(kicks_lock(with_ratio(11.1), with(100.0, 11.09)));
+  for (const double kicks : {8.652, 11.09, 46.979, 122.99}) {
+    EXPECT_FALSE(kicks_lock(with_ratio(14.0), with(20.0, kicks))) << kicks;
+  }
+  for (const double kicks : {11.09, 29.034}) EXPECT_FALSE(kicks_lock(Model{}, with(100.0, kicks))) << kicks;
+}
+
+TEST(Bath, WithoutKicksOrWithoutALateralSpringNothingLocks) {
+  EXPECT_FALSE(kicks_lock(with_ratio(14.0), with(0.0)));
+  Model hammer = with_ratio(14.0);
+  hammer.kind = ModelKind::hammer;
+  EXPECT_FALSE(kicks_lock(hammer, with(20.0)));
+}
+
+TEST(Bath, SuitableKicksNeverLock) {
+  for (double ratio = kMinFrequencyRatio; ratio <= kMaxFrequencyRatio; ratio *= 1.0003) {
+    for (const double quality_factor : {kMinQualityFactor, 20.0, 99.9, 100.0, 1e4}) {
+      const double kicks = suitable_kicks(with_ratio(ratio), with(quality_factor));
+      ASSERT_FALSE(kicks_lock(with_ratio(ratio), with(quality_factor, kicks))) << ratio << " " << quality_factor;
+      ASSERT_TRUE(find_faults(with(quality_factor, kicks)).empty()) << kicks;
+      ASSERT_GE(kicks, quality_factor < 100.0 ? 29.034 : 8.6) << ratio;
+    }
+  }
+}
+
+TEST(Bath, SuitableKicksAreThoseThatWereMeasured) {
+  const auto suitable = [](double ratio, double quality_factor) {
+    return suitable_kicks(with_ratio(ratio), with(quality_factor));
+  };
+  EXPECT_EQ(suitable(6.25, 100.0), 11.09);
+  EXPECT_EQ(suitable(14.0, 100.0), 8.652);
+  EXPECT_EQ(suitable(21.0, 100.0), 12.979);
+  EXPECT_EQ(suitable(11.1, 100.0), 29.034);  // 11.09 locks
+  EXPECT_EQ(suitable(5.5, 100.0), 29.034);   // half a turn
+  EXPECT_EQ(suitable(6.25, 20.0), 29.034);
+  EXPECT_EQ(suitable(14.0, 20.0), 46.979);
+}
+
+TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {
+  Bath bath = with(100.0);
+  bath.lateral_quality_factor = 20.0;
+  EXPECT_EQ(suitable_kicks(Model{}, bath), 29.034);
+  bath.quality_factor = 0.0;
+  EXPECT_EQ(suitable_kicks(Model{}, bath), 29.034);
+}
+
+TEST(Bath, ATrapNamesTheRateAndTheRemedy) {
+  EXPECT_TRUE(find_traps(Model{}, with(20.0)).empty());
+  const std::vector<ParameterError> traps = find_traps(with_ratio(14.0), with(20.0));
+  ASSERT_EQ(traps.size(), 1u);
+  EXPECT_EQ(traps[0].name, "kicks_per_tau");
+  EXPECT_EQ(traps[0].value, 29.034);
+  for (const char* word : {"omega_h/omega_v = 14", "give 46.979"}) {
+    EXPECT_NE(traps[0].reason.find(word), std::string::npos) << traps[0].reason;
+  }
+}
+
+}  // namespace
+}  // namespace afm

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""The program real_time refuses what it cannot measure, and loses no table.
+
+Usage: real_time_test.py PROGRAM
+"""
+import subprocess
+import sys
+import unittest
+
+from tables import TIME_LIMIT_S, run_tool
+
+PROGRAM = None
+SHORT = ['--eta', '2', '--cutoff', '0.05', '--tau', '3', '--transient', '1']
+
+
+class RealTime(unittest.TestCase):
+    def test_refusals(self):
+        for option, value, *words in (
+                ('eta', 'nan'), ('eta', 'inf'), ('eta', '1001', 'at most 1000'),
+                ('eta', '1:2:-1', 'STEP must be above'),
+                ('step', '0', 'above 0'), ('step', '-1', 'above 0'), ('step', '1e-12', 'more than a million'),
+                ('tau', '0'), ('tau', '-1'), ('tau', '1e30'), ('tau', '9000000000000000000'), ('transient', '-1'),
+                ('tolerance', '5'), ('tolerance', 'nan'), ('tolerance', '-1'),
+                ('temperature', '1', 'needs a quality-factor'), ('quality-factor', '0.01'), ('kicks-per-tau', '0'),
+                ('rest-height', 'nan'), ('rest-height', '3', 'hovers'), ('amplitude', '5'), ('cutoff', '-1'),
+                ('frequency-ratio', '0')):
+            with self.subTest(option=option, value=value):
+                code, rows, complaint = run_tool(PROGRAM, '--%s=%s' % (option, value))
+                self.assertEqual((code, rows), (2, []), complaint)
+                self.assertEqual(complaint.count('\n'), 1, complaint)
+                for word in (option + ' = ', value, *words):
+                    self.assertIn(word, complaint)
+
+    def test_numbers_and_ranges(self):
+        rows = run_tool(PROGRAM, *SHORT[2:], '--eta', '0:2:1', '4', '5,6')[1]
+        self.assertEqual([row['eta'] for row in rows], ['0', '1', '2', '4', '5', '6'])
+        self.assertEqual(rows[0]['k_f'], 'nan')  # as of friction_curve
+        code, rows, _ = run_tool(PROGRAM, *SHORT[2:], '--step', '4.5')
+        self.assertEqual((code, [row['eta'] for row in rows]), (0, ['0', '4.5', '9']))
+
+    def test_a_lost_table(self):
+        with open('/dev/full', 'w') as full:
+            done = subprocess.run([PROGRAM, *SHORT], stdout=full, stderr=subprocess.PIPE, timeout=TIME_LIMIT_S)
+        self.assertEqual((done.returncode, done.stderr), (1, b'real_time: cannot write the output\n'))
+
+    def test_kicks_that_lock_are_warned_of_once(self):
+        code, rows, complaint = run_tool(PROGRAM, *SHORT[2:], '--eta', '2,4', '--frequency-ratio', '6.25,14',
+                                         '--quality-factor', '20')
+        self.assertEqual((code, len(rows)), (0, 4))
+        self.assertEqual(complaint.count('warning: kicks-per-tau = 29.034'), 1, complaint)
+        self.assertIn('give 46.979', complaint)
+        self.assertEqual(run_tool(PROGRAM, *SHORT, '--quality-factor', '20')[2], '')
+
+
+if __name__ == '__main__':
+    PROGRAM = sys.argv.pop(1)
+    unittest.main()
