@@ -18,7 +18,7 @@ ROOMS = {'include/afm': 'core', 'include/afm/detail': 'core', 'dynamics/include/
          'src/node/recorder': 'recorder', 'python': 'python', 'benchmark': 'benchmark', 'benchmark/trials': 'trials',
          'test': 'test'}
 ALLOWED = {'core': set(), 'dynamics': {'core'}, 'common': {'core'},
-           'studies': {'common', 'core', 'dynamics'}, 'sweep': {'common', 'core'}, 'params': {'core'},
+           'studies': {'common', 'core', 'dynamics'}, 'sweep': {'common', 'core'}, 'params': {'core', 'common'},
            'runner': {'core', 'params'}, 'recorder': set(), 'publisher': {'core', 'params', 'runner', 'recorder'},
            'node': {'core', 'params', 'runner', 'publisher', 'recorder'}, 'view': {'core', 'publisher'},
            'tools': {'common', 'core', 'dynamics', 'sweep', 'params', 'publisher', 'recorder'},

@@ -32,10 +32,17 @@ std::string names_in(const fs::path& folder) {
   return names;
 }
 
+class FileError : public std::invalid_argument {
+ public:
+  FileError(const std::string& option, const std::string& name, const std::string& what_is_wrong)
+      : std::invalid_argument(option + " = " + name + ": " + what_is_wrong), reason(what_is_wrong) {}
+  std::string reason;
+};
+
 // A lever or a surface in a file: numbers by their keys.
 class File {
  public:
-  // option: lever or surface. Throws std::invalid_argument where it is no such file, or has a key that is not known.
+  // option: lever or surface. Throws FileError where it is no such file, or has a key that is not known.
   File(const std::string& option, const std::string& name, const std::vector<Keys>& known)
       : option_(option), name_(name) {
     const fs::path folder = config() / (option + "s");
@@ -59,7 +66,7 @@ class File {
   bool has_one_of(const Keys& keys) const {
     return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return values_.count(key.first) > 0; });
   }
-  // Throws std::invalid_argument where one of the keys is missing.
+  // Throws FileError where one of the keys is missing.
   void need(const Keys& keys) const {
     for (const auto& key : keys) {
       if (values_.count(key.first) == 0) refuse("it lacks " + key.first);
@@ -73,9 +80,7 @@ class File {
     }
   }
 
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw std::invalid_argument(option_ + " = " + name_ + ": " + what);
-  }
+  [[noreturn]] void refuse(const std::string& what) const { throw FileError(option_, name_, what); }
 
  private:
   std::string option_, name_;
@@ -114,6 +119,24 @@ void read_surface(const std::string& name, SiModel& si) {
 }
 
 }  // namespace
+
+std::string find_lever_file_fault(const std::string& path) try {
+  Lever lever;
+  SiModel si;
+  SiBath bath;
+  read_lever(path, lever, si, bath);
+  return {};
+} catch (const FileError& error) {
+  return error.reason;
+}
+
+std::string find_surface_file_fault(const std::string& path) try {
+  SiModel si;
+  read_surface(path, si);
+  return {};
+} catch (const FileError& error) {
+  return error.reason;
+}
 
 void add_lever_options(CommandLine& app, LeverOptions& o) {
   app.option("lever", o.lever, "ppp_cont or another of config/levers, or the path of a .yaml of your own");

@@ -17,6 +17,10 @@ struct LeverOptions {
   bool are_given() const { return !lever.empty() || !surface.empty() || load_n != 0.0; }
 };
 
+// What is wrong with the file of a lever or of a surface, or nothing.
+std::string find_lever_file_fault(const std::string& path);
+std::string find_surface_file_fault(const std::string& path);
+
 void add_lever_options(CommandLine& app, LeverOptions& options);
 
 // The paper's lever on mica without a load, but for what is given.

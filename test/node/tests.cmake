@@ -50,6 +50,7 @@ foreach(name diagnosis messages parameters recorder)
   target_link_libraries(afm_${name}_test afm_emulator_ros)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
+target_compile_definitions(afm_parameters_test PRIVATE AFM_CONFIG="${PROJECT_SOURCE_DIR}/config")
 
 # preloaded by the faults' test
 add_library(afm_clock_jump SHARED EXCLUDE_FROM_ALL node/clock_jump.c)

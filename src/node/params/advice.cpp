@@ -8,27 +8,8 @@
 namespace afm::node {
 namespace {
 
-constexpr double kSlowBath = 100.0;  // from that Q on few kicks suffice
 // pace of the trial run over what is needed: publishing and other programs take their part
 constexpr double kSafePace = 1.2;
-
-double frequency_ratio(const SiModel& si) { return si.omega_h_rad_per_s / si.omega_v_rad_per_s; }
-
-// So many kicks per tau suffice from kSlowBath on (docs/levers.md): the golden section of omega_h/omega_v, so that they
-// do not lock to the swing of the lateral spring; of a soft one those measured for mica.
-double suitable_kicks(const SiModel& si) {
-  constexpr double kGolden = 0.618034, kMica = 11.09, kLeast = 8.6;
-  const double kicks = kGolden * frequency_ratio(si);
-  return kicks < kLeast ? kMica : std::round(1000.0 * kicks) / 1000.0;
-}
-
-// Kicks near a whole or half number of turns of the lateral spring lock to its swing (docs/levers.md).
-bool are_locked(const Parameters& p) {
-  constexpr double kFewTurns = 0.4, kNear = 0.05;  // measured: 2 % of half a turn off, K_f is still 2 % wrong
-  if (!run_settings(p).bath.is_on()) return false;
-  const double turns = frequency_ratio(p.si) / p.bath.kicks_per_tau;
-  return turns > kFewTurns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < kNear;
-}
 
 std::string rounded(double value, int digits) {
   std::ostringstream text;
@@ -50,13 +31,9 @@ std::string describe_tip(const Parameters& p) {
 
 std::vector<std::string> find_traps(const Parameters& p) {
   std::vector<std::string> traps;
-  if (are_locked(p)) {
-    traps.push_back(
-        "kicks_per_tau = " + number_text(p.bath.kicks_per_tau) +
-        " locks to the swing of the lateral spring, as omega_h/omega_v = " + rounded(frequency_ratio(p.si), 4) +
-        ": K_f may be wrong by some per cent. Give kicks_per_tau = " + rounded(suitable_kicks(p.si), 5));
-  }
-  if (p.bath.temperature_k > 0.0 && !run_settings(p).bath.is_on()) {
+  const RunSettings settings = run_settings(p);
+  for (const ParameterError& trap : afm::find_traps(settings.model, settings.bath)) traps.emplace_back(trap.what());
+  if (p.bath.temperature_k > 0.0 && !settings.bath.is_on()) {
     traps.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
                     " has no effect: quality_factor is 0, so no heat reaches the tip");
   }
@@ -69,9 +46,10 @@ std::vector<std::string> find_traps(const Parameters& p) {
 
 std::string find_pace_fault(const Parameters& p, double pace) {
   if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return {};
-  const double kicks = suitable_kicks(p.si), scale = 0.7 * pace;
+  const RunSettings settings = run_settings(p);
+  const double kicks = suitable_kicks(settings.model, settings.bath), scale = 0.7 * pace;
   const double digit = std::pow(10.0, std::floor(std::log10(scale)));  // one digit, rounded down
-  const bool fewer_suffice = p.bath.quality_factor >= kSlowBath && p.bath.kicks_per_tau > 1.1 * kicks;
+  const bool fewer_suffice = settings.bath.is_on() && p.bath.kicks_per_tau > 1.1 * kicks;
   return "this run will not keep its pace: time_scale = " + number_text(p.time_scale) + ", and a trial run made " +
          rounded(pace, 2) + " times real time. Give time_scale = " + rounded(std::floor(scale / digit) * digit, 1) +
          ", a lower sample_rate_hz, a contact_tolerance up to 1e-2," +

@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "afm/number_text.h"
+#include "common/lever_options.h"
 #include "table.h"
 
 namespace afm::node {
@@ -127,6 +128,16 @@ void load_levels(Parameters& p, Faults& faults) {
   }
 }
 
+// A file that lacks a number would leave that of another lever or crystal in force.
+void check_files(const Parameters& p, Faults& faults) {
+  const auto check = [&](const char* name, const std::string& path, const auto& find_fault) {
+    const std::string fault = path.empty() ? "" : find_fault(path);
+    if (!fault.empty()) faults.push_back({name, '"' + path + '"', fault});
+  };
+  check("lever_file", p.lever_file, find_lever_file_fault);
+  check("surface_file", p.surface_file, find_surface_file_fault);
+}
+
 bool is_foreign(const std::string& name) {
   return std::find(std::begin(kForeignNames), std::end(kForeignNames), name) != std::end(kForeignNames);
 }
@@ -148,6 +159,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
     }
   }
   Faults of_values;
+  check_files(parameters, of_values);
   add(set_lever_and_load(parameters.lever, parameters.load_n, parameters.si), of_values);
   if (find_faults(parameters.si).empty()) set_initial_state(parameters);
   parameters.bag_directory = expand_home(parameters.bag_directory);

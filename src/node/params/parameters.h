@@ -33,8 +33,9 @@ struct Live {
 
 // The defaults are those of config/emulator.yaml, which says what each parameter means.
 struct Parameters : Live {
-  Lever lever;          // in place of two frequencies and the mass
-  double load_n = 0.0;  // in place of si.rest_height_m
+  Lever lever;                           // in place of two frequencies and the mass
+  double load_n = 0.0;                   // in place of si.rest_height_m
+  std::string lever_file, surface_file;  // from which the parameters have been loaded, to be checked
   std::string model = "oscillator";
   double tolerance = 0.0;
   std::string tolerance_of = "friction";

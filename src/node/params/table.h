@@ -14,6 +14,8 @@
   START(resonance_hz, lever.resonance_hz)                                       \
   START(lateral_spring_constant_n_per_m, lever.lateral_spring_constant_n_per_m) \
   START(load_n, load_n)                                                         \
+  START(lever_file, lever_file)                                                 \
+  START(surface_file, surface_file)                                             \
   LIVE(restitution_gamma, si.restitution_gamma)                                 \
   LIVE(cutoff_speed, si.cutoff_speed)                                           \
   LIVE(rest_height_m, si.rest_height_m)                                         \
