@@ -178,9 +178,7 @@ class Client {
       const Applied::ConstPtr before = applied_;
       const Control::Response answer = control(0.0, drag_velocity, rest_height);
       wait_for(
-          [&] {
-            return applied_ != before && applied_->epoch == answer.epoch && applied_->number == answer.applied;
-          },
+          [&] { return applied_ != before && applied_->epoch == answer.epoch && applied_->number == answer.applied; },
           name_ + "/applied");
     } else {
       command(drag_publisher_, drag_velocity, &Applied::drag_velocity);
@@ -207,7 +205,8 @@ class Client {
       samples += more;
       mean += more / samples * (answer.mean_lateral_force - mean);
     });
-    if (samples == 0.0) throw EmulatorError("duration = " + text(duration) + " s: too short, there is no sample within");
+    if (samples == 0.0)
+      throw EmulatorError("duration = " + text(duration) + " s: too short, there is no sample within");
     return mean;
   }
 
@@ -275,7 +274,8 @@ class Client {
   }
   template <class Condition>
   void wait_for(Condition is_true, const std::string& what, double longer = 0.0) {
-    if (!comes_true(is_true, timeout_ + longer)) throw EmulatorError(what + ": nothing came within " + text(timeout_ + longer) + " s");
+    if (!comes_true(is_true, timeout_ + longer))
+      throw EmulatorError(what + ": nothing came within " + text(timeout_ + longer) + " s");
   }
 
   // The emulator reports every command, also one of the value that holds already.
