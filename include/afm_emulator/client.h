@@ -143,7 +143,8 @@ class Client {
   double vertical_stiffness() const { return stiffness(configuration_->omega_v_rad_per_s); }
 
   // Commands what is given [m/s, m], advances by `duration` [s of model time], and returns what was measured over it
-  // (srv/Control.srv). Throws EmulatorError. Whenever a call fails, the next one makes a new connection, also to an
+  // (srv/Control.srv). In lockstep the duration is at most 10000 tau; in real time it is rounded up to whole batches.
+  // Throws EmulatorError. Whenever a call fails, the next one makes a new connection, also to an
   // emulator that was restarted.
   Control::Response control(double duration, Command drag_velocity = kAsItIs, Command rest_height = kAsItIs) {
     check_not_negative("duration", duration);

@@ -111,7 +111,8 @@ class Client:
         """Commands what is given, advances, and returns what was measured on the way: the answer of the service
         ~control.
 
-        duration: of the control period [s of model time]
+        duration: of the control period [s of model time]; in lockstep at most 10000 tau; in real time rounded up to
+            whole batches
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
 
