@@ -66,7 +66,7 @@ class TimedCall {
 
   enum class Result { success, late, failure };
 
-  // After a failure the client is of no use.
+  // Unless it succeeds, the client is of no use after it.
   template <class Service>
   Result operator()(ros::ServiceClient& client, Service& call, double seconds) {
     begin(&client, seconds);
@@ -144,8 +144,8 @@ class Client {
 
   // Commands what is given [m/s, m], advances by `duration` [s of model time], and returns what was measured over it
   // (srv/Control.srv). In lockstep the duration is at most 10000 tau; in real time it is rounded up to whole batches.
-  // Throws EmulatorError. Whenever a call fails, the next one makes a new connection, also to an
-  // emulator that was restarted.
+  // Throws EmulatorError. Whenever a call fails, the next one makes a new connection, also to an emulator that was
+  // restarted.
   Control::Response control(double duration, Command drag_velocity = kAsItIs, Command rest_height = kAsItIs) {
     check_not_negative("duration", duration);
     check_finite("drag_velocity", drag_velocity);

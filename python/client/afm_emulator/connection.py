@@ -15,7 +15,8 @@ POLL_S = 0.05  # how soon a shutdown of this node ends a call
 class Connection:
     """kind: class of the service; end: time.monotonic() until when it waits for the service.
 
-    Whatever does not come in time raises a TimeoutError, a connection that ends a ConnectionError.
+    Whatever does not come in time raises a TimeoutError, a connection that ends a ConnectionError, a shutdown of this
+    node a rospy.ROSInterruptException.
     """
 
     def __init__(self, name, kind, end):
@@ -49,6 +50,7 @@ class Connection:
 
     def call(self, request, end):
         """The answer, if it comes before time.monotonic() is `end`. After an exception the connection is of no use."""
+        self._check_shutdown()
         data = io.BytesIO()
         request.serialize(data)
         self._socket.sendall(struct.pack('<I', data.tell()) + data.getvalue())
