@@ -79,7 +79,7 @@ class Expect(NodeTest):
 
     def test_fields_that_cannot_be_judged(self):
         for field, reason in (('impacts/impacts.energy_loss', 'topic must be one of'), ('status/model', 'a string'),
-                              ('friction/no_such', 'no field no_such'), ('friction', 'no field'),
+                              ('friction/no_such', 'no field no_such'), ('friction', 'it must be TOPIC/FIELD'),
                               ('friction/header.stamp', 'a time is no number')):
             self.assert_refused('field = %s cannot be tested: .*%s' % (field, reason), field=field, for_s=0.1,
                                 least=0.0)
