@@ -14,12 +14,18 @@
 #include <ros/ros.h>
 #include <std_msgs/Float64.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <deque>
 #include <limits>
+#include <mutex>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace afm_emulator {
@@ -30,8 +36,11 @@ class EmulatorError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The node is shut down while it waits.
-class Shutdown : public std::exception {};
+// The node is shut down while it waits, by Ctrl-C or its launch file.
+class Shutdown : public std::exception {
+ public:
+  const char* what() const noexcept override { return "afm_emulator::Shutdown: the node is shut down"; }
+};
 
 inline std_msgs::Float64 to_message(double value) {
   std_msgs::Float64 message;
@@ -39,12 +48,76 @@ inline std_msgs::Float64 to_message(double value) {
   return message;
 }
 
+// Calls a service with a time-out, which ros::ServiceClient has not: a thread of its own drops the connection when the
+// time is over, and the call fails.
+class TimedCall {
+ public:
+  TimedCall() : watchdog_([this] { watch(); }) {}
+  ~TimedCall() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ending_ = true;
+    }
+    news_.notify_one();
+    watchdog_.join();
+  }
+  TimedCall(const TimedCall&) = delete;
+  TimedCall& operator=(const TimedCall&) = delete;
+
+  enum class Result { success, late, failure };
+
+  // Unless it succeeds, the client is of no use after it.
+  template <class Service>
+  Result operator()(ros::ServiceClient& client, Service& call, double seconds) {
+    begin(&client, seconds);
+    const bool success = client.call(call);
+    return finish() ? Result::late : success ? Result::success : Result::failure;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kPoll{50};  // so a call needs not wake the watchdog
+
+  void begin(ros::ServiceClient* client, double seconds) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    client_ = client;
+    late_ = false;
+    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+
+  bool finish() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    client_ = nullptr;
+    return late_;
+  }
+
+  void watch() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!ending_) {
+      news_.wait_for(lock, kPoll);
+      if (!client_ || Clock::now() < deadline_) continue;
+      late_ = true;
+      client_->shutdown();
+      client_ = nullptr;
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable news_;
+  ros::ServiceClient* client_ = nullptr;  // of the call under way
+  Clock::time_point deadline_;
+  bool late_ = false, ending_ = false;
+  std::thread watchdog_;  // the last to begin
+};
+
 class Client {
  public:
-  static constexpr double kAsItIs = std::numeric_limits<double>::quiet_NaN();
+  static constexpr std::nullopt_t kAsItIs = std::nullopt;
+  using Command = std::optional<double>;
 
-  // name: of the node; timeout: of wall time that everything waits for an answer before it throws [s].
-  explicit Client(const std::string& name = "afm", double timeout = 10.0)
+  // name: of the node; timeout: of wall time that everything waits for an answer before it throws [s]. The default is
+  // longer than the 12 s after which the emulator itself answers that a control period takes too long.
+  explicit Client(const std::string& name = "afm", double timeout = 15.0)
       : name_(ros::names::resolve(name)),
         timeout_(timeout),
         drag_publisher_(node_.advertise<std_msgs::Float64>(name_ + "/drag_velocity", 10)),
@@ -55,8 +128,7 @@ class Client {
     wait_for([this] { return configuration_ != nullptr; }, name_ + "/configuration");
     wait_for([this] { return applied_ != nullptr; }, name_ + "/applied");
     if (is_lockstep()) {
-      control_ = node_.serviceClient<Control>(name_ + "/control", true);
-      if (!control_.waitForExistence(ros::Duration(timeout_))) throw EmulatorError(name_ + "/control: is not there");
+      connect();
       return;
     }
     subscribe<Deflection>("deflection", [this](const Deflection::ConstPtr& m) { batches_.push_back(m); });
@@ -71,27 +143,43 @@ class Client {
   double vertical_stiffness() const { return stiffness(configuration_->omega_v_rad_per_s); }
 
   // Commands what is given [m/s, m], advances by `duration` [s of model time], and returns what was measured over it
-  // (srv/Control.srv). Throws EmulatorError.
-  Control::Response control(double duration, double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
+  // (srv/Control.srv). In lockstep the duration is at most 10000 tau; in real time it is rounded up to whole batches.
+  // Throws EmulatorError. Whenever a call fails, the next one makes a new connection, also to an emulator that was
+  // restarted.
+  Control::Response control(double duration, Command drag_velocity = kAsItIs, Command rest_height = kAsItIs) {
+    check_not_negative("duration", duration);
+    check_finite("drag_velocity", drag_velocity);
+    check_finite("rest_height", rest_height);
     if (!is_lockstep()) return measure(command_and_wait(drag_velocity, rest_height), duration);
     Control call;
-    call.request.drag_velocity = drag_velocity;
-    call.request.rest_height = rest_height;
+    call.request.drag_velocity = drag_velocity.value_or(kNaN);
+    call.request.rest_height = rest_height.value_or(kNaN);
     call.request.duration = duration;
-    if (!control_.call(call)) {
+    if (control_ == ros::ServiceClient()) connect();
+    const TimedCall::Result result = timed_call_(control_, call, timeout_);
+    if (result != TimedCall::Result::success) control_ = {};
+    if (result == TimedCall::Result::late) throw EmulatorError(name_ + "/control: did not answer within " + timeout());
+    if (result == TimedCall::Result::failure) {
       end_with_the_launch();
-      throw EmulatorError(name_ + "/control: no answer");
+      throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
+                          "The next call connects again");
     }
     if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
     return call.response;
   }
 
-  // Commands what is given and waits until it holds. Returns the message from which on it does.
-  Applied command_and_wait(double drag_velocity = kAsItIs, double rest_height = kAsItIs) {
+  // Commands what is given and waits until it holds. Returns the message of the command, from which on it does; without
+  // a command the latest one.
+  Applied command_and_wait(Command drag_velocity = kAsItIs, Command rest_height = kAsItIs) {
+    check_finite("drag_velocity", drag_velocity);
+    check_finite("rest_height", rest_height);
+    queue_.callAvailable();  // what came until here is older than the command
+    if (!drag_velocity && !rest_height) return *applied_;
     if (is_lockstep()) {
-      control(0.0, drag_velocity, rest_height);
+      const Applied::ConstPtr before = applied_;
+      const Control::Response answer = control(0.0, drag_velocity, rest_height);
       wait_for(
-          [&] { return holds(drag_velocity, &Applied::drag_velocity) && holds(rest_height, &Applied::rest_height_m); },
+          [&] { return applied_ != before && applied_->epoch == answer.epoch && applied_->number == answer.applied; },
           name_ + "/applied");
     } else {
       command(drag_publisher_, drag_velocity, &Applied::drag_velocity);
@@ -101,22 +189,66 @@ class Client {
   }
 
   // Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after
-  // what is commanded holds.
-  double mean_force(double duration, double settle = 0.0, double drag_velocity = kAsItIs,
-                    double rest_height = kAsItIs) {
+  // what is commanded holds. Longer times than a control period can have in lockstep take several periods.
+  double mean_force(double duration, double settle = 0.0, Command drag_velocity = kAsItIs,
+                    Command rest_height = kAsItIs) {
+    check_not_negative("duration", duration);
+    check_not_negative("settle", settle);
+    const auto ignore = [](const Control::Response&) {};
     if (settle > 0.0) {
-      control(settle, drag_velocity, rest_height);
+      for_periods(settle, drag_velocity, rest_height, ignore);
       drag_velocity = rest_height = kAsItIs;
     }
-    return control(duration, drag_velocity, rest_height).mean_lateral_force;
+    double samples = 0.0, mean = 0.0;
+    for_periods(duration, drag_velocity, rest_height, [&](const Control::Response& answer) {
+      if (answer.samples == 0) return;
+      const double more = static_cast<double>(answer.samples);
+      samples += more;
+      mean += more / samples * (answer.mean_lateral_force - mean);
+    });
+    if (samples == 0.0)
+      throw EmulatorError("duration = " + text(duration) + " s: too short, there is no sample within");
+    return mean;
   }
 
  private:
   static constexpr std::size_t kKeptImpacts = 100;  // messages before a measurement: a second at the default rate
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside
   static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted
 
   double stiffness(double omega) const { return configuration_->tip_mass_kg * omega * omega; }
-  bool holds(double value, double Applied::*field) const { return std::isnan(value) || (*applied_).*field == value; }
+
+  static std::string text(double value) {
+    std::ostringstream written;
+    written << value;
+    return written.str();
+  }
+  std::string timeout() const { return text(timeout_) + " s"; }
+
+  static void check_finite(const std::string& name, Command value) {
+    if (value && !std::isfinite(*value)) throw EmulatorError(name + " = " + text(*value) + ": must be finite");
+  }
+  static void check_not_negative(const std::string& name, double value) {
+    check_finite(name, value);
+    if (value < 0.0) throw EmulatorError(name + " = " + text(value) + ": must not be negative");
+  }
+
+  void connect() {
+    const std::string service = name_ + "/control";
+    wait_for([&] { return ros::service::exists(service, false); }, service);
+    control_ = node_.serviceClient<Control>(service, true);
+  }
+
+  // Control periods of equal length. The first commands what is given.
+  template <class Take>
+  void for_periods(double duration, Command drag_velocity, Command rest_height, Take take) {
+    const double count = is_lockstep() ? std::max(1.0, std::ceil(duration / (kMostTau * tau()))) : 1.0;
+    for (double i = 0.0; i < count; ++i) {
+      take(control(duration / count, drag_velocity, rest_height));
+      drag_velocity = rest_height = kAsItIs;
+    }
+  }
 
   template <class Message, class Take>
   void subscribe(const std::string& topic, Take take) {
@@ -143,22 +275,22 @@ class Client {
   }
   template <class Condition>
   void wait_for(Condition is_true, const std::string& what, double longer = 0.0) {
-    if (!comes_true(is_true, timeout_ + longer)) throw EmulatorError(what + ": nothing came in time");
+    if (!comes_true(is_true, timeout_ + longer))
+      throw EmulatorError(what + ": nothing came within " + text(timeout_ + longer) + " s");
   }
 
   // The emulator reports every command, also one of the value that holds already.
-  void command(const ros::Publisher& publisher, double value, double Applied::*field) {
-    if (std::isnan(value)) return;
+  void command(const ros::Publisher& publisher, Command value, double Applied::*field) {
+    if (!value) return;
     const Applied::ConstPtr before = applied_;
     const double end = ros::WallTime::now().toSec() + timeout_;
     do {
       if (ros::WallTime::now().toSec() > end) {
-        std::ostringstream text;
-        text << publisher.getTopic() << ": " << value << " had no effect: refused?";
-        throw EmulatorError(text.str());
+        throw EmulatorError(publisher.getTopic() + ": " + text(*value) + " had no effect within " + timeout() +
+                            ": refused, or no emulator there?");
       }
-      publisher.publish(to_message(value));
-    } while (!comes_true([&] { return applied_ != before && holds(value, field); }, kAgain));
+      publisher.publish(to_message(*value));
+    } while (!comes_true([&] { return applied_ != before && (*applied_).*field == *value; }, kAgain));
   }
 
   // As the emulator measures in lockstep, from the batches that it publishes.
@@ -207,7 +339,7 @@ class Client {
     r.mean_lateral_force = -lateral_stiffness() * lateral / n;
     r.rms_lateral_force = lateral_stiffness() * std::sqrt(lateral_squares / n);
     r.mean_normal_force = vertical_stiffness() * r.mean_vertical;
-    const double v0 = since.drag_velocity != 0.0 ? since.drag_velocity : kAsItIs;
+    const double v0 = since.drag_velocity != 0.0 ? since.drag_velocity : kNaN;
     r.k_f = r.energy_loss / (v0 * v0 * seconds);
     r.k_f_work = r.mean_lateral_force / v0;
     return r;
@@ -219,7 +351,8 @@ class Client {
   const double timeout_;
   ros::Publisher drag_publisher_, height_publisher_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::ServiceClient control_;
+  ros::ServiceClient control_;  // in lockstep
+  TimedCall timed_call_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
   std::deque<Deflection::ConstPtr> batches_;

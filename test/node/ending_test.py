@@ -6,13 +6,15 @@ moment.
 """
 import os
 import random
+import re
 import signal
 import time
+from pathlib import Path
 
 import roslib.packages
 
 from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
-from topics import wait_until
+from topics import Topic, wait_until
 
 NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status', 'panel')
 ROUNDS = int(os.environ.get('AFM_STOPS', 1))
@@ -28,6 +30,18 @@ def blocks_sigint(process):
 
 
 class Ending(NodeTest):
+    def test_the_controller_of_the_page_ends_without_a_traceback(self):
+        page = Path(__file__).resolve().parents[2] / 'docs/controllers.md'
+        code = re.search(r'```python\n(.*?)```', page.read_text(), re.S).group(1)
+        for pace in ('lockstep', 'real_time'):
+            emulator, applied = self.start(Emulator({'pace': pace})), Topic('applied')
+            node = self.start(Process(['/usr/bin/python3', '-c', code]))
+            applied.wait_for(lambda m: m.cause == 'rest_height', 'it commands')
+            self.assertEqual(node.stop(), 0, pace)
+            self.assertEqual(node.output(), '')
+            applied.close()
+            emulator.stop()
+
     def start_node(self, name):
         return self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]],
                                   dict(os.environ, QT_QPA_PLATFORM='offscreen')))

@@ -77,6 +77,20 @@ class ShippedFiles(NodeTest):
                 config = self.loaded(SHARE / 'launch/emulator.launch', 'scene_file:=' + path)
                 self.assertEqual(config.params['/afm/drag_velocity'].value, 4.0e-6)
 
+    def test_arguments_of_the_fixture_reach_the_emulator(self):
+        scene = Path(self.temporary_directory()) / 'mine.yaml'
+        scene.write_text('drag_velocity: 4.0e-6\n')
+        asked = {'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0, 'load_n': 1e-9,
+                 'quality_factor': 100.0, 'temperature_k': 300.0, 'seed': 5}
+        params = self.loaded(SHARE / 'launch/test_fixture.launch', 'scene_file:=%s' % scene, 'lever:=ppp_cont',
+                             'surface:=nacl', *('%s:=%s' % item for item in asked.items())).params
+        self.assertEqual({name: params['/afm/' + name].value for name in asked}, asked)
+        for file in ('levers/ppp_cont', 'surfaces/nacl'):
+            for name, value in yaml.safe_load((SHARE / 'config' / (file + '.yaml')).read_text()).items():
+                if name not in asked:
+                    self.assertEqual(params['/afm/' + name].value, value)
+        self.assertEqual(params['/afm/drag_velocity'].value, 4.0e-6)
+
     def test_respawn(self):
         """roslaunch starts such a node again; one that is required, too, would end them all."""
         node, = self.loaded(SHARE / 'launch/emulator.launch', 'respawn:=true').nodes

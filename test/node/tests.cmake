@@ -2,9 +2,11 @@
 
 # node/NAME_test.py: the files of a line run one after another with one master, as the rostest of the first name
 set(node_tests
+  "client"
   "steering reset_pause_step"
   "ending shutdown"
   "examples"
+  "expect"
   "faults"
   "lever"
   "load"
@@ -55,6 +57,15 @@ target_compile_definitions(afm_parameters_test PRIVATE AFM_CONFIG="${PROJECT_SOU
 # preloaded by the faults' test
 add_library(afm_clock_jump SHARED EXCLUDE_FROM_ALL node/clock_jump.c)
 add_dependencies(tests afm_clock_jump)
+
+# driven by the test of the clients; beside the node's directory, where rosrun does not offer it
+afm_add_program(client_calls EXCLUDE_FROM_ALL node/client_calls.cpp)
+add_dependencies(afm_client_calls ${PROJECT_NAME}_generate_messages_cpp)
+set_target_properties(afm_client_calls PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib)
+target_include_directories(afm_client_calls PRIVATE ${PROJECT_SOURCE_DIR}/include)
+target_include_directories(afm_client_calls SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+target_link_libraries(afm_client_calls PRIVATE ${catkin_LIBRARIES})
+add_dependencies(tests afm_client_calls)
 
 # a short form; scripts/soak alone runs for an hour
 set(soak ${PROJECT_SOURCE_DIR}/scripts/soak --duration 6 --stages 0 3 --part 3 --rate 50)

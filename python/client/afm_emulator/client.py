@@ -4,18 +4,22 @@ In lockstep (parameter pace) the emulator advances one period at a time and wait
 controller gives the same bits each time. In real time the same calls measure while the clock goes on. The controller
 need not know which it is.
 """
+import collections
 import math
 import threading
 import time
 
 import rospy
+from afm_emulator.connection import Connection
 from afm_emulator.msg import Applied, Configuration, Deflection, ImpactArray
-from afm_emulator.srv import Control, ControlResponse
+from afm_emulator.srv import Control, ControlRequest, ControlResponse
 from std_msgs.msg import Float64
 
 AGAIN_S = 1.0  # of wall time: a command without effect is published again, as the emulator may have been restarted
 QUEUE_BYTES = 1 << 22
+KEPT_APPLIED = 1000
 KEPT_IMPACTS = 100  # messages before a measurement: a second at the default rate
+MOST_TAU = 9999.0  # of a period of mean_force in lockstep: the emulator takes 10000, rounding aside
 
 
 class EmulatorError(RuntimeError):
@@ -27,21 +31,46 @@ def tau_between(begin, end):
     return (end.tau - begin.tau) + (end.phase - begin.phase)
 
 
+def finite(name, value, wanted='a finite number'):
+    """The value as a float. An EmulatorError names an argument that is no finite number."""
+    try:
+        number = math.nan if isinstance(value, (str, bytes)) else float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise EmulatorError('%s = %r: must be %s' % (name, value, wanted))
+    return number
+
+
+def finite_or_none(name, value):
+    return None if value is None else finite(name, value, 'a finite number, or None: as it is')
+
+
+def not_negative(name, value):
+    number = finite(name, value)
+    if number < 0.0:
+        raise EmulatorError('%s = %r: must not be negative' % (name, value))
+    return number
+
+
 class Client:
     """An emulator, by the name of its node. The same calls work in real time and in lockstep.
 
     name: of the node, such as 'afm'
-    timeout: wall time that every call waits for an answer before it raises an EmulatorError [s]
+    timeout: wall time that every call waits for an answer before it raises an EmulatorError [s]. The default is longer
+        than the 12 s after which the emulator itself answers that a control period takes too long.
 
-    `configuration` and `applied` are the latest messages of these topics. They are there from the beginning.
+    `configuration` and `applied` are the latest messages of these topics. They are there from the beginning. Every call
+    raises a rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file.
     """
 
-    def __init__(self, name='afm', timeout=10.0):
+    def __init__(self, name='afm', timeout=15.0):
         self.name = rospy.resolve_name(name)
         self.timeout = timeout
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
         self._news = threading.Condition()
+        self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
         self._batches = None       # Deflection messages, while something is measured
         self._impacts = []         # ImpactArray messages: those of a batch may come before it
         self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
@@ -49,17 +78,11 @@ class Client:
                             for topic in ('drag_velocity', 'rest_height')}
         for topic, kind in (('configuration', Configuration), ('applied', Applied)):
             rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._keep, topic, tcp_nodelay=True)
-        self._control = None
+        self._connection = None    # to ~control, in lockstep
         for topic in ('configuration', 'applied'):
             self._wait_for(lambda: getattr(self, topic) is not None, '%s/%s' % (self.name, topic))
         if self.is_lockstep:
-            self._control = rospy.ServiceProxy(self.name + '/control', Control, persistent=True)
-            try:
-                self._control.wait_for_service(timeout)  # it is advertised after the topics
-            except rospy.ROSInterruptException:
-                raise
-            except rospy.ROSException as fault:
-                raise EmulatorError('%s/control: was not there within %g s' % (self.name, timeout)) from fault
+            self._call_control()  # its service is advertised after the topics
             return  # the answers of the service hold what is measured
         for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray)):
             rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
@@ -88,42 +111,47 @@ class Client:
         """Commands what is given, advances, and returns what was measured on the way: the answer of the service
         ~control.
 
-        duration: of the control period [s of model time]
+        duration: of the control period [s of model time]; in lockstep at most 10000 tau; in real time rounded up to
+            whole batches
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
 
-        Raises an EmulatorError if the emulator refuses, or does not answer within the timeout.
+        Raises an EmulatorError if the emulator refuses, or does not answer within the timeout. Whenever a call fails,
+        the next one makes a new connection, to an emulator that was restarted too.
         """
-        nan = float('nan')
+        duration = not_negative('duration', duration)
+        drag_velocity = finite_or_none('drag_velocity', drag_velocity)
+        rest_height = finite_or_none('rest_height', rest_height)
         if not self.is_lockstep:
             return self._measure(self.command_and_wait(drag_velocity, rest_height), duration)
-        try:
-            answer = self._control(nan if drag_velocity is None else drag_velocity,
-                                   nan if rest_height is None else rest_height, duration)
-        except rospy.ServiceException as fault:
-            self._end_with_the_launch()
-            raise EmulatorError('%s/control: %s' % (self.name, fault)) from fault
+        request = ControlRequest(math.nan if drag_velocity is None else drag_velocity,
+                                 math.nan if rest_height is None else rest_height, duration)
+        answer = self._call_control(request)
         if not answer.success:
             raise EmulatorError('%s/control: %s' % (self.name, answer.message))
         return answer
 
     def command_and_wait(self, drag_velocity=None, rest_height=None):
-        """Commands what is given and waits until it holds. Returns the Applied message from which on it does.
+        """Commands what is given and waits until it holds. Returns the Applied message of the command, from which on it
+        does; without a command the latest one.
 
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
         """
-        if self.is_lockstep:
-            self.control(0.0, drag_velocity, rest_height)
-            wanted = {'drag_velocity': drag_velocity, 'rest_height_m': rest_height}
-            self._wait_for(lambda: all(v is None or getattr(self.applied, n) == v for n, v in wanted.items()),
-                           self.name + '/applied')
+        drag_velocity = finite_or_none('drag_velocity', drag_velocity)
+        rest_height = finite_or_none('rest_height', rest_height)
+        if drag_velocity is None and rest_height is None:
             return self.applied
+        if self.is_lockstep:
+            self._forget_commanded()
+            answer = self.control(0.0, drag_velocity, rest_height)
+            return self._wait_for(lambda: next((m for m in self._commanded if (m.epoch, m.number) ==
+                                                (answer.epoch, answer.applied)), None), self.name + '/applied')
         for topic, field, value in (('drag_velocity', 'drag_velocity', drag_velocity),
                                     ('rest_height', 'rest_height_m', rest_height)):
             if value is not None:
-                self._command(topic, field, float(value))
-        return self.applied
+                applied = self._command(topic, field, value)
+        return applied
 
     def mean_force(self, duration, settle=0.0, drag_velocity=None, rest_height=None):
         """Mean force of the holder on the tip along +x [N].
@@ -132,11 +160,52 @@ class Client:
         settle: time from when the command holds to the beginning of the average [s of model time]
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
+
+        Longer times than a control period can have in lockstep take several periods.
         """
+        duration, settle = not_negative('duration', duration), not_negative('settle', settle)
         if settle > 0.0:
-            self.control(settle, drag_velocity, rest_height)
+            for _ in self._periods(settle, drag_velocity, rest_height):
+                pass
             drag_velocity = rest_height = None
-        return self.control(duration, drag_velocity, rest_height).mean_lateral_force
+        samples, mean = 0, 0.0
+        for answer in self._periods(duration, drag_velocity, rest_height):
+            if answer.samples > 0:
+                samples += answer.samples
+                mean += answer.samples / samples * (answer.mean_lateral_force - mean)
+        if samples == 0:
+            raise EmulatorError('duration = %g s: too short, there is no sample within' % duration)
+        return mean
+
+    def _periods(self, duration, drag_velocity, rest_height):
+        """Control periods of equal length. The first commands what is given."""
+        count = max(1, math.ceil(duration / (MOST_TAU * self.tau_s))) if self.is_lockstep else 1
+        for _ in range(count):
+            yield self.control(duration / count, drag_velocity, rest_height)
+            drag_velocity = rest_height = None
+
+    def _call_control(self, request=None):
+        """The answer of ~control. Connects to it if need be; without a request, it only connects."""
+        end, service = time.monotonic() + self.timeout, self.name + '/control'
+        try:
+            if self._connection is None:
+                self._connection = Connection(service, Control, end)
+            return self._connection.call(request, end) if request else None
+        except BaseException as fault:
+            what = 'was not there' if self._connection is None else 'did not answer'
+            self._drop_connection()  # half a request or half an answer may be on it
+            if isinstance(fault, TimeoutError):
+                raise EmulatorError('%s: %s within %g s (%s)' % (service, what, self.timeout, fault)) from fault
+            if isinstance(fault, OSError):
+                self._end_with_the_launch()
+                raise EmulatorError('%s: %s: was the emulator restarted? The next call connects again'
+                                    % (service, fault)) from fault
+            raise
+
+    def _drop_connection(self):
+        if self._connection is not None:
+            self._connection.close()
+            self._connection = None
 
     @staticmethod
     def _end_with_the_launch():
@@ -150,6 +219,8 @@ class Client:
     def _keep(self, message, topic):
         with self._news:
             setattr(self, topic, message)
+            if topic == 'applied':
+                self._commanded.append(message)
             self._news.notify_all()
 
     def _take(self, message):
@@ -163,31 +234,45 @@ class Client:
             self._news.notify_all()
 
     def _wait_for(self, condition, what, seconds=None, may_fail=False):
-        """Whether it came true in that time."""
+        """What the condition returns as soon as that is true."""
         seconds = self.timeout if seconds is None else seconds
         end = time.monotonic() + seconds
         with self._news:
-            while not condition():
+            while True:
+                found = condition()
+                if found:
+                    return found
                 if rospy.is_shutdown():
                     raise rospy.ROSInterruptException('shut down')
                 if time.monotonic() > end:
                     if may_fail:
-                        return False
+                        return None
                     raise EmulatorError('%s: nothing came within %g s' % (what, seconds))
                 self._news.wait(0.05)
-        return True
+
+    def _forget_commanded(self):
+        with self._news:
+            self._commanded.clear()
 
     def _command(self, topic, field, value):
-        before, end = self.applied, time.monotonic() + self.timeout
+        end = time.monotonic() + self.timeout
+        self._forget_commanded()
         while True:
-            self._publishers[topic].publish(value)
+            self._publish(topic, value)
             # the emulator reports every command, also one of the value that holds already
-            if self._wait_for(lambda: self.applied is not before and getattr(self.applied, field) == value, '',
-                              AGAIN_S, True):
-                return
+            applied = self._wait_for(lambda: next((m for m in self._commanded if getattr(m, field) == value), None), '',
+                                     AGAIN_S, True)
+            if applied:
+                return applied
             if time.monotonic() > end:
                 raise EmulatorError('%s/%s: %g had no effect within %g s: refused, or no emulator there?'
                                     % (self.name, topic, value, self.timeout))
+
+    def _publish(self, topic, value):
+        try:
+            self._publishers[topic].publish(value)
+        except rospy.ROSException as fault:  # its topics are closed
+            raise rospy.ROSInterruptException('shut down') from fault
 
     def _next_batch(self, seconds):
         self._wait_for(lambda: self._batches, self.name + '/deflection', seconds)

@@ -1,23 +1,54 @@
 """What the test nodes expect, expect_sound and expect_repeats share (docs/controllers.md)."""
 import math
 import os
+import signal
 import sys
 import threading
 import time
+import unittest
 
 import rosgraph.names
 import rospy
-import rostopic
 import rostest
+from afm_emulator.msg import Configuration
 
 PACKAGE = 'afm_emulator'
+
+
+class Test(unittest.TestCase):
+    """Refuses private parameters that it does not know: a misspelt one would be left out of the test."""
+    parameters = ()
+
+    def setUp(self):
+        own = rospy.get_name() + '/'
+        given = [name[len(own):] for name in rospy.get_param_names() if name.startswith(own)]
+        for name in sorted(given):
+            self.assertIn(name.split('/')[0], self.parameters, 'parameter %s is unknown; there are: %s' %
+                          (name, ', '.join(self.parameters)))
 
 
 def parameter(name, default=None):
     """A private parameter. Without a default it must be given."""
     value = rospy.get_param('~' + name, default)
     if value is None:
-        raise ValueError('parameter %s is missing' % name)
+        raise AssertionError('parameter %s is missing' % name)
+    return value
+
+
+def number(name, default=None):
+    """A private parameter that is a number."""
+    value = parameter(name, default)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise AssertionError('parameter %s = %r: must be a number' % (name, value)) from None
+
+
+def flag(name, default):
+    """A private parameter that is true or false."""
+    value = parameter(name, default)
+    if not isinstance(value, bool):
+        raise AssertionError('parameter %s = %r: must be true or false' % (name, value))
     return value
 
 
@@ -28,7 +59,7 @@ def seconds_of(stamp, tau_s):
 
 class Follower:
     """Follows a topic of the emulator until a condition on its messages holds or the wall clock says that it is
-    enough."""
+    enough. The messages are those of the latest epoch: after a reset it begins again."""
 
     def __init__(self, topic, kind):
         self.messages, self.news = [], threading.Condition()
@@ -36,29 +67,29 @@ class Follower:
 
     def _take(self, message):
         with self.news:
+            if self.messages and message.epoch != self.messages[-1].epoch:
+                self.messages.clear()
             self.messages.append(message)
             self.news.notify_all()
 
     def wait_for(self, condition, timeout_s):
-        """Whether it came true of the messages so far in that time."""
+        """Whether it came true of the messages so far in that time, and these."""
         end = time.monotonic() + timeout_s
         with self.news:
             while not condition(self.messages):
                 if time.monotonic() > end or rospy.is_shutdown():
-                    return False
+                    return False, list(self.messages)
                 self.news.wait(0.1)
-        return True
+            return True, list(self.messages)
 
 
-def message_class(topic, timeout_s):
-    """Of a topic that is advertised within that time."""
-    end = time.monotonic() + timeout_s
-    while time.monotonic() < end and not rospy.is_shutdown():
-        kind, _, _ = rostopic.get_topic_class(topic)
-        if kind is not None:
-            return kind
-        time.sleep(0.1)
-    raise AssertionError('%s: nobody has published it within %g s' % (topic, timeout_s))
+def configuration_of(emulator, timeout_s):
+    """The emulator's Configuration, once it is there."""
+    try:
+        return rospy.wait_for_message(emulator + '/configuration', Configuration, timeout_s)
+    except rospy.ROSException as fault:
+        raise AssertionError('%s/configuration: nothing came within %g s: no emulator there?' %
+                             (emulator, timeout_s)) from fault
 
 
 def results_path(name):
@@ -90,6 +121,7 @@ def draw(path, title, label, times, values, least, most, window):
 def run(name, case):
     """Runs a test case as a node of this name under rostest; with --help prints what it is."""
     if '--help' in sys.argv or '-h' in sys.argv:
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # it may be read by head
         print(sys.modules['__main__'].__doc__ + '\n--help: this text')
         return
     rospy.init_node(name, anonymous=True)

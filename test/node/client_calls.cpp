@@ -1,0 +1,49 @@
+// Calls the client as it reads from its input, a call a line: control, command_and_wait or mean_force with their
+// arguments, "-" for what is not given. Prints an answer for each. client_calls.py is the same in Python.
+// usage: client_calls TIMEOUT
+#include <afm_emulator/client.h>
+
+#include <cstdlib>
+#include <iostream>
+
+using afm_emulator::Client;
+
+namespace {
+
+std::string answer(Client& tip, std::istream& line) {
+  std::string name, word;
+  line >> name;
+  std::vector<Client::Command> given;
+  while (line >> word) given.push_back(word == "-" ? Client::Command() : std::strtod(word.c_str(), nullptr));
+  given.resize(4);
+  std::ostringstream text;
+  if (name == "control") {
+    const afm_emulator::Control::Response r = tip.control(*given[0], given[1], given[2]);
+    text << r.samples << ' ' << r.applied << ' ' << r.epoch;
+  } else if (name == "command_and_wait") {
+    const afm_emulator::Applied m = tip.command_and_wait(given[0], given[1]);
+    text << m.number << ' ' << m.drag_velocity << ' ' << m.rest_height_m;
+  } else {
+    text << tip.mean_force(*given[0], given[1].value_or(0.0), given[2], given[3]);
+  }
+  return text.str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  ros::init(argc, argv, "client_calls", ros::init_options::AnonymousName);
+  Client tip("/afm", std::atof(argv[1]));
+  std::cout << "answer: there" << std::endl;
+  for (std::string text; std::getline(std::cin, text);) {
+    std::istringstream line(text);
+    try {
+      text = answer(tip, line);
+    } catch (const afm_emulator::EmulatorError& error) {
+      text = std::string("EmulatorError: ") + error.what();
+    }
+    std::cout << "answer: " << text << std::endl;
+  }
+} catch (const afm_emulator::Shutdown&) {
+  std::cout << "answer: shut down" << std::endl;
+}

@@ -1,0 +1,39 @@
+#!/usr/bin/python3
+"""client_calls.cpp in Python: a word in quotes is a text. usage: client_calls.py TIMEOUT"""
+import sys
+
+from afm_emulator import ending
+import rospy
+from afm_emulator import Client, EmulatorError
+
+
+def argument(word):
+    return None if word == '-' else word.strip("'") if word.startswith("'") else float(word)
+
+
+def answer(tip, name, *words):
+    result = getattr(tip, name)(*map(argument, words))
+    if name == 'control':
+        return '%d %d %d' % (result.samples, result.applied, result.epoch)
+    if name == 'command_and_wait':
+        return '%d %g %g' % (result.number, result.drag_velocity, result.rest_height_m)
+    return '%g' % result
+
+
+def main():
+    ending.init_node('client_calls', anonymous=True)
+    tip = Client('/afm', float(sys.argv[1]))
+    print('answer: there', flush=True)
+    for line in sys.stdin:
+        try:
+            text = answer(tip, *line.split())
+        except EmulatorError as fault:
+            text = 'EmulatorError: %s' % fault
+        print('answer: ' + text, flush=True)
+
+
+if __name__ == '__main__':
+    try:
+        main()
+    except rospy.ROSInterruptException:
+        print('answer: shut down', flush=True)

@@ -1,0 +1,142 @@
+"""The clients for controllers, in Python and in C++: every call ends in time and says why, at every pace, and the next
+one works again."""
+import queue
+import signal
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import roslib.packages
+
+from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
+from topics import DEADLINE_S, PATIENCE, Topic
+
+TIMEOUT_S = 2.0 * PATIENCE
+FAULTY = (('duration', 'control nan'), ('duration', 'control inf'), ('duration', 'control -0.01'),
+          ('drag_velocity', 'control 0.01 nan'), ('rest_height', 'control 0.01 - nan'),
+          ('drag_velocity', 'command_and_wait inf'), ('rest_height', 'command_and_wait - nan'),
+          ('settle', 'mean_force 0.01 -1'), ('settle', 'mean_force 0.01 nan'), ('duration', 'mean_force -1'),
+          ('duration', 'mean_force 0'))
+
+
+class Calls:
+    """A controller that calls what it is told."""
+
+    def __init__(self, program):
+        self.child = subprocess.Popen(program + ['%g' % TIMEOUT_S], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                      universal_newlines=True)
+        self.answers = queue.Queue()
+        threading.Thread(target=self._read, daemon=True).start()
+        assert self.answer() == 'there'
+
+    def _read(self):
+        for line in self.child.stdout:
+            if line.startswith('answer: '):
+                self.answers.put(line[len('answer: '):].strip())
+
+    def answer(self):
+        return self.answers.get(timeout=DEADLINE_S * PATIENCE)
+
+    def begin(self, line):
+        self.child.stdin.write(line + '\n')
+        self.child.stdin.flush()
+
+    def call(self, line):
+        self.begin(line)
+        return self.answer()
+
+    def clean_up(self):
+        self.child.kill()
+        self.child.wait()
+        self.child.stdin.close()
+
+
+class Claims:
+    """Of both clients."""
+    def start_both(self, pace):
+        self.emulator = self.start(Emulator({'pace': pace}))
+        return self.start(Calls(self.program()))
+
+    def numbers(self, answer):
+        self.assertNotIn('EmulatorError', answer)
+        return [float(word) for word in answer.split()]
+
+    def test_faulty_arguments_are_named_at_every_pace(self):
+        for pace in ('lockstep', 'real_time'):
+            tip = self.start_both(pace)
+            for name, line in FAULTY:
+                self.assertRegex(tip.call(line), '^EmulatorError: %s = ' % name, line)
+            self.numbers(tip.call('mean_force 0.01'))
+            self.assertEqual(Topic('status').wait_for().refused_commands, 0)  # none has come so far
+            tip.clean_up()
+            self.emulator.stop()
+
+    def test_a_stopped_emulator(self):
+        tip = self.start_both('lockstep')
+        self.numbers(tip.call('control 0.01'))
+        for fault in ('did not answer', ''):  # then it does not even connect
+            self.emulator.child.send_signal(signal.SIGSTOP)
+            begin = time.monotonic()
+            answer = tip.call('control 0.01')
+            self.assertLess(time.monotonic() - begin, 5.0 * TIMEOUT_S)
+            self.assertRegex(answer, 'EmulatorError: /afm/control: .*%s.* within %g s' % (fault, TIMEOUT_S))
+        self.emulator.child.send_signal(signal.SIGCONT)
+        self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # not that of a call before it
+
+    def test_a_restarted_emulator(self):
+        tip = self.start_both('lockstep')
+        self.emulator.child.send_signal(signal.SIGSTOP)  # the call gets no answer before the end
+        tip.begin('control 0.01')
+        self.emulator.child.kill()
+        self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*restarted')
+        tip.begin('control 0.01')  # waits for the emulator
+        self.emulator = self.start(Emulator({'pace': 'lockstep'}))
+        self.assertAlmostEqual(self.numbers(tip.answer())[0], 2000, delta=1)
+        number, velocity, _ = self.numbers(tip.call('command_and_wait %r' % (2 * SPEED_UNIT)))
+        self.assertEqual(number, 1)
+        self.assertAlmostEqual(velocity / SPEED_UNIT, 2.0, delta=1e-4)
+
+    def test_a_command_returns_its_own_message(self):
+        for pace in ('lockstep', 'real_time'):
+            tip = self.start_both(pace)
+            number = 0
+            for line in ('command_and_wait 3e-6', 'command_and_wait 3e-6', 'command_and_wait 4e-6',
+                         'command_and_wait - -1e-11', 'command_and_wait - -1e-11'):
+                number += 1
+                self.assertEqual(self.numbers(tip.call(line))[0], number, line)
+            self.assertEqual(self.numbers(tip.call('command_and_wait')), [number, 4e-6, -1e-11])
+            tip.clean_up()
+            self.emulator.stop()
+
+    def test_a_mean_over_a_longer_time_than_a_period_can_have(self):
+        tip = self.start_both('lockstep')
+        self.assertIn('between 0 and 1.57', tip.call('control 4'))
+        friction = Topic('friction')
+        friction.wait_for_connection()
+        self.numbers(tip.call('mean_force 3 1.6'))
+        friction.wait_for(lambda m: abs((m.time.tau + m.time.phase) * TAU_S - 4.6) < 1e-9, '4.6 s of model time')
+
+    def test_the_node_is_shut_down_while_it_waits(self):
+        tip = self.start_both('lockstep')
+        self.emulator.child.send_signal(signal.SIGSTOP)
+        tip.begin('control 0.01')
+        tip.child.send_signal(signal.SIGINT)
+        self.assertEqual(tip.answer(), 'shut down')
+        self.emulator.child.send_signal(signal.SIGCONT)
+
+
+class Python(Claims, NodeTest):
+    def program(self):
+        return ['/usr/bin/python3', str(Path(__file__).with_name('client_calls.py'))]
+
+    def test_a_text_is_no_number(self):
+        tip = self.start_both('lockstep')
+        self.assertRegex(tip.call("control '0.01'"), '^EmulatorError: duration = ')
+        self.assertRegex(tip.call("control 0.01 '3e-6'"), '^EmulatorError: drag_velocity = ')
+        self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # no half request is before it
+
+
+class Cpp(Claims, NodeTest):
+    def program(self):
+        return [str(Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[1] / 'client_calls')]

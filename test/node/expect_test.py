@@ -1,0 +1,92 @@
+"""The test nodes expect, expect_sound and expect_repeats judge what they say, and refuse with a sentence what they
+cannot judge."""
+import subprocess
+from pathlib import Path
+
+import roslib.packages
+import rospy
+from afm_emulator import Client
+from std_srvs.srv import Trigger
+
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to
+from topics import PATIENCE, wait_until
+
+NAME = '/expect_under_test'
+SPEED = 2.0 * SPEED_UNIT
+
+
+class Expect(NodeTest):
+    def node(self, kind='expect', **parameters):
+        """Under way, as rostest starts it."""
+        if rospy.has_param(NAME):
+            rospy.delete_param(NAME)
+        rospy.set_param(NAME, parameters)
+        self.results = Path(self.temporary_directory())
+        return self.start(Process([roslib.packages.find_node(PACKAGE, kind)[0], '__name:=' + NAME[1:], '--text',
+                                   '--gtest_output=xml:%s/results.xml' % self.results]))
+
+    def end(self, node):
+        return node.wait(60.0), node.output()
+
+    def assert_refused(self, sentence, kind='expect', **parameters):
+        """At once: there is no emulator that could be waited for."""
+        code, said = self.end(self.node(kind, timeout_s=1000.0, **parameters))
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, 'AssertionError: .*' + sentence)
+
+    def start_emulator(self):
+        self.start(Emulator({'pace': 'lockstep', 'drag_velocity': SPEED}))
+        return Client('/afm')
+
+    def judged(self, tip, **parameters):
+        """Exit code and words of expect while the emulator advances by 0.05 s a period."""
+        node = self.node(**parameters)
+        wait_until(lambda: NAME in connected_to('/afm/friction'), 'it listens')
+        for _ in range(3):
+            tip.control(0.05)
+        return self.end(node)
+
+    def test_what_is_expected_and_what_is_not(self):
+        tip = self.start_emulator()
+        field = {'field': 'friction/drag_velocity', 'for_s': 0.1}
+        code, said = self.judged(tip, value=SPEED, within=1e-9, **field)
+        self.assertEqual(code, 0, said)
+        code, said = self.judged(tip, least=1.5 * SPEED, **field)
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, r'friction/drag_velocity = \S+ at model time \S+ s: expected \S+ to inf from')
+        self.assertTrue(list(self.results.glob('*.png')), said)
+
+    def test_the_latest_epoch_is_judged(self):
+        tip = self.start_emulator()
+        node = self.node(field='friction/drag_velocity', value=2 * SPEED, within=1e-9, for_s=0.1)
+        wait_until(lambda: NAME in connected_to('/afm/friction'), 'it listens')
+        tip.control(0.05)  # too slow
+        rospy.ServiceProxy('/afm/reset', Trigger)()
+        for _ in range(3):
+            tip.control(0.05, 2 * SPEED)
+        code, said = self.end(node)
+        self.assertEqual(code, 0, said)
+
+    def test_without_an_expectation(self):
+        for given in ({}, {'within': 1.0}, {'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
+            self.assert_refused('there is no expectation', field='friction/eta', for_s=0.1, **given)
+        self.assert_refused("least = 'x': must be a number", field='friction/eta', for_s=0.1, least='x')
+
+    def test_unknown_parameters(self):
+        self.assert_refused('parameter witin is unknown', field='friction/eta', for_s=0.1, value=1.0, witin=1.0)
+        self.assert_refused('parameter keep_realtime is unknown', 'expect_sound', for_s=0.1, keep_realtime=False)
+        self.assert_refused('parameter arguments_ is unknown', 'expect_repeats', launch='x', arguments_='x')
+
+    def test_fields_that_cannot_be_judged(self):
+        for field, reason in (('impacts/impacts.energy_loss', 'topic must be one of'), ('status/model', 'a string'),
+                              ('friction/no_such', 'no field no_such'), ('friction', 'it must be TOPIC/FIELD'),
+                              ('friction/header.stamp', 'a time is no number')):
+            self.assert_refused('field = %s cannot be tested: .*%s' % (field, reason), field=field, for_s=0.1,
+                                least=0.0)
+
+    def test_help_may_be_cut_short(self):
+        for kind in ('expect', 'expect_sound', 'expect_repeats'):
+            node = roslib.packages.find_node(PACKAGE, kind)[0]
+            done = subprocess.run('"%s" --help | true' % node, shell=True, stderr=subprocess.PIPE,
+                                  universal_newlines=True, timeout=60 * PATIENCE)
+            self.assertEqual(done.stderr, '')
