@@ -41,7 +41,7 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any]]:
     except (OSError, ValueError):
         raise
     except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
-        raise ValueError('%s: cannot be read: %s' % (path, fault or type(fault).__name__)) from fault
+        raise ValueError('%s: cannot be read: %s' % (path, str(fault) or type(fault).__name__)) from fault
 
 
 def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int, Any]]:
