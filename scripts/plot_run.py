@@ -16,7 +16,7 @@ except ImportError as missing:
     sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
              % missing)
 
-# else rosbag makes classes of the text in the bag, which may be damaged
+# Without them rosbag makes classes from the definitions in the bag, which may be damaged.
 rosbag.bag._message_types.update({kind._md5sum: kind for kind in vars(msg).values() if hasattr(kind, '_md5sum')})
 NAN = float('nan')
 MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is drawn

@@ -25,7 +25,7 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any]]:
     except ImportError as fault:
         raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): '
                           '%s' % fault)
-    with contextlib.suppress(ImportError):  # rosbag makes other classes, of the text in the bag: it may be damaged
+    with contextlib.suppress(ImportError):  # else rosbag makes classes from the bag's definitions: they may be damaged
         from afm_emulator import msg
         rosbag.bag._message_types.update({c._md5sum: c for c in (getattr(msg, kind) for kind in _KINDS)})
     kinds = ['afm_emulator/' + kind for kind in _KINDS]
@@ -38,9 +38,9 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any]]:
                 kind = raw[0].split('/')[1]
                 message = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
                 yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message
-    except (OSError, ValueError):
-        raise
     except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
+        if getattr(fault, 'filename', None):
+            raise
         raise ValueError('%s: cannot be read: %s' % (path, str(fault) or type(fault).__name__)) from fault
 
 

@@ -176,7 +176,12 @@ class SpoiledBags(SpoiledBag):
             for entry in again:
                 entry.stamp += length
             self.entries += again
+        def record_by_rosbag():  # which hears of one topic later than of another
+            snapshot, = self.of('snapshot')
+            snapshot.stamp += genpy.Duration(0, 1000)
+            self.remove(*self.of('impacts')[:2], *self.of('deflection')[-3:])
         for subject, spoil in ((None, lambda: None),
+                               (None, record_by_rosbag),
                                (None, start_again),
                                (None, lambda: self.remove(*self.of('friction')[-1:])),  # ends within a batch
                                ('complete', lambda: self.remove(*self.of('deflection')[:5])),
