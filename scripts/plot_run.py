@@ -2,6 +2,7 @@
 """Draws a recorded run against model time: deflection, impacts, friction and drag speed. docs/recording.md says what is
 in a bag; this is also an example of how to read it."""
 import argparse
+import contextlib
 import os
 import sys
 
@@ -9,11 +10,14 @@ try:
     import matplotlib
     import numpy as np
     import rosbag
+    from afm_emulator import msg
     from afm_emulator.impacts import read_impacts
 except ImportError as missing:
     sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
              % missing)
 
+# Without them rosbag makes classes from the definitions in the bag, which may be damaged.
+rosbag.bag._message_types.update({kind._md5sum: kind for kind in vars(msg).values() if hasattr(kind, '_md5sum')})
 NAN = float('nan')
 MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is drawn
 ZOOM_TAU = 6.0  # the end of the run, sample by sample
@@ -78,43 +82,58 @@ class Run:
         self.drag.append((moment, message.drag_velocity * 1e6))
 
 
-def is_type(kind):
-    return lambda topic, datatype, *_: datatype == 'afm_emulator/' + kind
+@contextlib.contextmanager
+def open_bag(path):
+    try:
+        with rosbag.Bag(path) as bag:
+            yield bag
+    except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
+        sys.exit('plot_run.py: %s: %s' % (path, str(fault) or type(fault).__name__))
+
+
+def read_messages(bag, *kinds):
+    """(kind, topic, name of the node, bytes, class)"""
+    types = ['afm_emulator/' + kind for kind in kinds]
+    for topic, raw, _, header in bag.read_messages(raw=True, return_connection_header=True,
+                                                   connection_filter=lambda _, datatype, *__: datatype in types):
+        node = header.get('callerid', b'')
+        yield raw[0].split('/')[1], topic, node.decode() if isinstance(node, bytes) else node, raw[1], raw[4]
 
 
 def count_samples(paths):
     """From the first and the last batch of every bag, about."""
     count = 0
     for path in paths:
-        with rosbag.Bag(path) as bag:
+        with open_bag(path) as bag:
             info = bag.get_type_and_topic_info().topics
             batches = sum(t.message_count for t in info.values() if t.msg_type == 'afm_emulator/Deflection')
-            first = next(bag.read_messages(connection_filter=is_type('Deflection')), None)
-            count += batches * (len(first.message.vertical) if first else 0)
+            for *_, data, of_type in read_messages(bag, 'Deflection'):
+                count += batches * len(of_type().deserialize(data).vertical)
+                break
     return count
 
 
-def read(paths, end):
+def read(paths, end, node):
     run = Run(end)
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
-    known = set()
-    add = {'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
-           'Friction': run.add_friction, 'Applied': run.add_drag}
+    known, sources = {}, {}
+    add = {'Configuration': run.begin_epoch, 'Deflection': lambda m: run.add_deflection(m, every),
+           'ImpactArray': run.add_impacts, 'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
-        with rosbag.Bag(path) as bag:
-            for _, raw, _ in bag.read_messages(raw=True):
-                kind, data, of_type = raw[0].split('/')[1], raw[1], raw[4]
-                if kind != 'Configuration' and kind not in add:
+        with open_bag(path) as bag:
+            for kind, topic, name, data, of_type in read_messages(bag, *add):
+                if node not in (None, name):
                     continue
-                message = data if kind == 'ImpactArray' else of_type().deserialize(data)
-                if kind in ('Configuration', 'Applied'):  # the bags of a split recording repeat what was before
-                    if (kind, message.header.seq) in known:
-                        continue
-                    known.add((kind, message.header.seq))
-                if kind == 'Configuration':
-                    run.begin_epoch(message)
-                elif run.configuration is not None:
-                    add[kind](message)
+                if sources.setdefault(kind, (name, topic)) != (name, topic):
+                    raise ValueError('%s by %s and %s by %s: choose one emulator by --node' % (
+                        sources[kind][1], sources[kind][0] or 'nobody', topic, name or 'nobody'))
+                seq, said = int.from_bytes(data[:4], 'little'), hash(data)
+                if known.get((kind, seq), said) != said:
+                    raise ValueError('%s was started again: this is another run' % (name or 'the emulator'))
+                is_new = (kind, seq) not in known  # the bags of a split recording repeat what was before
+                known[kind, seq] = said
+                if is_new and (kind == 'Configuration' or run.configuration is not None):
+                    add[kind](data if kind == 'ImpactArray' else of_type().deserialize(data))
     if run.configuration is None or not run.samples:
         sys.exit('plot_run.py: %s: no run of the emulator in it' % ' '.join(paths))
     return run
@@ -212,27 +231,35 @@ def draw(run, paths, begin, end):
     return figure
 
 
+def seconds(text):
+    value = float(text)
+    if not np.isfinite(value):
+        raise ValueError
+    return value
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('bags', nargs='+', help='a recording; the bags of a split one in order')
+    parser.add_argument('--node', help='the name of the emulator such as /afm, where the bag holds several')
     parser.add_argument('--output', help='picture to write (png, pdf, svg); default: beside the bag, as .png')
     parser.add_argument('--show', action='store_true', help='open a window instead')
-    parser.add_argument('--from', dest='begin', type=float, help='model time [s] to begin at')
-    parser.add_argument('--until', dest='end', type=float, help='model time [s] to end at')
+    parser.add_argument('--from', dest='begin', type=seconds, help='model time [s] to begin at')
+    parser.add_argument('--until', dest='end', type=seconds, help='model time [s] to end at')
     arguments = parser.parse_args()
     if not arguments.show:
         matplotlib.use('Agg')
-    try:
-        run = read(arguments.bags, arguments.end)
-    except (OSError, rosbag.ROSBagException) as error:
-        sys.exit('plot_run.py: %s: %s' % (arguments.bags[0], error))
+    run = read(arguments.bags, arguments.end, arguments.node)
     figure = draw(run, arguments.bags, arguments.begin, arguments.end)
     if arguments.show:
         from matplotlib import pyplot
         pyplot.show()
         return
     output = arguments.output or os.path.splitext(arguments.bags[0])[0] + '.png'
-    figure.savefig(output, dpi=144)
+    try:
+        figure.savefig(output, dpi=144)
+    except (OSError, ValueError) as fault:  # no such folder, or no such format
+        sys.exit('plot_run.py: %s: %s' % (output, fault))
     print(output)
 
 

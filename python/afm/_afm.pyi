@@ -9,6 +9,8 @@ Time = Union[float, ModelTime, Tuple[int, float]]
 
 VERSION: str
 
+def arithmetic_fingerprint() -> str: ...
+
 class Model:
     def __init__(self, gamma: float = ..., cutoff: float = ..., rest_height: float = ..., amplitude: float = ...,
                  frequency_ratio: float = ..., kind: str = ...) -> None: ...

@@ -1,11 +1,13 @@
 """Recordings of the emulator: their model and commands, and the run simulated again to the same bits."""
+import bisect
+import contextlib
 import os
 from collections import defaultdict
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._afm import Bath, Model, Run, Units
+from ._afm import VERSION, Bath, Model, Run, Units, arithmetic_fingerprint
 from .values import Batch, ModelTime
 
 _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_spacing_m', 'surface_amplitude_m',
@@ -16,29 +18,42 @@ _MOST_WAITING = 100  # batches in the queues of the topics when a recorder is st
 Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
 
-def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int, Any]]:
-    """Of one emulator, by type: the messages by their numbers in their topic. Of samples and impacts the numbers
-    alone."""
+def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any]]:
+    """Topic, name of the node, type, bytes, and message; of samples and impacts None."""
     try:
         import rosbag
     except ImportError as fault:
         raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): '
                           '%s' % fault)
-    kinds = {'afm_emulator/' + kind: kind for kind in _KINDS}
-    found: Any = defaultdict(lambda: defaultdict(dict))
-    stamps: Dict[Tuple[str, str, int], Tuple[str, bytes]] = {}
-    for path in paths:
+    with contextlib.suppress(ImportError):  # else rosbag makes classes from the bag's definitions: they may be damaged
+        from afm_emulator import msg
+        rosbag.bag._message_types.update({c._md5sum: c for c in (getattr(msg, kind) for kind in _KINDS)})
+    kinds = ['afm_emulator/' + kind for kind in _KINDS]
+    try:
         with rosbag.Bag(str(path)) as bag:
             for topic, raw, _, header in bag.read_messages(
                     raw=True, return_connection_header=True,
                     connection_filter=lambda _, datatype, *__: datatype in kinds):
                 node = header.get('callerid', b'')
-                node = node.decode() if isinstance(node, bytes) else node
-                kind, seq, stamp = kinds[raw[0]], int.from_bytes(raw[1][:4], 'little'), raw[1][4:12]
-                if stamps.setdefault((node, kind, seq), (topic, stamp)) != (topic, stamp):
-                    raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' %
-                                     (path, node))
-                found[node][kind][seq] = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
+                kind = raw[0].split('/')[1]
+                message = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
+                yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message
+    except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
+        if getattr(fault, 'filename', None):
+            raise
+        raise ValueError('%s: cannot be read: %s' % (path, str(fault) or type(fault).__name__)) from fault
+
+
+def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int, Any]]:
+    """Of one emulator, by type: the messages by their numbers in their topic."""
+    found: Any = defaultdict(lambda: defaultdict(dict))
+    known: Dict[Tuple[str, str, int], Tuple[str, int]] = {}
+    for path in paths:
+        for topic, node, kind, data, message in _messages(path):
+            seq, said = int.from_bytes(data[:4], 'little'), (topic, hash(data))  # latched ones are repeated
+            if known.setdefault((node, kind, seq), said) != said:
+                raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' % (path, node))
+            found[node][kind][seq] = message
     if namespace is None and len(found) == 1:
         namespace = next(iter(found))
     if namespace not in found:
@@ -88,6 +103,10 @@ class Recording:
         self._snapshots, frictions = (_of_epoch(kind, read[kind], self.epoch) for kind in ('Snapshot', 'Friction'))
         start = self._snapshots[0]
         self.configuration: Any = start.configuration
+        made_by, here = ('version %s with the arithmetic %s' % pair for pair in (
+            (self.configuration.version, self.configuration.arithmetic_digest), (VERSION, arithmetic_fingerprint())))
+        if made_by != here:
+            raise ValueError('the bag was made by %s; this is %s' % (made_by, here))
         self.units = self._units(start.configuration)
         self.model: Model = self.units.model
         self.eta: float = start.applied.drag_velocity / self.units.velocity
@@ -104,9 +123,25 @@ class Recording:
         numbers = [start.applied.number] + [m.number for m in self._applied]
         if numbers != list(range(numbers[0], max(numbers[-1], self._snapshots[-1].applied.number) + 1)):
             raise ValueError('messages of Applied are missing: a command is not known')
+        self._check_batches(frictions)
         self.commands = np.array([(m.time.tau, m.time.phase, m.drag_velocity / self.units.velocity, m.drag_velocity)
                                   for m in [start.applied] + self._applied],
                                  [('tau', 'i8'), ('phase', 'f8'), ('eta', 'f8'), ('drag_velocity', 'f8')])
+
+    def _check_batches(self, frictions: List[Any]) -> None:
+        """That each goes on where the last one ends, no further than it may, with the drag velocity in force."""
+        in_force, end = [self._snapshots[0].applied] + self._applied, _model_time(frictions[0].begin)
+        places = [(_model_time(m.time), m.first_impact) for m in self._applied]
+        for f in frictions:
+            begin = _model_time(f.begin)
+            applied = in_force[bisect.bisect(places, (begin, f.first_impact))]
+            if f.drag_velocity != applied.drag_velocity:
+                raise ValueError('messages of Applied are missing: batch %d has another drag velocity' % f.header.seq)
+            length = f.time.tau - begin.tau + (f.time.phase - begin.phase)
+            most = applied.samples_per_batch * applied.sample_period_tau + 1e-6  # [tau]: phases are below 1
+            if begin != end or not 0 <= length <= most or f.impact_limit > self.configuration.impact_budget:
+                raise ValueError('batch %d does not begin or end where it can: messages are damaged' % f.header.seq)
+            end = _model_time(f.time)
 
     def _units(self, live: Any) -> Units:
         return Units(**{name: getattr(live if hasattr(live, name) else self.configuration, name) for name in _SI_MODEL})
@@ -159,6 +194,11 @@ class Recording:
     def simulate(self) -> Batch:
         """The whole run simulated again, in natural units: times a factor of `units`, the bits of the recording."""
         parts = list(self._parts())
+        for name, unit in (('energy_loss', self.units.energy), ('impact_count', 1), ('window_force', self.units.force),
+                           ('mean_normal_force', self.units.force)):
+            if not np.array_equal(parts[-1].friction[name] * unit, getattr(self._last, name), equal_nan=True):
+                raise ValueError('the run does not end as recorded, by its %s: messages of Applied or Snapshot are '
+                                 'missing at its end, or the bag is damaged' % name)
         joined = {name: np.concatenate([getattr(part, name) for part in parts])
                   for name in ('vertical', 'lateral', 'impacts')}
         return parts[-1]._replace(begin=parts[0].begin, first_sample=parts[0].first_sample,

@@ -11,6 +11,7 @@
 #ifdef AFM_DYNAMICS
 #include "afm/dynamics/sweep.h"
 #endif
+#include "afm/fingerprint.h"
 #include "afm/interruption.h"
 #include "afm/single_flight.h"
 #include "convert.h"
@@ -106,6 +107,7 @@ void check_flight(const Numbers& row, const std::string& kind) {
 
 void add_tables(py::module& m) {
   m.attr("VERSION") = AFM_EMULATOR_VERSION;
+  m.def("arithmetic_fingerprint", &arithmetic_fingerprint);
   m.def("friction_curve", &friction_curve);
   m.def("next_impact", &next_impact);
   m.def("check_flight", &check_flight);

@@ -1,5 +1,7 @@
 """The Python module simulates a recorded run again to the last bit."""
+import functools
 import time
+from pathlib import Path
 
 import numpy as np
 import rosbag
@@ -106,15 +108,47 @@ class PythonModule(NodeTest):
         self.assertRaisesRegex(ValueError, 'are missing', afm.from_bag, paths[:1] + paths[2:])
         self.assertRaises(ValueError, afm.from_bag, [])
 
+    def test_two_runs_on_the_clock_and_a_change_that_is_missing(self):
+        """The stamps of both are the same model times."""
+        paths = []
+        for eta in 2.0, 3.0:
+            self.run_emulator(publish_clock=True)
+            self.command(eta)
+            self.emulator.set(cutoff_speed=3e-7)
+            self.deflection.wait_for_more(30)
+            paths += self.end(self.emulator)
+            Topic.close_all()
+        self.assertRaisesRegex(ValueError, 'started twice', afm.from_bag, paths)
+        undone = self.filtered(paths[1], lambda topic, m: topic != 'applied' or m.number < 2)
+        self.assertRaisesRegex(ValueError, 'does not end as recorded', afm.from_bag(undone).simulate)
+
     def check_what_is_missing(self, path):
         """The whole run, or an error that names what it would take."""
+        def altered(name, last=0, **values):
+            """The snapshot, or of epoch 0 the message with this number."""
+            def alter(topic, m):
+                for at, value in values.items() if topic == name and (m.epoch, m.header.seq) == (0, last) else ():
+                    *parts, field = at.split('__')
+                    setattr(functools.reduce(getattr, parts, m), field, value)
+                return True
+            return alter
+        last = max(m.header.seq for m in bags.read(path)['friction'] if m.epoch == 0)
         for keeps, words in ((lambda topic, m: topic != 'friction', 'Friction'),
                              (lambda topic, m: topic != 'snapshot', 'Snapshot'),
                              (lambda topic, m: topic != 'applied', 'Applied'),
                              (lambda topic, m: topic != 'friction' or m.header.seq != 20, 'Friction'),
                              (lambda topic, m: topic != 'applied' or m.number != 2, 'Applied'),
-                             (lambda topic, m: topic != 'snapshot' or m.time.tau > 10, 'Snapshot')):
-            self.assertRaisesRegex(ValueError, words, afm.from_bag, self.filtered(path, keeps))
+                             (lambda topic, m: topic != 'snapshot' or m.time.tau > 10, 'Snapshot'),
+                             (lambda topic, m: topic != 'applied' or (m.epoch, m.number) != (0, 11), 'Applied'),
+                             (altered('snapshot', configuration__version='0.0.1'), 'made by version 0.0.1'),
+                             (altered('snapshot', configuration__arithmetic_digest='0' * 16), '0' * 16),
+                             (altered('friction', last, time__tau=10 ** 9), 'batch %d does not' % last),
+                             (altered('friction', last, impact_limit=10 ** 12), 'batch %d does not' % last)):
+            with self.subTest(words=words):
+                self.assertRaisesRegex(ValueError, words, afm.from_bag, self.filtered(path, keeps))
+        spoiled = self.directory / 'spoiled.bag'
+        spoiled.write_bytes(Path(path).read_bytes().replace(b'ModelTime time', b'ModelTime tim='))
+        self.assertEqual(afm.from_bag(spoiled).end, afm.from_bag(path).end)
         without = self.filtered(path, lambda topic, m: topic != 'deflection')
         np.testing.assert_array_equal(afm.from_bag(without).simulate().lateral, afm.from_bag(path).simulate().lateral)
 

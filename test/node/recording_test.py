@@ -8,8 +8,8 @@ import subprocess
 import roslib.packages
 import rosbag
 from afm_emulator.msg import Friction
-from afm_emulator.srv import StartRecording
-from std_srvs.srv import Trigger
+from afm_emulator.srv import StartRecording, Step
+from std_srvs.srv import SetBool, Trigger
 
 import bags
 import checks
@@ -54,6 +54,28 @@ class Recording(NodeTest):
         status = published['status'].wait_for_next(lambda m: not m.recording, 'no longer recording')
         self.assertEqual(status.recorder_error, '')
         self.end(emulator)
+
+    def test_recordings_that_begin_late(self):
+        """After most of what their estimate of friction counts, or with hardly a sample."""
+        emulator, deflection = self.record(), Topic('deflection')
+        deflection.wait_for_more(50)
+        emulator.drag(0.0)
+        Topic('applied').wait_for(lambda m: m.drag_velocity == 0.0, 'the command')
+        deflection.wait_for_more(50)
+        paths = [emulator.call('start_recording', StartRecording, name='stop').path]
+        deflection.wait_for_more(30)
+        self.assertTrue(emulator.call('stop_recording', Trigger).success)
+        emulator.drag(6.6e-6)
+        deflection.wait_for_more(30)
+        self.assertTrue(emulator.call('pause', SetBool, data=True).success)
+        for i in range(3):
+            paths.append(emulator.call('start_recording', StartRecording, name='step%d' % i).path)
+            self.assertTrue(emulator.call('step', Step, impacts=1).success)
+            self.assertTrue(emulator.call('stop_recording', Trigger).success)
+        self.end(emulator)
+        for path in paths:
+            checks.assert_identical(self, path)
+        checks.assert_identical(self, *paths[1:])  # the status goes on between them
 
     def test_killed(self):
         emulator, deflection = self.record(record=True), Topic('deflection')

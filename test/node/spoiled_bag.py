@@ -73,8 +73,8 @@ class SpoiledBag(NodeTest):
     def remove(self, *entries):
         self.entries = [e for e in self.entries if e not in entries]
 
-    def write(self):
-        path = self.directory / 'spoiled.bag'
+    def write(self, name='spoiled.bag'):
+        path = self.directory / name
         with rosbag.Bag(str(path), 'w') as bag:
             for e in self.entries:
                 bag.write(e.path, e.raw, e.stamp, raw=True, connection_header=e.header)

@@ -1,6 +1,8 @@
 """Whatever is altered, lost, renamed or filtered in a recording: both checks say what, in words and by their exit
 codes. What is intact is never called damaged, and what is altered never identical."""
+import copy
 import subprocess
+from unittest import mock
 
 import genpy
 import rosbag
@@ -121,7 +123,10 @@ class SpoiledBags(SpoiledBag):
                             ('/nowhere.bag', 'nowhere.bag'), (foreign, 'holds no message of an emulator'),
                             (self.directory, str(self.directory))):
             self.assert_reported(UNCHECKED, words, path=path)
-            self.assertEqual(checks.bag_check(path).code, UNCHECKED, path)
+            answer = checks.bag_check(path, self.good)
+            self.assertEqual(answer.code, UNCHECKED, path)
+            self.assertIn('bag_check: %s: ' % path, answer.text)
+            self.assertIn('SOUND', answer.text)  # the other is checked
         subprocess.run(['rosbag', 'reindex', '--force', str(cut)], check=True, stdout=subprocess.DEVNULL)
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=cut)
 
@@ -131,13 +136,64 @@ class SpoiledBags(SpoiledBag):
         self.assertEqual(checks.bag_check('--frobnicate', self.good).code, USAGE)
         self.assertEqual(checks.bag_check('--help').code, 0)
 
+    def test_a_damaged_definition_of_a_message(self):
+        """Its md5sum says that it is ours."""
+        data, path = self.good.read_bytes(), self.directory / 'damaged.bag'
+        path.write_bytes(data.replace(b'ModelTime time', b'ModelTime tim='))
+        self.assertNotEqual(path.read_bytes(), data)
+        answer = checks.bag_check(path)
+        self.assertEqual(answer.code, SOUND, answer.text)
+
+    def test_interrupted(self):
+        with mock.patch('rosbag.Bag', side_effect=KeyboardInterrupt):
+            answer = checks.bag_check(self.good)
+        self.assertEqual((answer.code, answer.text), (130, ''))
+
+    def test_a_part_is_forgotten(self):
+        latched = self.entries[:3]
+        ends = [self.entries.index(self.of('friction')[batch]) + 1 for batch in (39, 59)]
+        everything = self.entries
+        parts = []
+        for name, entries in (('run.bag', everything[:ends[0]]), ('run_001.bag', latched + everything[ends[0]:ends[1]]),
+                              ('run_002.bag', latched + everything[ends[1]:])):
+            self.entries = entries
+            parts.append(self.write(name))
+        self.assertEqual(checks.bag_check(*parts).code, SOUND)
+        for paths, words in ((parts[::2], '20 batches between them are missing'), (parts[1::-1], 'it began before')):
+            answer = checks.bag_check(*paths)
+            self.assertEqual(answer.code, DIFFERS, answer.text)
+            self.assertIn('%s does not go on where %s ends: %s' % (paths[1].name, paths[0].name, words), answer.text)
+
     def test_physics_alone_tells(self):
-        """bag_check knows what a mean and an energy balance are."""
+        """bag_check knows what a mean and an energy balance are, and does not call it physics where messages lack."""
         def scale(topic, begin, **factors):
             for entry in self.of(topic)[begin:]:
                 message = entry.message()
                 entry.edit(**{name: getattr(message, name) * factor for name, factor in factors.items()})
+        def start_again():  # with the stamps of the first start, as on the clock
+            length = self.entries[-1].stamp - self.entries[0].stamp + genpy.Duration(1)
+            again = copy.deepcopy(self.entries)
+            for entry in again:
+                entry.stamp += length
+            self.entries += again
+        def record_by_rosbag():  # which hears of one topic later than of another
+            snapshot, = self.of('snapshot')
+            snapshot.stamp += genpy.Duration(0, 1000)
+            self.remove(*self.of('impacts')[:2], *self.of('deflection')[-3:])
         for subject, spoil in ((None, lambda: None),
+                               (None, record_by_rosbag),
+                               (None, start_again),
+                               (None, lambda: self.remove(*self.of('friction')[-1:])),  # ends within a batch
+                               ('complete', lambda: self.remove(*self.of('deflection')[:5])),
+                               ('complete', lambda: self.remove(*self.of('impacts')[-5:])),
+                               ('complete', lambda: self.remove(*self.of('friction')[-5:])),
+                               ('complete', lambda: self.remove(*self.of('applied')[-1:])),
+                               ('complete', lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
+                                                                  for e in self.of(topic)[100:110]))),
+                               ('complete', lambda: self.of('friction')[-1].edit(drag_velocity=1e200)),
+                               ('energy', lambda: self.of('deflection')[5].edit(
+                                   vertical=[1e200] * len(self.of('deflection')[5].message().vertical))),
+                               ('energy', lambda: self.of('friction')[-1].edit(heat_to_bath=float('nan'))),
                                ('K_f', lambda: scale('friction', 60, energy_loss=1 + 1e-8, k_f=1 + 1e-8)),
                                ('K_f', lambda: scale('friction', 60, k_f=1 + 1e-8)),
                                ('energy', lambda: scale('friction', 60, mean_lateral_force=1.1)),

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """plot_run.py draws a bag, and says what is wrong with what is none. usage: plot_run_test.py SCRIPT"""
+import itertools
 import subprocess
 import sys
 import tempfile
@@ -23,25 +24,27 @@ class PlotRun(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.directory = Path(holder.name)
 
-    def bag(self, batches):
-        path = self.directory / 'run.bag'
+    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0):
+        path = self.directory / name
         with rosbag.Bag(str(path), 'w') as bag:
-            for epoch in range(2):
+            def write(node, topic, message, seq):
+                message.header.seq = seq
+                bag.write(node + topic, message, connection_header=dict(
+                    topic=node + topic, callerid=node, type=message._type, md5sum=message._md5sum,
+                    message_definition=message._full_text))
+            for epoch, node in itertools.product(range(2), nodes):
                 configuration = Configuration(epoch=epoch, omega_v_rad_per_s=40e3, lattice_spacing_m=0.52e-9,
                                               restitution_gamma=0.7, cutoff_speed=1.66e-7, sample_rate_hz=1e5)
-                configuration.header.seq = epoch
-                bag.write('/tip/configuration', configuration)
-                drag = Applied(epoch=epoch, drag_velocity=6.6e-6)
-                drag.header.seq = epoch
-                bag.write('/tip/applied', drag)
+                write(node, '/configuration', configuration, epoch)
+                write(node, '/applied', Applied(epoch=epoch, drag_velocity=6.6e-6 * eta), epoch)
                 for i in range(batches):
                     deflection = Deflection(epoch=epoch, first_sample=100 * i, sample_period=1e-5,
                                             vertical=[1e-10] * 100, lateral=[-1e-11] * 100)
                     deflection.time.tau = 6 * i
-                    bag.write('/tip/deflection', deflection)
-                    bag.write('/tip/impacts', ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k)
-                                                                              for k in range(4)]))
-                    bag.write('/tip/friction', Friction(epoch=epoch, k_f_work=1e-6, k_f_work_natural=0.4))
+                    impacts = ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k) for k in range(4)])
+                    friction = Friction(epoch=epoch, k_f_work=1e-6, k_f_work_natural=0.4)
+                    for topic, message in (('/deflection', deflection), ('/impacts', impacts), ('/friction', friction)):
+                        write(node, topic, message, batches * epoch + i)
         return path
 
     def test_draws_beside_the_bag_or_where_asked(self):
@@ -59,11 +62,20 @@ class PlotRun(unittest.TestCase):
     def test_says_what_is_wrong(self):
         text = self.directory / 'text.bag'
         text.write_text('no bag')
-        for path, words in ((text, 'text.bag'), ('/nowhere.bag', 'No such file'), (self.bag(0), 'no run')):
-            done = plot(path)
-            self.assertNotEqual(done.returncode, 0)
-            self.assertIn(words, done.stdout)
-            self.assertNotIn('Traceback', done.stdout)
+        good, two = self.bag(5), self.bag(5, 'two.bag', nodes=('/tip', '/other'))
+        for arguments, words in (([text], 'text.bag'), (['/nowhere.bag'], 'No such file'), ([''], 'invalid'),
+                                 ([self.bag(0, 'empty.bag')], 'no run'), ([good, '--node', '/other'], 'no run'),
+                                 ([two], 'choose one emulator by --node'),
+                                 ([good, self.bag(5, 'again.bag', eta=2.0)], 'started again'),
+                                 ([good, '--output', '/nowhere/run.png'], 'No such file'),
+                                 ([good, '--output', self.directory / 'run.nothing'], 'not supported'),
+                                 ([good, '--from', 'nan'], 'invalid'), ([good, '--until', 'inf'], 'invalid')):
+            with self.subTest(words=words):
+                done = plot(*arguments)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn(words, done.stdout)
+                self.assertNotIn('Traceback', done.stdout)
+        self.assertEqual(plot(two, '--node', '/other').returncode, 0)
 
 
 if __name__ == '__main__':
