@@ -175,9 +175,8 @@ bool Recording::is_by_node() const {
          applied->begin()->getTime() + ros::Duration(0, 1) == snapshots->begin()->getTime();
 }
 
-// The three messages of a batch have one number and stamp. The node records whole batches, but for the last one if it is
-// killed or the recording is stopped. `rosbag record` subscribes to topic after topic, and may leave what waits in their
-// queues when it is stopped.
+// The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
+// it is killed. `rosbag record` subscribes to topic after topic, and leaves what waits in their queues at its end.
 Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   const auto key = [](const std_msgs::Header& header) { return std::make_pair(header.stamp, header.seq); };
   std::optional<Ends> own, all;

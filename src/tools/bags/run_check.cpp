@@ -9,7 +9,6 @@
 #include "afm/fingerprint.h"
 #include "afm/units.h"
 #include "node/publisher/messages.h"
-#include "node/publisher/topics.h"
 #include "node/recorder/message_bytes.h"
 
 namespace afm::bags {
