@@ -83,13 +83,13 @@ void RunCheck::read_marks() {
   }
 }
 
-// Each stands in the snapshots of its epoch too.
+// Each stands in the snapshots of its epoch too. There is one an epoch, so its number is that of the epoch.
 void RunCheck::check_configurations() {
   if (!recording_.holds<afm_emulator::Configuration>()) return;
   const auto messages = recording_.read<afm_emulator::Configuration>();
   for (; messages->get() && !difference_; messages->next()) {
     const auto same = [&](const Mark& c) {
-      return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->get()->epoch;
+      return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->number().seq;
     };
     const auto found = std::find_if(marks_.begin(), marks_.end(), same);
     if (found != marks_.end()) compare(*messages->get(), found->snapshot->configuration);
