@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "common/command_line.h"
@@ -66,7 +67,7 @@ struct Target {
   }
 };
 
-// take(message) for each that is held. Returns how many are lost between them.
+// take(message) for each that is held. Returns how many are lost.
 template <class Message, class Take>
 std::uint64_t for_each_message(const Recording& recording, const Take& take) {
   std::uint64_t lost = 0;
@@ -75,7 +76,8 @@ std::uint64_t for_each_message(const Recording& recording, const Take& take) {
     lost += messages->lost();
     take(*messages->get());
   }
-  return lost;
+  const Recording::Missing ends = recording.missing_at_ends<Message>();
+  return lost + ends.at_beginning + ends.at_end;
 }
 
 std::uint64_t write_impacts(const Recording& recording, const Target& to) {
@@ -169,13 +171,29 @@ std::uint64_t write_commands(const Recording& recording, const Target& to) {
   columns.insert(columns.end(), {{"model"}, {"contact_tolerance"}, {"first_impact"}, {"number"}, {"cause"}});
   TableWriter table = to.begin(columns);
   afm::node::Live unused;
-  return for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
+  afm_emulator::Applied last;
+  const std::uint64_t lost = for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
+    last = applied;
     to.begin_row(table, applied.epoch, applied.time);
     table << applied.drag_velocity;
     afm::node::for_each_live(applied, unused, [&](double value, double) { table << value; });
     table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
     table.end_row();
   });
+  // no number tells that the last one is lost
+  bool is_last_lost = false;
+  if (!recording.holds<afm_emulator::Friction>()) return lost;
+  std::optional<afm_emulator::Friction> before;
+  for_each_message<afm_emulator::Friction>(recording, [&](const auto& batch) {
+    const auto place = [](const auto& message, const auto& time) {
+      return std::make_tuple(message.epoch, time.tau, time.phase);
+    };
+    const bool is_behind =
+        before && before->header.stamp >= last.header.stamp && place(*before, before->begin) >= place(last, last.time);
+    is_last_lost = is_last_lost || (is_behind && afm::bags::tells_of_command(*before, batch));
+    before = batch;
+  });
+  return lost + (is_last_lost ? 1 : 0);
 }
 
 const std::map<std::string, std::function<std::uint64_t(const Recording&, const Target&)>> kTables{

@@ -138,6 +138,15 @@ class Incomplete(SpoiledBag):
         for topic in ('deflection', 'friction', 'commands'):  # of which nothing is missing
             self.assertTrue(table([path], '--topic', topic))
 
+    def test_messages_are_lost_at_the_ends(self):
+        self.remove(*self.of('impacts')[:3], self.of('applied')[-1])
+        path = self.write()
+        for topic, lost in (('impacts', 3), ('commands', 1)):
+            code, rows, complaint = call(path, '--topic', topic)
+            self.assertEqual((code, complaint),
+                             (UNCHECKED, 'bag_to_csv: warning: %d messages of %s are missing\n' % (lost, topic)))
+            self.assertTrue(rows)
+
     def test_a_bag_without_a_topic(self):
         self.remove(*self.of('deflection'), *self.of('snapshot'))
         path = self.write()

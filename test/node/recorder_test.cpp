@@ -201,7 +201,7 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
   ASSERT_TRUE(was_asked(1));
   recorder.record(topic_, bytes_, Role::snapshot, true);
   recorder.record(topic_, bytes_, Role::batch_end, true);
-  EXPECT_TRUE(recorder.stop().success);
+  EXPECT_EQ(recorder.stop().message, file("run_001.bag") + ": the last of 2 bags with 128 messages");
   EXPECT_EQ(messages_in_bag(), 124u);
   EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
 }

@@ -74,6 +74,58 @@ class SpoiledBags(SpoiledBag):
             words = '3 messages of /afm/%s, the first after' % topic, 'what was compared is identical'
             self.spoil_each((UNCHECKED, words, False, lambda: self.remove(*self.of(topic)[80:83])))
 
+    def test_messages_are_lost_at_the_ends(self):
+        for topic in ('deflection', 'impacts', 'friction'):
+            words = 'missing: 3 messages of /afm/%s at the beginning' % topic, 'what was compared is identical'
+            end = 'messages of /afm/%s at the end' % topic
+            self.spoil_each((UNCHECKED, words, None, lambda: self.remove(*self.of(topic)[:3])),
+                            (UNCHECKED, (end,), None, lambda: self.remove(*self.of(topic)[-5:])))
+        self.spoil_each((SOUND, ('IDENTICAL',), None,  # as of a node that is killed within a batch
+                         lambda: self.remove(self.of('impacts')[-1], self.of('friction')[-1])))
+
+    def test_rosbag_record_subscribes_to_topic_after_topic(self):
+        def lose_by_rosbag(count):  # it stamps what comes in by itself
+            self.of('snapshot')[0].stamp += genpy.Duration(0, 1)
+            self.remove(*self.of('deflection')[:count], *self.of('friction')[:2], *self.of('impacts')[-2:])
+        self.spoil_each((SOUND, ('IDENTICAL',), None, lambda: lose_by_rosbag(99)),
+                        (UNCHECKED, ('101 messages of /afm/deflection',), None, lambda: lose_by_rosbag(101)))
+
+    def test_the_last_command_is_lost(self):
+        """No number tells of it, but friction does."""
+        self.spoil_each((UNCHECKED, ('missing: 1 commands', 'what was compared is identical'), None,
+                         lambda: self.remove(self.of('applied')[-1])))
+
+    def test_two_starts_on_simulated_time(self):
+        """Their messages may have the same numbers and stamps, or stand between those of the other start."""
+        def start_again(back, **values):
+            for entry in self.of('friction')[80:85]:
+                other, header = copy.copy(entry), entry.message().header
+                header.seq -= back
+                other.edit(header=header, **values)
+                other.stamp += genpy.Duration(0, 1)
+                self.entries.append(other)
+        words = ('another start of the node',)
+        self.spoil_each((SOUND, ('IDENTICAL',), None, lambda: start_again(0)),  # said again
+                        (UNCHECKED, words, None, lambda: start_again(0, force=1.0)),
+                        (UNCHECKED, words, None, lambda: start_again(60)))
+
+    def test_the_index_is_damaged(self):
+        """rosbag then reads beyond its buffer."""
+        data, path = bytearray(self.good.read_bytes()), self.directory / 'index.bag'
+        field = data.rindex(b'chunk_pos=')
+        data[field - 4:field] = (999999).to_bytes(4, 'little')  # its length
+        path.write_bytes(data)
+        for tool, options in (('replay_check', ()), ('bag_to_csv', ('--topic', 'friction'))):
+            answer = checks.call(tool, path, *options)
+            self.assertEqual(answer.code, UNCHECKED, answer.text)
+            self.assertIn('rosbag reindex', answer.text)
+
+    def test_the_configuration_of_a_snapshot(self):
+        configuration = self.of('snapshot')[0].message().configuration
+        configuration.restitution_gamma = 0.5
+        self.of('snapshot')[0].edit(configuration=configuration)
+        self.assert_reported(DIFFERS, 'restitution_gamma', 'of /afm/snapshot holds, and either may be wrong')
+
     def test_a_topic_is_filtered_out(self):
         self.spoil_each(
             (SOUND, ('IDENTICAL in what it holds; it holds no deflection',), True,
@@ -119,9 +171,10 @@ class SpoiledBags(SpoiledBag):
         foreign = self.directory / 'foreign.bag'
         with rosbag.Bag(str(foreign), 'w') as bag:
             bag.write('/chatter', String('hello'))
-        for path, words in ((cut, 'rosbag reindex'), (text, 'text.bag'), (empty, 'empty.bag'),
-                            ('/nowhere.bag', 'nowhere.bag'), (foreign, 'holds no message of an emulator'),
-                            (self.directory, str(self.directory))):
+        for path, words in ((cut, 'rosbag reindex'), (text, 'text.bag: is not a bag'),
+                            (empty, 'empty.bag: is not a bag'), ('/nowhere.bag', 'nowhere.bag: there is no such file'),
+                            (foreign, 'holds no message of an emulator'),
+                            (self.directory, '%s: is a directory' % self.directory)):
             self.assert_reported(UNCHECKED, words, path=path)
             answer = checks.bag_check(path, self.good)
             self.assertEqual(answer.code, UNCHECKED, path)

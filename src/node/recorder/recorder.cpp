@@ -121,7 +121,12 @@ Recorder::Reply Recorder::stop() {
   }
   if (!error_.empty()) return {false, error_, path_};
   if (messages_ == 0) return {true, "nothing came to be recorded: there is no bag", ""};
-  return {true, path_ + ": " + std::to_string(messages_) + " messages", path_};
+  return {true, summary(), path_};
+}
+
+std::string Recorder::summary() const {
+  const std::string all = std::to_string(messages_) + " messages";
+  return path_ + ": " + (part_ == 0 ? all : "the last of " + std::to_string(part_ + 1) + " bags with " + all);
 }
 
 Recorder::Status Recorder::status() const {
@@ -264,7 +269,7 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
     if (!error.empty()) error = bag_->path() + ": " + error;
     bag_.reset();
     if (error.empty()) {
-      ROS_INFO_STREAM("recorded " << path_ << ": " << messages_ << " messages");
+      ROS_INFO_STREAM("recorded " << summary());
     } else {
       ROS_ERROR_STREAM("recording ended early: " << error);
     }

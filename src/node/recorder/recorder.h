@@ -78,6 +78,7 @@ class Recorder {
   void begin_next_bag();
   void finish(std::unique_lock<std::mutex>& lock, std::string error);
   std::string part_path(std::uint32_t part) const;
+  std::string summary() const;  // of a recording that has ended
 
   const Settings settings_;
   const std::function<bool()> ask_for_snapshot_;

@@ -6,6 +6,15 @@
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/Snapshot.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <regex>
+
+#include "node/publisher/topics.h"
 
 namespace afm::bags {
 namespace {
@@ -21,15 +30,39 @@ std::map<std::string, std::string> md5sums() {
 const std::map<std::string, std::string> kTypes =
     md5sums<afm_emulator::Applied, afm_emulator::Configuration, afm_emulator::Deflection, afm_emulator::Friction,
             afm_emulator::ImpactArray, afm_emulator::Snapshot>();
+const auto kBatchTypes = md5sums<afm_emulator::Deflection, afm_emulator::Friction, afm_emulator::ImpactArray>();
+
+// rosbag trusts the lengths that an index declares: a damaged one makes it read beyond its buffer.
+void end_at_damaged_index(int) {
+  constexpr char kText[] = "CANNOT BE READ: the index of a bag is damaged; `rosbag reindex` recovers what is in it\n";
+  constexpr int kCannotBeRead = 3;
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
+  _exit(kCannotBeRead);
+}
+
+// Why it is no bag, or nothing.
+std::string find_fault(const std::string& path) {
+  if (!std::filesystem::exists(path)) return "there is no such file";
+  if (std::filesystem::is_directory(path)) return "is a directory";
+  std::string begin(4, ' ');
+  std::ifstream(path).read(begin.data(), 4);
+  return begin == "#ROS" ? "" : "is not a bag, or cannot be read";
+}
 
 File open(const std::string& path) {
   const File file{path, std::make_shared<rosbag::Bag>()};
-  try {
-    file.bag->open(path, rosbag::bagmode::Read);
-  } catch (const std::exception& error) {
-    throw Problem(path + ": " + error.what() + "; if it is a bag that was not closed or is damaged, `rosbag reindex " +
-                  path + "` recovers what is in it");
+  std::string fault = find_fault(path);
+  if (fault.empty()) {
+    const auto before = std::signal(SIGSEGV, end_at_damaged_index);
+    try {
+      file.bag->open(path, rosbag::bagmode::Read);
+    } catch (const std::exception& error) {
+      fault =
+          error.what() + ("; if it was not closed or is damaged, `rosbag reindex " + path) + "` recovers what is in it";
+    }
+    std::signal(SIGSEGV, before);
   }
+  if (!fault.empty()) throw Problem(path + ": " + fault);
   return file;
 }
 
@@ -61,23 +94,33 @@ std::map<std::string, Recording::Topics> emulators_of(const File& file) {
   return found;
 }
 
-// The first and the last batch of one bag.
-std::pair<std::uint32_t, std::uint32_t> ends_of(const Recording& part) {
-  const std::string topic = part.topic<afm_emulator::Friction>();
-  const auto all = part.view(topic), end = part.view(topic, all->getEndTime());
-  const auto seq = [](const rosbag::MessageInstance& m) { return m.instantiate<afm_emulator::Friction>()->header.seq; };
-  std::uint32_t last = seq(*all->begin());
-  const std::uint32_t first = last;
-  for (const rosbag::MessageInstance& message : *end) last = seq(message);
-  return {first, last};
+std_msgs::Header header_of(const rosbag::MessageInstance& message) {
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream out(bytes.data(), message.size());
+  message.write(out);
+  ros::serialization::IStream in(bytes.data(), message.size());
+  std_msgs::Header header;  // every message begins with it
+  ros::serialization::deserialize(in, header);
+  return header;
 }
 
-bool follows(const Recording& before, const Recording& after) {
+// Whether the node named it as a part of the recording that begins with NAME.bag: NAME_001.bag, NAME_002.bag.
+bool is_part(const std::string& path, const std::string& first) {
+  const std::string name = first.substr(0, first.rfind(".bag"));
+  return path.compare(0, name.size(), name) == 0 &&
+         std::regex_match(path.substr(name.size()), std::regex("_[0-9]{3,}\\.bag(\\.active)?"));
+}
+
+// How many batches are missing between two parts of one recording; nothing if they are not.
+std::optional<std::uint32_t> batches_between(const Recording& before, const Recording& after) {
   const std::string topic = before.topic<afm_emulator::Friction>();
-  if (topic.empty() || topic != after.topic<afm_emulator::Friction>()) return false;
-  const Recording last(before.node(), {{ros::message_traits::datatype<afm_emulator::Friction>(), topic}},
-                       {before.files().back()});
-  return ends_of(after).first == ends_of(last).second + 1;
+  if (topic.empty() || topic != after.topic<afm_emulator::Friction>()) return {};
+  const auto begin = after.ends_of(topic), end = Recording(before.node(), {}, {before.files().back()}).ends_of(topic);
+  if (!begin || !end) return {};
+  const std::uint32_t first = begin->first.seq, last = end->second.seq;
+  const bool follows = first == last + 1;
+  if (!follows && (first <= last || !is_part(after.files().front().path, before.files().front().path))) return {};
+  return first - last - 1;
 }
 
 std::string known_names(const std::map<std::string, std::vector<Recording>>& recordings) {
@@ -91,10 +134,14 @@ std::string known_names(const std::map<std::string, std::vector<Recording>>& rec
 std::string Recording::name() const {
   std::string name = node_ + " in " + files_.front().path;
   if (files_.size() > 1) name += " and the " + std::to_string(files_.size() - 1) + " that follow it";
-  return name;
+  return name + holes_;
 }
 
-void Recording::add(const Recording& next) {
+void Recording::add(const Recording& next, std::uint32_t batches_between) {
+  if (batches_between > 0) {
+    holes_ += "; " + next.files_.front().path + " does not go on where " + files_.back().path +
+              " ends: " + std::to_string(batches_between) + " batches between are missing";
+  }
   topics_.insert(next.topics_.begin(), next.topics_.end());
   files_.insert(files_.end(), next.files_.begin(), next.files_.end());
 }
@@ -102,14 +149,52 @@ void Recording::add(const Recording& next) {
 std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ros::Time& begin) const {
   auto view = std::make_unique<rosbag::View>();
   for (const File& file : files_) {
-    view->addQuery(*file.bag,
-                   [topic, node = node_](const rosbag::ConnectionInfo* connection) {
-                     return connection->topic == topic && callerid(*connection) == node &&
-                            kTypes.count(connection->datatype) > 0;
-                   },
-                   begin);
+    view->addQuery(
+        *file.bag,
+        [topic, node = node_](const rosbag::ConnectionInfo* connection) {
+          return connection->topic == topic && callerid(*connection) == node && kTypes.count(connection->datatype) > 0;
+        },
+        begin);
   }
   return view;
+}
+
+std::optional<Recording::Ends> Recording::ends_of(const std::string& topic) const {
+  const auto all = view(topic);
+  if (all->size() == 0) return {};
+  const auto end = view(topic, all->getEndTime());
+  auto last = end->begin();
+  for (auto next = last; next != end->end(); ++next) last = next;
+  return Ends{header_of(*all->begin()), header_of(*last)};
+}
+
+// The node alone stamps the command in force a nanosecond before the snapshot with which a recording begins.
+bool Recording::is_by_node() const {
+  const auto applied = view(topic<afm_emulator::Applied>()), snapshots = view(topic<afm_emulator::Snapshot>());
+  return applied->size() > 0 && snapshots->size() > 0 &&
+         applied->begin()->getTime() + ros::Duration(0, 1) == snapshots->begin()->getTime();
+}
+
+// The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
+// it is killed. `rosbag record` subscribes to topic after topic, and leaves what waits in their queues at its end.
+Recording::Missing Recording::missing_at_ends(const std::string& type) const {
+  const auto key = [](const std_msgs::Header& header) { return std::make_pair(header.stamp, header.seq); };
+  std::optional<Ends> own, all;
+  for (const auto& [name, topic] : topics_) {
+    const auto ends = kBatchTypes.count(name) > 0 ? ends_of(topic) : std::nullopt;
+    if (!ends) continue;
+    if (name == type) own = ends;
+    if (!all) all = ends;
+    if (key(ends->first) < key(all->first)) all->first = ends->first;
+    if (key(ends->second) > key(all->second)) all->second = ends->second;
+  }
+  if (!own) return {};
+  const auto count = [](const std_msgs::Header& from, const std_msgs::Header& to, std::uint32_t allowed) {
+    return to.seq > from.seq && to.seq - from.seq > allowed ? to.seq - from.seq : 0;
+  };
+  const bool exact = is_by_node();
+  return {count(all->first, own->first, exact ? 0 : node::kBatchQueueSize),
+          count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)};
 }
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {
@@ -119,8 +204,9 @@ std::vector<Recording> open_recordings(const std::vector<std::string>& paths, co
     for (const auto& [name, topics] : emulators_of(file)) {
       std::vector<Recording>& recordings = found[name];
       const Recording part(name, topics, {file});
-      if (!recordings.empty() && follows(recordings.back(), part)) {
-        recordings.back().add(part);
+      const auto between = recordings.empty() ? std::nullopt : batches_between(recordings.back(), part);
+      if (between) {
+        recordings.back().add(part, *between);
       } else {
         recordings.push_back(part);
       }

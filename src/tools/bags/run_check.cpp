@@ -9,7 +9,6 @@
 #include "afm/fingerprint.h"
 #include "afm/units.h"
 #include "node/publisher/messages.h"
-#include "node/publisher/topics.h"
 #include "node/recorder/message_bytes.h"
 
 namespace afm::bags {
@@ -84,16 +83,20 @@ void RunCheck::read_marks() {
   }
 }
 
-// Each stands in the snapshots of its epoch too.
+// Each stands in the snapshots of its epoch too. There is one an epoch, so its number is that of the epoch.
 void RunCheck::check_configurations() {
   if (!recording_.holds<afm_emulator::Configuration>()) return;
   const auto messages = recording_.read<afm_emulator::Configuration>();
   for (; messages->get() && !difference_; messages->next()) {
     const auto same = [&](const Mark& c) {
-      return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->get()->epoch;
+      return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->number().seq;
     };
     const auto found = std::find_if(marks_.begin(), marks_.end(), same);
     if (found != marks_.end()) compare(*messages->get(), found->snapshot->configuration);
+    if (difference_) {
+      difference_->time = "the beginning; \"simulated\" is what message " + std::to_string(found->number.seq) + " of " +
+                          recording_.topic<afm_emulator::Snapshot>() + " holds, and either may be wrong";
+    }
   }
 }
 
@@ -110,8 +113,10 @@ void RunCheck::run() {
     difference_.reset();  // it is what the lost command or snapshot did
     run_.reset();
   }
-  check_end(deflections_.get());
-  check_end(impacts_.get());
+  if (difference_) return;
+  check_ends(batches_.get());
+  check_ends(deflections_.get());
+  check_ends(impacts_.get());
 }
 
 // True if it comes before the next batch.
@@ -177,6 +182,7 @@ void RunCheck::note_beginning(const Mark& mark) {
   if (extent_.epochs == 0 || mark.number.start != start_ || mark.epoch() != applied_.epoch) ++extent_.epochs;
   start_ = mark.number.start;
   has_begun_ = true;
+  last_.reset();
 }
 
 void RunCheck::take_applied(const afm_emulator::Applied& applied) {
@@ -194,6 +200,7 @@ void RunCheck::take_applied(const afm_emulator::Applied& applied) {
   simulated.sample_period_tau = live.sample_period;
   compare(applied, simulated);
   applied_ = applied;
+  last_.reset();
   ++extent_.commands;
 }
 
@@ -234,6 +241,10 @@ void RunCheck::check_batch() {
     return;
   }
   has_begun_ = false;
+  if (last_ && !is_doubtful_ && tells_of_command(*last_, *recorded)) {
+    lose("commands", 1);
+    is_doubtful_ = true;
+  }
   if (!follows) run_to(recorded->begin, recorded->first_impact);
   advance(*recorded);
   const Units units(in_force_.si);
@@ -245,6 +256,7 @@ void RunCheck::check_batch() {
     ++extent_.batches_unknown;
     return;
   }
+  last_ = recorded;
   ++extent_.batches;
   extent_.model_seconds += (batch_.end - batch_.begin) * units.time();
   extent_.deflections += deflection ? 1 : 0;
@@ -277,21 +289,27 @@ void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) 
 template <class Message>
 boost::shared_ptr<Message> RunCheck::of_batch(Cursor<Message>* messages) {
   if (messages == nullptr) return {};
-  while (messages->get() && messages->number() < batches_->number()) {
-    messages->next();
-    if (messages->get()) lose("messages of " + recording_.topic<Message>(), messages->lost());
-  }
+  while (messages->get() && messages->number() < batches_->number()) take_next(messages);
   return messages->get() && messages->number() == batches_->number() ? messages->get() : nullptr;
 }
 
-// A recorder that is stopped may miss what then waits in the queues of the topics.
 template <class Message>
-void RunCheck::check_end(Cursor<Message>* messages) {
-  if (messages == nullptr || messages->get() || messages->number().start != batches_->number().start) return;
-  const std::uint64_t lost = batches_->number().seq - messages->number().seq;
-  if (batches_->number().seq > messages->number().seq + node::kBatchQueueSize) {
-    lose("messages of " + recording_.topic<Message>(), lost);
-  }
+void RunCheck::check_ends(Cursor<Message>* messages) {
+  if (messages == nullptr) return;
+  const std::string what = "messages of " + recording_.topic<Message>();
+  while (messages->get()) take_next(messages);  // batches without friction
+  const Recording::Missing missing = recording_.missing_at_ends<Message>();
+  const auto lose_at = [&](const char* end, std::uint64_t count) {
+    if (count > 0) missing_.push_back({what + " at the " + end + " of the recording", "", count});
+  };
+  lose_at("beginning", missing.at_beginning);
+  lose_at("end", missing.at_end);
+}
+
+template <class Message>
+void RunCheck::take_next(Cursor<Message>* messages) {
+  messages->next();
+  if (messages->get()) lose("messages of " + recording_.topic<Message>(), messages->lost());
 }
 
 template <class Message>
@@ -317,7 +335,7 @@ void RunCheck::lose(const std::string& what, std::uint64_t count) {
 std::vector<std::string> RunCheck::missing() const {
   std::vector<std::string> lines;
   for (const Missing& m : missing_) {
-    lines.push_back(std::to_string(m.count) + " " + m.what + ", the first after " + m.after);
+    lines.push_back(std::to_string(m.count) + " " + m.what + (m.after.empty() ? "" : ", the first after " + m.after));
   }
   return lines;
 }

@@ -89,7 +89,9 @@ class RunCheck {
   template <class Message>
   boost::shared_ptr<Message> of_batch(Cursor<Message>* messages);
   template <class Message>
-  void check_end(Cursor<Message>* messages);
+  void check_ends(Cursor<Message>* messages);
+  template <class Message>
+  void take_next(Cursor<Message>* messages);
   template <class Message>
   void compare(const Message& recorded, Message simulated);
   void lose(const std::string& what, std::uint64_t count);
@@ -110,8 +112,9 @@ class RunCheck {
   afm_emulator::Configuration configuration_;
   afm_emulator::Applied applied_;
   Batch batch_;
-  bool has_begun_ = false;    // and no batch was compared since
-  bool is_doubtful_ = false;  // a command or a snapshot is lost: a difference is what it did
+  boost::shared_ptr<afm_emulator::Friction> last_;  // batch compared since something was applied
+  bool has_begun_ = false;                          // and no batch was compared since
+  bool is_doubtful_ = false;                        // a command or a snapshot is lost: a difference is what it did
 
   std::optional<Difference> difference_;
   Extent extent_;
