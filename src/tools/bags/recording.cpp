@@ -6,9 +6,7 @@
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/Snapshot.h>
-#include <unistd.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -32,14 +30,6 @@ const std::map<std::string, std::string> kTypes =
             afm_emulator::ImpactArray, afm_emulator::Snapshot>();
 const auto kBatchTypes = md5sums<afm_emulator::Deflection, afm_emulator::Friction, afm_emulator::ImpactArray>();
 
-// rosbag trusts the lengths that an index declares: a damaged one makes it read beyond its buffer.
-void end_at_damaged_index(int) {
-  constexpr char kText[] = "CANNOT BE READ: the index of a bag is damaged; `rosbag reindex` recovers what is in it\n";
-  constexpr int kCannotBeRead = 3;
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
-  _exit(kCannotBeRead);
-}
-
 // Why it is no bag, or nothing.
 std::string find_fault(const std::string& path) {
   if (!std::filesystem::exists(path)) return "there is no such file";
@@ -53,14 +43,12 @@ File open(const std::string& path) {
   const File file{path, std::make_shared<rosbag::Bag>()};
   std::string fault = find_fault(path);
   if (fault.empty()) {
-    const auto before = std::signal(SIGSEGV, end_at_damaged_index);
     try {
       file.bag->open(path, rosbag::bagmode::Read);
     } catch (const std::exception& error) {
       fault =
           error.what() + ("; if it was not closed or is damaged, `rosbag reindex " + path) + "` recovers what is in it";
     }
-    std::signal(SIGSEGV, before);
   }
   if (!fault.empty()) throw Problem(path + ": " + fault);
   return file;
