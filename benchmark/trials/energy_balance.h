@@ -73,11 +73,12 @@ class EnergyBalance {
     stored_ += segment.stored;
   }
 
-  // Where the extension is many cells, the place is rounded as it is, and the slope there turns the velocity by so much.
+  // Where the extension is many cells, the place is rounded as it is, at the start of a flight and at its end, and the
+  // slope there turns the velocity by so much.
   static double slope_rounding(const Model& m, double stored) {
     if (m.kind == ModelKind::hammer) return 0.0;
     const double most_extension = std::sqrt(2.0 * stored) / (kTwoPi * m.frequency_ratio);
-    return kTwoPi * kTwoPi * m.H * most_extension * 0x1p-53;
+    return kTwoPi * kTwoPi * m.H * most_extension * 0x1p-52;
   }
 
   // A tip that slides more slowly than a swing of ten tolerances of a step is at rest as far as the step can tell. Where
