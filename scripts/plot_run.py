@@ -10,14 +10,12 @@ try:
     import matplotlib
     import numpy as np
     import rosbag
-    from afm_emulator import msg
+    from afm_emulator.bags import read_raw
     from afm_emulator.impacts import read_impacts
 except ImportError as missing:
     sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
              % missing)
 
-# Without them rosbag makes classes from the definitions in the bag, which may be damaged.
-rosbag.bag._message_types.update({kind._md5sum: kind for kind in vars(msg).values() if hasattr(kind, '_md5sum')})
 NAN = float('nan')
 MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is drawn
 ZOOM_TAU = 6.0  # the end of the run, sample by sample
@@ -91,15 +89,6 @@ def open_bag(path):
         sys.exit('plot_run.py: %s: %s' % (path, str(fault) or type(fault).__name__))
 
 
-def read_messages(bag, *kinds):
-    """(kind, topic, name of the node, bytes, class)"""
-    types = ['afm_emulator/' + kind for kind in kinds]
-    for topic, raw, _, header in bag.read_messages(raw=True, return_connection_header=True,
-                                                   connection_filter=lambda _, datatype, *__: datatype in types):
-        node = header.get('callerid', b'')
-        yield raw[0].split('/')[1], topic, node.decode() if isinstance(node, bytes) else node, raw[1], raw[4]
-
-
 def count_samples(paths):
     """From the first and the last batch of every bag, about."""
     count = 0
@@ -107,8 +96,8 @@ def count_samples(paths):
         with open_bag(path) as bag:
             info = bag.get_type_and_topic_info().topics
             batches = sum(t.message_count for t in info.values() if t.msg_type == 'afm_emulator/Deflection')
-            for *_, data, of_type in read_messages(bag, 'Deflection'):
-                count += batches * len(of_type().deserialize(data).vertical)
+            for m in read_raw(bag, ['Deflection']):
+                count += batches * len(m.of_type().deserialize(m.data).vertical)
                 break
     return count
 
@@ -121,19 +110,19 @@ def read(paths, end, node):
            'ImpactArray': run.add_impacts, 'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
         with open_bag(path) as bag:
-            for kind, topic, name, data, of_type in read_messages(bag, *add):
-                if node not in (None, name):
+            for m in read_raw(bag, add):
+                if node not in (None, m.node):
                     continue
-                if sources.setdefault(kind, (name, topic)) != (name, topic):
+                if sources.setdefault(m.kind, (m.node, m.topic)) != (m.node, m.topic):
                     raise ValueError('%s by %s and %s by %s: choose one emulator by --node' % (
-                        sources[kind][1], sources[kind][0] or 'nobody', topic, name or 'nobody'))
-                seq, said = int.from_bytes(data[:4], 'little'), hash(data)
-                if known.get((kind, seq), said) != said:
-                    raise ValueError('%s was started again: this is another run' % (name or 'the emulator'))
-                is_new = (kind, seq) not in known  # the bags of a split recording repeat what was before
-                known[kind, seq] = said
-                if is_new and (kind == 'Configuration' or run.configuration is not None):
-                    add[kind](data if kind == 'ImpactArray' else of_type().deserialize(data))
+                        sources[m.kind][1], sources[m.kind][0] or 'nobody', m.topic, m.node or 'nobody'))
+                number, said = (m.kind, int.from_bytes(m.data[:4], 'little')), hash(m.data)
+                if known.get(number, said) != said:
+                    raise ValueError('%s was started again: this is another run' % (m.node or 'the emulator'))
+                is_new = number not in known  # the bags of a split recording repeat what was before
+                known[number] = said
+                if is_new and (m.kind == 'Configuration' or run.configuration is not None):
+                    add[m.kind](m.data if m.kind == 'ImpactArray' else m.of_type().deserialize(m.data))
     if run.configuration is None or not run.samples:
         sys.exit('plot_run.py: %s: no run of the emulator in it' % ' '.join(paths))
     return run

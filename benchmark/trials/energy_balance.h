@@ -81,8 +81,8 @@ class EnergyBalance {
     return kTwoPi * kTwoPi * m.H * most_extension * 0x1p-52;
   }
 
-  // A tip that slides more slowly than a swing of ten tolerances of a step is at rest as far as the step can tell. Where
-  // the drag is as slow, nothing takes an error of its energy (docs/algorithm.md, "Contact").
+  // A tip that slides more slowly than a swing of ten tolerances of a step is at rest as far as the step can tell.
+  // Where the drag is as slow, nothing takes an error of its energy (docs/algorithm.md, "Contact").
   static double rest_error(const Tip& tip) {
     constexpr double kTenSteps = 2e-3;  // the tolerance of a step is a 5000th of the contact tolerance
     const double swing = kTwoPi * tip.model().frequency_ratio * kTenSteps * tip.contact_tolerance();

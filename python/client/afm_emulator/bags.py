@@ -1,0 +1,21 @@
+"""The messages of emulators in a bag, as bytes: for whoever needs few of their fields, of very many messages."""
+import collections
+
+import rosbag
+from afm_emulator import msg
+
+# Without them rosbag makes classes from the definitions in the bag, which may be damaged.
+rosbag.bag._message_types.update({kind._md5sum: kind for kind in vars(msg).values() if hasattr(kind, '_md5sum')})
+
+# kind: of its type, such as Friction; node: that published it; of_type: class of its md5sum; stamp: time of the bag
+Raw = collections.namedtuple('Raw', 'kind topic node data md5sum of_type stamp')
+
+
+def read_raw(bag, kinds):
+    """Those of these kinds, in the order of the bag."""
+    types = ['afm_emulator/' + kind for kind in kinds]
+    for topic, raw, stamp, header in bag.read_messages(
+            raw=True, return_connection_header=True, connection_filter=lambda _, datatype, *__: datatype in types):
+        node = header.get('callerid', b'')
+        yield Raw(raw[0].split('/')[1], topic, node.decode() if isinstance(node, bytes) else node, raw[1], raw[2],
+                  raw[4], stamp)
