@@ -35,10 +35,14 @@ class ContactStep {
     double stiffness = 0.0;  // of the swing [1/tau^2]; 0: that at the start
   };
 
+  // Where the tip may leave within the error, a step that moves it is made to the last digits. A step that only looks
+  // ahead is not.
+  enum class Purpose { motion, look_ahead };
+
   // tolerance: error allowed at the end of the step in x [a], and in u over the rate of the swing. Precondition:
   // `start` is on the surface.
   ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start, double tolerance,
-              const Hint& hint);
+              const Hint& hint, Purpose purpose = Purpose::motion);
 
   // Guarantee: the energy balances to rounding at every s in [0, length()].
   ContactPoint point(double s) const;
@@ -71,9 +75,8 @@ class ContactStep {
   ContactForces first_{};  // at the start
   double length_ = 0.0;
   AtGaussNodes force_{}, reaction_{};
-  SlideState<double> end_{};
-  double end_integral_ = 0.0;
-  double stiffness_ = 0.0;  // of the swing
+  double mean_displacement_ = 0.0;  // of x - x(start) over the step [a]
+  double stiffness_ = 0.0;          // of the swing
   Hint hint_;
   bool is_accurate_ = false;
 };

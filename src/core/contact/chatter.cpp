@@ -30,13 +30,13 @@ bool stays_above(double least, double S, const SpringConstants<double>& springs,
   constexpr double kTolerance = 1e-5;  // [a]
   constexpr int kMaxSteps = 2;         // a longer sequence is made
   // its reaction is along y, and never above P: that is on the safe side
-  ContactStep step(springs, eta, at, kTolerance, {});
+  ContactStep step(springs, eta, at, kTolerance, {}, ContactStep::Purpose::look_ahead);
   for (int i = 1; step.is_accurate(); ++i) {
     const double below = step.first_below(least);
     S -= step.impulse(below < 0.0 ? step.length() : below);
     if (S <= 0.0) return true;
     if (below >= 0.0 || i == kMaxSteps) return false;
-    step = ContactStep(springs, eta, step.at(step.length()), kTolerance, step.hint());
+    step = ContactStep(springs, eta, step.at(step.length()), kTolerance, step.hint(), ContactStep::Purpose::look_ahead);
   }
   return false;
 }
@@ -118,18 +118,17 @@ std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& spri
   const double gamma = 1.0 - loss_;
   double S = 2.0 * (v - end) / loss_;
   double cubes = 2.0 * (v * v * v - end * end * end) / (1.0 - gamma * gamma * gamma);
-  double n = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
   if (!constants_.constant_loss) {
-    const double k = constants_.dw_dv;
-    S += 2.0 * kLnTen / k;
-    cubes += end * end / k;
-    n += (1.0 / constants_.threshold - 1.0 / end) / k;
+    S += 2.0 * kLnTen / constants_.dw_dv;
+    cubes += end * end / constants_.dw_dv;
   }
   const ReferenceForces<double> f = reference_forces(springs, eta, at);
   // a spring that is displaced by sigma gains the speed omega_h sigma
   const double per_height = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn) * std::max(springs.omega_h, 1.0));
   const double least = std::sqrt(per_height * cubes / (3.0 * allowed));  // reaction: the displacement goes like 1/P^2
   if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return std::nullopt;
+  double n = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
+  if (!constants_.constant_loss) n += (1.0 / constants_.threshold - 1.0 / end) / constants_.dw_dv;
   const double height = cubes / (3.0 * f.P * f.P);  // its time integral
   return Chatter{0.0, std::max(n, 1.0), 2.0 * f.turn * height, f.c_height * height};
 }

@@ -127,7 +127,8 @@ inline SinCos<double> turned_by(const SinCos<double>& turn, double r) {
 
 class ContactSolver {
  public:
-  static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint);
+  static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint, ContactStep::Purpose purpose);
+  static ContactPoint end(const ContactStep& s);
   static ContactPoint balanced(const ContactStep& s, double time, double d, double u, double integral);
   static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
 
@@ -255,11 +256,15 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
   const ContactForces there = forces(m, turn, X0 + middle, 0.0);
   s.stiffness_ = std::max(there.stiffness, least);
   s.hint_ = {may_be_longer ? std::max(0, level - 1) : level, s.stiffness_};
-  const ContactPoint end = balanced(s, h, n_u + h2 * sum_of_products(kGauss.weight2, s.force_),
-                                    u0 + h * sum_of_products(kGauss.weight, s.force_),
-                                    h * ((X0 - 0.5 * eta * h) + sum_of_products(kGauss.weight, d)));
-  s.end_ = end.state, s.end_integral_ = end.extension_integral;
+  s.mean_displacement_ = sum_of_products(kGauss.weight, d);
   return true;
+}
+
+ContactPoint ContactSolver::end(const ContactStep& s) {
+  const double h = s.length_, u0 = s.start_.u;
+  return balanced(s, h, h * u0 + h * h * sum_of_products(kGauss.weight2, s.force_),
+                  u0 + h * sum_of_products(kGauss.weight, s.force_),
+                  h * ((s.start_.X - 0.5 * s.eta_ * h) + s.mean_displacement_));
 }
 
 int ContactSolver::try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint) {
@@ -275,18 +280,17 @@ int ContactSolver::try_levels(ContactStep& s, double tolerance, ContactStep::Hin
 
 // At rest for good.
 void ContactSolver::rest(ContactStep& s) {
-  s.length_ = kMaxLength, s.end_ = s.start_, s.end_integral_ = kMaxLength * s.start_.X;
-  s.stiffness_ = 1.0, s.is_accurate_ = true;
+  s.length_ = kMaxLength, s.stiffness_ = 1.0, s.is_accurate_ = true;
   for (std::size_t i = 0; i < kN; ++i) s.force_[i] = 0.0, s.reaction_[i] = s.first_.reaction;
 }
 
 // The step in which the tip may leave is made to the last digits if it is a close call: the reaction is zero for ever
 // on the glide at eta = 1.
-void ContactSolver::solve(ContactStep& s, double tolerance, ContactStep::Hint hint) {
+void ContactSolver::solve(ContactStep& s, double tolerance, ContactStep::Hint hint, ContactStep::Purpose purpose) {
   s.first_ = forces(s.m_, sin_cos_turns(s.start_.phase), s.start_.X, s.start_.u);
   if (s.eta_ == 0.0 && s.start_.u == 0.0 && s.first_.force == 0.0) return rest(s);
   const int level = try_levels(s, tolerance, hint);
-  if (tolerance <= kFinestStep || !is_close_call(s, tolerance)) return;
+  if (purpose == ContactStep::Purpose::look_ahead || tolerance <= kFinestStep || !is_close_call(s, tolerance)) return;
   const ContactStep::Hint next = s.hint_;
   try_levels(s, kFinestStep, {std::min(level + Limits::kFinerLevels, kLastLevel), s.stiffness_});
   s.hint_ = next;
@@ -323,9 +327,9 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
 }
 
 ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
-                         double tolerance, const Hint& hint)
+                         double tolerance, const Hint& hint, Purpose purpose)
     : m_(springs), eta_(eta), start_(start) {
-  ContactSolver::solve(*this, tolerance, hint);
+  ContactSolver::solve(*this, tolerance, hint, purpose);
 }
 
 Series<double> ContactStep::displacement() const {
@@ -340,7 +344,7 @@ Series<double> ContactStep::displacement() const {
 }
 
 ContactPoint ContactStep::point(double s) const {
-  if (s == length_) return {end_, end_integral_};
+  if (s == length_) return ContactSolver::end(*this);
   const Series<double> c = displacement();
   double d = 0.0, u = 0.0, integral = 0.0;
   for (std::size_t m = kN + 1; m >= 1; --m) {

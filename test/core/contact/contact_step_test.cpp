@@ -199,6 +199,24 @@ TEST_P(ContactStepOf, IsReleasedWhereTheReactionFirstVanishesAndNotBefore) {
   EXPECT_GT(releases, 100);
 }
 
+// The same motion within what an interpolation may be off, but a close call does not shorten it.
+TEST_P(ContactStepOf, LookingAheadFollowsTheMotionAtLeastAsFar) {
+  constexpr double kTolerance = 1e-6;
+  const Model model = model_of(GetParam());
+  const SpringConstants<double> m(model);
+  RandomLaunches random(5);
+  int longer = 0;
+  for (int i = 0; i < 300; ++i) {
+    const SlideState<double> start = barely_pressed_start(GetParam(), random);
+    const ContactStep motion(m, GetParam().eta, start, kTolerance, {});
+    const ContactStep ahead(m, GetParam().eta, start, kTolerance, {}, ContactStep::Purpose::look_ahead);
+    ASSERT_GE(ahead.length(), motion.length()) << i;
+    longer += ahead.length() > motion.length() ? 1 : 0;
+    ASSERT_NEAR(ahead.at(motion.length()).X, motion.at(motion.length()).X, 50.0 * kTolerance) << i;
+  }
+  EXPECT_GT(longer, 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Levers, ContactStepOf,
                          testing::Values(Lever{6.25, 0.0, 3.0}, Lever{6.25, -0.5, 0.3}, Lever{21.0, -10.0, 3.0},
                                          Lever{14.0, -90.0, 0.03}, Lever{2.0, -5.0, 1.0}, Lever{6.25, -2.0, 9.0}),
