@@ -154,6 +154,7 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
   SlideState<double>& q = to.state;
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
   const double work = 2.0 * s.eta_ * wh2 * integral, kinetic = s.first_.N2 * (s.start_.u * s.start_.u);
+  const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
   for (int i = 0; i < kMaxTries; ++i) {
     const ContactForces there = forces(s.m_, sin_cos_turns(q.phase), q.X, u);
     const double springs = wh2 * (q.X - s.start_.X) * (q.X + s.start_.X) +
@@ -163,7 +164,6 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
     const double u2 = u * u, swing = there.force * there.force / s.stiffness_;
     const bool by_velocity = u2 >= 0.25 * swing;
     if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
-      const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
       if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
       const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
       if (std::fabs(shift) < kMaxShift * time) {
@@ -177,7 +177,8 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
       q.u = std::copysign(std::sqrt(u2 - surplus), u);
       return to;
     }
-    if (std::fabs(surplus) < 1e-15 * swing) return to;
+    // a least stiffness, of a spring that is soft beside the load, makes the swing larger than all the energy
+    if (std::fabs(surplus) < 1e-15 * std::min(swing, energy / there.N2)) return to;
     const double dx = 0.5 * surplus / there.force;
     q.phase += dx, q.X += dx;
   }
