@@ -199,7 +199,9 @@ afm::SiModel take_lever(const afm::CommandLine& app, Options& o) {
 int main(int argc, char** argv) {
   Options o;
   afm::CommandLine app(
-      "real_time", "Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units).");
+      "real_time",
+      "Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units). K_f is that of\n"
+      "the losses in impacts: with a bath it is no friction.");
   app.option("eta", o.etas, "drag speeds [a/tau]; default: 0 to 9 in steps of --step");
   app.option("step", o.step, "of the default drag speeds [a/tau]");
   app.option("cutoff", o.cutoffs, "v_c [a/tau]; default: 0.1, 0.05, 0.01 and 0.001");
@@ -208,7 +210,7 @@ int main(int argc, char** argv) {
   app.option("amplitude", o.amplitudes, "of the surface [a]");
   app.option("rest-height", o.rest_heights, "of the holder above mid-surface [a]");
   app.option("temperature", o.temperatures, "kT of the heat bath [m a^2/tau^2]");
-  app.option("quality-factor", o.quality_factors, "of the cantilever; 0: no bath");
+  app.option("quality-factor", o.quality_factors, "of the cantilever; 0: neither damped nor heated");
   app.option("kicks-per-tau", o.bath.kicks_per_tau, "of the heat bath");
   app.option("tau", o.tau, "measured time each", {1.0, kLongest});
   app.option("transient", o.transient, "time before that", {0.0, kLongest});

@@ -58,6 +58,9 @@ bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s)
 
 LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& settings) {
   LyapunovSpectrum s;
+  s.exponents.fill(kNaN);
+  s.std_errors.fill(kNaN);
+  s.volume_rate = kNaN;
   if (!skip(tip, settings.transient, settings.most_events, s)) {
     s.outcome = LyapunovOutcome::budget_spent;
     return s;

@@ -1,6 +1,7 @@
 // Periodic orbits followed through a parameter.
 #include <iostream>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,16 @@ void print(int number, const afm::Branch& branch, afm::TableWriter& to) {
   print_row(number, branch.points.back(), kEnds.at(branch.end), to);
 }
 
+void check_target(const Options& options) {
+  afm::PointOptions at = options.dynamics;
+  (options.vary == "eta" ? at.eta : options.vary == "gamma" ? at.gamma : at.cutoff) = options.to;
+  try {
+    checked_model(at);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(std::string("to: ") + fault.what());
+  }
+}
+
 int run(const afm::CommandLine& app, Options options) {
   take_si(app, options.dynamics);
   if (options.vary != "gamma") afm::take_si(app, options.dynamics.si, "to", options.to);
@@ -93,6 +104,7 @@ int run(const afm::CommandLine& app, Options options) {
   if (vary == kParameters.end())
     throw std::invalid_argument("vary = " + options.vary + ": must be eta, gamma or cutoff");
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
+  check_target(options);
   options.search.longest = options.length;
   const auto found = search_orbits(afm::PoincareMap(model, eta), options.search);
   afm::TableWriter table(std::cout, columns(options.vary), afm::table_units(options.dynamics.si));

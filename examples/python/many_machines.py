@@ -4,8 +4,8 @@
 Usage: many_machines.py TABLE [--scheduler HOST:PORT] [--workers N] [--points N] [--duration TAU]
 
 Without a scheduler the workers run on this machine. Interrupted and started again, the same command goes on: the
-table holds a row for each point in order, so its length tells how many are done. A point depends on its arguments
-alone: the bytes of the table are the same for any number of workers.
+table holds a row for each point in order, so its length tells how many are done. It does not go on with a table of
+other points. A point depends on its arguments alone: the bytes of the table are the same for any number of workers.
 """
 import argparse
 import itertools
@@ -20,9 +20,13 @@ import afm
 POINTS_OF_A_TASK = 30  # dask takes some 10 ms of processor time for each task
 
 
+def begin_of_row(gamma, eta, duration):
+    return '%.17g,%.17g,%.17g,' % (gamma, eta, duration)
+
+
 def row(gamma, eta, duration):
     point = afm.friction_curve(eta, gamma=gamma, duration=duration, transient=0.1 * duration, threads=1)[0]
-    return '%.17g,%.17g,%.17g,%.17g\n' % (gamma, eta, point['k_f_work'], point['k_f_work_std_error'])
+    return begin_of_row(gamma, eta, duration) + '%.17g,%.17g\n' % (point['k_f_work'], point['k_f_work_std_error'])
 
 
 def rows(points, duration):
@@ -40,6 +44,9 @@ def main():
     points = list(itertools.product(np.linspace(0.5, 0.95, 10), np.linspace(0.05, 9.0, options.points)))
     whole = options.table.read_text().splitlines(True) if options.table.exists() else []
     done = [line for line in whole if line.endswith('\n')]  # a kill may have cut the last one
+    if len(done) > len(points) or not all(line.startswith(begin_of_row(*point, options.duration))
+                                          for line, point in zip(done, points)):
+        parser.error('%s holds other points, or was measured for another duration' % options.table)
     options.table.write_text(''.join(done))
     todo = points[len(done):]
     # silent: a heartbeat that is under way at the end is no error, and one of a task is raised by result()

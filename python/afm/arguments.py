@@ -28,15 +28,24 @@ def numbers(name: str, values: Any) -> np.ndarray:
     return array
 
 
-def count(name: str, value: Any, least: int = 0) -> int:
-    """The value as a whole number, not below `least`."""
+def count(name: str, value: Any, least: int = 0, most: int = 2 ** 31 - 1) -> int:
+    """The value as a whole number within these bounds."""
     try:
         whole = operator.index(value) if not isinstance(value, float) or not value.is_integer() else int(value)
     except TypeError:
         raise ArgumentTypeError(name, value, 'must be a whole number, at least %d' % least) from None
-    if whole < least:
-        raise ArgumentTypeError(name, value, 'must be a whole number, at least %d' % least)
+    if not least <= whole <= most:
+        bounds = 'at least %d' % least if whole < least else 'at most %d' % most
+        raise ArgumentTypeError(name, value, 'must be a whole number, ' + bounds)
     return whole
+
+
+def seed_of(value: Any) -> int:
+    return count('seed', value, most=2 ** 64 - 1)
+
+
+def thread_count(value: Any) -> int:
+    return count('threads', value, most=1024)
 
 
 def _check(name, kind, value):
@@ -45,7 +54,7 @@ def _check(name, kind, value):
     if last in ('float', 'SupportsFloat'):
         number(name, value)
     elif last in ('int', 'SupportsInt', 'SupportsIndex'):
-        count(name, value)
+        count(name, value, most=2 ** 64 - 1)
     elif last == 'str' and not isinstance(value, str):
         raise ArgumentTypeError(name, value, 'must be a text')
     elif kind.startswith('afm.') and type(value).__name__ != last:

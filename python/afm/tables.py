@@ -5,7 +5,7 @@ import numpy as np
 
 from . import _afm
 from ._afm import Bath, Model
-from .arguments import count, number, numbers
+from .arguments import count, number, numbers, seed_of, thread_count
 from .errors import ArgumentTypeError, ParameterError
 
 Axis = Union[float, np.ndarray]
@@ -34,6 +34,8 @@ def _axes(model, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio):
 def _model(model: Union[str, Model]) -> Model:
     if not isinstance(model, (str, Model)):
         raise ArgumentTypeError('model', model, "must be 'oscillator', 'hammer', or a Model")
+    if isinstance(model, str) and model not in ('oscillator', 'hammer'):
+        raise ParameterError('model', model, 'must be oscillator or hammer')
     return Model(kind=model) if isinstance(model, str) else model
 
 
@@ -50,7 +52,8 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     eta [a/tau], gamma, cutoff [a/tau], rest_height [a], amplitude [a], frequency_ratio: numbers or arrays (k,); None is
     the model's. The points are all combinations, eta changing fastest, then gamma and so on.
     model: 'oscillator', 'hammer', or a Model; duration and transient: of the measurement and before it [tau].
-    sweep: 'fresh' from random starts; 'up', 'down' from where the point before ended, along eta.
+    sweep: 'fresh' from random starts; 'up', 'down' from where the point before ended, along eta, which must ascend.
+    With 'down' the drag velocity falls, and so do the rows.
     bath: a heat bath; or in place of it its numbers: temperature kT [m a^2/tau^2], quality_factor (above 0: there is a
     bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's, or 1.
     threads: 0 is one for each processor; no bit depends on it. progress(done, all) is called ten times a second.
@@ -64,15 +67,19 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     chosen = _model(model)
     if bath is None:
         bath = Bath(temperature, quality_factor, lateral_quality_factor, kicks_per_tau,
-                    1 if seed is None else count('seed', seed))
+                    1 if seed is None else seed_of(seed))
     elif not isinstance(bath, Bath):
         raise ArgumentTypeError('bath', bath, 'must be a Bath')
     elif (temperature, quality_factor, lateral_quality_factor, kicks_per_tau) != (0.0, 0.0, 0.0, Bath().kicks_per_tau):
         raise ParameterError('bath', bath, 'is given beside temperature, quality factors or kicks_per_tau: give either')
-    seed = bath.seed if seed is None else count('seed', seed)
+    seed = bath.seed if seed is None else seed_of(seed)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
+    if not isinstance(sweep, str):
+        raise ArgumentTypeError('sweep', sweep, 'must be fresh, up or down')
+    if sweep != 'fresh' and not np.all(np.diff(axes[0]) > 0.0):
+        raise ParameterError('eta', eta, 'must ascend where sweep is up or down')
     return _structured(*_afm.friction_curve(axes, chosen.kind, sweep, number('duration', duration),
-                                            number('transient', transient), bath, seed, count('threads', threads),
+                                            number('transient', transient), bath, seed, thread_count(threads),
                                             progress))
 
 
@@ -108,8 +115,8 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
     how_many = count('starts', starts) if np.ndim(starts) == 0 else len(given)
     *table, where = _laboratory('attractors')(
-        points, chosen.kind, how_many, given, count('seed', seed), number('transient', transient),
-        number('duration', duration), number('friction_duration', friction_duration), count('threads', threads))
+        points, chosen.kind, how_many, given, seed_of(seed), number('transient', transient),
+        number('duration', duration), number('friction_duration', friction_duration), thread_count(threads))
     found = _structured(*table, whole=('impacts', 'cells'))
     if not labels:
         return found
@@ -139,7 +146,7 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
     """
     columns, rows, _ = _laboratory('periodic_orbits')(
         _model(model), number('eta', eta), count('max_length', max_length), count('trajectory', trajectory),
-        count('guesses', guesses), count('seed', seed))
+        count('guesses', guesses), seed_of(seed))
     width = len(columns) - 8  # behind them the multipliers' real and imaginary parts
     whole = ('length', 'cells')
     orbits = np.empty(len(rows), [(c, 'i8' if c in whole else 'f8') for c in columns[:width]] +
@@ -161,7 +168,14 @@ def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase
     return _laboratory('lyapunov')(
         _model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u,
         number('w', w), number('transient', transient), number('duration', duration),
-        count('most_events', most_events, 1), number('contact_tolerance', contact_tolerance))
+        count('most_events', most_events, 1, 2 ** 64 - 1), number('contact_tolerance', contact_tolerance))
+
+
+def _any_shape(name, values):
+    try:
+        return np.asarray(values + 0.0 if isinstance(values, (str, bytes)) else values, float)
+    except (TypeError, ValueError):
+        raise ArgumentTypeError(name, values, 'must be numbers') from None
 
 
 _INPUTS = ('eta', 'gamma', 'cutoff', 'phase', 'extension', 'u', 'w')
@@ -184,18 +198,22 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
     chosen = _model(model)
     given: Dict[str, Axis] = {'gamma': chosen.gamma, 'cutoff': chosen.cutoff}
     if states is not None:
-        given.update({name: states[name] for name in _INPUTS if name in states.dtype.names})
+        fields = getattr(getattr(states, 'dtype', None), 'names', None)
+        if not fields:
+            raise ArgumentTypeError('states', states, 'must be a structured array with the fields %s' %
+                                    ', '.join(_INPUTS))
+        given.update({name: states[name] for name in _INPUTS if name in fields})
     given.update(columns)
     wrong = sorted(set(given) - set(_INPUTS)) + sorted(set(_INPUTS) - set(given))
     if wrong:
         raise TypeError('next_impact() needs %s; wrong or missing: %s' % (', '.join(_INPUTS), ', '.join(wrong)))
     if on_error not in ('raise', 'nan'):
-        raise ValueError('on_error = %s: must be raise or nan' % on_error)
-    inputs = np.broadcast_arrays(*(np.asarray(given[name], float) for name in _INPUTS))
+        raise ParameterError('on_error', on_error, 'must be raise or nan')
+    inputs = np.broadcast_arrays(*(_any_shape(name, given[name]) for name in _INPUTS))
     shape = inputs[0].shape
     constants = [np.full(shape, x) for x in (chosen.rest_height, chosen.amplitude, chosen.frequency_ratio)]
     rows = np.stack([column.ravel() for column in list(inputs) + constants], axis=1)
-    results, fault = _afm.next_impact(rows, chosen.kind, count('threads', threads))
+    results, fault = _afm.next_impact(rows, chosen.kind, thread_count(threads))
     results = results.reshape(-1, len(_RESULTS))
     if fault is not None and on_error == 'raise':
         _afm.check_flight(rows[fault[0]], chosen.kind)

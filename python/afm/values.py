@@ -115,7 +115,8 @@ class Lyapunov(NamedTuple):
     events: int
 
 
-_document(Lyapunov, exponents='(4,) [1/tau]; minus infinity where a direction collapses in contact',
+_document(Lyapunov, exponents='(4,) [1/tau]; after a contact the last two are minus infinity, of a hammer too',
           std_errors='(4,) [1/tau]', outcome='measured, budget_spent, no_event, search_failed or no_number',
-          rank='how many exponents are finite', volume_rate='what their sum must be [1/tau]', duration='measured [tau]',
+          rank='how many exponents are finite', duration='measured [tau]',
+          volume_rate='what their sum must be [1/tau]; NaN after a chatter sequence: contact_tolerance=0 has none',
           events='on the way')

@@ -36,13 +36,21 @@ void raise(const std::vector<ParameterError>& faults) {
   PyErr_SetObject(type.ptr(), first.ptr());
 }
 
-[[noreturn]] void refuse_type(const char* name, const py::handle& value, const char* reason) {
-  const py::object type = py::module::import("afm.errors").attr("ArgumentTypeError");
-  PyErr_SetObject(type.ptr(), type(name, value, reason).ptr());
+[[noreturn]] void raise(const char* type, const char* name, const py::handle& value, const char* reason) {
+  const py::object error = py::module::import("afm.errors").attr(type);
+  PyErr_SetObject(error.ptr(), error(name, value, reason).ptr());
   throw py::error_already_set();
 }
 
 }  // namespace
+
+void refuse_type(const char* name, const py::handle& value, const char* reason) {
+  raise("ArgumentTypeError", name, value, reason);
+}
+
+void refuse_word(const char* name, const std::string& word, const char* reason) {
+  raise("ParameterError", name, py::str(word), reason);
+}
 
 void refuse(const std::vector<ParameterError>& faults) {
   if (faults.empty()) return;
@@ -80,7 +88,7 @@ std::uint64_t whole(const char* name, const py::handle& value) {
 
 ModelKind kind_of(const std::string& name) {
   ModelKind kind = ModelKind::oscillator;
-  if (!parse(name, kind)) throw py::value_error("kind = " + name + ": must be oscillator or hammer");
+  if (!parse(name, kind)) refuse_word("kind", name, "must be oscillator or hammer");
   return kind;
 }
 
@@ -89,10 +97,10 @@ ModelTime to_time(const py::object& time) {
   ModelTime result;
   if (py::isinstance<py::tuple>(time)) {
     const auto parts = py::reinterpret_borrow<py::tuple>(time);
-    if (parts.size() != 2 || !py::isinstance<py::int_>(parts[0])) {
+    if (parts.size() != 2 || PyIndex_Check(parts[0].ptr()) == 0) {  // NumPy's whole numbers too, as of an event
       refuse_type("time", time, "must be a number of tau, or whole tau and a phase");
     }
-    result = {parts[0].cast<std::int64_t>(), real("time", parts[1])};
+    result = {py::int_(parts[0]).cast<std::int64_t>(), real("time", parts[1])};
     require(result.phase >= 0.0 && result.phase < 1.0, "time", result.phase, "the phase must be in [0, 1)");
   } else {
     const double tau = real("time", time);
@@ -119,8 +127,8 @@ py::dict to_python(const FrictionEstimate& f) {
                   "heat_to_bath"_a = f.heat_to_bath);
 }
 
-RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
-                             const py::object& u, double w, double contact_tolerance) {
+RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
+                        double w, double contact_tolerance) {
   RunSettings settings;
   settings.model = model;
   settings.eta = eta;

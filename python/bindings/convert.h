@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "afm/run.h"
 #include "afm/model.h"
+#include "afm/run.h"
 #include "afm/state.h"
 
 namespace afm::python {
@@ -31,10 +31,13 @@ void warn(const std::vector<ParameterError>& traps);
 void require(bool holds, const char* name, double value, const char* reason);
 
 // An argument that takes more than one type. Raises afm.ParameterError if it is something else.
+[[noreturn]] void refuse_type(const char* name, const py::handle& value, const char* reason);  // of the wrong type
 double real(const char* name, const py::handle& value);
 std::uint64_t whole(const char* name, const py::handle& value);
 
-ModelKind kind_of(const std::string& name);  // throws ValueError
+// One of the words that an argument may be. Raises afm.ParameterError with the reason if it is none.
+[[noreturn]] void refuse_word(const char* name, const std::string& word, const char* reason);
+ModelKind kind_of(const std::string& name);
 
 // A number of tau, or whole tau and a phase.
 ModelTime to_time(const py::object& time);
@@ -43,8 +46,8 @@ py::object to_python(const FreeState& state);  // afm.State
 py::dict to_python(const FrictionEstimate& friction);
 
 // The start of every run, unchecked; u None: the drag velocity.
-RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y,
-                             const py::object& u, double w, double contact_tolerance);
+RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
+                        double w, double contact_tolerance);
 
 py::dtype impact_dtype();  // of the library's own records
 

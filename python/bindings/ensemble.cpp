@@ -31,7 +31,7 @@ class PyEnsemble {
 
   std::size_t size() const { return ensemble_.size(); }
 
-  // In chunks, so that signals are seen. No bit depends on them.
+  // In chunks of time and of events, so that signals are seen. No bit depends on them.
   py::array advance(const py::object& time) {
     constexpr double kAtATime = 1e4;  // tau of all tips together: about a second in contact
     const ModelTime end = to_time(time);
@@ -41,13 +41,13 @@ class PyEnsemble {
       require(own <= end, "time", end - ModelTime{}, "lies before the present of a tip");
       now = std::min(now, own);
     }
-    std::vector<double> events(size(), 0.0);
+    std::vector<std::int64_t> events(size(), 0);
     const double chunk = kAtATime / static_cast<double>(std::max<std::size_t>(1, size()));
     while (now < end) {
       now = end - now > chunk ? now + chunk : end;
       advance_to(now, events);
     }
-    return to_array(std::move(events));
+    return to_array(std::move(events), py::dtype::of<std::int64_t>());
   }
 
   void drag(double eta) {
@@ -55,19 +55,28 @@ class PyEnsemble {
     for (std::size_t i = 0; i < size(); ++i) ensemble_.drag(i, eta);
   }
 
-  PyTip tip(std::size_t i) const {
-    if (i >= size()) throw py::index_error("an ensemble of " + std::to_string(size()) + " tips");
-    return {ensemble_.tip(i), earlier_failures_[i]};
+  PyTip tip(py::ssize_t i) const {
+    const auto n = static_cast<py::ssize_t>(size());
+    if (i < -n || i >= n) throw py::index_error("an ensemble of " + std::to_string(n) + " tips");
+    const auto of = static_cast<std::size_t>(i < 0 ? i + n : i);
+    return {ensemble_.tip(of), earlier_failures_[of]};
   }
 
  private:
-  void advance_to(const ModelTime& stop, std::vector<double>& events) {
-    {
-      const py::gil_scoped_release released;
-      ensemble_.advance(stop);
+  void advance_to(const ModelTime& stop, std::vector<std::int64_t>& events) {
+    constexpr std::uint32_t kAtATime = 10000;  // events of each tip
+    for (bool more = true; more;) {
+      {
+        const py::gil_scoped_release released;
+        ensemble_.advance(kAtATime, stop);
+      }
+      more = false;
+      for (std::size_t i = 0; i < size(); ++i) {
+        events[i] += ensemble_.events(i);
+        more = more || ensemble_.events(i) == kAtATime;
+      }
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     }
-    for (std::size_t i = 0; i < size(); ++i) events[i] += ensemble_.events(i);
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
 
   Ensemble ensemble_;

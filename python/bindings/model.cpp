@@ -97,13 +97,14 @@ seed, stream: of its random numbers; tips with different streams are independent
   bath.def(py::init(&to_bath), "temperature"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
            "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "stream"_a = none.stream)
       .def_readonly("temperature", &Bath::temperature, "kT [m a^2/tau^2]; 0: damping alone")
-      .def_readonly("quality_factor", &Bath::quality_factor, "of the vertical spring; 0: no bath")
+      .def_readonly("quality_factor", &Bath::quality_factor, "of the vertical spring; 0: not damped, not heated")
       .def_readonly("lateral_quality_factor", &Bath::lateral_quality_factor,
                     "of the horizontal spring; 0: as the vertical one")
       .def_readonly("kicks_per_tau", &Bath::kicks_per_tau, "rate of the kicks [1/tau]: speed against accuracy")
       .def_readonly("seed", &Bath::seed, "of the random numbers")
       .def_readonly("stream", &Bath::stream, "which sequence of the seed; tips with different streams are independent")
-      .def("__eq__", [](const Bath& a, const Bath& b) { return a == b; });
+      .def(
+          "__eq__", [](const Bath& a, const Bath& b) { return a == b; }, py::is_operator());
   add_call(bath);
 }
 
@@ -134,7 +135,10 @@ resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in p
       .def_property_readonly("energy", unit(&Units::energy), "[J]")
       .def_property_readonly("force", unit(&Units::force), "[N]")
       .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m_tip/tau")
-      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT");
+      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT")
+      .def(
+          "__eq__", [](const SiUnits& a, const SiUnits& b) { return arguments(a).equal(arguments(b)); },
+          py::is_operator());
   add_call(units);
 }
 
@@ -159,7 +163,8 @@ An object cannot be changed. Throws ParameterError.)");
       .def_readonly("frequency_ratio", &Model::frequency_ratio, "omega_h / omega_v")
       .def_property_readonly(
           "kind", [](const Model& self) { return name(self.kind); }, "'oscillator' or 'hammer'")
-      .def("__eq__", [](const Model& a, const Model& b) { return arguments(a).equal(arguments(b)); });
+      .def(
+          "__eq__", [](const Model& a, const Model& b) { return arguments(a).equal(arguments(b)); }, py::is_operator());
   add_call(model);
   add_bath(m);
   add_units(m);

@@ -50,7 +50,7 @@ double apply(Run& self, const py::kwargs& what) {
     else if (name == "bath" && py::isinstance<Bath>(item.second))
       live.bath = item.second.cast<Bath>();
     else if (name == "bath")
-      throw py::type_error("bath = " + std::string(py::repr(item.second)) + ": must be a Bath");
+      refuse_type("bath", item.second, "must be a Bath");
     else if (name == "kind")
       live.level.kind = kind_of(py::str(item.second));
     else
@@ -97,20 +97,24 @@ class Joined {
   Batch all_;
 };
 
-// Batch by batch until the time is reached, or so many impacts; without the GIL, ten times a second a signal may be
+// Until the time is reached, or the batch ends, or so many impacts; without the GIL, ten times a second a signal may be
 // raised.
-void advance_to(Run& run, const ModelTime& time, std::uint64_t impacts, Joined& joined) {
+enum class Until { time, end_of_batch };
+void advance_to(Run& run, Until until, const ModelTime& time, std::uint64_t impacts, Joined& joined) {
   constexpr std::chrono::milliseconds kBetweenSignals(100);
+  constexpr std::uint64_t kImpactsAtATime = 10000;
   for (bool done = false; !done;) {
     {
       const py::gil_scoped_release released;
       const auto end = std::chrono::steady_clock::now() + kBetweenSignals;
       while (!done && std::chrono::steady_clock::now() < end) {
         Batch batch;
-        const Outcome outcome = run.advance(time, std::min(impacts, run.settings().impact_budget), batch);
+        const Outcome outcome =
+            run.advance(time, std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
         impacts -= std::min<std::uint64_t>(impacts, batch.impacts.size());
         joined.add(batch);
-        done = impacts == 0 || (outcome == Outcome::time_limit && !(run.now() < time));
+        const bool ended = until == Until::end_of_batch || !(run.now() < time);
+        done = impacts == 0 || (outcome == Outcome::time_limit && ended);
       }
     }
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -118,20 +122,15 @@ void advance_to(Run& run, const ModelTime& time, std::uint64_t impacts, Joined& 
 }
 
 py::object advance(Run& self, const py::object& time, const py::object& impacts) {
-  std::uint64_t most = ~std::uint64_t{0};
-  if (!impacts.is_none()) most = whole("impacts", impacts);
   Joined joined;
   if (time.is_none()) {
-    Batch batch;
-    {
-      const py::gil_scoped_release released;
-      impacts.is_none() ? self.advance(batch) : self.advance(kEndOfTime, most, batch);
-    }
-    joined.add(batch);
+    const std::uint64_t most = impacts.is_none() ? self.settings().impact_budget : whole("impacts", impacts);
+    advance_to(self, Until::end_of_batch, kEndOfTime, most, joined);
   } else {
+    const std::uint64_t most = impacts.is_none() ? ~std::uint64_t{0} : whole("impacts", impacts);
     const ModelTime end = to_time(time);
     require(self.now() <= end, "time", end - ModelTime{}, "lies before the run's present");
-    advance_to(self, end, most, joined);
+    advance_to(self, Until::time, end, most, joined);
   }
   return joined.result(self.settings().sample_period);
 }
@@ -151,7 +150,8 @@ void add_run(py::module& m) {
                   R"(A run as the node runs it: samples on a grid, impacts, friction, batch by batch.
 
 What the node publishes of a run is a function of these arguments and the times of commands, to the last bit.
-eta [a/tau]; start as of Tip; sample_period, friction_window [tau]. Throws ParameterError.)")
+eta [a/tau]; start as of Tip; sample_period, friction_window [tau]; samples_per_batch; impact_budget: events of a
+batch, after which it ends early; contact_tolerance as of Tip. Throws ParameterError.)")
       .def(py::init(&to_run), "model"_a = s.model, "eta"_a = s.eta, "phase"_a = s.initial.phase,
            "extension"_a = s.initial.X, "y"_a = s.initial.y, "u"_a = py::none(), "w"_a = s.initial.w,
            "sample_period"_a = s.sample_period, "samples_per_batch"_a = s.samples_per_batch,
@@ -160,7 +160,7 @@ eta [a/tau]; start as of Tip; sample_period, friction_window [tau]. Throws Param
       .def_static("from_snapshot", &to_run_again, "snapshot"_a,
                   "A run that goes on as the one whose snapshot() this is, with the same bits.")
       .def("advance", &advance, "time"_a = py::none(), "impacts"_a = py::none(),
-           R"(To a model time [tau] (a number, or a ModelTime); None: to the end of the batch.
+           R"(To a model time [tau] (a number, or a ModelTime); None: to the end of the batch, or of its impact_budget.
 
 With `impacts`, it ends earlier once so many impacts have happened. Returns a Batch: begin, end, first_sample,
 first_sample_time, sample_period [tau], vertical and lateral [a], first_impact, impacts (as Tip.advance), eta, holder,

@@ -43,7 +43,7 @@ class ToDict {
 class FromDict {
  public:
   explicit FromDict(const py::dict& dict) : dict_(dict) {
-    for (const auto& item : dict) unread_.insert(item.first.cast<std::string>());
+    for (const auto& item : dict) unread_.insert(py::str(item.first));
   }
   template <class T>
   void operator()(const char* name, T& value) {

@@ -31,7 +31,7 @@ SweepDirection direction_of(const std::string& name) {
   if (name == "fresh") return SweepDirection::fresh;
   if (name == "up") return SweepDirection::up;
   if (name == "down") return SweepDirection::down;
-  throw py::value_error("sweep = " + name + ": must be fresh, up or down");
+  refuse_word("sweep", name, "must be fresh, up or down");
 }
 
 // The curve over the axes (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio).

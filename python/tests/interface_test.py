@@ -37,7 +37,7 @@ class Errors(unittest.TestCase):
         fault = caught.exception
         self.assertEqual((fault.name, fault.value), (name, value))
         self.assertGreater(len(fault.reason), 10)
-        self.assertIn('%s = %s: %s' % (name, value, fault.reason), str(fault))
+        self.assertIn('%s = %r: %s' % (name, value, fault.reason), str(fault))
         return fault
 
     def test_the_argument_is_named(self):
@@ -103,6 +103,11 @@ class Errors(unittest.TestCase):
                            ('seed', lambda: afm.friction_curve(2, seed='one')),
                            ('bath', lambda: afm.friction_curve(2, bath=0.9)),
                            ('model', lambda: afm.friction_curve(2, model=1)),
+                           ('sweep', lambda: afm.friction_curve(2, sweep=None)),
+                           ('threads', lambda: afm.friction_curve(2, threads=2**40)),
+                           ('seed', lambda: afm.friction_curve(2, seed=2**64)), ('seed', lambda: afm.Bath(seed=2**64)),
+                           ('states', lambda: afm.next_impact([1, 2])), ('bath', lambda: run.apply(bath=3)),
+                           ('eta', lambda: afm.next_impact(eta='2', phase=0, extension=0, u=0, w=1)),
                            ('starts', lambda: afm.attractors(2, starts='many')),
                            ('starts', lambda: afm.attractors(2, starts=[[1, 2]])),
                            ('eta', lambda: afm.periodic_orbits('fast')), ('u', lambda: afm.lyapunov(u='fast'))):
@@ -126,13 +131,16 @@ class Errors(unittest.TestCase):
         self.assertIsInstance(fault, ValueError)
 
     def test_words_that_are_no_choice(self):
-        for call in (lambda: afm.Model(kind='saw'), lambda: afm.friction_curve(2.0, sweep='sideways'),
-                     lambda: afm.next_impact(eta=2, phase=0, extension=0, u=2, w=1, on_error='ignore')):
-            self.assertRaises(ValueError, call)
+        self.refused('kind', 'saw', afm.Model, kind='saw')
+        self.refused('kind', 'saw', afm.Run().apply, kind='saw')
+        self.refused('model', 'saw', afm.friction_curve, 2.0, model='saw')
+        self.refused('sweep', 'sideways', afm.friction_curve, 2.0, sweep='sideways')
+        self.refused('on_error', 'ignore', afm.next_impact, eta=2, phase=0, extension=0, u=2, w=1, on_error='ignore')
+        falling = [3.0, 2.5, 2.0]  # once this swept up
+        self.refused('eta', falling, afm.friction_curve, falling, sweep='down')
         self.assertRaises(TypeError, afm.next_impact, eta=2, speed=3)
         self.assertRaises(TypeError, afm.Run().apply, colour=1)
         self.assertRaises(TypeError, afm.Run().apply, gamma='high')
-        self.assertRaises(ValueError, afm.Run().apply, kind='saw')
 
     def test_a_snapshot_that_is_none(self):
         snapshot = afm.Run().snapshot()
@@ -291,6 +299,17 @@ class Arrays(unittest.TestCase):
         self.assertEqual((again.model, again.length, again.energy), (units.model, units.length, units.energy))
         with self.assertRaises(AttributeError):
             afm.Model().gamma = 0.5
+
+    def test_values_compare_with_anything(self):
+        for value, other in ((afm.Model(), afm.Model(gamma=0.1)), (afm.Bath(), afm.Bath(0, 9)),
+                             (afm.Units(), afm.Units(restitution_gamma=0.1))):
+            self.assertTrue(value == eval(repr(value), vars(afm)) and value != other and value != None)  # noqa: E711
+            self.assertIn(value, [None, 1, value])
+
+    def test_the_time_of_an_event_is_a_time(self):
+        event = afm.Tip(eta=2.0).advance(10)[-1]
+        again = afm.Tip(eta=2.0)
+        self.assertEqual(again.advance((event['tau'], event['phase']))[-1], event)
 
     def test_model_times_keep_their_digits(self):
         late = afm.ModelTime(10**12, 0.1)

@@ -21,6 +21,8 @@ CALLS = {
     'attractors in contact': 'afm.attractors(0.5, rest_height=-2.0, duration=1e8, transient=1e8)',
     'friction_curve in contact': 'afm.friction_curve(0.5, rest_height=-2.0, duration=1e10, transient=1e10)',
     'Ensemble.advance in contact': 'afm.Ensemble([afm.Tip(afm.Model(rest_height=-2.0), eta=0.5)]).advance(1e10)',
+    'Ensemble.advance of endless bounces': 'afm.Ensemble([afm.Tip(eta=0.2, contact_tolerance=0)]).advance(1e10)',
+    'Run.advance by impacts': 'afm.Run(eta=0.2, contact_tolerance=0).advance(impacts=10**9)',
     'lyapunov': 'afm.lyapunov(3.4, duration=1e10, most_events=10**12)',
     'advance': 'afm.Tip().advance(1e10, most_events=10**12)',
     'samples': 'afm.Tip(afm.Model(gamma=0.0), eta=1.0).samples(1e5, 10**7)',

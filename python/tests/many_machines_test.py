@@ -56,9 +56,12 @@ class ManyMachines(unittest.TestCase):
             table.write(b'0.5,')  # a line that a kill has cut short
         self.assertLess((self.folder / 'stopped.csv').read_bytes().count(b'\n'), 10 * points, 'it was not stopped')
         self.assertEqual(self.table('stopped.csv', 2, points), one)
-        gamma, eta, friction, _ = np.array([line.split(b',') for line in one.splitlines()], dtype=float)[-1]
+        gamma, eta, _, friction, _ = np.array([line.split(b',') for line in one.splitlines()], dtype=float)[-1]
         curve = afm.friction_curve(eta, gamma=gamma, duration=DURATION, transient=0.1 * DURATION)
         self.assertEqual(curve['k_f_work'][0], friction)
+        other = self.start('one.csv', 1, points + 1)
+        self.assertIn(b'holds other points', other.communicate(timeout=DEADLINE)[0])
+        self.assertEqual((other.returncode, (self.folder / 'one.csv').read_bytes()), (2, one))
 
 
 if __name__ == '__main__':

@@ -5,12 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <iostream>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "afm/number_text.h"
+#include "common/csv.h"
 #include "rows.h"
 
 namespace afm {
@@ -39,6 +43,18 @@ std::string with_units(const std::string& identity, const TableUnits& units) {
   return text;
 }
 
+// Is the row that of the point, whatever was found there?
+bool is_row_of(const SweepPoint& point, const std::string& line, const TableUnits& units) {
+  constexpr std::size_t kOfThePoint[] = {0, 1, 2, 10, 11, 12};  // of curve_columns()
+  std::ostringstream text;
+  TableWriter writer(text, curve_columns(), units);
+  write_row(point, {}, writer);
+  const std::vector<std::string> expected = split_fields(text.str()), there = split_fields(line);
+  return there.size() == expected.size() &&
+         std::all_of(std::begin(kOfThePoint), std::end(kOfThePoint),
+                     [&](std::size_t column) { return there[column] == expected[column]; });
+}
+
 }  // namespace
 
 CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, const SweepGrid& grid,
@@ -47,7 +63,7 @@ CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, con
   errno = 0;
   if (!is_stream(path)) {
     claim(with_units(identity(settings), units));
-    keep_whole_chains(units.header(curve_columns()));
+    keep_whole_chains(units);
   }
   if (path != "-") file_.open(path, std::ios::binary | std::ios::app);
   if (!has_content(path)) writer_.write_header();
@@ -82,14 +98,19 @@ void CurveFile::claim(const std::string& identity) {
 }
 
 // Cuts off the line that a kill cut short, and the rows of a chain that was not finished: where the next point of it
-// would begin is not in the table.
-void CurveFile::keep_whole_chains(const std::string& header) {
+// would begin is not in the table. The rows before must be those of the points.
+void CurveFile::keep_whole_chains(const TableUnits& units) {
+  const std::string header = units.header(curve_columns());
   std::ifstream file(path_, std::ios::binary);
   std::string line;
   std::size_t lines = 0;
   off_t size = 0, kept = 0;
   while (std::getline(file, line) && !file.eof()) {
     if (lines == 0 && line != header) throw std::runtime_error("it has other columns");
+    if (lines > grid_.size()) throw std::runtime_error("it has more rows than points");
+    if (lines > 0 && !is_row_of(grid_.at(lines - 1), line, units)) {
+      throw std::runtime_error("line " + std::to_string(lines + 1) + " is not the row of its point");
+    }
     size += static_cast<off_t>(line.size() + 1);
     if (lines++ % grid_.chain_length() != 0) continue;
     kept = size;

@@ -27,7 +27,7 @@ class CurveFile {
 
  private:
   void claim(const std::string& identity);
-  void keep_whole_chains(const std::string& header);
+  void keep_whole_chains(const TableUnits& units);
 
   const std::string path_;
   const SweepGrid& grid_;

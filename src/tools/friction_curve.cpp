@@ -54,7 +54,7 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("amplitude", o.amplitude, "of the surface [a]; mica: 0.05/0.52");
   app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v; mica: 6.25");
   app.option("temperature", sweep.bath.temperature, "kT of the heat bath [m a^2/tau^2]; at 300 K 0.926");
-  app.option("quality-factor", sweep.bath.quality_factor, "of the cantilever; 0: no bath");
+  app.option("quality-factor", sweep.bath.quality_factor, "of the cantilever; 0: neither damped nor heated");
   app.option("lateral-quality-factor", sweep.bath.lateral_quality_factor,
              "of the horizontal spring; 0: as the vertical");
   app.option("kicks-per-tau", sweep.bath.kicks_per_tau, "of the heat bath");

@@ -143,6 +143,15 @@ class Refusals(Case):
         curve.unlink()
         self.assertNotEqual(self.table([*MAP, '--seed', '2'], 'curve.csv'), table)
 
+    def test_a_damaged_table(self):
+        """Once a lost row was made up for at the end."""
+        lines = self.table(MAP, 'curve.csv').splitlines(True)
+        curve = self.directory / 'curve.csv'
+        for damaged in (lines[:3] + lines[4:], lines[:3] + [b'junk\n'] + lines[4:], lines + lines[-1:]):
+            curve.write_bytes(b''.join(damaged))
+            done = self.run_tool(MAP, 'curve.csv')
+            self.assertEqual((done.returncode, curve.read_bytes()), (2, b''.join(damaged)), done.stderr)
+
     def test_a_file_of_someone_else(self):
         notes = self.directory / 'notes.csv'
         notes.write_text('mine\n')

@@ -30,7 +30,7 @@ enum class LyapunovOutcome : std::uint8_t {
 // Largest first [1/tau]. In contact two directions collapse, so after a contact the last two exponents are minus
 // infinity. The hammer has two exponents, and none after contact; the others are minus infinity. std_errors come from
 // batch means. On a chaotic orbit they are the scatter; on a regular one the error falls like 1/duration, and they
-// bound nothing.
+// bound nothing. All are NaN where nothing was measured.
 struct LyapunovSpectrum {
   LyapunovOutcome outcome = LyapunovOutcome::no_event;
   int rank = 0;  // exponents that are finite
