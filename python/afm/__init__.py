@@ -21,7 +21,7 @@ is no friction, as the bath feeds the impacts: at eta = 0.1 and 300 K k_f is 20 
 What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL
 and end at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A
 copy has the bits of the original; pickling splits the motion under way in what is pickled, so that its last digits may
-differ.
+differ, and in a chatter sequence those below contact_tolerance.
 """
 from .errors import ArgumentTypeError, ParameterError
 from .values import Batch, Kind, Lyapunov, ModelTime, Samples, State

@@ -205,7 +205,7 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
           "now", [](const PyTip& self) { return to_python(self.tip.now()); }, "ModelTime")
       .def_property_readonly(
           "state", [](const PyTip& self) { return to_python(self.tip.state()); },
-          "State(phase, extension, y, u, w) at now, in the lab [a, a/tau]")
+          "State(phase, extension, y, u, w) at now, in the lab [a, a/tau]; in a chatter sequence without its bounces")
       .def_property_readonly(
           "eta", [](const PyTip& self) { return self.tip.eta(); }, "drag velocity [a/tau]")
       .def_property_readonly(
