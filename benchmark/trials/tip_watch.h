@@ -99,8 +99,13 @@ class TipWatch {
     const Deflection d = tip_.deflection(t);
     if (!std::isfinite(d.vertical) || !std::isfinite(d.lateral) || !std::isfinite(d.gap)) return violated("not finite");
     if (!(d.gap < 0.0)) return true;
-    // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the extension
-    const double place = std::max(0.25, std::abs(d.lateral));
+    // the height, and what the surface rises by over the rounding of the place: of a phase below 1, of the amplitude of
+    // the lateral swing, by which a flight bounds its rounding (Lemma 7 of docs/algorithm.md)
+    const TipState now = tip_.tip_state();
+    const double omega_h = kTwoPi * tip_.model().frequency_ratio;
+    const double swing =
+        tip_.model().kind == ModelKind::hammer ? 0.0 : std::hypot(now.X, (now.u - tip_.eta()) / omega_h);
+    const double place = std::max({0.25, std::abs(d.lateral), swing});
     // and what the tip falls by over the rounding of the time, from 9 a/tau on
     Tip then = tip_;
     then.advance_segment(t);

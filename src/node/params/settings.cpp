@@ -17,7 +17,9 @@ Level full_level(const Parameters& p) {
 }  // namespace
 
 std::uint64_t samples_per_batch(const Parameters& p) {
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(p.sample_rate_hz * p.time_scale / p.batch_rate_hz)));
+  constexpr double kMost = 1e15;  // of a damaged recording: its faults say what is wrong
+  const double samples = std::round(p.sample_rate_hz * p.time_scale / p.batch_rate_hz);
+  return static_cast<std::uint64_t>(std::min(std::max(1.0, samples), kMost));
 }
 
 std::chrono::nanoseconds batch_period(const Parameters& p) {
