@@ -5,8 +5,8 @@
 
 namespace afm {
 
-// The fewest digits that give the same double back. Decimal notation from 0.0001 up to ten million (0.1, 300000), else
-// powers of ten (1e-06); a decimal point, whatever the locale.
+// The fewest digits that give the same double back. Decimal notation from 0.0001 up to ten million (0.1, 300000) and
+// where it is no longer, else powers of ten (1e-06); a decimal point, whatever the locale.
 std::string number_text(double value);
 
 }  // namespace afm

@@ -109,7 +109,8 @@ class Run {
   Outcome advance(const ModelTime& limit, std::uint64_t impacts, Batch& batch);
 
   // The state at now(). It splits the motion under way as a command does: this run goes on as one made from the
-  // snapshot, with the same bits. No allocation. Precondition: can_split().
+  // snapshot, with the same bits; a second one at the same time counts as well. No allocation. Precondition:
+  // can_split().
   Snapshot split();
   bool can_split() const { return tip_.is_settled(); }  // false: an event at now() is still to be reported
 

@@ -51,7 +51,8 @@ std::vector<ParameterError> find_faults(const TipSnapshot& tip);
 class Tip {
  public:
   // contact_tolerance 0: every bounce by itself; contact begins with a gap rate below kMinGapRate. Throws the first
-  // ParameterError of the model, or one about a start below the surface.
+  // ParameterError of the model, or one about a start below the surface. Preconditions: what else find_faults() of the
+  // same RunSettings finds (run.h), such as |eta| above kMaxEta; a tip that is no number has impacts for ever.
   Tip(const Model& model, double eta, const FreeState& start, double contact_tolerance = kDefaultContactTolerance);
   Tip(const Model& model, double eta, const TipState& start, double contact_tolerance = kDefaultContactTolerance);
 

@@ -122,6 +122,9 @@ class Client {
         timeout_(timeout),
         drag_publisher_(node_.advertise<std_msgs::Float64>(name_ + "/drag_velocity", 10)),
         height_publisher_(node_.advertise<std_msgs::Float64>(name_ + "/rest_height", 10)) {
+    constexpr double kLongest = 1e9;  // [s]: times of the clocks stay far within their range
+    check_not_negative("timeout", timeout);
+    if (timeout > kLongest) throw EmulatorError("timeout = " + text(timeout) + ": must be at most 1e9 s");
     node_.setCallbackQueue(&queue_);
     subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
     subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) { applied_ = m; });

@@ -64,7 +64,7 @@ Recorder::Settings recorder_settings(const Parameters& p) {
 std::string find_step_fault(double tau, std::uint32_t impacts) {
   std::ostringstream text;
   if (!std::isfinite(tau) || tau < 0.0 || tau > kMaxStepTau) {
-    text << "tau = " << tau << ": must be between 0 and " << kMaxStepTau;
+    text << "tau = " << number_text(tau) << ": must be between 0 and " << kMaxStepTau;
   } else if (impacts > kMaxStepImpacts) {
     text << "impacts = " << impacts << ": must be at most " << kMaxStepImpacts;
   } else if ((tau > 0.0) == (impacts > 0)) {
@@ -134,6 +134,7 @@ class EmulatorNode {
       Answer unused;
       return ask(change, unused);
     });
+    if (parameters.load_n != 0.0) node.setParam(kHeightIsOfLoad, true);
     publisher_.emplace(node, parameters,
                        Publisher::Sources{queue_, recorder_, refusals_, free_bytes_,
                                           [this](const Live& live) { live_server_->applied(live); }});
@@ -191,14 +192,14 @@ class EmulatorNode {
   void on_load(const std_msgs::Float64& command) {
     Request request(Kind::command);
     request.cause = "load";
-    request.rest_height = -command.data / spring_constant(parameters_.si);
+    request.rest_height = 0.0 - command.data / spring_constant(parameters_.si);  // not -0
     submit_or_refuse(request, command.data, "N", find_height_fault(request.rest_height));
   }
 
   void submit_or_refuse(const Request& request, double given, const char* unit, const std::string& fault) {
     if (fault.empty() && runner_.submit(request)) return;
     std::ostringstream text;
-    text << request.cause << " = " << given << ' ' << unit << ": "
+    text << request.cause << " = " << number_text(given) << ' ' << unit << ": "
          << (fault.empty() ? "too many commands are waiting" : fault);
     refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
     ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());

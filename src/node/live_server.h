@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "node/params/advice.h"
 #include "node/params/parameters.h"
 #include "node/params/table.h"
 #include "node/publisher/refusals.h"
@@ -103,9 +104,18 @@ class LiveServer {
     if (values_of(to_config(changed)) == values_of(to_config(before))) return;
     std::string fault = describe(find_faults(changed));
     if (fault.empty()) fault = apply_(before, changed);
-    if (fault.empty()) return;
+    if (fault.empty()) return warn_of_new_traps(before, changed);
     refusals_.add(Refusal::faulty_change, fault);
     ROS_WARN_STREAM("change of parameters refused: " << fault);
+  }
+
+  void warn_of_new_traps(const Live& before, const Parameters& changed) const {
+    Parameters was = start_;
+    live_of(was) = before;
+    const std::vector<std::string> known = find_traps(was);
+    for (const std::string& trap : find_traps(changed)) {
+      if (std::find(known.begin(), known.end(), trap) == known.end()) ROS_WARN_STREAM(trap);
+    }
   }
 
   const Parameters start_;

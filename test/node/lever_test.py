@@ -7,7 +7,7 @@ import roslib.packages
 import yaml
 from afm_emulator.srv import Control
 
-from emulator_under_test import PACKAGE, Emulators, NodeTest, call_service
+from emulator_under_test import PACKAGE, Emulator, Emulators, NodeTest, Process, call_service
 from topics import Topic
 
 CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
@@ -78,6 +78,19 @@ class LeverTest(NodeTest):
         changed = client.update_configuration({'rest_height_m': 1.5 * LOAD / load_at})
         self.assertAlmostEqual(changed['rest_height_m'] * load_at / LOAD, 1.5, delta=1e-12)
         client.close()
+
+    def test_a_load_comes_back_after_a_restart(self):
+        """The parameter server also holds the height that dynamic_reconfigure shows; once the node refused both."""
+        first = self.start(Emulator({'load_n': 1e-10, 'quality_factor': 100.0, 'temperature_k': 300.0}))
+        height = Topic('configuration').wait_for().rest_height_m
+        first.set(kicks_per_tau=3.125)  # at omega_h/omega_v = 6.25
+        first.child.kill()
+        first.wait()
+        self.assertIn('kicks_per_tau = 3.125: locks', first.output())
+        Topic.close_all()
+        self.start(Process(first.child.args))
+        again = Topic('configuration').wait_for()
+        self.assertEqual((again.rest_height_m, again.kicks_per_tau), (height, 3.125))
 
     def test_a_lever_of_ones_own(self):
         lever = Path(self.temporary_directory()) / 'mine.yaml'

@@ -20,6 +20,7 @@ QUEUE_BYTES = 1 << 22
 KEPT_APPLIED = 1000
 KEPT_IMPACTS = 100  # messages before a measurement: a second at the default rate
 MOST_TAU = 9999.0  # of a period of mean_force in lockstep: the emulator takes 10000, rounding aside
+LONGEST_TIMEOUT_S = 1e9
 
 
 class EmulatorError(RuntimeError):
@@ -66,7 +67,9 @@ class Client:
 
     def __init__(self, name='afm', timeout=15.0):
         self.name = rospy.resolve_name(name)
-        self.timeout = timeout
+        self.timeout = not_negative('timeout', timeout)
+        if self.timeout > LONGEST_TIMEOUT_S:
+            raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_TIMEOUT_S))
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
         self._news = threading.Condition()

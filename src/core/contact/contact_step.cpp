@@ -155,6 +155,7 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
   const double work = 2.0 * s.eta_ * wh2 * integral, kinetic = s.first_.N2 * (s.start_.u * s.start_.u);
   const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
+  double first_surplus = 0.0, last_surplus = 0.0;
   for (int i = 0; i < kMaxTries; ++i) {
     const ContactForces there = forces(s.m_, sin_cos_turns(q.phase), q.X, u);
     const double springs = wh2 * (q.X - s.start_.X) * (q.X + s.start_.X) +
@@ -179,9 +180,14 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
     }
     // a least stiffness, of a spring that is soft beside the load, makes the swing larger than all the energy
     if (std::fabs(surplus) < 1e-15 * std::min(swing, energy / there.N2)) return to;
+    (i == 0 ? first_surplus : last_surplus) = surplus;
     const double dx = 0.5 * surplus / there.force;
     q.phase += dx, q.X += dx;
   }
+  if (std::fabs(last_surplus) <= kRounding * energy) return to;
+  // no place near by has that energy, as next to a crest
+  q = {s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
+  if (first_surplus < u * u) q.u = std::copysign(std::sqrt(u * u - first_surplus), u);
   return to;
 }
 

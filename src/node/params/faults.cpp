@@ -29,7 +29,8 @@ class Check {
             "must be between " + number_text(least) + " and " + number_text(most));
   }
   void zero_or_within(const char* name, double value, double least, double most) {
-    if (value != 0.0) within(name, value, least, most);
+    require(value == 0.0 || (value >= least && value <= most), name, value,
+            "must be 0, or between " + number_text(least) + " and " + number_text(most));
   }
 
  private:

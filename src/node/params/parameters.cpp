@@ -21,7 +21,7 @@ namespace {
 using Field = std::variant<double*, std::uint64_t*, bool*, std::string*, std::vector<double>*>;
 
 // diagnostic_updater reads these in our namespace
-constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn"};
+constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn", kHeightIsOfLoad};
 
 std::map<std::string, Field> fields_of(Parameters& p) {
   std::map<std::string, Field> fields;
@@ -66,7 +66,7 @@ std::string read(Value& value, std::uint64_t* out) {
   const std::string wrong = read(value, &number);
   if (!wrong.empty()) return wrong;
   if (!(number >= 0.0 && number <= kMost && number == std::floor(number)))
-    return "must be a whole number, not negative";
+    return "must be a whole number between 0 and 1e15";
   *out = static_cast<std::uint64_t>(number);
   return {};
 }
@@ -177,6 +177,11 @@ Parameters read_parameters(Value tree, Faults& faults) {
 }
 
 Parameters load_parameters(const ros::NodeHandle& node, Faults& faults) {
+  bool is_of_load = false;
+  if (node.getParam(kHeightIsOfLoad, is_of_load) && is_of_load) {
+    if (node.hasParam("load_n")) node.deleteParam("rest_height_m");
+    node.deleteParam(kHeightIsOfLoad);
+  }
   Value tree;
   node.getParam(node.getNamespace(), tree);
   return read_parameters(tree, faults);

@@ -290,7 +290,7 @@ void Runner::update_state() {
   state_.samples = run_.samples();
   state_.counters = run_.counters();
   state_.batches = pacer_.batches();
-  state_.late_batches = pacer_.late_batches();
+  state_.late_batches = lockstep_ ? 0 : pacer_.late_batches();
   state_.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
   if (lockstep_) return;
   // an unfinished batch is late already when its deadline is past
