@@ -38,8 +38,8 @@ std::vector<ParameterError> find_faults(const Bath& b) {
   detail::FaultList list;
   const auto require_quality = [&](const char* name, double q, const char* zero) {
     if (q == 0.0 || (q >= kMinQualityFactor && std::isfinite(q))) return;
-    list.faults.emplace_back(name, q,
-                             std::string("must be 0 (") + zero + "), or finite and at least " + number_text(kMinQualityFactor));
+    list.faults.emplace_back(
+        name, q, std::string("must be 0 (") + zero + "), or finite and at least " + number_text(kMinQualityFactor));
   };
   list.require_between(0.0, kMaxTemperature, "temperature", b.temperature, "kT must be", " m a^2/tau^2");
   require_quality("quality_factor", b.quality_factor, "no bath");

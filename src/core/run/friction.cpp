@@ -174,7 +174,7 @@ bool Friction::is_possible(const ModelTime& now, double eta, double window_tau) 
          s.window_start <= now && s.eta == eta && s.window_tau == window_tau && are_finite(sums) &&
          are_finite(s.energy_bins.amount) && are_finite(s.impulse_bins.amount) && are_finite(s.window.energy) &&
          is_width(s.energy_bins.width) && is_width(s.impulse_bins.width) &&
-         s.window.width == PowerWindow(window_tau).width && s.window.current >= 0 &&
+         s.window.width == PowerWindow(window_tau).width && s.window.width > 0.0 && s.window.current >= 0 &&
          s.window.current <= bin_of(now - s.window_start, s.window.width);
 }
 
