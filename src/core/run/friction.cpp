@@ -170,10 +170,10 @@ bool Friction::is_possible(const ModelTime& now, double eta, double window_tau) 
   const std::array<double, 8> sums{s.energy.value, s.energy.rest, s.impulse.value,  s.impulse.rest,
                                    s.heat.value,   s.heat.rest,   s.vertical.value, s.vertical.rest};
   const auto is_width = [](double width) { return width >= RateBins{}.width && std::isfinite(width); };
-  return afm::is_possible(s.start) && afm::is_possible(s.window_start) && s.start <= s.window_start &&
-         s.window_start <= now && s.eta == eta && s.window_tau == window_tau && are_finite(sums) &&
-         are_finite(s.energy_bins.amount) && are_finite(s.impulse_bins.amount) && are_finite(s.window.energy) &&
-         is_width(s.energy_bins.width) && is_width(s.impulse_bins.width) &&
+  return afm::is_possible(now) && afm::is_possible(s.start) && afm::is_possible(s.window_start) &&
+         s.start <= s.window_start && s.window_start <= now && s.eta == eta && s.window_tau == window_tau &&
+         are_finite(sums) && are_finite(s.energy_bins.amount) && are_finite(s.impulse_bins.amount) &&
+         are_finite(s.window.energy) && is_width(s.energy_bins.width) && is_width(s.impulse_bins.width) &&
          s.window.width == PowerWindow(window_tau).width && s.window.width > 0.0 && s.window.current >= 0 &&
          s.window.current <= bin_of(now - s.window_start, s.window.width);
 }
