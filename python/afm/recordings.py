@@ -170,11 +170,13 @@ class Recording:
     def _parts(self) -> Iterator[Batch]:
         """The run from one command or snapshot to the next."""
         def run_to(end: ModelTime, impacts: int) -> Iterator[Batch]:
-            yield run.advance(end)
+            if run.now < end:  # otherwise it would report an event that is due, before the command
+                yield run.advance(end)
             while run.now == end and run.impacts < impacts:  # of those at this very time
                 yield run.advance(impacts=impacts - run.impacts)
 
         run = self._run_from(self._snapshots[0])
+        start = run.now
         marks = [(m.number, 0, m) for m in self._applied]
         marks += [(m.applied.number, 1 + i, m) for i, m in enumerate(self._snapshots[1:])]
         last = self._last
@@ -190,6 +192,8 @@ class Recording:
             else:
                 run.apply(**self._settings(m))
         yield from run_to(_model_time(last.time), last.first_impact + last.impact_limit)
+        if run.now == start:
+            yield run.advance(start, impacts=0)
 
     def simulate(self) -> Batch:
         """The whole run simulated again, in natural units: times a factor of `units`, the bits of the recording."""

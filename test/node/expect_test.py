@@ -84,6 +84,26 @@ class Expect(NodeTest):
             self.assert_refused('field = %s cannot be tested: .*%s' % (field, reason), field=field, for_s=0.1,
                                 least=0.0)
 
+    def test_times_that_make_no_sense(self):
+        for value in (-1.0, 0.0, float('nan'), float('inf')):
+            self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
+                                for_s=value)
+
+    def test_repeats_of_a_run_that_died_or_held_nothing(self):
+        launch = Path(self.temporary_directory()) / 'closed_loop.launch'
+        emulator = '<include file="$(find %s)/launch/test_fixture.launch">%s</include>' % (
+            PACKAGE, '<arg name="bag_directory" value="$(arg bag_directory)"/>')
+        for program, sentence in (('false', 'a node has died'), ('true', 'has recorded no batch')):
+            script = launch.parent / program
+            script.write_text('#!/bin/sh\nsleep 3\n%s\n' % program)
+            script.chmod(0o755)
+            node = '<node pkg="%s" type="replay_check" name="controller" required="true" launch-prefix="%s"/>' % (
+                PACKAGE, script)
+            launch.write_text('<launch><arg name="bag_directory"/>%s%s</launch>' % (emulator, node))
+            code, said = self.end(self.node('expect_repeats', launch=str(launch)))
+            self.assertEqual(code, 1, said)
+            self.assertRegex(said, 'AssertionError: .*' + sentence)
+
     def test_help_may_be_cut_short(self):
         for kind in ('expect', 'expect_sound', 'expect_repeats'):
             node = roslib.packages.find_node(PACKAGE, kind)[0]

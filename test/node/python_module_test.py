@@ -94,6 +94,17 @@ class PythonModule(NodeTest):
         self.assertRaises(ValueError, afm.from_bag, path, namespace='/other')
         self.check_what_is_missing(path)
 
+    def test_a_command_at_once_under_a_load(self):
+        """The tip begins on the surface, where an event is due; the command comes first, as in lockstep with a load."""
+        emulator = self.record(record=True, load_n=0.4e-9, paused=True)
+        self.applied = Topic('applied')
+        self.applied.wait_for()
+        emulator.drag(3.0 * SPEED_UNIT)
+        self.applied.wait_for(lambda m: m.drag_velocity == 3.0 * SPEED_UNIT, 'the command')
+        self.assertTrue(emulator.call('pause', SetBool, data=False).success)
+        Topic('deflection').wait_for_more(5)
+        self.assertGreater(self.assert_repeats(self.end(emulator), 0)[1], 0)
+
     def test_a_split_recording(self):
         self.run_emulator(split_duration_s=0.4)
         self.command(*[2.0, -3.0, 5.0] * 15)

@@ -44,6 +44,19 @@ def number(name, default=None):
         raise AssertionError('parameter %s = %r: must be a number' % (name, value)) from None
 
 
+def duration(name, default=None):
+    """A private parameter that is a time above 0 [s]."""
+    value = number(name, default)
+    if not 0.0 < value < math.inf:
+        raise AssertionError('parameter %s = %r: must be finite and above 0' % (name, value))
+    return value
+
+
+def how_long(timeout_s):
+    """Why Follower.wait_for() gave up: a required node that dies ends the launch."""
+    return 'when the launch ended' if rospy.is_shutdown() else 'after %g s of wall time' % timeout_s
+
+
 def flag(name, default):
     """A private parameter that is true or false."""
     value = parameter(name, default)
