@@ -31,7 +31,7 @@ struct Options {
 
 afm::PointOptions parameters_at(const Options& o, double value) {
   afm::PointOptions at = o.dynamics;
-  (o.vary == "eta" ? at.eta : o.vary == "gamma" ? at.gamma : at.cutoff) = value;
+  varied(at, o.vary) = value;
   if (o.relative_cutoff) at.cutoff *= std::abs(at.eta);
   return at;
 }
@@ -41,9 +41,6 @@ bool varies_speed(const Options& o) { return o.vary == "eta" || (o.vary == "cuto
 
 // With --si a range of speeds is in m/s, also where eta varies.
 std::vector<double> checked_values(const afm::CommandLine& app, const Options& o) {
-  if (o.vary != "eta" && o.vary != "gamma" && o.vary != "cutoff") {
-    throw std::invalid_argument("vary = " + o.vary + ": must be eta, gamma or cutoff");
-  }
   if (o.sweep != "up" && o.sweep != "down") throw std::invalid_argument("sweep = " + o.sweep + ": must be up or down");
   std::vector<double> values = afm::range_option("range", o.range);
   if (varies_speed(o)) afm::take_si(app, o.dynamics.si, "range", values);

@@ -87,7 +87,7 @@ void print(int number, const afm::Branch& branch, afm::TableWriter& to) {
 
 void check_target(const Options& options) {
   afm::PointOptions at = options.dynamics;
-  (options.vary == "eta" ? at.eta : options.vary == "gamma" ? at.gamma : at.cutoff) = options.to;
+  varied(at, options.vary) = options.to;
   try {
     checked_model(at);
   } catch (const std::invalid_argument& fault) {
@@ -100,9 +100,6 @@ int run(const afm::CommandLine& app, Options options) {
   if (options.vary != "gamma") afm::take_si(app, options.dynamics.si, "to", options.to);
   const afm::Model model = checked_model(options.dynamics);
   const double eta = options.dynamics.eta;
-  const auto vary = kParameters.find(options.vary);
-  if (vary == kParameters.end())
-    throw std::invalid_argument("vary = " + options.vary + ": must be eta, gamma or cutoff");
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
   check_target(options);
   options.search.longest = options.length;
@@ -112,7 +109,7 @@ int run(const afm::CommandLine& app, Options options) {
   int number = 0;
   for (const afm::FoundOrbit& f : found.orbits) {
     if (f.orbit.length() != static_cast<std::size_t>(options.length)) continue;
-    print(++number, continue_orbit(model, eta, f.orbit, vary->second, options.to), table);
+    print(++number, continue_orbit(model, eta, f.orbit, kParameters.at(options.vary), options.to), table);
   }
   if (number == 0) std::cerr << "continue_orbits: no orbit of length " << options.length << " found\n";
   return number > 0 ? 0 : 1;

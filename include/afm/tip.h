@@ -154,7 +154,7 @@ class Tip {
   void leave_or_press(Flying& flying);
   void begin_chatter(TipState bounce);
   Outcome begin_contact(const TipState& state);
-  Outcome end_step(const Sliding& sliding);
+  Outcome end_step(const Sliding& sliding, const detail::SlideState<double>& q);
   Outcome end_chatter(const Chattering& chattering);
 
   // commands and kicks (tip_changes.cpp, tip_kick.cpp)
@@ -178,7 +178,7 @@ class Tip {
   Account account_at_begin() const;
   Account account_at_end() const;
   Account flight_account(const Flying& flying, const FlightState<double>& state) const;
-  Account contact_account(const Sliding& sliding, double s) const;
+  Account contact_account(const Sliding& sliding, double s, const detail::ContactPoint& to) const;
   Account chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const;
   Segment segment_to(const Account& end) const;
   Segment impact_record(double slope, double gap_rate_change) const;

@@ -17,15 +17,21 @@ def number(name: str, value: Any) -> float:
         raise ArgumentTypeError(name, value, 'must be a number') from None
 
 
+def array(name: str, values: Any, reason: str = 'must be numbers') -> np.ndarray:
+    """The values as an array of any shape."""
+    try:
+        return np.asarray(values + 0.0 if isinstance(values, (str, bytes)) else values, float)
+    except (TypeError, ValueError):
+        raise ArgumentTypeError(name, values, reason) from None
+
+
 def numbers(name: str, values: Any) -> np.ndarray:
     """The values as a one-dimensional array; a number is an array of one."""
-    try:
-        array = np.atleast_1d(np.asarray(values, float))
-    except (TypeError, ValueError):
-        array = np.empty((0, 0))
-    if array.ndim != 1 or not len(array) or isinstance(values, (str, bytes)):
-        raise ArgumentTypeError(name, values, 'must be a number or a one-dimensional array of numbers, one at least')
-    return array
+    reason = 'must be a number or a one-dimensional array of numbers, one at least'
+    one = np.atleast_1d(array(name, values, reason))
+    if one.ndim != 1 or not len(one):
+        raise ArgumentTypeError(name, values, reason)
+    return one
 
 
 def count(name: str, value: Any, least: int = 0, most: int = 2 ** 31 - 1) -> int:

@@ -5,7 +5,7 @@ import numpy as np
 
 from . import _afm
 from ._afm import Bath, Model
-from .arguments import count, number, numbers, seed_of, thread_count
+from .arguments import array, count, number, numbers, seed_of, thread_count
 from .errors import ArgumentTypeError, ParameterError
 
 Axis = Union[float, np.ndarray]
@@ -171,13 +171,6 @@ def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase
         count('most_events', most_events, 1, 2 ** 64 - 1), number('contact_tolerance', contact_tolerance))
 
 
-def _any_shape(name, values):
-    try:
-        return np.asarray(values + 0.0 if isinstance(values, (str, bytes)) else values, float)
-    except (TypeError, ValueError):
-        raise ArgumentTypeError(name, values, 'must be numbers') from None
-
-
 _INPUTS = ('eta', 'gamma', 'cutoff', 'phase', 'extension', 'u', 'w')
 _RESULTS = ('dt', 'phase_next', 'extension_next', 'u_next', 'w_next', 'normal_speed', 'tangential_velocity',
             'energy_loss')
@@ -209,7 +202,7 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
         raise TypeError('next_impact() needs %s; wrong or missing: %s' % (', '.join(_INPUTS), ', '.join(wrong)))
     if on_error not in ('raise', 'nan'):
         raise ParameterError('on_error', on_error, 'must be raise or nan')
-    inputs = np.broadcast_arrays(*(_any_shape(name, given[name]) for name in _INPUTS))
+    inputs = np.broadcast_arrays(*(array(name, given[name]) for name in _INPUTS))
     shape = inputs[0].shape
     constants = [np.full(shape, x) for x in (chosen.rest_height, chosen.amplitude, chosen.frequency_ratio)]
     rows = np.stack([column.ravel() for column in list(inputs) + constants], axis=1)

@@ -2,7 +2,6 @@
 #include "afm/run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "convert.h"
+#include "long_call.h"
 #include "snapshot.h"
 
 namespace afm::python {
@@ -97,28 +97,20 @@ class Joined {
   Batch all_;
 };
 
-// Until the time is reached, or the batch ends, or so many impacts; without the GIL, ten times a second a signal may be
-// raised.
 enum class Until { time, end_of_batch };
+
+// Until the time is reached, or the batch ends, or so many impacts.
 void advance_to(Run& run, Until until, const ModelTime& time, std::uint64_t impacts, Joined& joined) {
-  constexpr std::chrono::milliseconds kBetweenSignals(100);
   constexpr std::uint64_t kImpactsAtATime = 10000;
-  for (bool done = false; !done;) {
-    {
-      const py::gil_scoped_release released;
-      const auto end = std::chrono::steady_clock::now() + kBetweenSignals;
-      while (!done && std::chrono::steady_clock::now() < end) {
-        Batch batch;
-        const Outcome outcome =
-            run.advance(time, std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
-        impacts -= std::min<std::uint64_t>(impacts, batch.impacts.size());
-        joined.add(batch);
-        const bool ended = until == Until::end_of_batch || !(run.now() < time);
-        done = impacts == 0 || (outcome == Outcome::time_limit && ended);
-      }
-    }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
+  repeat(1, [&] {
+    Batch batch;
+    const Outcome outcome =
+        run.advance(time, std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
+    impacts -= std::min<std::uint64_t>(impacts, batch.impacts.size());
+    joined.add(batch);
+    const bool ended = until == Until::end_of_batch || !(run.now() < time);
+    return impacts == 0 || (outcome == Outcome::time_limit && ended);
+  });
 }
 
 py::object advance(Run& self, const py::object& time, const py::object& impacts) {

@@ -3,13 +3,13 @@
 
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "convert.h"
+#include "long_call.h"
 #include "py_tip.h"
 #include "snapshot.h"
 
@@ -38,22 +38,7 @@ ModelTime later(const PyTip& self, const py::object& time) {
   return end;
 }
 
-// Calls step() until it returns true, without the GIL; ten times a second a signal may be raised.
-template <class Step>
-void repeat(const Step& step) {
-  constexpr std::chrono::milliseconds kBetweenLooks(100);
-  constexpr int kStepsAtATime = 64;
-  for (bool done = false; !done;) {
-    {
-      const py::gil_scoped_release released;
-      const auto end = std::chrono::steady_clock::now() + kBetweenLooks;
-      while (!done && std::chrono::steady_clock::now() < end) {
-        for (int i = 0; i < kStepsAtATime && !done; ++i) done = step();
-      }
-    }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
-}
+constexpr int kStepsAtATime = 64;  // of a tip, between two looks at the clock
 
 // The end of one call. Long quiet flights and slides are cut here, so that signals are seen. No bit depends on it.
 ModelTime next_stop(const Tip& tip, const ModelTime& end) {
@@ -68,7 +53,7 @@ py::array advance_tip(PyTip& self, const py::object& time, const py::object& mos
       most_events.is_none() ? std::numeric_limits<std::uint64_t>::max() : whole("most_events", most_events);
   std::vector<Impact> events;
   if (most > 0) {
-    repeat([&] {
+    repeat(kStepsAtATime, [&] {
       const ModelTime stop = next_stop(self.tip, end);
       const Outcome outcome = self.tip.advance(stop);
       if (outcome == Outcome::time_limit) return stop == end;
@@ -124,7 +109,7 @@ class Sampler {
 py::object samples(PyTip& self, double period, std::size_t count) {
   require(period >= 1e-9 && period <= 1e6, "period", period, "must be between 1e-9 and 1e6 tau");
   Sampler sampler(self, period, count);
-  repeat([&] { return sampler.step(); });
+  repeat(kStepsAtATime, [&] { return sampler.step(); });
   return sampler.result();
 }
 

@@ -100,6 +100,13 @@ void take_si(const CommandLine& app, PointOptions& o) {
   checked_model(app, o);
 }
 
+double& varied(PointOptions& o, const std::string& vary) {
+  if (vary == "eta") return o.eta;
+  if (vary == "gamma") return o.gamma;
+  if (vary == "cutoff") return o.cutoff;
+  throw std::invalid_argument("vary = " + vary + ": must be eta, gamma or cutoff");
+}
+
 Model checked_model(const CommandLine& app, const PointOptions& o) {
   const Model model = model_of(o);
   const std::vector<ParameterError> faults = as_given(app, o.si, find_faults(o, model));

@@ -33,6 +33,9 @@ Model checked_model(const PointOptions& options);
 // The same, with values that were given in SI shown in SI.
 Model checked_model(const CommandLine& app, const PointOptions& options);
 
+// The parameter that the option vary names: eta, gamma or cutoff. Throws std::invalid_argument where it is none.
+double& varied(PointOptions& options, const std::string& vary);
+
 // The numbers of an option: a range as parse_range() knows it, or several with commas between. Both throw
 // std::invalid_argument with name and text of the option, and the reason.
 std::vector<double> range_option(const std::string& name, const std::string& text);

@@ -134,7 +134,6 @@ class EmulatorNode {
       Answer unused;
       return ask(change, unused);
     });
-    if (parameters.load_n != 0.0) node.setParam(kHeightIsOfLoad, true);
     publisher_.emplace(node, parameters,
                        Publisher::Sources{queue_, recorder_, refusals_, free_bytes_,
                                           [this](const Live& live) { live_server_->applied(live); }});

@@ -38,6 +38,7 @@ class LiveServer {
       config = shown_ = to_config(in_force());
     });
     show_ranges();
+    if (parameters.load_n != 0.0) node.setParam(kHeightIsOfLoad, true);
   }
 
   // Called with whatever was applied, by the publisher: a change waits for it, so it may not wait for a change.

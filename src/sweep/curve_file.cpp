@@ -43,16 +43,12 @@ std::string with_units(const std::string& identity, const TableUnits& units) {
   return text;
 }
 
-// Is the row that of the point, whatever was found there?
-bool is_row_of(const SweepPoint& point, const std::string& line, const TableUnits& units) {
+// Are the rows those of one point, whatever was found there?
+bool are_of_one_point(const std::string& a, const std::string& b) {
   constexpr std::size_t kOfThePoint[] = {0, 1, 2, 10, 11, 12};  // of curve_columns()
-  std::ostringstream text;
-  TableWriter writer(text, curve_columns(), units);
-  write_row(point, {}, writer);
-  const std::vector<std::string> expected = split_fields(text.str()), there = split_fields(line);
-  return there.size() == expected.size() &&
-         std::all_of(std::begin(kOfThePoint), std::end(kOfThePoint),
-                     [&](std::size_t column) { return there[column] == expected[column]; });
+  const std::vector<std::string> one = split_fields(a), other = split_fields(b);
+  return one.size() == other.size() && std::all_of(std::begin(kOfThePoint), std::end(kOfThePoint),
+                                                   [&](std::size_t column) { return one[column] == other[column]; });
 }
 
 }  // namespace
@@ -101,6 +97,8 @@ void CurveFile::claim(const std::string& identity) {
 // would begin is not in the table. The rows before must be those of the points.
 void CurveFile::keep_whole_chains(const TableUnits& units) {
   const std::string header = units.header(curve_columns());
+  std::ostringstream expected;
+  TableWriter writer(expected, curve_columns(), units);
   std::ifstream file(path_, std::ios::binary);
   std::string line;
   std::size_t lines = 0;
@@ -108,8 +106,12 @@ void CurveFile::keep_whole_chains(const TableUnits& units) {
   while (std::getline(file, line) && !file.eof()) {
     if (lines == 0 && line != header) throw std::runtime_error("it has other columns");
     if (lines > grid_.size()) throw std::runtime_error("it has more rows than points");
-    if (lines > 0 && !is_row_of(grid_.at(lines - 1), line, units)) {
-      throw std::runtime_error("line " + std::to_string(lines + 1) + " is not the row of its point");
+    if (lines > 0) {
+      expected.str("");
+      write_row(grid_.at(lines - 1), {}, writer);
+      if (!are_of_one_point(expected.str(), line)) {
+        throw std::runtime_error("line " + std::to_string(lines + 1) + " is not the row of its point");
+      }
     }
     size += static_cast<off_t>(line.size() + 1);
     if (lines++ % grid_.chain_length() != 0) continue;

@@ -149,9 +149,15 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
   constexpr double kRounding = 1e-13;  // of the energy
   constexpr double kMaxShift = 1e-7;   // [a] by so much its mean may change: half the default tolerance of a step
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
-  ContactPoint to{{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u}, integral};
+  const SlideState<double> computed{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
+  ContactPoint to{computed, integral};
   if (s.m_.is_free_along_x == 0.0) return to;
   SlideState<double>& q = to.state;
+  const double u2 = u * u;
+  // it takes the surplus if it has so much
+  const auto change_velocity = [&](double surplus) {
+    if (surplus < u2) q.u = std::copysign(std::sqrt(u2 - surplus), u);
+  };
   const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
   const double work = 2.0 * s.eta_ * wh2 * integral, kinetic = s.first_.N2 * (s.start_.u * s.start_.u);
   const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
@@ -161,21 +167,21 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
     const double springs = wh2 * (q.X - s.start_.X) * (q.X + s.start_.X) +
                            k * k * (there.h - s.first_.h) * (there.h + s.first_.h - 2.0 * s.m_.y0);
     // of twice the energy, over N2
-    const double surplus = (there.N2 * (u * u) - kinetic + springs + work) / there.N2;
-    const double u2 = u * u, swing = there.force * there.force / s.stiffness_;
+    const double surplus = (there.N2 * u2 - kinetic + springs + work) / there.N2;
+    const double swing = there.force * there.force / s.stiffness_;
     const bool by_velocity = u2 >= 0.25 * swing;
     if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
       if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
       const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
       if (std::fabs(shift) < kMaxShift * time) {
         to.extension_integral -= shift;
-      } else if (surplus < u2) {
-        q.u = std::copysign(std::sqrt(u2 - surplus), u);
+      } else {
+        change_velocity(surplus);
       }
       return to;
     }
     if (by_velocity && surplus < u2) {
-      q.u = std::copysign(std::sqrt(u2 - surplus), u);
+      change_velocity(surplus);
       return to;
     }
     // a least stiffness, of a spring that is soft beside the load, makes the swing larger than all the energy
@@ -186,8 +192,8 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
   }
   if (std::fabs(last_surplus) <= kRounding * energy) return to;
   // no place near by has that energy, as next to a crest
-  q = {s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
-  if (first_surplus < u * u) q.u = std::copysign(std::sqrt(u * u - first_surplus), u);
+  q = computed;
+  change_velocity(first_surplus);
   return to;
 }
 

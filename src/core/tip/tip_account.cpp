@@ -73,9 +73,9 @@ Account Tip::flight_account(const Flying& flying, const FlightState<double>& q) 
   return {now_, q.U - flying.flight.start().state.U, 0.0, energy_of(springs_, eta_, q), 0};
 }
 
-Account Tip::contact_account(const Sliding& sliding, double s) const {
+// `to`: the point of the step at s.
+Account Tip::contact_account(const Sliding& sliding, double s, const ContactPoint& to) const {
   const ContactStep& step = sliding.step;
-  const ContactPoint to = step.point(s);
   const double energy = slide_energy(springs_, to.state);
   if (springs_.is_free_along_x > 0.0) return {now_, spring_impulse(springs_, to.extension_integral), 0.0, energy, 0};
   const double work = energy - slide_energy(springs_, step.start()), pressure = step.pressure(step.start());
@@ -103,20 +103,21 @@ Account Tip::account_at_begin() const {
 Account Tip::account() const {
   const double s = now_ - start_;
   if (const Flying* flying = std::get_if<Flying>(&phase_)) return flight_account(*flying, flying->flight.at(s));
-  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return contact_account(*sliding, s);
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) {
+    return contact_account(*sliding, s, sliding->step.point(s));
+  }
   if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
     return chatter_account(*chattering, s, chatter_now(*chattering));
   }
   return account_at_begin();
 }
 
-// To the last digit. Chatter that has died has no normal speed left.
+// Of all phases but contact. To the last digit. Chatter that has died has no normal speed left.
 Account Tip::account_at_end() const {
   if (const Flying* flying = std::get_if<Flying>(&phase_)) {
     const bool lands = flying->landing.outcome == SearchOutcome::impact;
     return flight_account(*flying, lands ? flying->landing.jet.state : flying->flight.at(end_));
   }
-  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return contact_account(*sliding, end_);
   if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
     const ChatterRun& run = chattering->run;
     const Chatter chatter = run.end == ChatterEnd::died ? settled(run.chatter) : run.chatter;

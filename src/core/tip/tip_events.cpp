@@ -31,10 +31,14 @@ Outcome Tip::end_phase(Segments* ended) {
   Flying* flying = std::get_if<Flying>(&phase_);
   Chattering* chattering = std::get_if<Chattering>(&phase_);
   const bool goes_on = chattering != nullptr && chattering->goes_on();
+  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) {
+    const ContactPoint end = sliding->step.point(end_);
+    if (ended != nullptr) ended->add(segment_to(contact_account(*sliding, end_, end)));
+    return end_step(*sliding, end.state);
+  }
   if (ended != nullptr && !goes_on) ended->add(segment_to(account_at_end()));
   if (flying != nullptr) return end_flight(*flying, ended);
   if (chattering != nullptr) return end_chatter(*chattering);
-  if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) return end_step(*sliding);
   return begin_contact(std::get<Touching>(phase_).state);
 }
 
@@ -123,8 +127,7 @@ Outcome Tip::begin_contact(const TipState& state) {
 }
 
 // Another step follows, or the surface releases the tip.
-Outcome Tip::end_step(const Sliding& sliding) {
-  const SlideState<double> q = sliding.step.at(end_);
+Outcome Tip::end_step(const Sliding& sliding, const SlideState<double>& q) {
   if (!sliding.releases) {
     const bool failed = !sliding.step.is_accurate();
     search_failures_ += failed;

@@ -290,9 +290,9 @@ void Runner::update_state() {
   state_.samples = run_.samples();
   state_.counters = run_.counters();
   state_.batches = pacer_.batches();
-  state_.late_batches = lockstep_ ? 0 : pacer_.late_batches();
   state_.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
-  if (lockstep_) return;
+  if (lockstep_) return;  // nothing is late that waits
+  state_.late_batches = pacer_.late_batches();
   // an unfinished batch is late already when its deadline is past
   const double overdue =
       state_.paused ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
