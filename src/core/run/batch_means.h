@@ -1,6 +1,7 @@
 // The standard error of a time average from the sums over equal consecutive batches of time (method of batch means).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,12 @@ constexpr std::size_t kMinBatches = 16;  // a choice: Student's t of 16/3 degree
 // Precondition: a stationary process whose memory is short against the whole. Batches of length L leave an error of
 // order 1/L from the correlation of neighbours; 2 S(L) - S(L/2) removes it (lugsail batch means).
 MeanError mean_error(std::vector<double> batches);
+
+// Without a bath the estimate from the work of the drag differs from the one from impacts by the change of the stored
+// energy, which is known.
+inline double work_std_error(double K_f_std_error, double K_f, double K_f_work) {
+  return std::hypot(K_f_std_error, K_f_work - K_f);
+}
 
 // Quantile 0.975 of Student's t over that of the normal distribution, 1.959964; within 2e-3 from 2 degrees on.
 double student_widening(double degrees);

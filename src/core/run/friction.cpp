@@ -6,6 +6,7 @@
 #include "afm/model.h"
 #include "afm/sample_grid.h"
 #include "core/not_numbers.h"
+#include "core/run/batch_means.h"
 
 namespace afm {
 namespace {
@@ -152,8 +153,11 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   e.window_K_f = to_K_f(window_power);
   e.window_K_f_std_error = to_K_f(sums_.window.std_error(window_age));
   e.mean_lateral_force = age > 0.0 ? (sums_.impulse.value + open.impulse) / age : kNaN;
-  e.mean_lateral_force_std_error = sums_.impulse_bins.std_error(age);
   e.K_f_work = moving ? e.mean_lateral_force / sums_.eta : kNaN;
+  const bool by_energy = moving && sums_.heat.value == 0.0;  // without a bath
+  e.mean_lateral_force_std_error =
+      by_energy ? detail::work_std_error(e.K_f_std_error, e.K_f, e.K_f_work) * std::abs(sums_.eta)
+                : sums_.impulse_bins.std_error(age);
   e.K_f_work_std_error = moving ? e.mean_lateral_force_std_error / std::abs(sums_.eta) : kNaN;
   const double spring_constant = kTwoPi * kTwoPi;  // of the vertical spring: m omega_v^2
   e.mean_normal_force =

@@ -50,6 +50,7 @@ void bring_to(Tip& tip, const ModelTime& end) {
 struct Totals {
   CompensatedSum energy, impulse;  // energy lost in impacts; impulse of the holder
   double impacts = 0.0, contact_time = 0.0;
+  bool has_bath = false;
   std::uint64_t search_failures = 0;
 };
 
@@ -60,7 +61,10 @@ void follow(Tip& tip, const ModelTime& end, Totals& totals) {
   Segments ended;
   for (Outcome outcome; (outcome = tip.advance_segment(end, &ended)) != Outcome::time_limit;) {
     interruption_point();
-    for (const Segment& segment : ended) totals.impulse.add(segment.impulse);
+    for (const Segment& segment : ended) {
+      totals.impulse.add(segment.impulse);
+      if (segment.kind == SegmentKind::kick) totals.has_bath = true;
+    }
     if (outcome == Outcome::search_failed) ++totals.search_failures;
     if (outcome == Outcome::flying || outcome == Outcome::search_failed) continue;
     const Impact& event = tip.last_impact();
@@ -101,7 +105,9 @@ FrictionAverage average_over_time(Tip& tip, double duration) {
   }
   FrictionAverage a = average_of(totals, eta, tip.now() - begin);
   a.K_f_std_error = eta == 0.0 ? kNaN : mean_error(std::move(energies)).std_error / (length * eta * eta);
-  a.K_f_work_std_error = eta == 0.0 ? kNaN : mean_error(std::move(impulses)).std_error / (length * std::abs(eta));
+  a.K_f_work_std_error = eta == 0.0        ? kNaN
+                         : totals.has_bath ? mean_error(std::move(impulses)).std_error / (length * std::abs(eta))
+                                           : work_std_error(a.K_f_std_error, a.K_f, a.K_f_work);
   return a;
 }
 

@@ -205,5 +205,18 @@ TEST(Run, TheErrorOfTheMeanLateralForceIsThatOfRepeatedRuns) {
   EXPECT_LT(reported_over_found, 1.6);
 }
 
+// The energy stored at the ends of the bins is many times the work between them.
+TEST(Run, ASlowDragHasItsFrictionByTheWorkToo) {
+  afm::Run run(settings_at(0.03, 330000));
+  Batch batch;
+  while (run.now() < ModelTime{200, 0.0}) advance_to({200, 0.0}, run, batch);
+  drag(run, 0.02);
+  while (run.now() < ModelTime{1200, 0.0}) advance_to({1200, 0.0}, run, batch);
+  const FrictionEstimate& e = batch.friction;
+  EXPECT_NEAR(e.K_f_work, 0.019, 3.0 * e.K_f_work_std_error);
+  EXPECT_LT(e.K_f_work_std_error, 0.005);
+  EXPECT_DOUBLE_EQ(e.mean_lateral_force_std_error, 0.02 * e.K_f_work_std_error);
+}
+
 }  // namespace
 }  // namespace afm
