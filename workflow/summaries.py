@@ -5,7 +5,6 @@ from registry import short_table
 
 CHANCE = 0.01     # scenes with a wider threshold are chaotic
 ROUNDING = 1e-12  # errors below are
-VERDICTS = ("right", "inaccurate", "misses", "phantom", "stalls", "blows up")
 
 
 def short_time(nanoseconds):
@@ -59,14 +58,6 @@ def pace_methods(tables):
             row["eta = %s: error of K_f" % eta] = short(r["k_f_error"])
             row["CPU s per model s (%s)" % eta] = short(r["seconds_per_second"])
     return list(table.values())
-
-
-@short_table("stability")
-def stability_methods(tables):
-    counts = {}
-    for row in tables.strings("stability"):
-        counts.setdefault(row["method"], dict.fromkeys(VERDICTS, 0))[row["verdict"]] += 1
-    return [{"method": bold(method), **count} for method, count in counts.items()]
 
 
 @short_table("stability")
