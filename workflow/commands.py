@@ -256,13 +256,11 @@ def commands(quick):
     add("soak", "scripts/soak --seed 23 --duration", choose(60, 3600), may_fail=True)
     if quick:
         return all_commands
-    add("soak_faster", "scripts/soak --stages 0 1 --duration 900 --time-scale 2.5 --sample-rate 200000", may_fail=True)
     for kind in ("address", "thread"):
         add("sanitized_" + kind, "scripts/sanitize", kind, may_fail=True)
     single = "AFM_BUILD_DIR=$PWD/build/single_version "
     add("leaks", single + "scripts/build --emulator -- -DAFM_NATIVE=OFF &&", single +
-        'scripts/soak --duration 300 --time-scale 0.01 --any-memory --any-bits',
-        '--under "valgrind --leak-check=full --error-exitcode=9"',
+        'scripts/soak --duration 300 --time-scale 0.01 --under "valgrind --leak-check=full --error-exitcode=9"',
         may_fail=True)
     for target in FUZZED:
         add("fuzz_" + target, "scripts/fuzz --runs 1000000", target, "2>&1", may_fail=True)

@@ -122,8 +122,7 @@ def fuzz_result(text):
 RELIABILITY = {"builds": ("compilers", last_line), "leaks": ("leaks", last_line), "soak": ("soak", soak_result),
                "sanitized_address": ("memory, undefined behaviour", sanitizer_result),
                "sanitized_thread": ("races", sanitizer_result),
-               "soak_faster": ("soak, faster", soak_result), **{"fuzz_" + name: ("fuzzing: " + name, fuzz_result)
-                                                                for name in FUZZED}}
+               **{"fuzz_" + name: ("fuzzing: " + name, fuzz_result) for name in FUZZED}}
 
 
 @table(*RELIABILITY, full_only=True)
