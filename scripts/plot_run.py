@@ -8,10 +8,12 @@ import sys
 
 try:
     import matplotlib
+    matplotlib.use('Agg')
     import numpy as np
     import rosbag
     from afm_emulator.bags import read_raw
     from afm_emulator.impacts import read_impacts
+    from matplotlib import pyplot
 except ImportError as missing:
     sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
              % missing)
@@ -28,8 +30,8 @@ KINDS = {0: ('impact', BLUE, 3), 1: ('chatter sequence', ORANGE, 14), 2: ('conta
 class Run:
     """What is drawn, as arrays against model time in seconds since the first epoch of the recording began."""
 
-    def __init__(self, end):
-        self.end, self.close = end, []  # single samples of the last tau before `end`
+    def __init__(self):
+        self.close = []  # single samples of the last tau
         self.samples, self.impacts, self.friction, self.drag = [], [], [], []
         self.epochs = []  # where they begin
         self.configuration, self.unit, self.offset, self.last = None, None, 0.0, 0.0
@@ -55,13 +57,9 @@ class Run:
         edges = np.arange(0, len(times), every)
         low, high = np.minimum.reduceat(values, edges, axis=1), np.maximum.reduceat(values, edges, axis=1)
         self.samples.append(np.vstack([times[edges], low, high]))
-        self.keep_close(np.vstack([times, values]))
-
-    def keep_close(self, samples):
-        if self.end is None or samples[0, 0] < self.end:
-            self.close.append(samples)
-            while self.close[0][0, -1] < samples[0, -1] - ZOOM_TAU * self.unit:
-                self.close.pop(0)
+        self.close.append(np.vstack([times, values]))
+        while self.close[0][0, -1] < times[-1] - ZOOM_TAU * self.unit:
+            self.close.pop(0)
 
     def add_impacts(self, data):
         _, _, impacts = read_impacts(data)
@@ -102,8 +100,8 @@ def count_samples(paths):
     return count
 
 
-def read(paths, end, node):
-    run = Run(end)
+def read(paths, node):
+    run = Run()
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
     known, sources = {}, {}
     add = {'Configuration': run.begin_epoch, 'Deflection': lambda m: run.add_deflection(m, every),
@@ -195,8 +193,7 @@ def draw_drag(axes, run):
     eta.set_ylabel('$\\eta$ [a/$\\tau$]')
 
 
-def draw(run, paths, begin, end):
-    from matplotlib import pyplot
+def draw(run, paths):
     pyplot.rcParams.update({'font.size': 10, 'legend.fontsize': 9, 'xtick.labelsize': 9, 'ytick.labelsize': 9})
     figure = pyplot.figure(figsize=(9.375, 10.4), constrained_layout=True)  # 900 pixels of a page, at 96 an inch
     grid = figure.add_gridspec(5, 1)
@@ -213,18 +210,11 @@ def draw(run, paths, begin, end):
         axes.grid(alpha=0.3)
         for epoch in run.epochs[1:]:
             axes.axvline(epoch, c='k', lw=0.8, ls=':')
-    rows[3].set_xlim(times[0] if begin is None else begin, times[-1] if end is None else end)
+    rows[3].set_xlim(times[0], times[-1])
     c = run.configuration
     figure.suptitle('%s   ($\\gamma$ = %g, $v_c$ = %.3g $\\mu$m/s, %g kHz)' % (
         os.path.basename(paths[0]), c.restitution_gamma, c.cutoff_speed * 1e6, c.sample_rate_hz / 1e3))
     return figure
-
-
-def seconds(text):
-    value = float(text)
-    if not np.isfinite(value):
-        raise ValueError
-    return value
 
 
 def main():
@@ -232,18 +222,8 @@ def main():
     parser.add_argument('bags', nargs='+', help='a recording; the bags of a split one in order')
     parser.add_argument('--node', help='the name of the emulator such as /afm, where the bag holds several')
     parser.add_argument('--output', help='picture to write (png, pdf, svg); default: beside the bag, as .png')
-    parser.add_argument('--show', action='store_true', help='open a window instead')
-    parser.add_argument('--from', dest='begin', type=seconds, help='model time [s] to begin at')
-    parser.add_argument('--until', dest='end', type=seconds, help='model time [s] to end at')
     arguments = parser.parse_args()
-    if not arguments.show:
-        matplotlib.use('Agg')
-    run = read(arguments.bags, arguments.end, arguments.node)
-    figure = draw(run, arguments.bags, arguments.begin, arguments.end)
-    if arguments.show:
-        from matplotlib import pyplot
-        pyplot.show()
-        return
+    figure = draw(read(arguments.bags, arguments.node), arguments.bags)
     output = arguments.output or os.path.splitext(arguments.bags[0])[0] + '.png'
     try:
         figure.savefig(output, dpi=144)
