@@ -8,21 +8,11 @@ EVENTS = {"period doubling": (style.PINK, "--"), "torus": (style.GREEN, "-."), "
           "grazing": ("black", "-"), "corner": (style.GREY, (0, (1, 3)))}
 
 
-def branch(tables, name):
-    """Points and events of the branches with the most friction."""
+def events_of(tables, name):
+    """Of the branch with the most friction."""
     rows = tables.rows(name)
     best = max(rows, key=lambda row: row["k_f"] if not row["event"] else 0)["orbit"]
-    rows = [row for row in rows if row["orbit"] == best]
-    points = [row for row in rows if not row["event"]]
-    return points, [row for row in rows if row["event"] in EVENTS]
-
-
-def mark(axes, events, seen):
-    for row in events:
-        colour, line = EVENTS[row["event"]]
-        axes.axvline(row["value"], color=colour, linestyle=line, linewidth=1.2,
-                     label=row["event"] if row["event"] not in seen else None)
-        seen.add(row["event"])
+    return [row for row in rows if row["orbit"] == best and row["event"] in EVENTS]
 
 
 @picture("even_orbit_gamma", "even_basins")
@@ -79,8 +69,7 @@ def alike(one, other):
 def diagram(tables, axes, name):
     """A parameter carried up and down: where the two sweeps differ attractors coexist."""
     vary, bounds, _, branches = BRANCHES[name]
-    events = [event for index in range(len(branches)) for event in branch(tables, "%s_branch_%d" % (name, index))[1]
-              if bounds[0] <= event["value"] <= bounds[1]]
+    events = [event for index in range(len(branches)) for event in events_of(tables, "%s_branch_%d" % (name, index))]
     speeds = {"up": {}, "down": {}}
     for sweep, found in speeds.items():
         for row in tables.rows("%s_%s" % (name, sweep)):
@@ -93,7 +82,10 @@ def diagram(tables, axes, name):
             axes.plot(*zip(*rows), color=colour, zorder=3, **dot)
     both = [(at, speed) for at in same for speed in speeds["up"][at]]
     axes.plot(*zip(*both), color="#777777", **dot)
-    mark(axes, events, set())
+    for event in events:
+        if bounds[0] <= event["value"] <= bounds[1]:
+            colour, line = EVENTS[event["event"]]
+            axes.axvline(event["value"], color=colour, linestyle=line, linewidth=1.2, label=event["event"])
     axes.set_xlim(*bounds)
     axes.set_ylim(0, None)
     axes.set_ylabel(r"normal speed of impacts [$a/\tau$]")
