@@ -79,6 +79,11 @@ Runner make_tip_runner(const Model& model, double start_eta, const TipState& sta
   };
 }
 
+double even_K_f(const Model& model) {
+  const double s = kTwoPi * model.H;
+  return 4.0 * (1.0 + model.gamma) / (1.0 - model.gamma) * s * s / (1.0 + s * s);
+}
+
 Runner make_runner(const std::string& method, double setting, const Model& model, double eta, const TipState& start) {
   if (method == "exact") return make_tip_runner(model, eta, start, setting);
   return make_chain_runner(model, start, rivals::find_method(method)->make(setting));

@@ -31,6 +31,9 @@ Runner make_tip_runner(const Model& model, double eta, const TipState& start, do
 // By the method's name; `exact` is the tip, and its setting the contact tolerance.
 Runner make_runner(const std::string& method, double setting, const Model& model, double eta, const TipState& start);
 
+// Of the orbit of even eta, in closed form (docs/model.md).
+double even_K_f(const Model& model);
+
 constexpr std::uint64_t kAnyImpacts = ~std::uint64_t{0};
 
 }  // namespace afm

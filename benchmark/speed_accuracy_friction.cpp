@@ -38,8 +38,7 @@ TipState settled(const Model& model, double eta, std::int64_t tau) {
 
 FrictionScene even_scene(double eta) {
   FrictionScene scene{"kf_" + std::to_string(static_cast<int>(eta)), mica(0.1 * eta), eta, {}, 0.0, 2.0, 0.0};
-  const double s = kTwoPi * scene.model.H, gamma = scene.model.gamma;
-  scene.K_f = 4.0 * (1.0 + gamma) / (1.0 - gamma) * s * s / (1.0 + s * s);
+  scene.K_f = even_K_f(scene.model);
   scene.start = settled(scene.model, eta, 1000);
   return scene;
 }

@@ -42,6 +42,10 @@ bool broken(const ChainResult& r, double tau, Cell& cell) {
   return true;
 }
 
+Cell judged(const ChainResult& r, double number, const std::string& meaning, double right_below = kRightError) {
+  return {number <= right_below ? Verdict::right : Verdict::inaccurate, number, meaning, 1e9 * r.seconds / r.tau};
+}
+
 struct FrictionCase {
   Model model;
   double eta, K_f, tolerance, tau;
@@ -53,15 +57,7 @@ Cell measure_friction(const FrictionCase& c, const MethodSpec& spec, double sett
       make_runner(spec.name, setting, c.model, c.eta, c.start)(c.tau, c.eta, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, c.tau, cell)) return cell;
-  cell.number = std::abs(r.K_f(c.eta) / c.K_f - 1.0);
-  cell.meaning = "error of K_f";
-  if (!(cell.number <= c.tolerance)) cell.verdict = Verdict::inaccurate;
-  return cell;
-}
-
-double even_K_f(const Model& model) {
-  const double s = kTwoPi * model.H;
-  return 4.0 * (1.0 + model.gamma) / (1.0 - model.gamma) * s * s / (1.0 + s * s);
+  return judged(r, std::abs(r.K_f(c.eta) / c.K_f - 1.0), "error of K_f", c.tolerance);
 }
 
 // Each of the four; the worst counts.
@@ -132,10 +128,7 @@ Cell measure_rest(const MethodSpec& spec, double setting, const Effort& effort) 
   const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)(tau, 0.0, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, tau, cell) || !r.finished) return cell.verdict = std::max(cell.verdict, Verdict::stalls), cell;
-  cell.number = std::abs(before - r.energy - energy(model, 0.0, r.end)) / before;
-  cell.meaning = "imbalance of energy";
-  if (!(cell.number <= kRightError)) cell.verdict = Verdict::inaccurate;
-  return cell;
+  return judged(r, std::abs(before - r.energy - energy(model, 0.0, r.end)) / before, "imbalance of energy");
 }
 
 Cell measure_elastic(const MethodSpec& spec, double setting, const Effort& effort) {
@@ -145,11 +138,8 @@ Cell measure_elastic(const MethodSpec& spec, double setting, const Effort& effor
   const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)(1e7, 0.0, impacts, 10.0 * effort.seconds);
   Cell cell;
   if (!r.sound()) return broken(r, 1e7, cell), cell;
-  cell.ns_per_tau = 1e9 * r.seconds / r.tau;
-  cell.number = std::abs(energy(model, 0.0, r.end) / energy(model, 0.0, start) - 1.0);
-  cell.meaning = "drift of energy in " + std::to_string(r.impacts) + " impacts";
-  if (!(cell.number <= kRightError)) cell.verdict = Verdict::inaccurate;
-  return cell;
+  return judged(r, std::abs(energy(model, 0.0, r.end) / energy(model, 0.0, start) - 1.0),
+                "drift of energy in " + std::to_string(r.impacts) + " impacts");
 }
 
 double distance(const TipState& a, const TipState& b) {
@@ -166,10 +156,7 @@ Cell measure_glide(const MethodSpec& spec, double setting, const Effort& effort)
   const ChainResult r = make_runner(spec.name, setting, model, 1.0, start)(tau, 1.0, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, tau, cell)) return cell;
-  cell.number = distance(r.end, start);
-  cell.meaning = "off the glide";
-  if (!(cell.number <= kRightError)) cell.verdict = Verdict::inaccurate;
-  return cell;
+  return judged(r, distance(r.end, start), "off the glide");
 }
 
 // The periodic orbit at eta = 2 returns after every tau, for an hour of the tip's time, and no slower than that.
@@ -180,22 +167,17 @@ Cell measure_hour(const MethodSpec& spec, double setting, const Effort& effort) 
   const double target = effort.quick ? 20000.0 : hour;
   const ChainResult r =
       make_runner(spec.name, setting, model, 2.0, start)(target, 2.0, kAnyImpacts, 10.0 * effort.seconds);
-  Cell cell;
-  cell.ns_per_tau = 1e9 * r.seconds / r.tau;
-  const bool slow = cell.ns_per_tau > 1e9 * tau_s;
-  if (r.diverged || !r.sound() || slow) {
-    return {r.diverged ? Verdict::blows_up : Verdict::stalls, cell.ns_per_tau * 1e-9 / tau_s,
-            "times as long as the tip itself takes", cell.ns_per_tau};
+  const double ns_per_tau = 1e9 * r.seconds / r.tau;
+  if (!r.sound() || ns_per_tau > 1e9 * tau_s) {
+    return {r.diverged ? Verdict::blows_up : Verdict::stalls, ns_per_tau * 1e-9 / tau_s,
+            "times as long as the tip itself takes", ns_per_tau};
   }
   // where the seconds were over before the hour: on to a whole tau first
   const double rest = std::ceil(r.tau) - r.tau;
   const TipState end =
       rest > 0.0 ? make_runner(spec.name, setting, model, 2.0, r.end)(rest, 2.0, kAnyImpacts, effort.seconds).end
                  : r.end;
-  cell.number = distance(end, start);
-  cell.meaning = "off the orbit after " + std::to_string(static_cast<long>(r.tau)) + " tau";
-  if (!(cell.number <= kRightError)) cell.verdict = Verdict::inaccurate;
-  return cell;
+  return judged(r, distance(end, start), "off the orbit after " + std::to_string(static_cast<long>(r.tau)) + " tau");
 }
 
 double large_step(const MethodSpec& spec) {
