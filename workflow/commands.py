@@ -201,7 +201,7 @@ def commands(quick):
     add("stability", "stability_matrix", choose("--quick --seconds 0.2", "--seconds 2"), may_fail=True)
     add("work_cost", "work_cost", choose("--impacts 100000 --tips 10000 --rounds 1", ""))
     for i in range(choose(1, 3)):
-        add("verbs_%d" % i, "verbs --benchmark_min_time=%s --benchmark_format=json" % choose("0.05", "0.5"))
+        add("verbs_%d" % i, "verbs --benchmark_min_time=%s --benchmark_format=csv" % choose("0.05", "0.5"))
         add("real_time_%d" % i, "real_time", choose("--tau 200 --transient 100", "--tau 1000 --transient 200"))
     add("burst_error", "burst_error --gamma 0.3 0.7 0.95 1 --bursts", choose(100, 1000), "--most-bounces 20000")
     add("burst_friction", "benchmark/tolerance_friction.py bursts",

@@ -1,6 +1,5 @@
 """Tables made from what programs print."""
 import itertools
-import json
 import re
 
 from commands import FUZZED, LEVER_KICKS, LOCK_KICKS, LOCK_QUALITIES, LOCK_RATIOS, MORE_KICKS
@@ -9,13 +8,10 @@ from registry import table
 
 @table(lambda quick: ["verbs_%d" % i for i in range(1 if quick else 3)])
 def verbs(tables):
-    """Of Google Benchmark's JSON: its CSV cannot hold rows with counters of their own. The least of several runs."""
-    texts = [tables.text("verbs_%d" % i) for i in range(1 if tables.quick else 3)]
-    runs = [[b for b in json.loads(text[text.index("{"):])["benchmarks"] if not b.get("error_occurred")]
-            for text in texts]
-    return [{"name": b["name"], "iterations": b["iterations"], "real_time": "%.4f" % b["real_time"],
-             "cpu_time": "%.4f" % b["cpu_time"], "time_unit": b["time_unit"]}
-            for b in (min(same, key=lambda one: one["cpu_time"]) for same in zip(*runs))]
+    """The least of several runs."""
+    runs = [tables.strings("verbs_%d" % i) for i in range(1 if tables.quick else 3)]
+    return [{name: best[name] for name in ("name", "iterations", "real_time", "cpu_time", "time_unit")}
+            for best in (min(same, key=lambda row: float(row["cpu_time"])) for same in zip(*runs))]
 
 
 @table(lambda quick: ["real_time_%d" % i for i in range(1 if quick else 3)])
