@@ -13,11 +13,8 @@ import results  # noqa: E402,F401  (registers its tables)
 from measure import stamp  # noqa: E402
 from registry import PICTURES, TABLES, Tables, text_of  # noqa: E402
 
-PLOTTING = ("atlas", "bifurcations", "bounce", "chatter", "drawings", "friction", "hammer", "levers", "load",
-            "model", "orbits", "pace", "scaling", "scenes", "speed_accuracy", "stability", "temperature",
-            "thermal_hops", "work_cost")
-for module in PLOTTING:
-    importlib.import_module("plotting." + module)
+for module in sorted((Path(__file__).resolve().parent / "plotting").glob("[!_]*.py")):
+    importlib.import_module("plotting." + module.stem)
 
 
 def main():
