@@ -216,10 +216,8 @@ class Launched(NodeTest):
         Topic('deflection').wait_for(lambda m: m.first_sample >= 200000, 'a second of the run')
         bag, = self.end(emulator)
         environment = {name: value for name, value in os.environ.items() if 'DISPLAY' not in name}
-        status = Topic('status')  # with those of the view all that the replay waits for
-        replay = self.launch('replay.launch', environment, view='true', bag=bag, wait='true')
+        replay = self.launch('replay.launch', environment, view='true', bag=bag, delay=5)
         markers = Topic('/afm_view/markers', MarkerArray)
-        status.wait_for_connection()
         drawn = markers.wait_for(lambda m: Picture(m).has('tip') and Picture(m).has('positions'), 'the tip')
         self.assertTrue(Picture(drawn).has('surface'))
         wait_until(lambda: '[replay' in replay.output() and 'finished cleanly' in replay.output(), 'the bag has ended')
