@@ -42,7 +42,7 @@ constexpr unsigned kSpinnerThreads = 3;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
-constexpr double kDiskPeriod = 1.0, kClientsPeriod = 0.1;  // [s]
+constexpr double kClientsPeriod = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
 constexpr std::chrono::microseconds kSpin{300};        // an idle processor takes 50 to 100 us to wake a thread
@@ -124,7 +124,6 @@ class EmulatorNode {
       const Recorder::Reply reply = recorder_.start("");
       if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
     }
-    free_bytes_ = free_bytes(parameters.bag_directory);
     report_pace(parameters);
     live_server_.emplace(node, parameters, refusals_, [this](const Live& shown, const Live& wanted) {
       Request change(Kind::change);
@@ -134,9 +133,9 @@ class EmulatorNode {
       Answer unused;
       return ask(change, unused);
     });
-    publisher_.emplace(node, parameters,
-                       Publisher::Sources{queue_, recorder_, refusals_, free_bytes_,
-                                          [this](const Live& live) { live_server_->applied(live); }});
+    publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, [this](const Live& live) {
+                                                              live_server_->applied(live);
+                                                            }});
     runner_.start();
     report_run(parameters, runner_.scheduler());
     advertise(node);
@@ -148,7 +147,6 @@ class EmulatorNode {
   ~EmulatorNode() {
     closing_ = true;  // services that wait for an answer return, and can then be shut down
     for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
-    disk_timer_.stop();
     clients_timer_.stop();
     for (ros::ServiceServer& service : services_) service.shutdown();
     runner_.stop();
@@ -167,9 +165,6 @@ class EmulatorNode {
                  node.advertiseService("step", &EmulatorNode::on_step, this),
                  node.advertiseService("start_recording", &EmulatorNode::on_start_recording, this),
                  node.advertiseService("stop_recording", &EmulatorNode::on_stop_recording, this)};
-    disk_timer_ = node.createWallTimer(ros::WallDuration(kDiskPeriod), [this](const auto&) {
-      free_bytes_ = free_bytes(parameters_.bag_directory);  // may wait for the disk
-    });
     clients_timer_ = node.createWallTimer(ros::WallDuration(kClientsPeriod),
                                           [this](const auto&) { live_server_->update_clients(); });
   }
@@ -318,7 +313,6 @@ class EmulatorNode {
 
   const Parameters parameters_;
   Refusals refusals_;
-  std::atomic<std::int64_t> free_bytes_{-1};  // on the disk that is recorded to; negative: unknown
   BatchQueue queue_;
   Runner runner_;
   Recorder recorder_;
@@ -327,7 +321,7 @@ class EmulatorNode {
   std::optional<Publisher> publisher_;
   std::vector<ros::Subscriber> commands_;
   std::vector<ros::ServiceServer> services_;
-  ros::WallTimer disk_timer_, clients_timer_;
+  ros::WallTimer clients_timer_;
   // the last to begin and the first to end: roscpp aborts where a callback publishes on a topic that is withdrawn
   ros::AsyncSpinner spinner_{kSpinnerThreads};
 };

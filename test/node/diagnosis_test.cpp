@@ -1,9 +1,8 @@
 // Every level of every diagnosis, with its reason, from the state that leads to it.
-#include "node/publisher/status.h"
-
 #include <gtest/gtest.h>
 
 #include "afm/units.h"
+#include "node/publisher/status.h"
 
 namespace afm::node {
 namespace {
@@ -14,8 +13,6 @@ constexpr std::uint8_t kOk = diagnostic_msgs::DiagnosticStatus::OK, kWarn = diag
 Health healthy() {
   Health health;
   health.lattice_spacing_m = SiModel{}.lattice_spacing_m;
-  health.free_mb = 1e5;
-  health.reserve_mb = 200.0;
   health.status.scheduler = "normal: not permitted";
   return health;
 }
@@ -71,10 +68,6 @@ TEST(DiagnoseRecording, TellsOfTheDisk) {
   expect(diagnose_recording, health, kOk, "not recording");
   health.status.recording = "/bags/run.bag";
   expect(diagnose_recording, health, kOk, "recording");
-  health.free_mb = -1.0;  // unknown
-  expect(diagnose_recording, health, kOk, "recording");
-  health.free_mb = 399.0;
-  expect(diagnose_recording, health, kWarn, "399 MB are free, and recordings end at 200 MB");
   health.dropped_from_recording = 1;
   expect(diagnose_recording, health, kError, "missing");
   health.status.recorder_error = "the disk is full";
@@ -85,7 +78,7 @@ class HealthTracking : public testing::Test {
  protected:
   const Health& check(int seconds) {
     tracker_.observe(report_);
-    tracker_.check({}, refusals_.summary(), 5000000, start_ + std::chrono::seconds(seconds));
+    tracker_.check({}, refusals_.summary(), start_ + std::chrono::seconds(seconds));
     return tracker_.health();
   }
 
@@ -126,7 +119,6 @@ TEST_F(HealthTracking, KeepsTheLatestRefusal) {
   health = check(60);
   EXPECT_EQ(health.refusal, "");
   EXPECT_FALSE(health.overload);
-  EXPECT_EQ(health.free_mb, 5.0);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class Diagnostics(NodeTest):
         self.assertAlmostEqual(float(pace['real-time factor']), 1.0, delta=0.5)
         self.assertTrue(pace['scheduler'].startswith(('fifo', 'normal')))
         self.expect('numerics', OK)
-        self.assertGreater(float(self.expect('recording', OK, 'not recording')['free [MB]']), 0.0)
+        self.expect('recording', OK, 'not recording')
         self.expect('commands', WARN, 'no command for 2 s')
         self.emulator.drag(SPEED_UNIT)
         self.expect('commands', OK)

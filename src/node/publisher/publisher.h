@@ -30,7 +30,6 @@ class Publisher {
     BatchQueue& queue;
     Recorder& recorder;
     const Refusals& refusals;
-    const std::atomic<std::int64_t>& free_bytes;
     std::function<void(const Live&)> on_applied;  // called with what has taken effect
   };
 
@@ -153,8 +152,7 @@ class Publisher {
       status_.send(std::move(status), false);
     }
     if (is_due(diagnostics_due_, kDiagnosticsPeriod)) {
-      status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), sources_.free_bytes,
-                            std::chrono::steady_clock::now());
+      status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), std::chrono::steady_clock::now());
       diagnostics_.force_update();
     }
   }

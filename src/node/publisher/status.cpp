@@ -13,7 +13,6 @@ constexpr double kTroublingLag = 0.5;        // [s]: what a person notices
 constexpr double kHopelessLag = 2.0;         // [s]
 constexpr double kTroublingLateShare = 0.1;  // of the batches since the last check
 constexpr double kPenetration = 1e-10;       // [a]: more is not rounding
-constexpr double kScarceReserves = 2.0;      // a recording comes near its end with less than so many reserves free
 
 using Severity = diagnostic_msgs::DiagnosticStatus;
 
@@ -22,7 +21,6 @@ using Severity = diagnostic_msgs::DiagnosticStatus;
 StatusTracker::StatusTracker(const Parameters& parameters) : units_(parameters.si) {
   health_.lattice_spacing_m = parameters.si.lattice_spacing_m;
   health_.command_timeout_s = parameters.command_timeout_s;
-  health_.reserve_mb = parameters.disk_reserve_mb;
 }
 
 void StatusTracker::observe(const Report& report) {
@@ -66,8 +64,7 @@ afm_emulator::EmulatorStatus StatusTracker::update_status(const Recorder::Status
   return status;
 }
 
-void StatusTracker::check(const Recorder::Status& recorder, const Refusals::Summary& refusals, std::int64_t free_bytes,
-                          Time now) {
+void StatusTracker::check(const Recorder::Status& recorder, const Refusals::Summary& refusals, Time now) {
   const std::uint64_t batches = state_.batches - checked_.batches, late = state_.late_batches - checked_.late_batches;
   health_.late_share = batches > 0 ? static_cast<double>(late) / static_cast<double>(batches) : 0.0;
   if (state_.counters.budget_exhausted > checked_.counters.budget_exhausted) budget_spent_ = now;
@@ -78,7 +75,6 @@ void StatusTracker::check(const Recorder::Status& recorder, const Refusals::Summ
   const bool is_recent = now - refusals.when < kRecently;
   health_.refusal = is_recent ? refusals.reason : "";
   health_.overload = is_recent && refusals.kind == Refusal::overload;
-  health_.free_mb = free_bytes < 0 ? -1.0 : static_cast<double>(free_bytes) / 1e6;
   health_.dropped_from_recording = recorder.dropped_from_recording;
 }
 
@@ -144,12 +140,7 @@ void diagnose_recording(const Health& health, Diagnosis& out) {
   if (recording && health.dropped_from_recording > 0) {
     out.mergeSummary(Severity::ERROR, "messages are missing in the recording: the disk is too slow");
   }
-  if (health.free_mb >= 0.0 && health.free_mb < kScarceReserves * health.reserve_mb) {
-    out.mergeSummaryf(Severity::WARN, "%.0f MB are free, and recordings end at %.0f MB (disk_reserve_mb)",
-                      health.free_mb, health.reserve_mb);
-  }
   out.add("bag", status.recording);
-  if (health.free_mb >= 0.0) out.addf("free [MB]", "%.0f", health.free_mb);
   out.add("messages missing in the recording", health.dropped_from_recording);
 }
 

@@ -26,8 +26,6 @@ struct Health {
   bool overload = false;  // it was refused as too many were waiting
   std::uint64_t refused_changes = 0;
   double lattice_spacing_m = 0.0;
-  double free_mb = -1.0;  // on the disk recorded to; negative: unknown
-  double reserve_mb = 0.0;
   std::uint64_t dropped_from_recording = 0;
 };
 
@@ -49,8 +47,8 @@ class StatusTracker {
   void observe(const Report& report);
   afm_emulator::EmulatorStatus update_status(const Recorder::Status& recorder, const Refusals::Summary& refusals,
                                              std::uint64_t lost_messages);
-  // With the latest status. free_bytes: negative: unknown.
-  void check(const Recorder::Status& recorder, const Refusals::Summary& refusals, std::int64_t free_bytes, Time now);
+  // With the latest status.
+  void check(const Recorder::Status& recorder, const Refusals::Summary& refusals, Time now);
   const Health& health() const { return health_; }
 
  private:
