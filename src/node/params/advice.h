@@ -15,6 +15,10 @@ std::string describe_tip(const Parameters& parameters);
 // time-out of commands in lockstep.
 std::vector<std::string> find_traps(const Parameters& parameters);
 
+// Model time per processor time of the run alone, without what it costs to publish, from a trial run of some
+// milliseconds.
+double measure_pace(const Parameters& parameters);
+
 // What to change where a trial run made too few times real time (`pace`); nothing where it made enough.
 std::string find_pace_fault(const Parameters& parameters, double pace);
 

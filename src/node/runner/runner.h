@@ -22,10 +22,6 @@ constexpr double kMaxStepTau = 1e4;  // of one step: 1.6 s of model time at the 
 constexpr std::uint64_t kMaxStepImpacts = 100000;
 constexpr char kTimeRanOut[] = "time ran out";  // a fault of an answer: the step went as far as it says
 
-// Model time per processor time of the run alone, without what it costs to publish, from a trial run of some
-// milliseconds.
-double measure_pace(const Parameters& parameters);
-
 class Runner {
  public:
   Runner(const Parameters& parameters, BatchQueue& queue);
