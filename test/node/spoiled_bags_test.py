@@ -36,10 +36,19 @@ class SpoiledBags(SpoiledBag):
                 self.assert_reported(code, *words, sound=sound)
 
     def test_one_bit(self):
-        """Of any byte fuzz_bag_messages tests it, and message_difference_test.cpp the words."""
+        """Of any byte fuzz_bag_messages tests it. The field is named, with the elements that it lies in."""
+        impacts, deflection = (self.of(topic)[80].message() for topic in ('impacts', 'deflection'))
+        impacts.impacts[1].time.phase = 0.5
+        index = len(deflection.vertical) - 1
         self.spoil_each(
-            (DIFFERS, ('message 80 of /afm/deflection', 'lateral[', 'last command: number'), None,
+            (DIFFERS, ('message 80 of /afm/deflection', 'lateral[%d]' % index, 'last command: number'), None,
              lambda: self.of('deflection')[80].flip_last_bit(-8)),
+            (DIFFERS, ('  vertical[%d]\n    recorded   none' % index,), None,
+             lambda: self.of('deflection')[80].edit(vertical=deflection.vertical[:-1])),
+            (DIFFERS, ('  impacts[1].time.phase\n    recorded   0.5\n',), None,
+             lambda: self.of('impacts')[80].edit(impacts=impacts.impacts)),
+            (DIFFERS, ('  impacts[%d]' % (len(impacts.impacts) - 1),), None,
+             lambda: self.of('impacts')[80].edit(impacts=self.of('impacts')[80].message().impacts[:-1])),
             (DIFFERS, ('estimate_energy[', '/afm/snapshot'), None,
              lambda: self.of('snapshot')[0].edit(estimate_energy=[1e-300, 0.0])))
 

@@ -1,9 +1,6 @@
 # Tools on the command line, and programs that measure.
 
 if(catkin_FOUND)
-  afm_add_gtest(message_difference_test tools/message_difference_test.cpp)
-  target_link_libraries(afm_message_difference_test afm_bags)
-
   afm_add_test(plot_run 180 ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
     ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
 endif()
