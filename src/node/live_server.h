@@ -38,7 +38,8 @@ class LiveServer {
       config = shown_ = to_config(in_force());
     });
     show_ranges();
-    if (parameters.load_n != 0.0) node.setParam(kHeightIsOfLoad, true);
+    // the height that was written beside it stands for it, also when the node starts again
+    if (parameters.load_n != 0.0) node.deleteParam("load_n");
   }
 
   // Called with whatever was applied, by the publisher: a change waits for it, so it may not wait for a change.

@@ -21,7 +21,7 @@ namespace {
 using Field = std::variant<double*, std::uint64_t*, bool*, std::string*, std::vector<double>*>;
 
 // diagnostic_updater reads these in our namespace
-constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn", kHeightIsOfLoad};
+constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn"};
 
 std::map<std::string, Field> fields_of(Parameters& p) {
   std::map<std::string, Field> fields;
@@ -177,11 +177,6 @@ Parameters read_parameters(Value tree, Faults& faults) {
 }
 
 Parameters load_parameters(const ros::NodeHandle& node, Faults& faults) {
-  bool is_of_load = false;
-  if (node.getParam(kHeightIsOfLoad, is_of_load) && is_of_load) {
-    if (node.hasParam("load_n")) node.deleteParam("rest_height_m");
-    node.deleteParam(kHeightIsOfLoad);
-  }
   Value tree;
   node.getParam(node.getNamespace(), tree);
   return read_parameters(tree, faults);

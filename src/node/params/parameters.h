@@ -75,9 +75,6 @@ using Faults = std::vector<Fault>;
 void add(const std::vector<ParameterError>& faults_of_core, Faults& faults);
 std::string describe(const Faults& faults);  // a line each: "name = value: reason"
 
-// A mark on the parameter server: the height there is one that dynamic_reconfigure wrote for the load of a node before.
-constexpr char kHeightIsOfLoad[] = "rest_height_is_of_load";
-
 // Reads the private parameters of `node`: the only place that asks the parameter server. Finds every fault there is.
 Parameters load_parameters(const ros::NodeHandle& node, Faults& faults);
 // The same from a tree of values, as a YAML file gives it.
