@@ -33,7 +33,7 @@ double Canvas::over_cell(double x, std::size_t nth) const {
 
 Marker Canvas::marker(const std::string& name, int type) const {
   Marker marker;
-  marker.header.frame_id = look_.frame;
+  marker.header.frame_id = "afm";
   marker.header.stamp = stamp_;
   marker.ns = name;
   marker.type = type;

@@ -10,7 +10,6 @@ namespace afm::view {
 
 // How much is seen, and of what size.
 struct Look {
-  std::string frame = "afm";
   double cells = 6.0;  // of the surface, across the picture
 };
 

@@ -1,5 +1,5 @@
 // view_node: draws an emulator, live or replayed, as markers for rviz (~markers), thirty pictures a second.
-// Parameters: ~emulator, its name (default: afm, beside this node); ~cells, how much of the surface is seen; ~frame.
+// Parameters: ~emulator, its name (default: afm, beside this node); ~cells, how much of the surface is seen.
 #include <ros/ros.h>
 
 #include <optional>
@@ -14,7 +14,8 @@ namespace {
 using namespace afm;
 using afm::view::RunView;
 
-constexpr unsigned kBatchesKept = 1000;  // a step in slow motion makes hundreds at once, and a gap would cut the path off
+constexpr unsigned kBatchesKept =
+    1000;  // a step in slow motion makes hundreds at once, and a gap would cut the path off
 
 template <class Message>
 ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned queue_size, RunView& run) {
@@ -48,7 +49,6 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "afm_view");
   ros::NodeHandle handle("~");
   view::Look look;
-  handle.param("frame", look.frame, look.frame);
   handle.param("cells", look.cells, look.cells);
   if (!(look.cells >= 1.0 && look.cells <= 100.0)) {
     ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", look.cells);
