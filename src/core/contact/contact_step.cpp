@@ -3,6 +3,7 @@
 #include "afm/detail/contact_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bernstein_fall.h"
@@ -45,41 +46,20 @@ using Limits = ContactLimits;
 constexpr int kLevels = 8, kLastLevel = 60;
 constexpr double kLevelRatio = 0.75;
 
-struct Angles {
-  double of[kLastLevel + 1];
-};
-constexpr Angles make_angles() {
-  Angles angles{};
-  angles.of[0] = kTwoPi;
-  for (int i = 1; i <= kLastLevel; ++i) angles.of[i] = kLevelRatio * angles.of[i - 1];
+constexpr std::array<double, kLastLevel + 1> make_angles() {
+  std::array<double, kLastLevel + 1> angles{kTwoPi};
+  for (std::size_t i = 1; i < angles.size(); ++i) angles[i] = kLevelRatio * angles[i - 1];
   return angles;
 }
-constexpr Angles kAngle = make_angles();
+constexpr std::array<double, kLastLevel + 1> kAngle = make_angles();
 
-struct SwingTables {
-  SwingTable of[kLevels + 1];
-};
-constexpr SwingTables make_swing_tables() {
-  SwingTables tables{};
-  for (int i = 0; i < kLevels; ++i) tables.of[i] = make_swing_table(kAngle.of[i]);
-  tables.of[kLevels] = make_swing_table(0.0);
+constexpr std::array<SwingTable, kLevels + 1> make_swing_tables() {
+  std::array<SwingTable, kLevels + 1> tables{};
+  for (int i = 0; i < kLevels; ++i) tables[i] = make_swing_table(kAngle[i]);
+  tables[kLevels] = make_swing_table(0.0);
   return tables;
 }
-constexpr SwingTables kSwing = make_swing_tables();
-
-// Weight of node j in the coefficient of the last Legendre polynomial but one.
-struct LastButOne {
-  AtGaussNodes weight;
-};
-constexpr LastButOne make_last_but_one() {
-  LastButOne last{};
-  for (std::size_t j = 0; j < kN; ++j) {
-    const double degree = static_cast<double>(kN - 2);
-    last.weight[j] = (2.0 * degree + 1.0) * kGauss.weight[j] * legendre(kN - 2, kGauss.node[j]);
-  }
-  return last;
-}
-constexpr LastButOne kLastButOne = make_last_but_one();
+constexpr std::array<SwingTable, kLevels + 1> kSwing = make_swing_tables();
 
 constexpr double kMaxLength = 8.0;    // [tau] a choice: as far as a flight is searched at once
 constexpr double kMinLength = 1e-12;  // [tau] only a corrupted state is so fast
@@ -88,12 +68,6 @@ inline double sum_of_products(const AtGaussNodes& a, const AtGaussNodes& b) {
   double sum[4];
   for (std::size_t i = 0; i < 4; ++i) sum[i] = a[i] * b[i] + a[i + 4] * b[i + 4];
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
-}
-// Of the power m of the part of the step, in the interpolation of values at the nodes.
-inline double coefficient(std::size_t m, const AtGaussNodes& values) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < kN; ++j) sum += kGauss.power.at[m][j] * values[j];
-  return sum;
 }
 inline double least_of(const AtGaussNodes& a) {
   double least = a[0];
@@ -130,7 +104,6 @@ class ContactSolver {
   static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint, ContactStep::Purpose purpose);
   static ContactPoint end(const ContactStep& s);
   static ContactPoint balanced(const ContactStep& s, double time, double d, double u, double integral);
-  static void enclose_reaction(const ContactStep& s, AtGaussNodes& b);
 
  private:
   static void rest(ContactStep& s);
@@ -202,9 +175,9 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
   const SpringConstants<double>& m = s.m_;
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
   const double u0 = s.start_.u, X0 = s.start_.X, eta = s.eta_, H = m.H, y0 = m.y0;
-  const SwingTable& table = kSwing.of[free == 0.0 ? kLevels : std::min(level, kLevels)];
+  const SwingTable& table = kSwing[free == 0.0 ? kLevels : std::min(level, kLevels)];
   const double least = Limits::kLeastStiffness * (wh2 * free + k2 * u0 * u0);
-  const double longest = std::min(kMaxLength, kAngle.of[level] / std::sqrt(std::max(stiffness, least)));
+  const double longest = std::min(kMaxLength, kAngle[level] / std::sqrt(std::max(stiffness, least)));
   const double h = std::max(kMinLength, longest);
   const double h2 = h * h, inverse_h = 1.0 / h, kappa = table.angle * table.angle / h2;
   const double drag = wh2 * eta * free / s.first_.N2, n0 = h2 * s.first_.force, n1 = h2 * h * drag, n_u = h * u0;
@@ -261,7 +234,7 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
     s.reaction_[i] = reaction[i];
   }
   const double last = std::fabs(sum_of_products(kGauss.last, s.force_));
-  const double before_last = Limits::kFall * std::fabs(sum_of_products(kLastButOne.weight, s.force_));
+  const double before_last = Limits::kFall * std::fabs(sum_of_products(kGauss.last_but_one, s.force_));
   const double tail = Limits::kTail * h2 * (last > before_last ? last : before_last);
   if (!(tail <= tolerance)) return false;
   const bool may_be_longer = tail < Limits::kEasyTail * tolerance && reach < Limits::kEasyReach * Limits::kMaxReach &&
@@ -309,15 +282,6 @@ void ContactSolver::solve(ContactStep& s, double tolerance, ContactStep::Hint hi
   s.hint_ = next;
 }
 
-// The reaction in Bernstein's basis, which encloses it.
-void ContactSolver::enclose_reaction(const ContactStep& s, AtGaussNodes& b) {
-  for (std::size_t i = 0; i < kN; ++i) {
-    b[i] = 0.0;
-#pragma GCC unroll 8
-    for (std::size_t j = 0; j < kN; ++j) b[i] += kGauss.bernstein.at[j][i] * s.reaction_[j];
-  }
-}
-
 // True if the reaction neither stays above zero for certain, nor falls through it at once.
 bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
   constexpr int kHalvings = 4;  // of the step: enough to enclose a swing
@@ -325,10 +289,10 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
   const double by_x = wh2 + k * k * (1.0 + u * u) + k * wh2 * std::fabs(s.start_.X);
   const double of_path = Limits::kPathError * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
   const double of_interpolation = std::fabs(sum_of_products(kGauss.last, s.reaction_)) +
-                                  std::fabs(sum_of_products(kLastButOne.weight, s.reaction_));
+                                  std::fabs(sum_of_products(kGauss.last_but_one, s.reaction_));
   const double error = kReleaseNoise + of_path + of_interpolation;
   AtGaussNodes b;
-  enclose_reaction(s, b);
+  enclose(s.reaction_, b);
   if (least_of(b) > error) return false;
   if (!(s.first_.reaction > error)) return true;
   for (double& x : b) x -= error;
@@ -369,55 +333,6 @@ ContactPoint ContactStep::point(double s) const {
 
 double ContactStep::pressure(const SlideState<double>& q) const {
   return forces(m_, sin_cos_turns(q.phase), q.X, q.u).reaction;
-}
-
-double ContactStep::first_below(double reaction) const {
-  constexpr int kHalvings = 4;
-  AtGaussNodes b;
-  ContactSolver::enclose_reaction(*this, b);
-  for (double& x : b) x -= reaction;
-  return first_bernstein_fall(b, 0.0, length_, kHalvings);
-}
-
-double ContactStep::impulse(double s) const {
-  const double part = s / length_;
-  double sum = 0.0;
-  for (std::size_t m = kN; m-- > 0;) {
-    sum = sum * part + coefficient(m, reaction_) / static_cast<double>(m + 1);
-  }
-  return sum * s;
-}
-
-double ContactStep::find_release() const {
-  constexpr int kHalvings = 12;               // to 1/4000 of the step; the rest is done on the reaction itself
-  constexpr int kMaxTries = 60;               // bisection alone needs 50
-  constexpr double kAccuracy = 1.0 / 1024.0;  // of the noise: finer would be rounding of the reaction
-  const double noise = release_noise(m_, start_.u, start_.X), zero = kAccuracy * noise;
-  const auto pressed = [&](double t) { return pressure(at(t)) + noise; };
-  double low = 0.0, low_p = first_.reaction + noise;
-  if (low_p <= zero) return 0.0;
-  AtGaussNodes b;
-  ContactSolver::enclose_reaction(*this, b);
-  for (double& x : b) x += noise;
-  b[0] = low_p;
-  double s = 0.0, p = low_p;
-  for (int i = 0; i < kMaxTries && p > zero; ++i) {
-    s = first_bernstein_fall(b, 0.0, length_, kHalvings);
-    if (s < 0.0) return -1.0;
-    p = pressed(s);
-    if (p > 0.0) low = s, low_p = p;
-    for (double& x : b) x += p;  // so much the interpolation is off
-  }
-  // secants, and bisection where they lead out
-  double high = s, other = low, other_p = low_p;
-  for (int i = 0; i < kMaxTries && std::fabs(p) > zero; ++i) {
-    const double next = s - p * (s - other) / (p - other_p);
-    other = s, other_p = p;
-    s = low < next && next < high ? next : 0.5 * (low + high);
-    p = pressed(s);
-    (p > 0.0 ? low : high) = s;
-  }
-  return p <= zero ? s : high;
 }
 
 }  // namespace afm::detail

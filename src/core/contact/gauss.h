@@ -58,12 +58,12 @@ constexpr Square inverse_of_one_plus(double factor, const Square& a) {
 }
 
 struct Gauss {
-  AtGaussNodes node, weight;  // of the integral over [0, 1]
-  AtGaussNodes weight2;       // of its second integral, from 0 to 1
-  Square integral;            // [i][j]: weight of node j in the integral from 0 to node i
-  Square power;               // [m][j]: weight of node j in the coefficient of c^m of the interpolation
-  Square bernstein;           // [j][m]: the same in Bernstein's basis
-  AtGaussNodes last;          // weight of node j in the coefficient of the last Legendre polynomial
+  AtGaussNodes node, weight;        // of the integral over [0, 1]
+  AtGaussNodes weight2;             // of its second integral, from 0 to 1
+  Square integral;                  // [i][j]: weight of node j in the integral from 0 to node i
+  Square power;                     // [m][j]: weight of node j in the coefficient of c^m of the interpolation
+  Square bernstein;                 // [j][m]: the same in Bernstein's basis
+  AtGaussNodes last, last_but_one;  // weight of node j in the coefficient of that Legendre polynomial
 };
 
 constexpr Gauss make_gauss() {
@@ -97,7 +97,7 @@ constexpr Gauss make_gauss() {
             part * (m == 0 ? c : (legendre(m + 1, c) - legendre(m - 1, c)) / (2.0 * (2.0 * k + 1.0)));
         g.power.at[i][j] += part * in_powers[m][i];
       }
-      g.last[j] = part;
+      g.last_but_one[j] = g.last[j], g.last[j] = part;
     }
   }
   for (std::size_t j = 0; j < n; ++j) {
@@ -113,6 +113,21 @@ constexpr Gauss make_gauss() {
   return g;
 }
 constexpr Gauss kGauss = make_gauss();
+
+// The interpolation of values at the nodes: its coefficient of the power m of the part of the step.
+inline double coefficient(std::size_t m, const AtGaussNodes& values) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < kGaussNodes; ++j) sum += kGauss.power.at[m][j] * values[j];
+  return sum;
+}
+// In Bernstein's basis, whose coefficients b enclose it.
+inline void enclose(const AtGaussNodes& values, AtGaussNodes& b) {
+  for (std::size_t i = 0; i < kGaussNodes; ++i) {
+    b[i] = 0.0;
+#pragma GCC unroll 8
+    for (std::size_t j = 0; j < kGaussNodes; ++j) b[i] += kGauss.bernstein.at[j][i] * values[j];
+  }
+}
 
 // A swing x'' = -kappa (x - x0) + rest(t) over a step h with h sqrt(kappa) = angle, in the equations of collocation:
 //   x - x0 = h u0 x_per_u + h^2 (sum over j of x_per_rest[j] rest_j),

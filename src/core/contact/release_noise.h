@@ -13,13 +13,10 @@ namespace afm::detail {
 // the terms of the reaction exceed 1e4, as with mica's springs above 50 a/tau, it is a part of them.
 constexpr double kReleaseNoise = 1e-9;
 
-template <class T>
-T release_noise(const SpringConstants<T>& m, const T& u, const T& X) {
-  using std::abs;
-  using std::max;
+inline double release_noise(const SpringConstants<double>& m, double u, double X) {
   constexpr double kRelativeNoise = 1e-13;  // of the terms: each sum of a slide's series has an error of 3e-14
-  const T k = m.omega_v, turning = k * k * m.H * (T(1.0) + u * u), rest = k * k * abs(m.y0);
-  return max(T(kReleaseNoise), T(kRelativeNoise) * (turning + rest + k * m.H * (m.omega_h * m.omega_h) * abs(X)));
+  const double k = m.omega_v, turning = k * k * m.H * (1.0 + u * u), rest = k * k * std::abs(m.y0);
+  return std::max(kReleaseNoise, kRelativeNoise * (turning + rest + k * m.H * (m.omega_h * m.omega_h) * std::abs(X)));
 }
 
 }  // namespace afm::detail

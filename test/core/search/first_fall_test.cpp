@@ -1,12 +1,11 @@
 // Where a polynomial first falls to zero, against ones of known roots, and against looking everywhere.
-#include "core/contact/first_fall.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "core/contact/slide_release.h"
 #include "trials/random_launches.h"
 
 namespace afm {
@@ -14,8 +13,6 @@ namespace afm {
 using namespace detail;
 
 namespace {
-
-using Polynomial = Series<double>;
 
 // positive at 0, and zero at all of these
 Polynomial with_roots(const std::vector<double>& roots) {
