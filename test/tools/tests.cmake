@@ -19,8 +19,8 @@ if(AFM_DYNAMICS)
     $<TARGET_FILE_DIR:afm_friction_curve>)
 endif()
 
-# a short form; for longer ones give the program more --seconds
-afm_add_test(stress 120 afm_stress --seconds 3)
+# a short form; for longer ones give the program more --scenes and --seconds
+afm_add_test(stress 120 afm_stress --tau 60 --scenes 1500 --seconds 100)
 afm_add_test(stress_shipped 120 afm_stress --shipped --tau 100000 --scenes 3)
 afm_add_test(stress_levers 120 afm_stress --levers --tau 30 --scenes 300 --seconds 100)
 

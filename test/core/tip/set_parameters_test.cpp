@@ -1,4 +1,5 @@
-// Restitution, cutoff and rest height changed in mid-flight, in a burst, in contact: what happens to the tip.
+// Restitution, cutoff, rest height and drag velocity changed in mid-flight, in a burst, in contact: what happens to the
+// tip.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -106,6 +107,16 @@ class EnergyOfChanges : public testing::TestWithParam<Run> {
 TEST_P(EnergyOfChanges, IsConservedByOtherParameters) {
   RandomLaunches random(11);
   expect_balance(random, 1e-5, [&](Tip& tip) { tip.set_parameters(random_model(random, GetParam().v_c)); });
+}
+
+// The velocity in the lab stays, and so does the energy.
+TEST_P(EnergyOfChanges, IsConservedByAnotherDragVelocity) {
+  RandomLaunches random(4);
+  expect_balance(random, 1e-5, [&](Tip& tip) {
+    const double energy = tip.stored_energy();
+    tip.drag(GetParam().eta * random.within(0.8, 1.2));
+    ASSERT_NEAR(tip.stored_energy(), energy, 1e-13 * (1.0 + energy));
+  });
 }
 
 TEST_P(EnergyOfChanges, IsConservedByAnotherTolerance) {
