@@ -90,32 +90,5 @@ std::vector<Setting> settings() {
 }
 INSTANTIATE_TEST_SUITE_P(Temperatures, EquilibriumAt, testing::ValuesIn(settings()));
 
-TEST(Equilibrium, DoesNotDriftInAMillionTau) {
-  constexpr double kTheta = 0.926;
-  constexpr int kBatches = 100;
-  Tip tip(elastic(), 0.0, kStart);
-  tip.set_bath(bath_of(kTheta, 20.0, 2.0));
-  std::vector<double> energy(kBatches, 0.0);
-  for (int i = 0; i < 1000000; ++i) {
-    while (tip.advance({i + 1, 0.3}) != Outcome::time_limit) continue;
-    energy[static_cast<std::size_t>(i / 10000)] += tip.stored_energy() / 10000.0;
-  }
-  // the slope of energy against batch, with its standard error from the spread about it
-  double mean = 0.0, rise = 0.0, spread = 0.0, weight = 0.0;
-  for (int i = 0; i < kBatches; ++i) {
-    const double x = i - 0.5 * (kBatches - 1);
-    mean += energy[static_cast<std::size_t>(i)] / kBatches;
-    rise += x * energy[static_cast<std::size_t>(i)];
-    weight += x * x;
-  }
-  rise /= weight;
-  for (int i = 0; i < kBatches; ++i) {
-    spread +=
-        std::pow(energy[static_cast<std::size_t>(i)] - mean - rise * (i - 0.5 * (kBatches - 1)), 2) / (kBatches - 2);
-  }
-  EXPECT_LT(std::abs(rise), 4.0 * std::sqrt(spread / weight));
-  EXPECT_LT(std::sqrt(spread / kBatches), 0.01 * mean);  // a drift of some parts in a hundred would be seen
-}
-
 }  // namespace
 }  // namespace afm

@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <complex>
 #include <cstring>
 #include <limits>
 #include <set>
-#include <vector>
 
 #include "afm/flight.h"
 #include "core/tip/normal_pair.h"
@@ -29,23 +27,6 @@ TEST(Philox, GivesTheKnownAnswersOfItsAuthors) {
             (PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
   EXPECT_EQ(philox4x32({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}),  // digits of pi
             (PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
-}
-
-TEST(NormalPair, HasTheMomentsOfANormalDistribution) {
-  constexpr int kPairs = 1000000;
-  double mean = 0.0, square = 0.0, fourth = 0.0, product = 0.0;
-  for (int i = 0; i < kPairs; ++i) {
-    const NormalPair xi = normal_pair(7, 0, static_cast<std::uint64_t>(i));
-    mean += xi.first + xi.second;
-    square += xi.first * xi.first + xi.second * xi.second;
-    fourth += std::pow(xi.first, 4) + std::pow(xi.second, 4);
-    product += xi.first * xi.second;
-  }
-  constexpr double kAll = 2.0 * kPairs;
-  EXPECT_NEAR(mean / kAll, 0.0, 4.0 / std::sqrt(kAll));
-  EXPECT_NEAR(square / kAll, 1.0, 4.0 * std::sqrt(2.0 / kAll));
-  EXPECT_NEAR(fourth / kAll, 3.0, 4.0 * std::sqrt(96.0 / kAll));
-  EXPECT_NEAR(product / kPairs, 0.0, 4.0 / std::sqrt(kPairs));
 }
 
 TEST(NormalPair, IsAFunctionOfSeedStreamAndIndexAndOfNothingElse) {
@@ -114,7 +95,6 @@ class FreeSprings {
     state_.U += kick.lateral.change(state_.U);
     state_.W += kick.vertical.change(state_.W);
   }
-  const FlightState<double>& state() const { return state_; }
   double lateral_energy() const { return 0.5 * (state_.U * state_.U + square(springs_.omega_h * state_.X)); }
   double vertical_energy() const { return 0.5 * (state_.W * state_.W + square(springs_.omega_v * state_.Y)); }
 
@@ -136,32 +116,6 @@ TEST(FreeSpring, WithoutTemperatureTheEnergyDecaysAsTheQualityFactorSays) {
   const double angle = kTwoPi * kSteps / 7.3;
   EXPECT_NEAR(std::log(vertical / springs.vertical_energy()), angle / 200.0, 0.02);
   EXPECT_NEAR(std::log(lateral / springs.lateral_energy()), angle * Model{}.frequency_ratio / 1000.0, 0.02);
-}
-
-// The power spectrum of Y near its resonance f = 1 / tau: a Lorentzian of full width f/Q, and of power theta / omega^2.
-TEST(FreeSpring, ItsNoiseIsALorentzianOfWidthFOverQ) {
-  constexpr double kQ = 20.0, kTheta = 0.3, kRate = 8.0, kPi = 0.5 * kTwoPi;
-  constexpr int kRecords = 3000, kSteps = 400 * 8;  // each 20 times as long as the noise remembers
-  FreeSprings springs(bath_of(kTheta, kQ, kRate), {0.0, 0.0, 0.0, 0.0, 0.0});
-  const std::vector<double> offsets{0.0, 0.25 / kQ, 0.5 / kQ, 1.0 / kQ};
-  std::vector<std::vector<std::complex<double>>> waves(offsets.size());
-  for (std::size_t k = 0; k < offsets.size(); ++k) {
-    for (int i = 0; i < kSteps; ++i) waves[k].push_back(std::polar(1.0, -kTwoPi * (1.0 + offsets[k]) * i / kRate));
-  }
-  std::vector<double> power(offsets.size(), 0.0);
-  for (int record = 0; record < kRecords; ++record) {
-    std::vector<std::complex<double>> sums(offsets.size());
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      springs.step();
-      for (std::size_t k = 0; k < offsets.size(); ++k) sums[k] += springs.state().Y * waves[k][i];
-    }
-    for (std::size_t k = 0; k < offsets.size(); ++k) power[k] += std::norm(sums[k]) / (kRate * kSteps * kRecords);
-  }
-  for (std::size_t k = 0; k < offsets.size(); ++k) {
-    const double half_width = 0.5 / kQ, x = offsets[k] / half_width;
-    const double expected = kTheta / (kTwoPi * kTwoPi) / (2.0 * kPi * half_width * (1.0 + x * x));
-    EXPECT_NEAR(power[k] / expected, 1.0, 4.0 / std::sqrt(kRecords) + 0.03) << offsets[k];
-  }
 }
 
 }  // namespace
