@@ -1,5 +1,8 @@
-// Where a slide ends, its mirror image, and rest.
+// Where a slide ends, and rest.
 #include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
 
 #include "afm/tip.h"
 #include "support/slides.h"
@@ -11,7 +14,6 @@ using namespace detail;
 namespace {
 
 const Model kMica;
-const SpringConstants<double> kSpringConstants(kMica);
 
 TEST(SlideRelease, IsWhereThePressureEndsAndNeverLate) {
   RandomLaunches random(1);
@@ -59,21 +61,6 @@ TEST(SlideRelease, IsFollowedByAFlightHoweverLargeTheForces) {
   EXPECT_EQ(at_once, 0);
 }
 
-TEST(SlideSymmetry, AMirroredSlideIsTheMirrorImageBitForBit) {
-  RandomLaunches random(2);
-  for (int i = 0; i < 1000; ++i) {
-    const SlidePart part = random_part(random);
-    const SlideState<double>& start = part.start();
-    const SlidePart mirrored(kSpringConstants, -part.eta(), {-start.phase, -start.X, -start.u});
-    ASSERT_EQ(mirrored.length(), part.length());
-    ASSERT_EQ(find_release(mirrored), find_release(part));
-    const double s = part.length() * random.within(0.0, 1.0);
-    const SlideState<double> a = part.at(s), b = mirrored.at(s);
-    ASSERT_TRUE(a.phase == -b.phase && a.X == -b.X && a.u == -b.u) << i;
-    ASSERT_EQ(mirrored.pressure(s), part.pressure(s));
-  }
-}
-
 // Crests press whatever the height of the spring's rest; bottoms do where it rests below them.
 TEST(SlideRest, AtACrestOrAValleyBottomStaysForEver) {
   for (const double phase : {0.0, 0.5}) {
@@ -89,6 +76,45 @@ TEST(SlideRest, AtACrestOrAValleyBottomStaysForEver) {
       EXPECT_EQ(part.pressure(s), part.pressure(0.0));
     }
     EXPECT_GE(part.length(), 1.0);
+  }
+}
+
+// positive at 0, and zero at all of these
+Polynomial with_roots(const std::vector<double>& roots) {
+  Polynomial p{1.0};
+  for (const double root : roots) {
+    for (std::size_t k = kSlideOrder; k >= 1; --k) p[k] -= p[k - 1] / root;
+  }
+  return p;
+}
+
+constexpr double kTolerance = 1e-13;
+
+// 1e-9 from a double root: a sample that saw it would have to be within 3e-5 of it
+TEST(FirstFall, TellsATouchFromAMiss) {
+  RandomLaunches random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const double touch = random.within(0.1, 0.9);
+    Polynomial p = with_roots({touch, touch, random.within(1.5, 3.0)});
+    p[0] += 1e-9;
+    ASSERT_LT(first_fall(p, 1.0, kTolerance), 0.0) << i << " at " << touch;
+    p[0] -= 2e-9;
+    const double fall = first_fall(p, 1.0, kTolerance);
+    ASSERT_NEAR(fall, touch, 1e-3) << i;
+    ASSERT_LT(fall, touch) << i << ": the second of two falls";
+  }
+}
+
+// As of a saved state that was altered.
+TEST(FirstFall, EndsWhateverTheNumbers) {
+  using Limits = std::numeric_limits<double>;
+  for (const double odd : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN(), 1e308, -1e308, 5e-324}) {
+    for (std::size_t k = 0; k <= kSlideOrder; ++k) {
+      Polynomial p{1.0, -2.0};
+      p[k] = odd;
+      const double fall = first_fall(p, 8.0, kTolerance);
+      EXPECT_FALSE(fall > 8.0) << odd << " of order " << k;
+    }
   }
 }
 

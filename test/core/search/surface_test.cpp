@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "afm/model.h"
 #include "trials/quad.h"
@@ -21,20 +20,6 @@ TEST(Surface, TheCrestIsAtZeroAndTheValleyAtAHalf) {
   EXPECT_EQ(valley.h, -kH);
   EXPECT_EQ(valley.h1, 0.0);
   EXPECT_GT(valley.h2, 0.0);
-}
-
-TEST(Surface, IsTheSameInQuad) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> phase(-2.0, 2.0);
-  for (int i = 0; i < 10000; ++i) {
-    const double x = phase(random);
-    const SurfaceJet<double> value = surface_jet(kH, x);
-    const SurfaceJet<Quad> truth = surface_jet(Quad(kH), Quad(x));
-    ASSERT_LE(relative_error(value.h, truth.h), 1e-15) << x;
-    ASSERT_LE(relative_error(value.h1, truth.h1), 1e-15) << x;
-    ASSERT_LE(relative_error(value.h2, truth.h2), 1e-15) << x;
-    ASSERT_LE(relative_error(value.h3, truth.h3), 1.5e-15) << x;
-  }
 }
 
 TEST(Surface, EachDerivativeIsTheSlopeOfTheOneBefore) {
