@@ -82,26 +82,5 @@ TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
 
 INSTANTIATE_TEST_SUITE_P(Restitutions, ChatterEnds, testing::Values(1.0, 0.99, 0.7, 0.3, 0.0));
 
-TEST(Projection, TakesOutTheNormalVelocityAndLeavingTheSurfacePutsItBack) {
-  RandomLaunches random(6);
-  const Model model;
-  for (int i = 0; i < 10000; ++i) {
-    TipState state = random.next(random.within(-9.0, 9.0));
-    const Projection projected = project_onto_surface(model, state);
-    const double slope = surface_jet(model.H, state.phase).h1, n = std::sqrt(1.0 + slope * slope);
-    const double w = state.g1 + slope * state.u;
-    ASSERT_NEAR(projected.normal_speed, (w - slope * state.u) / n, 1e-14 * (1.0 + std::abs(w)));
-    ASSERT_NEAR(projected.tangential_velocity, (state.u + slope * w) / n,
-                1e-14 * (1.0 + std::abs(state.u) + std::abs(w)));
-    ASSERT_NEAR(projected.reference.u * n, projected.tangential_velocity, 1e-14 * (1.0 + std::abs(state.u)));
-    const TipState back = leave_surface(model, projected.reference, projected.normal_speed);
-    ASSERT_EQ(back.phase, state.phase);
-    ASSERT_EQ(back.X, state.X);
-    ASSERT_EQ(back.g, 0.0);
-    ASSERT_NEAR(back.g1, state.g1, 1e-15 * std::abs(state.g1));
-    ASSERT_NEAR(back.u, state.u, 1e-15 * (1.0 + std::abs(state.u) + state.g1));
-  }
-}
-
 }  // namespace
 }  // namespace afm

@@ -1,4 +1,4 @@
-// Bursts and contact of a whole tip: the error they bring, the friction they keep, the order of their events.
+// Bursts and contact of a whole tip: the error they bring, and the order of their events.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "afm/friction.h"
 #include "trials/burst_trials.h"
 
 namespace afm {
@@ -26,9 +25,7 @@ Model mica(const Drag& drag) {
   return model;
 }
 
-class ContactAt : public testing::TestWithParam<Drag> {};
-using BurstsAt = ContactAt;
-using FrictionAt = ContactAt;
+class BurstsAt : public testing::TestWithParam<Drag> {};
 
 // benchmark/burst_error measures the same over more bursts.
 TEST_P(BurstsAt, AreWithinTheToleranceAtTheNextImpact) {
@@ -67,32 +64,6 @@ TEST(Bursts, SeldomReplaceOneBounceOrTwo) {
   EXPECT_GT(bursts, 300);
   EXPECT_LT(brief, bursts / 3);
 }
-
-FrictionEstimate friction_of(const Drag& drag, double tolerance) {
-  constexpr ModelTime kTransient{300, 0.0}, kEnd{5300, 0.0};
-  Tip tip(mica(drag), drag.eta, FreeState{0.25, 0.0, 0.2, drag.eta, 0.0}, tolerance);
-  while (tip.advance(kTransient) != Outcome::time_limit) continue;
-  Friction friction(100.0);
-  friction.restart(kTransient, drag.eta);
-  Segments ended;
-  while (tip.advance_segment(kEnd, &ended) != Outcome::time_limit) {
-    for (const Segment& segment : ended) friction.add(segment);
-  }
-  return friction.estimate(kEnd, tip.segment());
-}
-
-TEST_P(FrictionAt, IsThatOfEveryBounceByItself) {
-  const FrictionEstimate bursts = friction_of(GetParam(), kDefaultContactTolerance),
-                         bounces = friction_of(GetParam(), 0.0);
-  const double scatter = std::hypot(bursts.K_f_std_error, bounces.K_f_std_error);
-  EXPECT_NEAR(bursts.K_f, bounces.K_f, 1e-3 * bounces.K_f + 3.0 * scatter);
-  EXPECT_LT(scatter, 0.02 * bounces.K_f);
-}
-
-INSTANTIATE_TEST_SUITE_P(DragSpeeds, FrictionAt,
-                         testing::Values(Drag{0.5, 0.1}, Drag{1.5, 0.1}, Drag{2.0, 0.1}, Drag{2.75, 0.1},
-                                         Drag{3.0, 0.1}, Drag{3.4, 0.1}, Drag{3.0, 0.03}, Drag{3.0, 0.01},
-                                         Drag{2.75, 0.03}));
 
 // Who may follow whom: a burst that dies is contact at once, contact ends before anything else happens.
 void expect_order(const Impact& before, bool in_contact, const Impact& event) {
