@@ -1,4 +1,4 @@
-// Short commands to a run.
+// Settings of a run, and short commands to it.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,16 @@
 #include "afm/run.h"
 
 namespace afm {
+
+// The paper's tip, well above the surface, dragged along with its holder.
+inline RunSettings settings_at(double eta, std::uint64_t samples_per_batch = 200, double sample_period = 0.03) {
+  RunSettings settings;
+  settings.eta = eta;
+  settings.initial = {0.25, 0.0, 0.2, eta, 0.0};
+  settings.sample_period = sample_period;
+  settings.samples_per_batch = samples_per_batch;
+  return settings;
+}
 
 inline double drag(Run& run, double eta) {
   LiveSettings live = live_settings(run.settings());

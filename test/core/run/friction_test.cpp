@@ -95,18 +95,6 @@ TEST(Friction, ABurstCountsItsBounces) {
   EXPECT_EQ(friction.estimate(time_of(3.0), Segment()).impact_count, 1001u);
 }
 
-TEST(Friction, TheWindowForgets) {
-  Friction friction = started(32.0, 1.0);
-  for (int i = 0; i < 1000; ++i) friction.add(impact_at(i + 0.5, i < 500 ? 3.0 : 1.0));
-  const FrictionEstimate e = friction.estimate(time_of(1000.0), Segment());
-  EXPECT_NEAR(e.K_f, 2.0, 1e-12);
-  EXPECT_NEAR(e.window_K_f, 1.0, 1e-12);
-  EXPECT_NEAR(e.window_K_f_std_error, 0.0, 1e-12);
-  // a long silence empties it, whatever the ring held
-  EXPECT_NEAR(friction.estimate(time_of(1040.0), Segment()).window_K_f, 0.0, 1e-12);
-  EXPECT_NEAR(friction.estimate(time_of(1e7), Segment()).window_K_f, 0.0, 1e-12);
-}
-
 TEST(Friction, TheWindowHoldsItsWindow) {
   Friction friction = started(32.0, 1.0);
   // one impact a tau, of rising energy: the mean over the last 32 bins of one tau each
@@ -115,6 +103,9 @@ TEST(Friction, TheWindowHoldsItsWindow) {
     if (i < 32) continue;
     ASSERT_NEAR(friction.estimate(time_of(i + 1.0), Segment()).window_K_f, i - 15.5, 1e-9) << i;
   }
+  // a long silence empties it, whatever the ring held
+  EXPECT_NEAR(friction.estimate(time_of(240.0), Segment()).window_K_f, 0.0, 1e-12);
+  EXPECT_NEAR(friction.estimate(time_of(1e7), Segment()).window_K_f, 0.0, 1e-12);
 }
 
 TEST(Friction, ANewDragVelocityStartsAgain) {
@@ -162,15 +153,6 @@ TEST(Friction, TheStandardErrorIsThatOfACorrelatedProcess) {
   EXPECT_GT(covered, kRuns * 90 / 100);
   EXPECT_LT(covered, kRuns * 99 / 100);
   EXPECT_LT(covered_naively, kRuns * 70 / 100) << "the process is not correlated, so this test says nothing";
-}
-
-TEST(Friction, TheStandardErrorFallsWithTheRootOfTheTime) {
-  double short_error = 0.0, long_error = 0.0;
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    short_error += correlated_run(seed, 1000, 0.0).std_error;
-    long_error += correlated_run(seed, 16000, 0.0).std_error;
-  }
-  EXPECT_NEAR(short_error / long_error, 4.0, 0.6);
 }
 
 }  // namespace

@@ -28,18 +28,13 @@ TEST(Pacer, DeadlinesAreAbsoluteSoThatLatenessNeverAddsUp) {
   EXPECT_NEAR(pacer.worst_lag(), 0.003, 1e-12);
 }
 
-TEST(Pacer, ABatchDoneEarlyHasNoLag) {
-  Pacer pacer(kPeriod, kStart);
-  pacer.batch_done(at(8));
-  EXPECT_EQ(pacer.lag(), 0.0);
-  EXPECT_EQ(pacer.late_batches(), 0u);
-}
-
 TEST(Pacer, ABatchIsLateWhenTheNextOneIsDue) {
   Pacer pacer(kPeriod, kStart);
-  pacer.batch_done(at(20));  // just in time
+  pacer.batch_done(at(8));  // early
+  EXPECT_EQ(pacer.lag(), 0.0);
+  pacer.batch_done(at(30));  // just in time
   EXPECT_EQ(pacer.late_batches(), 0u);
-  pacer.batch_done(at(30) + nanoseconds(1));
+  pacer.batch_done(at(40) + nanoseconds(1));
   EXPECT_EQ(pacer.late_batches(), 1u);
 }
 
@@ -59,15 +54,16 @@ TEST(Pacer, WhatWasMissedIsCaughtUpNotForgotten) {
 
 TEST(Pacer, TimeInAPauseIsNotOwed) {
   Pacer pacer(kPeriod, kStart);
-  pacer.batch_done(at(10));
-  pacer.resume(at(60000));
-  EXPECT_EQ(pacer.deadline(), at(60010));
-  pacer.batch_done(at(60012));
-  EXPECT_NEAR(pacer.lag(), 0.002, 1e-12);
+  for (int batch = 1; batch <= 150; ++batch) pacer.batch_done(at(10 * batch));
+  pacer.resume(at(100000));
+  for (int batch = 1; batch <= 150; ++batch) {
+    EXPECT_EQ(pacer.deadline(), at(100000 + 10 * batch));
+    pacer.batch_done(at(100002 + 10 * batch));
+    EXPECT_NEAR(pacer.real_time_factor(), 1.0, 0.01);
+  }
   EXPECT_NEAR(pacer.worst_lag(), 0.002, 1e-12);
   EXPECT_EQ(pacer.late_batches(), 0u);
-  EXPECT_EQ(pacer.batches(), 2u);
-  EXPECT_EQ(pacer.deadline(), at(60020));
+  EXPECT_EQ(pacer.batches(), 300u);
 }
 
 TEST(Pacer, ANewPeriodHoldsAfterTheNextBatch) {
@@ -88,14 +84,6 @@ TEST(Pacer, TooSlowByHalfTheRealTimeFactorIsAHalf) {
   // and it recovers
   for (int batch = 1; batch <= 350; ++batch) pacer.batch_done(at(7000 + 10 * batch));
   EXPECT_NEAR(pacer.real_time_factor(), 1.0, 0.02);
-}
-
-TEST(Pacer, APauseDoesNotSlowTheRealTimeFactor) {
-  Pacer pacer(kPeriod, kStart);
-  for (int batch = 1; batch <= 150; ++batch) pacer.batch_done(at(10 * batch));
-  pacer.resume(at(100000));
-  for (int batch = 1; batch <= 150; ++batch) pacer.batch_done(at(100000 + 10 * batch));
-  EXPECT_NEAR(pacer.real_time_factor(), 1.0, 1e-9);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "afm/run.h"
+#include "support/commands.h"
 #include "support/faults.h"
 
 namespace afm {
@@ -13,17 +13,9 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Chatters: many impacts a tau.
-RunSettings chattering() {
-  RunSettings settings;
-  settings.eta = 3.0;
-  settings.initial = {0.25, 0.0, 0.2, 3.0, 0.0};
-  settings.model.v_c = 0.1;
-  return settings;
-}
-
 TEST(RunLimits, ASpentBudgetIsCountedAndTimeIsHonest) {
-  RunSettings settings = chattering();
+  RunSettings settings = settings_at(3.0, 2000);  // chatters: many impacts a tau
+  settings.model.v_c = 0.1;
   settings.impact_budget = 10;
   afm::Run run(settings);
   Batch batch;

@@ -7,19 +7,9 @@
 
 #include "support/commands.h"
 #include "support/recorded_run.h"
-#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
-
-RunSettings settings_at(double eta, std::uint64_t samples_per_batch = 200) {
-  RunSettings settings;
-  settings.eta = eta;
-  settings.model.v_c = 0.1 * std::abs(eta);
-  settings.initial = {0.25, 0.0, 0.2, eta, 0.0};
-  settings.samples_per_batch = samples_per_batch;
-  return settings;
-}
 
 // Impacts, chatter and contact at this temperature; 0: no bath.
 class RunAt : public testing::TestWithParam<double> {
@@ -125,8 +115,6 @@ TEST(Run, EndsABatchAlsoWhereAllItsSamplesAreTaken) {
   EXPECT_GT(between, 3);
 }
 
-double lab_energy(const Run& run) { return stored_energy(run.settings().model, run.state()); }
-
 TEST(Run, TheFrictionIsThatOfItsImpacts) {
   afm::Run run(settings_at(3.4, 10000));
   Batch batch;
@@ -140,25 +128,6 @@ TEST(Run, TheFrictionIsThatOfItsImpacts) {
   EXPECT_NEAR(batch.friction.energy_loss, energy, 1e-11 * energy);
   EXPECT_NEAR(batch.friction.K_f, energy / (3.4 * 3.4 * (batch.end - ModelTime{})), 1e-11);
   EXPECT_NEAR(batch.friction.K_f, 0.2533, 5.0 * batch.friction.K_f_std_error);  // of the attractor
-}
-
-// Eq. 1: the drag puts in what the impacts lose and what the tip stores.
-TEST(Run, TheMeanLateralForceIsThePowerOfTheDragOverItsVelocity) {
-  for (const double eta : {0.5, 2.0, 3.4, -5.0}) {
-    afm::Run run(settings_at(eta, 777));
-    Batch batch;
-    run.advance(batch);
-    EXPECT_EQ(batch.eta, eta);
-    drag(run, 1.001 * eta);
-    const ModelTime begin = run.now();
-    const double stored = lab_energy(run);
-    for (int i = 0; i < 20; ++i) run.advance(batch);
-    while (advance_impacts(1, run, batch) != Outcome::budget_spent) continue;
-    EXPECT_EQ(batch.eta, 1.001 * eta);
-    const double work = batch.friction.energy_loss + lab_energy(run) - stored;
-    const double force = work / (run.eta() * (run.now() - begin));
-    EXPECT_NEAR(batch.friction.mean_lateral_force, force, 1e-12 * std::abs(eta) * std::abs(eta)) << eta;
-  }
 }
 
 // On average the holder presses with the force of the vertical spring, also over a snapshot.
