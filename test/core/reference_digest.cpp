@@ -1,8 +1,6 @@
 // Prints a digest of each of a few reference runs, with commands, steps, bursts and contact, and of many tips together:
 // the same lines from every compiler, every option and every machine, whatever lanes it has, or bits depend on who
 // compiled. No ROS, so that it can be built by one command.
-// usage: reference_digest [PART...]   only the lines that have one of the parts in them
-#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -59,15 +57,7 @@ void follow(Run& run, double eta, Digest& digest) {
   for (int i = 0; i < 5; ++i, taken()) run.advance(batch);
 }
 
-std::vector<std::string> parts;
-
-bool wanted(const std::string& line) {
-  const auto in_line = [&](const std::string& part) { return line.find(part) != std::string::npos; };
-  return parts.empty() || std::any_of(parts.begin(), parts.end(), in_line);
-}
-
 void print_run(const char* name, double eta, RunSettings settings) {
-  if (!wanted(name)) return;
   settings.eta = settings.initial.u = eta;
   settings.samples_per_batch = 1000;
   Run run(settings);
@@ -101,7 +91,6 @@ void print_bath(double eta, double temperature, double quality_factor, ModelKind
 // The records of segments, and the mean lateral force that comes of them.
 void print_segments(double eta, double cutoff, ModelKind kind) {
   const std::string name = "segments of the " + std::string(afm::name(kind));
-  if (!wanted(name)) return;
   RunSettings settings;
   settings.model.kind = kind;
   settings.model.v_c = cutoff;
@@ -127,7 +116,6 @@ void print_segments(double eta, double cutoff, ModelKind kind) {
 
 // Every impact of tips that are as different as can be, flown together.
 void print_together(const std::string& name, int threads, afm::Bath bath = {}) {
-  if (!wanted(name)) return;
   constexpr std::uint32_t kTips = 96, kEvents = 60;
   afm::Ensemble tips(threads);
   for (std::uint32_t i = 0; i < kTips; ++i) {
@@ -150,8 +138,7 @@ void print_together(const std::string& name, int threads, afm::Bath bath = {}) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  parts.assign(argv + 1, argv + argc);
+int main() {
   for (const double eta : {0.0, 0.5, 1.0, 2.0, 3.0, 3.4, 5.0, 7.5, 30.0}) print_cold(eta, 0.05, 1e-4);
   print_cold(3.0, 0.3, 0.0);   // every bounce by itself
   print_cold(3.4, 0.0, 1e-3);  // the same restitution at every speed

@@ -99,26 +99,6 @@ TEST_P(ImpactSearchAtEta, IsTheSameInDoubleInTwiceTheDigitsAndInQuad) {
   }
 }
 
-TEST_P(ImpactSearchAtEta, AHorizonBeforeTheImpactIsReachedOrTheImpactIsSeenBeyondIt) {
-  RandomLaunches launches(3);
-  const double eta = GetParam();
-  int cleared = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Flight<double> flight(kSpringConstants, eta, launches.next(eta));
-    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
-    const double early = landing.s * launches.within(0.0, 0.999);
-    const Landing<double> cut = find_landing(kMica, flight, early);
-    if (cut.outcome == SearchOutcome::clear) {
-      ++cleared;
-      ASSERT_EQ(cut.s, early) << i;
-    } else {
-      ASSERT_EQ(cut.outcome, SearchOutcome::impact) << i;
-      ASSERT_NEAR(cut.s, landing.s, 1e-9) << i;
-    }
-  }
-  EXPECT_GT(cleared, 50);
-}
-
 INSTANTIATE_TEST_SUITE_P(DragSpeeds, ImpactSearchAtEta, testing::Values(0.0, 0.2, 1.01, -3.4, 3.4, 9.0, 50.0));
 
 TEST(ImpactSearch, AMicroBounceIsRightToItsLastDigits) {
@@ -141,23 +121,6 @@ TEST(ImpactSearch, AMicroBounceIsRightToItsLastDigits) {
     ASSERT_LE(relative_error(landing.jet.g1, truth.jet.g1), digits) << i;
   }
   EXPECT_GT(bounces, 1000);
-}
-
-TEST(ImpactSearch, LeavingSlowlyUnderALiftingForceIsNoImpact) {
-  RandomLaunches launches(5);
-  int lifts = 0;
-  for (int i = 0; i < 5000; ++i) {
-    const double eta = launches.within(-9.0, 9.0);
-    const TipState start = launches.next(eta, -15.0, -8.0);
-    const Flight<double> flight(kSpringConstants, eta, start);
-    if (!(flight.start().g2 > 1.0)) continue;
-    ++lifts;
-    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
-    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadSpringConstants, eta, start), Quad(kHorizon));
-    ASSERT_EQ(landing.outcome, truth.outcome);
-    ASSERT_NEAR(landing.s, to_double(truth.s), 1e-9) << i;
-  }
-  EXPECT_GT(lifts, 1000);
 }
 
 // A reflection turns velocities round by it, and takes no sine.
