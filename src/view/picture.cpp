@@ -86,7 +86,7 @@ visualization_msgs::MarkerArray Picture::draw(const RunView& run, ros::Time stam
   }
   seen_ = run.now();
   // more is seen of where the tip came from than of where it goes
-  const double eta = run.eta(run.now()), holder = run.holder_x(run.now()), ahead = std::floor(0.25 * look_.cells);
+  const double eta = run.eta(), holder = run.holder_x(run.now()), ahead = std::floor(0.25 * look_.cells);
   canvas.set_origin((too_fast ? std::round(holder) : holder) - (eta > 0.0 ? ahead : eta < 0.0 ? -ahead : 0.0));
   draw_scenery(canvas, run, too_fast);
   draw_motion(canvas, run);

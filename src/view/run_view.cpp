@@ -10,7 +10,7 @@ namespace afm::view {
 namespace {
 
 constexpr double kKeptWallTime = 0.5;  // [s] of samples: impacts and samples travel on topics of their own
-constexpr std::size_t kMostSamples = 2000000, kMostImpacts = 200000, kMostLegs = 1000;
+constexpr std::size_t kMostSamples = 2000000, kMostImpacts = 200000, kMostHeights = 1000;
 
 using node::from_message;
 
@@ -47,13 +47,11 @@ void RunView::take(const afm_emulator::Configuration& message) {
 
 void RunView::take(const afm_emulator::Applied& message) {
   const ModelTime time = from_message(message.time);
-  if (message.epoch != legs_epoch_ || (!legs_.empty() && time < legs_.back().begin)) legs_.clear();
-  legs_epoch_ = message.epoch;
+  if (message.epoch != heights_epoch_ || (!heights_.empty() && time < heights_.back().begin)) heights_.clear();
+  heights_epoch_ = message.epoch;
   applied_ = message;
-  const double x = legs_.empty() ? 0.0 : travelled(time);
-  if (!legs_.empty() && legs_.back().begin == time) legs_.pop_back();
-  legs_.push_back({time, x, message.drag_velocity, message.rest_height_m});
-  if (legs_.size() > kMostLegs) legs_.pop_front();
+  heights_.push_back({time, message.rest_height_m});
+  if (heights_.size() > kMostHeights) heights_.pop_front();
 }
 
 // Samples of another epoch, or before a gap, are forgotten.
@@ -61,13 +59,15 @@ void RunView::take(const afm_emulator::Deflection& message) {
   if (!units_ || message.vertical.empty()) return;
   if (message.epoch != samples_epoch_ || message.first_sample != next_sample_) samples_.clear();
   samples_epoch_ = message.epoch;
-  anchor_time_ = from_message(message.time);
-  anchor_ = message.holder_position;
+  const ModelTime begin = from_message(message.time);
+  const double holder = message.holder_position / units_->length();
+  const double eta = message.drag_velocity / units_->velocity();
   // the digits that the core uses, if what is in force is known already
   const bool as_applied = applied_ && message.sample_period == 1.0 / applied_->sample_rate_hz;
   const double period = as_applied ? applied_->sample_period_tau : message.sample_period / units_->time();
   for (std::size_t i = 0; i < message.vertical.size(); ++i) {
-    samples_.push_back({anchor_time_ + static_cast<double>(i) * period, message.lateral[i] / units_->length(),
+    const double since = static_cast<double>(i) * period;
+    samples_.push_back({begin + since, holder + eta * since, eta, message.lateral[i] / units_->length(),
                         message.vertical[i] / units_->length()});
   }
   next_sample_ = message.first_sample + message.vertical.size();
@@ -98,26 +98,21 @@ void RunView::forget_old() {
 }
 
 bool RunView::complete() const {
-  if (!configuration_ || samples_.empty() || legs_.empty()) return false;
+  if (!configuration_ || samples_.empty() || heights_.empty()) return false;
   const std::uint32_t epoch = configuration_->epoch;
-  return samples_epoch_ == epoch && impacts_epoch_ == epoch && legs_epoch_ == epoch;
-}
-
-const RunView::Leg& RunView::leg(const ModelTime& time) const {
-  const auto found = std::find_if(legs_.rbegin(), legs_.rend(), [&](const Leg& leg) { return leg.begin <= time; });
-  return found == legs_.rend() ? legs_.front() : *found;
-}
-
-double RunView::travelled(const ModelTime& time) const {
-  const Leg& now = leg(time);
-  return now.travelled + now.drag_velocity * (time - now.begin);
+  return samples_epoch_ == epoch && impacts_epoch_ == epoch && heights_epoch_ == epoch;
 }
 
 double RunView::holder_x(const ModelTime& time) const {
-  return anchor_ / units_->length() + (travelled(time) - travelled(anchor_time_)) / units_->velocity();
+  const auto next = after(samples_, time);
+  const Sample& before = next == samples_.begin() ? *next : *std::prev(next);
+  return before.holder + before.eta * (time - before.time);
 }
-double RunView::holder_y(const ModelTime& time) const { return leg(time).height / units_->length(); }
-double RunView::eta(const ModelTime& time) const { return leg(time).drag_velocity / units_->velocity(); }
+
+double RunView::holder_y(const ModelTime& time) const {
+  const auto found = std::find_if(heights_.rbegin(), heights_.rend(), [&](const Height& h) { return h.begin <= time; });
+  return (found == heights_.rend() ? heights_.front() : *found).metres / units_->length();
+}
 
 bool RunView::in_contact(const ModelTime& time) const {
   const auto next = after(impacts_, time);

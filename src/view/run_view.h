@@ -51,7 +51,7 @@ class RunView {
   ModelTime now() const { return samples_.back().time; }
   double holder_x(const ModelTime& time) const;  // along the surface, a crest at every whole number
   double holder_y(const ModelTime& time) const;  // over mid-surface
-  double eta(const ModelTime& time) const;
+  double eta() const { return samples_.back().eta; }
   // Samples and impacts in (from, now()], in order of time. At most so many, evenly.
   std::vector<Place> samples_since(const ModelTime& from, std::size_t most) const;
   std::vector<Place> impacts_since(const ModelTime& from, std::size_t most) const;
@@ -59,16 +59,14 @@ class RunView {
  private:
   struct Sample {
     ModelTime time;
+    double holder, eta;
     double X, Y;  // tip minus holder
   };
-  // A part of the run with a steady holder. In SI except for the time, as messages may come before the units.
-  struct Leg {
+  // Of the holder from there on. In SI, as messages may come before the units.
+  struct Height {
     ModelTime begin;
-    double travelled = 0.0;  // since the first of them [m tau/s]
-    double drag_velocity = 0.0, height = 0.0;
+    double metres;
   };
-  const Leg& leg(const ModelTime& time) const;
-  double travelled(const ModelTime& time) const;
   bool in_contact(const ModelTime& time) const;
   Place place(const afm_emulator::Impact& impact) const;
   void forget_old();
@@ -78,14 +76,12 @@ class RunView {
   std::optional<afm_emulator::Friction> friction_;
   std::optional<Units> units_;
   Model model_;
-  std::deque<Leg> legs_;
+  std::deque<Height> heights_;
   std::deque<Sample> samples_;
   std::deque<afm_emulator::Impact> impacts_;
-  std::uint32_t legs_epoch_ = 0, samples_epoch_ = 0, impacts_epoch_ = 0;
+  std::uint32_t heights_epoch_ = 0, samples_epoch_ = 0, impacts_epoch_ = 0;
   std::uint64_t next_sample_ = 0, next_impact_ = 0;
   bool contact_before_ = false;  // the first impact kept
-  ModelTime anchor_time_;        // the holder's position was reported for this time
-  double anchor_ = 0.0;          // [m]
 };
 
 }  // namespace afm::view

@@ -110,7 +110,7 @@ std::string speed_text(double scale, bool is_cloud) {
 }
 
 void draw_figures(Canvas& canvas, const RunView& run, bool is_cloud) {
-  const double row = -0.72, height = 0.21, eta = run.eta(run.now());
+  const double row = -0.72, height = 0.21, eta = run.eta();
   canvas.add_text("drag", text("drag %.1f nm/s", eta * run.units().velocity() * 1e9), point(-2.45, 0.0, row), height);
   canvas.add_text("eta", text("eta %.3f", eta), point(-0.78, 0.0, row), height);
   const auto& friction = run.friction();

@@ -6,7 +6,7 @@ import subprocess
 import roslib.packages
 from visualization_msgs.msg import Marker, MarkerArray
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, Process
+from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Process
 from topics import Topic, key, tau_between
 
 CELLS, AHEAD = 6, 1     # seen across a picture, and from its middle to the holder
@@ -85,14 +85,9 @@ class Reported:
         return [m.rest_height_m for m in self.commands if key(m.time) <= key(time)][-1] / LATTICE
 
     def centre(self, time):
-        """Where it is over the surface [a], from the beginning and all commands."""
-        x = self.configuration.initial_phase - self.configuration.initial_extension
-        for command, following in zip(self.commands, self.commands[1:] + [None]):
-            if key(command.time) >= key(time):
-                break
-            end = time if following is None or key(time) < key(following.time) else following.time
-            x += command.drag_velocity / SPEED_UNIT * tau_between(command.time, end)
-        return x
+        """Where it is over the surface [a]."""
+        batch = [m for m in self.batches if key(m.time) <= key(time)][-1]
+        return (batch.holder_position + batch.drag_velocity * TAU_S * tau_between(batch.time, time)) / LATTICE
 
     def middle(self, time):
         eta = self.commands[-1].drag_velocity / SPEED_UNIT

@@ -131,19 +131,6 @@ class SlowMotion(ViewTest):
         self.assertEqual(picture.text('eta'), 'eta 3.400')
         wait_until(self.shows_friction, 'K_f as reported')
 
-    def test_finds_its_place_when_it_comes_late(self):
-        for eta in (1.7, -2.3):
-            self.drag(eta)
-            self.stepped(7.7)
-        self.view.clean_up()
-        type(self).view = View()
-        self.pause(False)
-        self.wait_for_tip()
-        self.pause(True)
-        self.stepped(9)
-        picture, _ = self.assert_shows_all()
-        self.assertEqual(picture.text('eta'), 'eta -2.300')
-
     def test_follows_the_holder_up_and_down(self):
         for height in (-3e-11, 2e-11):
             self.assertEqual(self.emulator.set(rest_height_m=height)['rest_height_m'], height)
