@@ -2,7 +2,6 @@
 import csv
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import roslib.packages
@@ -13,25 +12,6 @@ from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process
 from topics import PATIENCE, Topic, wait_until
 
 SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose nothing
-
-
-REPEATED_COMMAND = '''
-import rospy
-from afm_emulator import Client
-rospy.init_node('repeats', disable_signals=True)
-key = lambda applied: (applied.epoch, applied.time.tau, applied.time.phase)
-tip, velocity = Client('/afm'), %r
-first, lowered = tip.command_and_wait(velocity), tip.command_and_wait(rest_height=-0.1e-9)
-again = tip.command_and_wait(velocity)
-assert key(first) <= key(lowered) <= key(again) and first.number < lowered.number, (first, lowered, again)
-assert abs(tip.mean_force(0.05)) < 1e-9  # it ends
-tip.command_and_wait(rest_height=0.0)
-nothing, periods = tip.control(0.0), [tip.control(0.01) for _ in range(20)]  # of so many whole batches each
-assert nothing.samples == 0 and nothing.k_f != nothing.k_f, nothing
-per_tau = [p.impact_count / ((p.end.tau - p.begin.tau) + (p.end.phase - p.begin.phase)) for p in periods]
-assert all(abs(rate - 2.0) < 0.2 for rate in per_tau), per_tau
-rospy.signal_shutdown('done')
-''' % (2 * SPEED_UNIT)
 
 
 class Examples(NodeTest):
@@ -74,12 +54,6 @@ class Examples(NodeTest):
         self.assertGreater(output.stat().st_size, 10000)
         self.assertRegex(text, r'\b\d\d+ batches, 0 samples lost')
         self.assertRegex(text, r'\d{4,} samples and \d+ impacts; lost: 0 and 0')
-
-    def test_a_command_that_holds_already_is_given_the_present_time(self):
-        self.start(Emulator({'time_scale': SLOW_MOTION}))
-        # a process of its own, as rospy gives all subscribers of a process one type for each topic
-        program = self.start(Process([sys.executable, '-c', REPEATED_COMMAND]))
-        self.assertEqual(program.wait(60.0), 0, program.output())
 
     def test_a_commander_in_cpp(self):
         self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0, 'time_scale': SLOW_MOTION}))
