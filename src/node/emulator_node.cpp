@@ -26,7 +26,6 @@
 #include "node/params/advice.h"
 #include "node/params/parameters.h"
 #include "node/publisher/publisher.h"
-#include "node/publisher/refusals.h"
 #include "node/publisher/topics.h"
 #include "node/recorder/recorder.h"
 #include "node/runner/report.h"

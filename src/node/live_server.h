@@ -15,7 +15,7 @@
 #include "node/params/advice.h"
 #include "node/params/parameters.h"
 #include "node/params/table.h"
-#include "node/publisher/refusals.h"
+#include "node/publisher/status.h"
 
 namespace afm::node {
 

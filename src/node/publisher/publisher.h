@@ -18,7 +18,6 @@
 #include "node/recorder/recorder.h"
 #include "node/runner/report.h"
 #include "node/runner/threads.h"
-#include "refusals.h"
 #include "status.h"
 #include "topics.h"
 

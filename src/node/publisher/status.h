@@ -6,14 +6,44 @@
 
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 #include "node/params/parameters.h"
 #include "node/recorder/recorder.h"
 #include "node/runner/report.h"
-#include "refusals.h"
 
 namespace afm::node {
+
+// Refused commands and parameters, with the reason: counted, and the latest kept. Any thread.
+enum class Refusal { faulty_command, overload, faulty_change };
+
+class Refusals {
+ public:
+  struct Summary {
+    std::uint64_t commands = 0, changes = 0;
+    // the latest
+    Refusal kind = Refusal::faulty_command;
+    std::string reason;  // empty: nothing was refused
+    std::chrono::steady_clock::time_point when;
+  };
+
+  void add(Refusal kind, const std::string& reason) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++(kind == Refusal::faulty_change ? summary_.changes : summary_.commands);
+    summary_.kind = kind;
+    summary_.reason = reason;
+    summary_.when = std::chrono::steady_clock::now();
+  }
+  Summary summary() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return summary_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  Summary summary_;
+};
 
 // The state that diagnostics judge.
 struct Health {
@@ -22,8 +52,8 @@ struct Health {
   bool budget_spent = false;  // recently
   bool timed_out = false;     // the drag was stopped as no command came
   double command_timeout_s = 0.0;
-  std::string refusal;    // the latest, if recent
-  bool overload = false;  // it was refused as too many were waiting
+  std::string refusal;        // the latest, if recent
+  bool overload = false;      // it was refused as too many were waiting
   std::uint64_t refused_changes = 0;
   double lattice_spacing_m = 0.0;
   std::uint64_t dropped_from_recording = 0;
