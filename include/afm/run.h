@@ -56,6 +56,7 @@ struct Batch {
   std::uint64_t impact_limit = 0;  // 0: it ends at its time; else it ended when it had spent so many impacts
   FrictionEstimate friction;       // at end
   double eta = 0.0;                // drag velocity throughout the batch
+  double impulse = 0.0;            // of the holder's lateral force on the tip, exact [m a/tau]
   double holder = 0.0;             // position of the holder at first_sample_time [a]
 };
 

@@ -307,7 +307,7 @@ class Client {
     batches_.clear();
     while (impacts_.size() > kKeptImpacts) impacts_.pop_front();  // those of a batch may come before it
     std::uint32_t first = 0, last = 0;                            // batches that count
-    double seconds = 0.0, vertical = 0.0, lateral = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
+    double seconds = 0.0, impulse = 0.0, vertical = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
     while (seconds < duration) {
       wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
       const Deflection& batch = *batches_.front();
@@ -318,7 +318,8 @@ class Client {
         last = batch.header.seq;
         r.samples += batch.vertical.size();
         for (const double y : batch.vertical) vertical += y, vertical_squares += y * y;
-        for (const double x : batch.lateral) lateral += x, lateral_squares += x * x;
+        for (const double x : batch.lateral) lateral_squares += x * x;
+        impulse += batch.lateral_impulse;
         seconds += static_cast<double>(batch.vertical.size()) * batch.sample_period;
       }
       batches_.pop_front();
@@ -339,7 +340,7 @@ class Client {
     r.end.phase = total - std::floor(total);
     r.mean_vertical = vertical / n;
     r.rms_vertical = std::sqrt(vertical_squares / n);
-    r.mean_lateral_force = -lateral_stiffness() * lateral / n;
+    r.mean_lateral_force = impulse / seconds;
     r.rms_lateral_force = lateral_stiffness() * std::sqrt(lateral_squares / n);
     r.mean_normal_force = vertical_stiffness() * r.mean_vertical;
     const double v0 = since.drag_velocity != 0.0 ? since.drag_velocity : kNaN;

@@ -308,7 +308,7 @@ class Client:
             last = batch.header.seq
             answer.samples += len(batch.vertical)
             answer.mean_vertical += sum(batch.vertical)
-            answer.mean_lateral_force -= sum(batch.lateral)
+            answer.mean_lateral_force += batch.lateral_impulse
             squares[0] += sum(y * y for y in batch.vertical)
             squares[1] += sum(x * x for x in batch.lateral)
             seconds += len(batch.vertical) * batch.sample_period
@@ -323,7 +323,7 @@ class Client:
         n = answer.samples or math.nan
         answer.mean_vertical /= n
         answer.rms_vertical = math.sqrt(squares[0] / n)
-        answer.mean_lateral_force *= self.lateral_stiffness / n
+        answer.mean_lateral_force /= seconds or math.nan
         answer.rms_lateral_force = self.lateral_stiffness * math.sqrt(squares[1] / n)
         answer.mean_normal_force = self.stiffness * answer.mean_vertical
         total = answer.begin.phase + seconds / self.tau_s

@@ -191,6 +191,7 @@ Outcome Run::advance(const ModelTime& limit, std::uint64_t impacts, Batch& batch
   begin(batch);
   const Outcome outcome = run_segments(limit < boundary ? limit : boundary, impacts, batch);
   batch.end = now();
+  batch.impulse += tip_.segment().impulse;
   batch.impact_limit = outcome == Outcome::budget_spent ? impacts : 0;
   batch.friction = friction_.estimate(now(), tip_.segment());
   return outcome;
@@ -199,6 +200,7 @@ Outcome Run::advance(const ModelTime& limit, std::uint64_t impacts, Batch& batch
 void Run::begin(Batch& batch) const {
   batch.begin = now();
   batch.eta = settings_.eta;
+  batch.impulse = -tip_.segment().impulse;  // the part of the segment under way that is of earlier batches
   batch.first_sample = next_sample_;
   batch.first_sample_time = grid_.time(next_sample_);
   batch.holder = holder_.position(batch.first_sample_time, settings_.eta);
@@ -240,7 +242,10 @@ Outcome Run::run_segments(const ModelTime& end, std::uint64_t impacts, Batch& ba
     sample_until(segment_end < end ? segment_end : end, batch);
     const Outcome outcome = tip_.advance_segment(end, &ended);
     if (outcome == Outcome::time_limit) return outcome;
-    for (const Segment& segment : ended) friction_.add(segment);
+    for (const Segment& segment : ended) {
+      friction_.add(segment);
+      batch.impulse += segment.impulse;
+    }
     if (outcome == Outcome::search_failed) {
       ++counters_.search_failures;
       spent += kFailureCost;

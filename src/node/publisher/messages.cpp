@@ -91,6 +91,7 @@ afm_emulator::Deflection to_deflection(const Batch& batch, const Live& live, con
   message.first_sample = batch.first_sample;
   message.sample_period = 1.0 / live.sample_rate_hz;
   message.holder_position = batch.holder * units.length();
+  message.lateral_impulse = batch.impulse * units.force() * units.time();
   message.drag_velocity = live.drag_velocity;
   scale(batch.vertical, units.length(), message.vertical);
   scale(batch.lateral, units.length(), message.lateral);
@@ -240,7 +241,7 @@ afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& 
   r.samples = m.samples;
   r.mean_vertical = m.vertical / n * units.length();
   r.rms_vertical = std::sqrt(m.vertical_squares / n) * units.length();
-  r.mean_lateral_force = -k_h * (m.lateral / n * units.length());
+  r.mean_lateral_force = m.impulse / (answer.time - m.begin) * units.force();
   r.rms_lateral_force = k_h * (std::sqrt(m.lateral_squares / n) * units.length());
   r.mean_normal_force = k_v * r.mean_vertical;
   r.impact_count = m.bounces;

@@ -25,7 +25,8 @@ struct Measured {
   ModelTime begin;
   std::uint64_t samples = 0;
   double vertical = 0.0, vertical_squares = 0.0;  // of y - y0
-  double lateral = 0.0, lateral_squares = 0.0;    // of x - xc
+  double lateral_squares = 0.0;                   // of x - xc
+  double impulse = 0.0;                           // of the holder's lateral force, exact
   std::uint64_t bounces = 0;
   double energy_loss = 0.0;
   double drag_velocity = 0.0;  // [m/s]; NaN: it changed meanwhile
@@ -33,7 +34,8 @@ struct Measured {
   void add(const Batch& batch) {
     samples += batch.vertical.size();
     for (const double y : batch.vertical) vertical += y, vertical_squares += y * y;
-    for (const double x : batch.lateral) lateral += x, lateral_squares += x * x;
+    for (const double x : batch.lateral) lateral_squares += x * x;
+    impulse += batch.impulse;
     for (const Impact& impact : batch.impacts) bounces += impact.count, energy_loss += impact.energy_loss;
   }
 };
