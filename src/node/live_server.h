@@ -24,8 +24,8 @@ class LiveServer {
   // From what is shown to what is wanted. Returns why the change did not take effect, or nothing when it has.
   using Apply = std::function<std::string(const Live& shown, const Live& wanted)>;
 
-  // The server begins with the values of the parameter server, cut to the ranges of its sliders: its first call puts
-  // those in force back. It holds its mutex whenever it calls.
+  // The server begins with the values of the parameter server; its first call puts those in force back. It holds its
+  // mutex whenever it calls.
   LiveServer(const ros::NodeHandle& node, const Parameters& parameters, Refusals& refusals, Apply apply)
       : start_(parameters),
         refusals_(refusals),
@@ -61,13 +61,22 @@ class LiveServer {
  private:
   using Config = afm_emulator::EmulatorConfig;
 
-  // Sliders that people can use: the speed and the load are those of the lever.
+  // Sliders that people can use: the speed and the load are those of the lever. A value beyond may be given.
   void show_ranges() {
-    Config least = Config::__getMin__(), most = Config::__getMax__();
     constexpr double kUsualDepth = 1e-9, kUsualHeight = 1e-10, kFastestCutoff = 0.6;  // m, m, a/tau
+    Config least = Config::__getMin__(), most = Config::__getMax__();
+    least.restitution_gamma = 0.0, most.restitution_gamma = 1.0;
+    least.cutoff_speed = 0.0;
     most.cutoff_speed = std::max(kFastestCutoff * Units(start_.si).velocity(), 2.0 * start_.si.cutoff_speed);
     least.rest_height_m = std::min(-kUsualDepth, 2.0 * start_.si.rest_height_m);
     most.rest_height_m = std::max(kUsualHeight, 2.0 * start_.si.rest_height_m);
+    least.sample_rate_hz = 1e3, most.sample_rate_hz = kMaxSampleRate;
+    least.friction_window_tau = 10.0, most.friction_window_tau = 1e4;
+    least.temperature_k = 0.0, most.temperature_k = std::max(400.0, start_.bath.temperature_k);
+    least.quality_factor = 0.0, most.quality_factor = std::max(1000.0, start_.bath.quality_factor);
+    least.lateral_quality_factor = 0.0;
+    most.lateral_quality_factor = std::max(1000.0, start_.bath.lateral_quality_factor);
+    least.kicks_per_tau = 1.0, most.kicks_per_tau = std::max(100.0, start_.bath.kicks_per_tau);
     server_.setConfigMin(least);
     server_.setConfigMax(most);
   }
@@ -90,12 +99,9 @@ class LiveServer {
     return in_force_;
   }
 
-  // A value that the client did not change is as it was shown, cut to the range of its slider. Another value may be in
-  // force.
+  // A value that the client did not change is as it was shown. Another value may be in force.
   void change(const Config& config) {
-    Config untouched = shown_;
-    untouched.__clamp__();
-    const std::vector<double> not_asked = values_of(untouched);
+    const std::vector<double> not_asked = values_of(shown_);
     auto other = not_asked.begin();
     Parameters changed = start_;
     const Live before = in_force();

@@ -75,6 +75,8 @@ class Steering(EmulatorTest):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.55, 'dynparam is obeyed')
         self.assertEqual(client.update_configuration({'friction_window_tau': 640.0})['restitution_gamma'], 0.55)
+        for quality in (50000.0, 20000.0, 1000.0):  # beyond the slider, and back to its end
+            self.assertEqual(client.update_configuration({'quality_factor': quality})['quality_factor'], quality)
         client.close()
 
     def test_a_change_takes_effect_at_a_batch_boundary_and_the_reply_follows(self):
