@@ -63,11 +63,20 @@ double suitable_kicks(const Model& model, const Bath& bath) {
 }
 
 std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {
-  if (!kicks_lock(model, bath)) return {};
-  return {ParameterError("kicks_per_tau", bath.kicks_per_tau,
-                         "locks to the swing of the lateral spring, as omega_h/omega_v = " +
-                             number_text(std::round(1e4 * model.frequency_ratio) / 1e4) +
-                             ": K_f may be wrong by ten per cent; give " + number_text(suitable_kicks(model, bath)))};
+  if (!bath.is_on()) return {};
+  constexpr double kEnough = 0.9;  // of the rate that was measured
+  const double suitable = suitable_kicks(model, bath);
+  const auto trap = [&](const std::string& reason) {
+    return std::vector<ParameterError>{
+        ParameterError("kicks_per_tau", bath.kicks_per_tau,
+                       reason + ": K_f may be wrong by ten per cent; give " + number_text(suitable))};
+  };
+  if (kicks_lock(model, bath)) {
+    return trap("locks to the swing of the lateral spring, as omega_h/omega_v = " +
+                number_text(std::round(1e4 * model.frequency_ratio) / 1e4));
+  }
+  if (bath.kicks_per_tau < kEnough * suitable) return trap("is too low for this quality factor");
+  return {};
 }
 
 }  // namespace afm

@@ -73,6 +73,10 @@ TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {
 
 TEST(Bath, ATrapNamesTheRateAndTheRemedy) {
   EXPECT_TRUE(find_traps(Model{}, with(20.0)).empty());
+  EXPECT_TRUE(find_traps(with_ratio(14.0), with(100.0, 8.652)).empty());
+  ASSERT_EQ(find_traps(with_ratio(14.0), with(2.0, 8.652)).size(), 1u);  // the rate of a lever's file, with a lower Q
+  EXPECT_EQ(find_traps(with_ratio(14.0), with(2.0, 8.652))[0].reason,
+            "is too low for this quality factor: K_f may be wrong by ten per cent; give 46.979");
   const std::vector<ParameterError> traps = find_traps(with_ratio(14.0), with(20.0));
   ASSERT_EQ(traps.size(), 1u);
   EXPECT_EQ(traps[0].name, "kicks_per_tau");
