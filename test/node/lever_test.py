@@ -82,8 +82,8 @@ class LeverTest(NodeTest):
     def test_a_load_comes_back_after_a_restart(self):
         """The parameter server also holds the height that dynamic_reconfigure shows; once the node refused both."""
         first = self.start(Emulator({'load_n': 1e-10, 'quality_factor': 100.0, 'temperature_k': 300.0}))
-        height = Topic('configuration').wait_for().rest_height_m
-        first.set(kicks_per_tau=3.125)  # at omega_h/omega_v = 6.25
+        height = 2.0 * Topic('configuration').wait_for().rest_height_m
+        first.set(kicks_per_tau=3.125, rest_height_m=height)  # at omega_h/omega_v = 6.25
         first.child.kill()
         first.wait()
         self.assertIn('kicks_per_tau = 3.125: locks', first.output())

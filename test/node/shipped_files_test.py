@@ -91,6 +91,14 @@ class ShippedFiles(NodeTest):
                     self.assertEqual(params['/afm/' + name].value, value)
         self.assertEqual(params['/afm/drag_velocity'].value, 4.0e-6)
 
+    def test_a_load_of_nothing_is_a_load(self):
+        """As a parameter, 0 leaves the height to the scene: once a loop over loads had the scene's height first."""
+        scene = Path(self.temporary_directory()) / 'high.yaml'
+        scene.write_text('rest_height_m: -1.0e-10\n')
+        for load, height in (('0', 0.0), ('0.0', 0.0), ('', -1e-10)):
+            params = self.loaded(SHARE / 'launch/emulator.launch', 'scene_file:=%s' % scene, 'load_n:=' + load).params
+            self.assertEqual(params['/afm/rest_height_m'].value, height, load)
+
     def test_respawn(self):
         """roslaunch starts such a node again; one that is required, too, would end them all."""
         node, = self.loaded(SHARE / 'launch/emulator.launch', 'respawn:=true').nodes
