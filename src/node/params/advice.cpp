@@ -42,6 +42,10 @@ std::string describe_tip(const Parameters& p) {
        << p.si.tip_mass_kg * std::pow(p.si.omega_h_rad_per_s, 2) << " N/m laterally, effective mass "
        << p.si.tip_mass_kg << " kg; load " << 0.0 - spring_constant(p.si) * p.si.rest_height_m
        << " N; tau = " << Units(p.si).time() << " s";
+  if (p.bath.quality_factor > 0.0) {
+    text << "; Q = " << p.bath.quality_factor << " at " << p.bath.temperature_k << " K, " << p.bath.kicks_per_tau
+         << " kicks a tau";
+  }
   return text.str();
 }
 
@@ -79,9 +83,10 @@ std::string find_pace_fault(const Parameters& p, double pace) {
   const double digit = std::pow(10.0, std::floor(std::log10(scale)));  // one digit, rounded down
   const bool fewer_suffice = settings.bath.is_on() && p.bath.kicks_per_tau > 1.1 * kicks;
   return "this run will not keep its pace: time_scale = " + number_text(p.time_scale) + ", and a trial run made " +
-         rounded(pace, 2) + " times real time. Give time_scale = " + rounded(std::floor(scale / digit) * digit, 1) +
-         ", a lower sample_rate_hz, a contact_tolerance up to 1e-2," +
-         (fewer_suffice ? " kicks_per_tau = " + rounded(kicks, 5) + "," : "") + " or model = hammer";
+         rounded(pace, 2) + " times real time. Give time_scale = " + rounded(std::floor(scale / digit) * digit, 2) +
+         (fewer_suffice ? ", kicks_per_tau = " + rounded(kicks, 5) : "") +
+         (p.contact_tolerance < kMaxContactTolerance ? ", a contact_tolerance up to 1e-2" : "") +
+         (p.model != "hammer" ? ", model = hammer" : "") + ", or a lower sample_rate_hz";
 }
 
 }  // namespace afm::node

@@ -53,7 +53,7 @@ std::string read(Value& value, double* out) {
     return {};
   }
   if (value.getType() == Value::TypeString) {
-    return "must be a number, not text; YAML reads 1e-4 as text: write 1.0e-4";
+    return "must be a number, not text; YAML needs a decimal point and a sign in the exponent: 1.0e-4, 1.0e+4";
   }
   if (value.getType() != Value::TypeDouble) return "must be a number";
   *out = static_cast<double&>(value);
