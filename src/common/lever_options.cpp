@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -12,8 +13,6 @@ namespace afm {
 namespace {
 
 namespace fs = std::filesystem;
-
-using Keys = std::map<std::string, double*>;  // of a file, and where their numbers belong
 
 constexpr const char* kTwice[][2] = {{"lever", "omega-v"},         {"lever", "tip-mass"},
                                      {"lever", "frequency-ratio"}, {"surface", "lattice-spacing"},
@@ -32,110 +31,94 @@ std::string names_in(const fs::path& folder) {
   return names;
 }
 
-class FileError : public std::invalid_argument {
- public:
-  FileError(const std::string& option, const std::string& name, const std::string& what_is_wrong)
-      : std::invalid_argument(option + " = " + name + ": " + what_is_wrong), reason(what_is_wrong) {}
-  std::string reason;
-};
+// option: lever or surface; name: of one that is shipped, or a path that ends in .yaml.
+fs::path path_of(const std::string& option, const std::string& name) {
+  const fs::path folder = config() / (option + "s");
+  const fs::path path = fs::path(name).extension() == ".yaml" ? fs::path(name) : folder / (name + ".yaml");
+  if (!fs::exists(path)) throw std::invalid_argument("there is no such file, nor one of" + names_in(folder));
+  if (fs::is_directory(path)) throw std::invalid_argument("it is a folder, not a file");
+  return path;
+}
 
-// A lever or a surface in a file: numbers by their keys.
-class File {
- public:
-  // option: lever or surface. Throws FileError where it is no such file, or has a key that is not known.
-  File(const std::string& option, const std::string& name, const std::vector<Keys>& known)
-      : option_(option), name_(name) {
-    const fs::path folder = config() / (option + "s");
-    const fs::path path = fs::path(name).extension() == ".yaml" ? fs::path(name) : folder / (name + ".yaml");
-    if (!fs::exists(path)) refuse("there is no such file, nor one of" + names_in(folder));
-    if (fs::is_directory(path)) refuse("it is a folder, not a file");
-    try {
-      const YAML::Node root = YAML::LoadFile(path.string());
-      if (!root.IsMap()) refuse("it must hold lines of a key and a number");
-      for (const auto& entry : root) {
-        const std::string key = entry.first.as<std::string>();
-        if (std::none_of(known.begin(), known.end(), [&](const Keys& keys) { return keys.count(key) > 0; }))
-          refuse("it says nothing of a " + option + " by its " + key);
-        if (!YAML::convert<double>::decode(entry.second, values_[key])) refuse(key + " must be a number");
-      }
-    } catch (const YAML::Exception& fault) {
-      refuse(fault.what());
+// Reads the file of a lever or a surface: numbers by their keys. Returns the keys that are there. Throws
+// std::invalid_argument where it is no such file, or has a key that is not known.
+std::set<std::string> read(const std::string& option, const std::string& name,
+                           const std::map<std::string, double*>& known) {
+  std::set<std::string> keys;
+  try {
+    const YAML::Node root = YAML::LoadFile(path_of(option, name).string());
+    if (!root.IsMap()) throw std::invalid_argument("it must hold lines of a key and a number");
+    for (const auto& entry : root) {
+      const std::string key = entry.first.as<std::string>();
+      const auto number = known.find(key);
+      if (number == known.end()) throw std::invalid_argument("it says nothing of a " + option + " by its " + key);
+      if (!YAML::convert<double>::decode(entry.second, *number->second))
+        throw std::invalid_argument(key + " must be a number");
+      keys.insert(key);
     }
+  } catch (const YAML::Exception& fault) {
+    throw std::invalid_argument(fault.what());
   }
+  return keys;
+}
 
-  bool has_one_of(const Keys& keys) const {
-    return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return values_.count(key.first) > 0; });
+void need(const std::set<std::string>& keys, const std::vector<std::string>& needed) {
+  for (const std::string& key : needed) {
+    if (keys.count(key) == 0) throw std::invalid_argument("it lacks " + key);
   }
-  // Throws FileError where one of the keys is missing.
-  void need(const Keys& keys) const {
-    for (const auto& key : keys) {
-      if (values_.count(key.first) == 0) refuse("it lacks " + key.first);
-    }
-  }
-  // The numbers of those that are there.
-  void take(const Keys& keys) const {
-    for (const auto& [key, number] : keys) {
-      const auto found = values_.find(key);
-      if (found != values_.end()) *number = found->second;
-    }
-  }
-
-  [[noreturn]] void refuse(const std::string& what) const { throw FileError(option_, name_, what); }
-
- private:
-  std::string option_, name_;
-  std::map<std::string, double> values_;
-};
+}
 
 // By its springs, or by its frequencies as the model has them.
 void read_lever(const std::string& name, Lever& lever, SiModel& si, SiBath& bath) {
-  const Keys springs{{"spring_constant_n_per_m", &lever.spring_constant_n_per_m},
-                     {"resonance_hz", &lever.resonance_hz},
-                     {"lateral_spring_constant_n_per_m", &lever.lateral_spring_constant_n_per_m}};
-  const Keys frequencies{{"omega_v_rad_per_s", &si.omega_v_rad_per_s},
-                         {"omega_h_rad_per_s", &si.omega_h_rad_per_s},
-                         {"tip_mass_kg", &si.tip_mass_kg}};
-  const Keys damping{{"quality_factor", &bath.quality_factor},
-                     {"lateral_quality_factor", &bath.lateral_quality_factor},
-                     {"kicks_per_tau", &bath.kicks_per_tau}};
-  const File file("lever", name, {springs, frequencies, damping});
-  const bool by_frequencies = file.has_one_of(frequencies);
-  if (by_frequencies && file.has_one_of(springs)) {
-    file.refuse("it gives the lever twice: by spring constants and resonance, and by frequencies and tip mass");
+  const std::vector<std::string> springs{"spring_constant_n_per_m", "resonance_hz", "lateral_spring_constant_n_per_m"};
+  const std::vector<std::string> frequencies{"omega_v_rad_per_s", "omega_h_rad_per_s", "tip_mass_kg"};
+  const std::set<std::string> keys = read("lever", name,
+                                          {{springs[0], &lever.spring_constant_n_per_m},
+                                           {springs[1], &lever.resonance_hz},
+                                           {springs[2], &lever.lateral_spring_constant_n_per_m},
+                                           {frequencies[0], &si.omega_v_rad_per_s},
+                                           {frequencies[1], &si.omega_h_rad_per_s},
+                                           {frequencies[2], &si.tip_mass_kg},
+                                           {"quality_factor", &bath.quality_factor},
+                                           {"lateral_quality_factor", &bath.lateral_quality_factor},
+                                           {"kicks_per_tau", &bath.kicks_per_tau}});
+  const auto is_there = [&](const std::string& key) { return keys.count(key) > 0; };
+  const bool by_frequencies = std::any_of(frequencies.begin(), frequencies.end(), is_there);
+  if (by_frequencies && std::any_of(springs.begin(), springs.end(), is_there)) {
+    throw std::invalid_argument(
+        "it gives the lever twice: by spring constants and resonance, and by frequencies and tip mass");
   }
-  const Keys& constants = by_frequencies ? frequencies : springs;
-  file.need(constants);
-  file.take(constants);
-  file.take(damping);
+  need(keys, by_frequencies ? frequencies : springs);
   const std::vector<ParameterError> faults = by_frequencies ? find_faults(si) : find_faults(lever);
-  if (!faults.empty()) file.refuse(describe(faults));
+  if (!faults.empty()) throw std::invalid_argument(describe(faults));
 }
 
 void read_surface(const std::string& name, SiModel& si) {
-  const Keys keys{{"lattice_spacing_m", &si.lattice_spacing_m}, {"surface_amplitude_m", &si.surface_amplitude_m}};
-  const File file("surface", name, {keys});
-  file.need(keys);
-  file.take(keys);
+  need(read("surface", name,
+            {{"lattice_spacing_m", &si.lattice_spacing_m}, {"surface_amplitude_m", &si.surface_amplitude_m}}),
+       {"lattice_spacing_m", "surface_amplitude_m"});
+}
+
+template <class Read>
+std::string fault_of(const Read& read_file) try {
+  read_file();
+  return {};
+} catch (const std::invalid_argument& fault) {
+  return fault.what();
 }
 
 }  // namespace
 
-std::string find_lever_file_fault(const std::string& path) try {
+std::string find_lever_file_fault(const std::string& path) {
   Lever lever;
   SiModel si;
   SiBath bath;
-  read_lever(path, lever, si, bath);
-  return {};
-} catch (const FileError& error) {
-  return error.reason;
+  return fault_of([&] { read_lever(path, lever, si, bath); });
 }
 
-std::string find_surface_file_fault(const std::string& path) try {
+std::string find_surface_file_fault(const std::string& path) {
   SiModel si;
-  read_surface(path, si);
-  return {};
-} catch (const FileError& error) {
-  return error.reason;
+  return fault_of([&] { read_surface(path, si); });
 }
 
 void add_lever_options(CommandLine& app, LeverOptions& o) {
@@ -150,8 +133,11 @@ LeverScene::LeverScene(const CommandLine& app, const LeverOptions& o) {
     throw std::invalid_argument(std::string(other) + ": is given beside --" + one + ": give one of them");
   }
   Lever lever;
-  if (!o.lever.empty()) read_lever(o.lever, lever, si, bath);
-  if (!o.surface.empty()) read_surface(o.surface, si);
+  const auto check = [](const std::string& option, const std::string& name, const std::string& fault) {
+    if (!fault.empty()) throw std::invalid_argument(option + " = " + name + ": " + fault);
+  };
+  if (!o.lever.empty()) check("lever", o.lever, fault_of([&] { read_lever(o.lever, lever, si, bath); }));
+  if (!o.surface.empty()) check("surface", o.surface, fault_of([&] { read_surface(o.surface, si); }));
   std::vector<ParameterError> faults = set_lever_and_load(lever, o.load_n, si);
   if (faults.empty()) faults = find_faults(si);
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
