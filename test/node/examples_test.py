@@ -1,6 +1,5 @@
 """The example nodes do what they are for, started by their launch files as a user starts them."""
 import csv
-import re
 import subprocess
 from pathlib import Path
 
@@ -8,7 +7,7 @@ import roslib.packages
 import rospy
 from std_msgs.msg import Float64MultiArray
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
 from topics import PATIENCE, Topic, wait_until
 
 SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose nothing
@@ -20,14 +19,8 @@ class Examples(NodeTest):
         self.assertIn(process.stop(), (0, -2), process.output())
 
     def test_the_detector_gives_volts_with_noise_and_steps(self):
-        self.check_detector('python')
-
-    def test_the_detector_in_cpp_too(self):
-        self.check_detector('cpp')
-
-    def check_detector(self, language):
         volts, deflection = Topic('/detector/volts', Float64MultiArray), Topic('deflection')
-        example = self.launch('detector.launch', language=language)
+        example = self.launch('detector.launch')
         wait_until(lambda: len(volts.messages) > 20 and len(deflection.messages) > 5, 'volts, once all has started')
         message = volts.messages[-1]
         rows, columns = (dimension.size for dimension in message.layout.dim)
@@ -44,7 +37,7 @@ class Examples(NodeTest):
     def rms(values):
         return (sum(v * v for v in values) / len(values)) ** 0.5
 
-    def test_a_plot_and_a_watch_for_gaps_even_without_a_clock(self):
+    def test_a_plot_without_gaps_even_without_a_clock(self):
         rospy.set_param('/use_sim_time', True)  # and nobody publishes /clock
         self.addCleanup(rospy.delete_param, '/use_sim_time')
         output = Path(self.temporary_directory()) / 'force.png'
@@ -53,15 +46,6 @@ class Examples(NodeTest):
         text = example.output()
         self.assertGreater(output.stat().st_size, 10000)
         self.assertRegex(text, r'\b\d\d+ batches, 0 samples lost')
-        self.assertRegex(text, r'\d{4,} samples and \d+ impacts; lost: 0 and 0')
-
-    def test_a_commander_in_cpp(self):
-        self.start(Emulator({'temperature_k': 300.0, 'quality_factor': 100.0, 'time_scale': SLOW_MOTION}))
-        binary = roslib.packages.find_node(PACKAGE, 'watch_and_command')[0]
-        example = self.start(Process([binary, repr(2 * SPEED_UNIT), repr(3 * SPEED_UNIT), '_hold_s:=2.0']))
-        self.assertEqual(example.wait(deadline_s=30.0), 0)
-        eta = [float(value) for value in re.findall(r'eta ([\d.]+)', example.output())]
-        self.assertEqual([round(value, 3) for value in eta], [2.0, 3.0])
 
     def test_the_loop_delay_is_measured(self):
         self.start(Emulator({'batch_rate_hz': 100.0}))
@@ -70,9 +54,6 @@ class Examples(NodeTest):
                               timeout=60 * PATIENCE)
         self.assertEqual(done.returncode, 0)
         row, = csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith('['))
-        self.assertEqual((row['batch rate / Hz'], row['commands'], row['lost']), ('100', '40', '0'))
-        applied, seen = float(row['applied: median / ms']), float(row['in a batch: median / ms'])
-        # a command waits for the end of a batch of 10 ms, 5 ms in the median; then the batch that it moves comes at
-        # once
-        self.assertGreater(applied, 2.0)
-        self.assertGreaterEqual(seen, applied)
+        self.assertEqual((row['batch rate / Hz'], row['commands']), ('100', '40'))
+        # a command waits for the end of a batch of 10 ms, 5 ms in the median
+        self.assertGreater(float(row['median / ms']), 2.0)

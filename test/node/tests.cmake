@@ -38,7 +38,7 @@ endforeach()
 
 # nodes to copy have tests of their own, as a user writes them
 foreach(arguments "hold_force.test language:=python" "hold_force.test language:=cpp" "hold_force.test pace:=real_time"
-        "seek_peak.test language:=python" "seek_peak.test language:=cpp start:=7.3e-6")
+        "seek_peak.test" "seek_peak.test start:=7.3e-6")
   separate_arguments(arguments)
   list(POP_FRONT arguments file)
   add_rostest(${PROJECT_SOURCE_DIR}/examples/ros/test/${file} ARGS ${arguments}
