@@ -91,10 +91,13 @@ int run(const afm::CommandLine& app, Options& options) {
   table.write_header();
   afm::ProgressBar bar(points.size(), 0);
   const auto compute = [&](std::size_t i) { return find_basins(points[i], options.basins); };
-  afm::in_order(points.size(), options.threads, compute, [&](std::size_t i, const std::vector<afm::Basin>& basins) {
-    for (const afm::Basin& basin : basins) write_row(points[i], basin, table);
-    bar.show(i + 1);
-  });
+  afm::in_order(
+      points.size(), options.threads, compute,
+      [&](std::size_t i, const std::vector<afm::Basin>& basins) {
+        for (const afm::Basin& basin : basins) write_row(points[i], basin, table);
+        bar.show(i + 1);
+      },
+      [] {});
   return 0;
 }
 

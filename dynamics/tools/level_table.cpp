@@ -69,10 +69,13 @@ int run(const Options& o) {
     for (const auto& level : measure_levels(model, etas[i], o.settings)) rows += to_row(etas[i], level);
     return rows;
   };
-  afm::in_order(etas.size(), o.threads, measure, [&](std::size_t i, const std::string& rows) {
-    std::cout << rows << std::flush;
-    bar.show(i + 1);
-  });
+  afm::in_order(
+      etas.size(), o.threads, measure,
+      [&](std::size_t i, const std::string& rows) {
+        std::cout << rows << std::flush;
+        bar.show(i + 1);
+      },
+      [] {});
   return 0;
 }
 

@@ -16,7 +16,6 @@
 #include "afm/single_flight.h"
 #include "convert.h"
 #include "long_call.h"
-#include "sweep/curve_points.h"
 #include "sweep/grid.h"
 #include "sweep/rows.h"
 #include "table_rows.h"
@@ -50,16 +49,21 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   refuse(find_faults(s));
   warn(find_traps(s));
   const SweepGrid grid(s);
-  CurvePoints points(grid, s);
-  std::size_t done = 0;
-  TableRows rows;
-  const auto watch = [&] {
-    for (const SweepResult& result : points.collect(std::chrono::milliseconds(0)))
-      write_row(grid.at(done++), result, rows);
-    if (!progress.is_none()) progress(done, grid.size());
+  std::vector<std::vector<SweepResult>> chains(grid.size() / grid.chain_length());
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&] {
+    for (std::size_t i; (i = next++) < chains.size();)
+      chains[i] = compute_chain(grid, s, i * grid.chain_length(), done);
   };
-  run_on_threads(
-      threads, [&] { points.work(); }, watch);
+  const auto watch = [&] {
+    if (!progress.is_none()) progress(done.load(), grid.size());
+  };
+  run_on_threads(threads, work, watch);
+  TableRows rows;
+  std::size_t row = 0;
+  for (const std::vector<SweepResult>& chain : chains) {
+    for (const SweepResult& result : chain) write_row(grid.at(row++), result, rows);
+  }
   return rows.result(curve_columns());
 }
 

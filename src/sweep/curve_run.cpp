@@ -1,17 +1,16 @@
 #include "curve_run.h"
 
-#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
+#include "common/in_order.h"
 #include "common/progress_bar.h"
 #include "curve_file.h"
-#include "curve_points.h"
 
 namespace afm {
 namespace {
@@ -31,17 +30,6 @@ void interrupt(int) { interrupted = 1; }
   std::_Exit(130);
 }
 
-void write_all(CurvePoints& points, const SweepGrid& grid, CurveFile& table) {
-  constexpr std::chrono::milliseconds kPatience(100);  // to answer Ctrl-C
-  ProgressBar bar(grid.size(), table.rows());
-  while (table.rows() < grid.size()) {
-    for (const SweepResult& result : points.collect(kPatience)) table.add(result);
-    table.flush();
-    bar.show(table.rows());
-    if (interrupted != 0) end_interrupted(table, grid);
-  }
-}
-
 }  // namespace
 
 int run_curve(const CurveSettings& settings, const std::string& output, int threads, const TableUnits& units) {
@@ -57,17 +45,25 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
   }
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
-  CurvePoints points(grid, settings, table->rows());
-  std::vector<std::thread> workers;
-  const int n = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  for (int i = 0; i < n; ++i) workers.emplace_back([&] { points.work(); });
-  try {
-    write_all(points, grid, *table);
-  } catch (const std::exception& fault) {
-    std::cerr << "\nfriction_curve: " << fault.what() << std::endl;
-    std::_Exit(1);
-  }
-  for (std::thread& worker : workers) worker.join();
+  const std::size_t length = grid.chain_length(), first = table->rows() / length;
+  std::atomic<std::size_t> done{table->rows()};
+  ProgressBar bar(grid.size(), done);
+  const auto watch = [&] {
+    bar.show(done);
+    if (interrupted != 0) end_interrupted(*table, grid);
+  };
+  const auto compute = [&](std::size_t i) { return compute_chain(grid, settings, (first + i) * length, done); };
+  const auto take = [&](std::size_t, const std::vector<SweepResult>& chain) {
+    try {
+      for (const SweepResult& result : chain) table->add(result);
+      table->flush();
+    } catch (const std::exception& fault) {
+      std::cerr << "\nfriction_curve: " << fault.what() << std::endl;
+      std::_Exit(1);
+    }
+    watch();
+  };
+  in_order(grid.size() / length - first, static_cast<std::size_t>(threads), compute, take, watch);
   return 0;
 }
 

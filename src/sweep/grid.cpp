@@ -95,4 +95,17 @@ SweepPoint SweepGrid::at(std::size_t position) const {
   return point;
 }
 
+std::vector<SweepResult> compute_chain(const SweepGrid& grid, const CurveSettings& settings, std::size_t begin,
+                                       std::atomic<std::size_t>& done) {
+  std::vector<SweepResult> results;
+  TipState start = random_start(grid.at(begin), settings.sweep.seed, begin);
+  for (std::size_t row = begin; row < begin + grid.chain_length(); ++row, ++done) {
+    SweepSettings own = settings.sweep;
+    own.bath.stream = row;
+    results.push_back(settings.method(grid.at(row), own, start));
+    start = results.back().end;
+  }
+  return results;
+}
+
 }  // namespace afm

@@ -2,6 +2,7 @@
 // height, amplitude and frequency ratio.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -47,5 +48,10 @@ class SweepGrid {
   std::size_t size_;
   bool chained_;
 };
+
+// The results of the chain that begins at this position: each point starts where the point before it ended. A result
+// depends on the point and its start alone. Counts each point in `done`, for whoever shows the progress.
+std::vector<SweepResult> compute_chain(const SweepGrid& grid, const CurveSettings& settings, std::size_t begin,
+                                       std::atomic<std::size_t>& done);
 
 }  // namespace afm

@@ -70,7 +70,8 @@ class SameBytes(Case):
 
     def test_interrupted(self):
         for sweep in ('fresh', 'up'):
-            long = ['--eta', '3:6:0.025', '--cutoff', '0.3', '--duration', '2000', '--sweep', sweep]
+            long = ['--eta', '3:6:0.15', '--gamma', '0.6:0.7:0.02', '--cutoff', '0.3', '--duration', '2000', '--sweep',
+                    sweep]
             whole = self.table(long, 'whole.csv')
             code, reported, finished = self.interrupted(long, signal.SIGINT)
             self.assertEqual(finished, whole)
