@@ -86,19 +86,6 @@ std::array<Quad, 3> quad_slide(const SlideState<double>& s) { return {s.phase, s
 
 constexpr double kEtas[] = {0.5, 3.0, 5.0};
 
-TEST(SlideJacobian, IsTheDerivativeOfTheSlide) {
-  for (const double eta : kEtas) {
-    const Model model = model_with_cutoff(0.001);
-    for (const Episode& episode : episodes(model, eta, 6)) {
-      QuadContact exact(model, episode);
-      const auto slide = [&](const std::array<Quad, 3>& q) { return exact.slide(q, episode.slide); };
-      const Eigen::Matrix3d truth = quad_differences<3>(slide, quad_slide(episode.begin), Quad(1e-12));
-      const Eigen::Matrix3d J = slide_jacobian(model, eta, episode.begin, episode.slide);
-      ASSERT_LE(relative_distance(J, truth), 1e-10) << "eta " << eta;
-    }
-  }
-}
-
 // A slide, its release and a flight, to just after the next impact. Of the three directions one, along the slide, is
 // lost.
 TEST(ContactJacobian, IsTheDerivativeAcrossAWholeContact) {

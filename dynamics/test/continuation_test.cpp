@@ -96,12 +96,5 @@ TEST(Continuation, TheOrbitOfTwoImpactsEndsShortOfThePapersDrag) {
   EXPECT_NEAR(doubling->at.parameter, 3.2937849, 1e-6);
 }
 
-TEST(Continuation, EndsAtItsTarget) {
-  const Branch branch = continue_orbit(Model(), 3.4, orbit_at(3.4, 0.7, 3), Parameter::gamma, 0.71);
-  EXPECT_EQ(branch.end, BranchEnd::target);
-  EXPECT_EQ(branch.points.back().parameter, 0.71);
-  EXPECT_LE(branch.points.back().orbit.residual, 1e-13);
-}
-
 }  // namespace
 }  // namespace afm

@@ -5,7 +5,6 @@
 
 #include "afm/dynamics/attractor.h"
 #include "afm/dynamics/basins.h"
-#include "afm/dynamics/continuation.h"
 #include "afm/dynamics/orbit_search.h"
 #include "support/models.h"
 
@@ -77,20 +76,6 @@ TEST(HammerOrbits, ATipIsDrawnToThem) {
   settings.friction_duration = 100.0;
   const std::vector<Basin> basins = find_basins({2.0, 0.7, 0.05, ModelKind::hammer}, settings);
   EXPECT_NEAR(basins.front().first.K_f, orbit_K_f(model, 2.0 + 1e-15, 1), 1e-12 * basins.front().first.K_f);
-}
-
-// Along the branch the closed form holds at every point.
-TEST(HammerOrbits, AreFollowedThroughAParameter) {
-  const Model model = hammer();
-  const PeriodicOrbit start = orbit_of_one(model, 3.4, 2);
-  ASSERT_EQ(start.length(), 1u);
-  const Branch branch = continue_orbit(model, 3.4, start, Parameter::eta, 3.8);
-  EXPECT_EQ(branch.end, BranchEnd::target);
-  ASSERT_GT(branch.points.size(), 5u);
-  for (const BranchPoint& p : branch.points) {
-    const double K_f = orbit_K_f(model, p.parameter, 2);
-    EXPECT_NEAR(p.orbit.K_f, K_f, 1e-9 * K_f) << p.parameter;
-  }
 }
 
 }  // namespace

@@ -57,25 +57,6 @@ class Bounces {
 constexpr int kImpacts = 2000;  // of each model: 1e4 in all
 const Quad kStep(1e-13);
 
-TEST(FlightJacobian, IsTheDerivativeOfTheFlight) {
-  const SpringConstants<Quad> m{Model()};
-  RandomLaunches random(5);
-  for (int i = 0; i < 200; ++i) {
-    const double s = random.within(0.0, 5.0);
-    const Quad ch = cos(m.omega_h * s), sh = sin(m.omega_h * s), cv = cos(m.omega_v * s), sv = sin(m.omega_v * s);
-    const std::array<Quad, 5> start{random.within(0, 1), random.within(-0.1, 0.1), 3.0, random.within(0, 1), 2.0};
-    const Quad eta = random.within(-9.0, 9.0);
-    const auto fly = [&](const std::array<Quad, 5>& q) {
-      const Quad U = q[2] - eta, X = q[1] * ch + U * sh / m.omega_h;
-      return std::array<Quad, 5>{q[0] + X - q[1] + eta * s, X, eta + U * ch - q[1] * m.omega_h * sh,
-                                 q[3] * cv + q[4] * sv / m.omega_v, q[4] * cv - q[3] * m.omega_v * sv};
-    };
-    const FlowJacobian<double> J = flight_jacobian(SpringConstants<double>(Model()), s);
-    ASSERT_LE(relative_distance(J, quad_differences<5>(fly, start, kStep)), 1e-14);
-    ASSERT_NEAR(J.determinant(), 1.0, 1e-13);
-  }
-}
-
 void expect_derivative(const Model& model) {
   Bounces bounces(model, 1);
   int below_cutoff = 0;
@@ -100,29 +81,6 @@ TEST(SectionJacobian, IsTheDerivativeOfTheMap) {
 }
 TEST(SectionJacobian, OfTheHammerToo) {
   for (const Model& model : kModels) expect_derivative(hammer(model.gamma, model.v_c));
-}
-
-// Flight keeps volume, so that the section's is what the restitution makes of it, over the rate at which the flow
-// crosses. The hammer's is the area of phase and gap rate.
-void expect_volume(const Model& model) {
-  Bounces bounces(model, 2);
-  for (int i = 0; i < kImpacts; ++i) {
-    const Bounce b = bounces.next();
-    const Incidence<double> in(b.flight.springs(), b.eta, b.landing.jet.state, b.landing.jet.g1);
-    const RestitutionJet<double> law = restitution_jet(model, in.normal_speed);
-    const double expected = law.slope * law.restitution * b.start.g1 / b.after.g1;
-    const double area = b.J(0, 0) * b.J(3, 3) - b.J(0, 3) * b.J(3, 0);
-    const double volume = model.kind == ModelKind::hammer ? area : b.J.determinant();
-    // a determinant is good to what its largest elements leave
-    ASSERT_NEAR(volume, expected, 1e-11 * (std::abs(expected) + std::pow(b.J.norm(), 2.0)));
-  }
-}
-
-TEST(SectionJacobian, ShrinksVolumeByTheRestitutionAlone) {
-  for (const Model& model : kModels) expect_volume(model);
-}
-TEST(SectionJacobian, ShrinksTheHammersAreaByTheRestitutionAlone) {
-  for (const Model& model : kModels) expect_volume(hammer(model.gamma, model.v_c));
 }
 
 // Eq. 2: the projection along the flow F onto the surface with the gradient G.
