@@ -59,17 +59,6 @@ TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
   }
 }
 
-TEST(Model, AFaultSaysNameValueAndReason) {
-  Model model;
-  model.gamma = 1.25;
-  const std::vector<ParameterError> faults = find_faults(model);
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].name, "gamma");
-  EXPECT_EQ(faults[0].value, 1.25);
-  EXPECT_FALSE(faults[0].reason.empty());
-  EXPECT_EQ(faults[0].what(), "gamma = 1.25: " + faults[0].reason);
-}
-
 TEST(Model, ADescriptionHasALineForEachFault) {
   EXPECT_EQ(describe({}), "");
   EXPECT_EQ(describe({{"H", -1.0, "too low"}}), "H = -1: too low");

@@ -1,4 +1,4 @@
-// Where a slide ends, and rest.
+// Where a slide ends.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -59,24 +59,6 @@ TEST(SlideRelease, IsFollowedByAFlightHoweverLargeTheForces) {
   }
   EXPECT_GT(releases, 4000);
   EXPECT_EQ(at_once, 0);
-}
-
-// Crests press whatever the height of the spring's rest; bottoms do where it rests below them.
-TEST(SlideRest, AtACrestOrAValleyBottomStaysForEver) {
-  for (const double phase : {0.0, 0.5}) {
-    Model model;
-    model.y0 = phase == 0.0 ? 0.0 : -0.2;
-    const SlidePart part(SpringConstants<double>(model), 0.0, {phase, 0.0, 0.0});
-    EXPECT_GT(part.pressure(0.0), 1.0);
-    EXPECT_LT(find_release(part), 0.0);
-    for (const double s : {0.1, 1.0, part.length()}) {
-      EXPECT_EQ(part.at(s).phase, phase);
-      EXPECT_EQ(part.at(s).X, 0.0);
-      EXPECT_EQ(part.at(s).u, 0.0);
-      EXPECT_EQ(part.pressure(s), part.pressure(0.0));
-    }
-    EXPECT_GE(part.length(), 1.0);
-  }
 }
 
 // positive at 0, and zero at all of these

@@ -142,22 +142,6 @@ TEST(ImpactSearch, ComesWithTheSlopeOfTheSurfaceWhereItEnds) {
   }
 }
 
-TEST(ImpactSearch, AStartInTheAirIsAStartLikeAnyOther) {
-  RandomLaunches launches(6);
-  for (int i = 0; i < 1000; ++i) {
-    const double eta = launches.within(-9.0, 9.0);
-    TipState start = launches.next(eta, -3.0, 1.0);
-    start.g = launches.within(1e-6, 0.5);
-    if (i % 2 == 0) start.g1 = -start.g1;
-    const Flight<double> flight(kSpringConstants, eta, start);
-    const Landing<double> landing = find_landing(kMica, flight, kHorizon);
-    const Landing<Quad> truth = find_impact(Flight<Quad>(kQuadSpringConstants, eta, start), Quad(kHorizon));
-    ASSERT_EQ(landing.outcome, truth.outcome);
-    ASSERT_NEAR(landing.s, to_double(truth.s), 1e-9) << i;
-    ASSERT_FALSE(penetrates(flight, landing.s * (1.0 - 1e-6))) << i;
-  }
-}
-
 // Under a surface that presses: a few thousandths to an eighth of the fastest turn long.
 struct ShortBounce {
   double eta;

@@ -36,19 +36,6 @@ TEST(Hammer, AtEvenEtaItsFrictionIsTheClosedForm) {
   }
 }
 
-TEST(Hammer, FollowsItsHolder) {
-  RandomLaunches random(1);
-  Tip tip(hammer(), 3.4, FreeState{0.25, 0.3, 0.2, -7.0, 0.0});
-  for (int i = 0; i < 20000; ++i) {
-    const Outcome outcome = tip.advance(tip.now() + random.within(0.0, 1.0));
-    ASSERT_NE(outcome, Outcome::search_failed);
-    const FreeState now = tip.state();
-    ASSERT_EQ(now.X, 0.0);
-    ASSERT_NEAR(now.u, tip.eta(), 1e-13 * std::abs(tip.eta()));
-    if (i % 7 == 0) tip.drag(random.within(-5.0, 5.0));
-  }
-}
-
 // A command that throws it off the surface comes at a time whose difference from the contact's beginning is rounded.
 TEST(Hammer, ThrownOffByACommandItIsThrownThenAndNoUlpSooner) {
   RandomLaunches random(2);
@@ -64,18 +51,6 @@ TEST(Hammer, ThrownOffByACommandItIsThrownThenAndNoUlpSooner) {
     ++thrown;
   }
   EXPECT_GT(thrown, 300);
-}
-
-TEST(Hammer, IsDraggedOverAtRestAndWakesUp) {
-  Tip tip(hammer(), 0.0, FreeState{0.1, 0.0, 0.09, 0.0, 0.0});
-  while (!tip.in_contact()) ASSERT_NE(tip.advance({1000, 0.0}), Outcome::time_limit);
-  ASSERT_EQ(tip.advance({2000, 0.0}), Outcome::time_limit);
-  tip.drag(1.0);
-  EXPECT_EQ(tip.advance({2001, 0.0}), Outcome::released);
-  int impacts = 0;
-  while (tip.advance({2010, 0.0}) != Outcome::time_limit) ++impacts;
-  EXPECT_GT(impacts, 0);
-  EXPECT_GE(tip.tip_state().g, 0.0);
 }
 
 // The second takes back what the first has done, before any time has passed; a blow alone is not taken back.

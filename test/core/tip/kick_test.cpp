@@ -1,4 +1,4 @@
-// Kicks wherever the tip is: in the air, in a chatter sequence, in contact, at rest; and the balance through commands.
+// Kicks wherever the tip is: in the air, in a chatter sequence, in contact, at rest.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +7,6 @@
 #include "afm/detail/chatter.h"
 #include "afm/tip.h"
 #include "support/models.h"
-#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
@@ -166,19 +165,6 @@ TEST(Kick, WithoutTemperatureATipAtRestStaysAtRest) {
   while (tip.advance({20000, 0.0}) != Outcome::time_limit) continue;
   EXPECT_EQ(tip.last_impact().time.tau, contact);  // no event since
   EXPECT_LT(std::abs(tip.state().u), 1e-10);
-}
-
-// Commands and another bath between the kicks.
-TEST(Kick, KeepsTheBalanceThroughCommands) {
-  Tip tip = tip_of(0.7, 0.05, 3.4);
-  EnergyBalance balance(tip);
-  for (int i = 0; i < 400; ++i) {
-    balance.command(tip, [&] { tip.set_bath(bath_of(0.1 * (i % 5), i % 7 == 0 ? 0.0 : 30.0, 1.0 + i % 3)); });
-    if (i % 3 == 0) balance.command(tip, [&] { tip.drag(0.37 * (i % 13) - 1.0); });
-    const ModelTime until = tip.now() + 7.77;
-    while (balance.advance_segment(tip, until) != Outcome::time_limit) continue;
-  }
-  EXPECT_LT(balance.imbalance(tip), 1e-11 * balance.turnover(tip));
 }
 
 }  // namespace

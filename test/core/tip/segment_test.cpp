@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <ostream>
 
@@ -150,26 +149,6 @@ TEST_P(SegmentsOf, LossesAndCountsAddUpToThoseOfTheEventsWhateverTheCommands) {
   }
 }
 
-// The force of the spring, by quadrature of the deflection.
-class OscillatorSegments : public SegmentsOf {};
-
-TEST_P(OscillatorSegments, TheImpulseIsTheTimeIntegralOfTheLateralForce) {
-  Tip tip = SegmentsOf::tip();
-  Segments ended;
-  const double omega_h = kTwoPi * tip.model().frequency_ratio;
-  for (int segments = 0; segments < 3000; ++segments) {
-    const ModelTime begin = tip.now();
-    const double duration = tip.segment_end() - begin;
-    const auto X = [&](double s) { return tip.deflection(begin + s).lateral; };
-    const double integral = boost::math::quadrature::gauss<double, 30>::integrate(X, 0.0, duration);
-    tip.advance_segment({1000000, 0.0}, &ended);
-    if (ended.begin() == ended.end() || duration > 1.0) continue;
-    const Segment& s = *ended.begin();
-    if (s.kind != SegmentKind::flight && s.kind != SegmentKind::contact) continue;
-    ASSERT_NEAR(s.impulse, -omega_h * omega_h * integral, 1e-9 * scale_of(tip)) << segments;
-  }
-}
-
 constexpr ModelKind kFree = ModelKind::oscillator, kHeld = ModelKind::hammer;
 constexpr Scene kOscillators[] = {{kFree, 3.4, 0.34}, {kFree, -2.0, 0.02}, {kFree, 0.5, 0.01}, {kFree, 3.0, 0.01}};
 constexpr Scene kHammers[] = {{kHeld, 3.4, 0.1}, {kHeld, -0.3, 0.02}};
@@ -193,7 +172,6 @@ constexpr Scene kInABath[] = {{kFree, 3.4, 0.05, 50.0, 0.926},
 INSTANTIATE_TEST_SUITE_P(Oscillator, SegmentsOf, testing::ValuesIn(kOscillators));
 INSTANTIATE_TEST_SUITE_P(Hammer, SegmentsOf, testing::ValuesIn(kHammers));
 INSTANTIATE_TEST_SUITE_P(InABath, SegmentsOf, testing::ValuesIn(kInABath));
-INSTANTIATE_TEST_SUITE_P(Runs, OscillatorSegments, testing::ValuesIn(kOscillators));
 
 // A tip that rests on a slope: its holder holds it, and nothing works.
 TEST(Segment, AtRestTheHolderHoldsWithoutWork) {
