@@ -76,7 +76,7 @@ class Claims:
         tip = self.start_both('lockstep')
         self.numbers(tip.call('control 0.01'))
         for fault in ('did not answer', ''):  # then it does not even connect
-            self.emulator.child.send_signal(signal.SIGSTOP)
+            self.emulator.halt()
             begin = time.monotonic()
             answer = tip.call('control 0.01')
             self.assertLess(time.monotonic() - begin, 5.0 * TIMEOUT_S)
@@ -86,7 +86,7 @@ class Claims:
 
     def test_a_restarted_emulator(self):
         tip = self.start_both('lockstep')
-        self.emulator.child.send_signal(signal.SIGSTOP)  # the call gets no answer before the end
+        self.emulator.halt()  # the call gets no answer before the end
         tip.begin('control 0.01')
         self.emulator.child.kill()
         self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*restarted')
@@ -119,7 +119,7 @@ class Claims:
 
     def test_the_node_is_shut_down_while_it_waits(self):
         tip = self.start_both('lockstep')
-        self.emulator.child.send_signal(signal.SIGSTOP)
+        self.emulator.halt()
         tip.begin('control 0.01')
         tip.child.send_signal(signal.SIGINT)
         self.assertEqual(tip.answer(), 'shut down')

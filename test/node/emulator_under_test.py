@@ -47,6 +47,13 @@ class Process:
         self.child.send_signal(with_signal)
         return self.wait()
 
+    def halt(self):
+        """SIGSTOP; its threads stop one after another, and one that goes on might still answer."""
+        self.child.send_signal(signal.SIGSTOP)
+        threads = Path('/proc/%d/task' % self.child.pid)
+        wait_until(lambda: all((thread / 'stat').read_text().rpartition(')')[2].split()[0] == 'T'
+                               for thread in threads.iterdir()), 'all threads stand still')
+
     def clean_up(self):
         """Asked first, so that the master forgets it: the address of a dead node can hide that of its heir from a
         subscriber."""

@@ -114,7 +114,7 @@ class Faults(NodeTest):
         self.assert_keeps_up()
 
     def stop_for(self, seconds):
-        self.emulator.child.send_signal(signal.SIGSTOP)
+        self.emulator.halt()
         time.sleep(seconds)
         before = self.deflection.messages[-1]
         self.emulator.child.send_signal(signal.SIGCONT)
