@@ -54,8 +54,8 @@ class Calls:
 
 class Claims:
     """Of both clients."""
-    def start_both(self, pace):
-        self.emulator = self.start(Emulator({'pace': pace}))
+    def start_both(self, pace, **parameters):
+        self.emulator = self.start(Emulator(dict(parameters, pace=pace)))
         return self.start(Calls(self.program()))
 
     def numbers(self, answer):
@@ -116,6 +116,19 @@ class Claims:
         friction.wait_for_connection()
         self.numbers(tip.call('mean_force 3 1.6'))
         friction.wait_for(lambda m: abs((m.time.tau + m.time.phase) * TAU_S - 4.6) < 1e-9, '4.6 s of model time')
+
+    def test_a_mean_force_is_not_of_samples(self):
+        """The hammer's are zero along x. On its periodic orbit at eta = 2 every period has the same force."""
+        for pace in ('lockstep', 'real_time'):
+            tip = self.start_both(pace, model='hammer', cutoff_speed=1.66e-7)
+            friction = Topic('friction')
+            friction.wait_for_connection()
+            force, = self.numbers(tip.call('mean_force 0.1 0.1 %r' % (2.0 * SPEED_UNIT)))
+            estimate = friction.wait_for(lambda m: abs(m.eta - 2.0) < 1e-9 and m.impact_count > 2000, 'long after that')
+            self.assertAlmostEqual(force / estimate.mean_lateral_force, 1.0, delta=0.02)
+            tip.clean_up()
+            self.emulator.stop()
+            Topic.close_all()
 
     def test_the_node_is_shut_down_while_it_waits(self):
         tip = self.start_both('lockstep')

@@ -184,7 +184,7 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
 // The next bag begins where something follows its snapshot: no bag has nothing that can be checked.
 std::string Recorder::take(const Item& item) {
   try {
-    if (full_ && item.role == Role::snapshot) {
+    if (full_ && !next_ && item.role == Role::snapshot) {
       next_ = item;
       return {};
     }
