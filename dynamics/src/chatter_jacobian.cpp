@@ -33,7 +33,7 @@ SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& l
     const SlideSegment<Dual4> reference(springs, Dual4(eta), state);
     const ChatterIntegration<Dual4> integration(law.constants(), reference);
     const double until = std::min(left, reference.length().value);
-    run = integration.follow(Dual4(0.0), until, {run.chatter.v, run.chatter.n}, false);
+    run = integration.follow(until, {run.chatter.v, run.chatter.n}, false);
     left -= until;
     const bool ends = !(left > 0.0) || run.end != ChatterEnd::time;
     if (ends) run = integration.exit_at(integration.begin(run.s, run.chatter), run.chatter.n.value);

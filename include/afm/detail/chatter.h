@@ -65,8 +65,8 @@ class ChatterLaw {
   // Can a sequence begin with this bounce? Its duration must be short against every change of the reaction.
   bool holds(const Flight<double>& bounce) const;
 
-  // From `from` to `until` along the reference slide [tau], or to the end of the sequence.
-  ChatterRun run(const SlideSegment<double>& reference, double from, double until, const Chatter& start) const;
+  // From the start of the reference slide to `until` [tau], or to the end of the sequence.
+  ChatterRun run(const SlideSegment<double>& reference, double until, const Chatter& start) const;
 
   // From the start of the reference slide to a time s before the end of the sequence.
   Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;

@@ -27,7 +27,6 @@ class SlideSegment {
 
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(series_.lambda, s); }  // the reaction along y [a/tau^2]
-  T pressure_rate(const T& s) const { return pressure_jet(s)[1]; }
   std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
   T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
 

@@ -98,13 +98,12 @@ bool ChatterLaw::holds(const Flight<double>& bounce) const {
   return f.P > 0.0 && 2.0 * p.normal_speed * change_rates(m, p.reference.u, f).fastest <= limit * f.P;
 }
 
-ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double from, double until,
-                           const Chatter& start) const {
-  return ChatterIntegration<double>(constants_, reference).follow(from, until, start, true);
+ChatterRun ChatterLaw::run(const SlideSegment<double>& reference, double until, const Chatter& start) const {
+  return ChatterIntegration<double>(constants_, reference).follow(until, start, true);
 }
 
 Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Chatter& start) const {
-  return ChatterIntegration<double>(constants_, reference).follow(0.0, s, start, false).chatter;
+  return ChatterIntegration<double>(constants_, reference).follow(s, start, false).chatter;
 }
 
 // The averaged law at its lowest order (docs/algorithm.md, "Collapse").

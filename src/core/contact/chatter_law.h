@@ -154,10 +154,10 @@ class ChatterIntegration {
     return at;
   }
 
-  // From `begin_s` to `until`, or to the end of the sequence. Without `exits` the adiabaticity ratio is not checked:
+  // From the start to `until`, or to the end of the sequence. Without `exits` the adiabaticity ratio is not checked:
   // that is for a state in the middle of a known sequence.
-  Run follow(const T& begin_s, double until, const ChatterOf<T>& start, bool exits) const {
-    Point now = begin(begin_s, start);
+  Run follow(double until, const ChatterOf<T>& start, bool exits) const {
+    Point now = begin(T(0.0), start);
     while (value(now.s) < until && value(now.chatter.v) > c_.threshold) {
       const double first = ratio_over_limit(c_, now);
       if (exits && !(first <= 1.0)) return exit_at(now, whole_after(now));

@@ -135,8 +135,8 @@ void Tip::chatter_along(const SlideState<double>& start, const Chatter& chatter,
   const double release = find_release(chattering.reference);
   chattering.releases = release >= 0.0;
   chattering.chatter = chatter;
-  chattering.run =
-      law_.run(chattering.reference, 0.0, chattering.releases ? release : chattering.reference.length(), chatter);
+  const double until = chattering.releases ? release : chattering.reference.length();
+  chattering.run = law_.run(chattering.reference, until, chatter);
   chattering.sequence = sequence;
   chattering.begin = begin;
   end_ = chattering.run.s;

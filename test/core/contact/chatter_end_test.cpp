@@ -24,7 +24,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
   int exits = 0;
   for (int i = 0; i < 2000; ++i) {
     const RandomChatter chatter = random_chatter(model, law, random, -3.5, -2.0);
-    const ChatterRun run = law.run(chatter.reference, 0.0, chatter.reference.length(), {chatter.v, 0.0});
+    const ChatterRun run = law.run(chatter.reference, chatter.reference.length(), {chatter.v, 0.0});
     if (run.end != ChatterEnd::exits) continue;
     ++exits;
     ASSERT_EQ(run.chatter.n, std::floor(run.chatter.n));

@@ -54,7 +54,7 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
   Tip tip = chatter.every_bounce();
   const Chatter start{chatter.v, 0.0};
   LawStep law_step{chatter.model, chatter.reference, start};
-  const double end = law.run(chatter.reference, 0.0, chatter.reference.length(), start).s;
+  const double end = law.run(chatter.reference, chatter.reference.length(), start).s;
   double before = 0.0;
   for (int n = 1; n <= most; ++n) {
     tip.advance(kEndOfTime);
