@@ -67,20 +67,6 @@ TEST_P(RunAt, StoppingAnywhereChangesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Temperatures, RunAt, testing::Values(0.0, 0.926));
 
-TEST(Run, RunsToAnyTimeWithinABatch) {
-  afm::Run run(settings_at(2.0, 1000));  // 30 tau
-  Batch batch;
-  const ModelTime stop{7, 0.123};
-  ASSERT_EQ(advance_to(stop, run, batch), Outcome::time_limit);
-  EXPECT_TRUE(run.now() == stop);
-  EXPECT_TRUE(batch.end == stop);
-  EXPECT_EQ(batch.vertical.size(), 238u);  // 0, 0.03 ... 7.11
-  ASSERT_EQ(run.advance(batch), Outcome::time_limit);
-  EXPECT_TRUE(batch.begin == stop);
-  EXPECT_EQ(batch.first_sample, 238u);
-  EXPECT_TRUE(batch.end == multiply(1000, 0.03));
-}
-
 TEST(Run, RunsToTheNthNextImpactOrTheBoundary) {
   afm::Run run(settings_at(3.4, 1000));
   Batch batch;

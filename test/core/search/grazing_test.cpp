@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "afm/tip.h"
+#include "afm/landing.h"
 #include "trials/grazes.h"
 
 namespace afm {
@@ -78,24 +78,6 @@ TEST(Grazes, AHorizonAtTheGrazeChangesNoDecision) {
         ASSERT_EQ(part.s, horizon) << i;
       }
     }
-  }
-}
-
-// Batches end where they like: the tip decides the graze once.
-TEST(Grazes, ALimitAtTheGrazeChangesNothing) {
-  Grazes grazes(5);
-  for (int i = 0; i < 300; ++i) {
-    const Graze graze = grazes.after_a_flight((i % 3 - 1) * 1e-13);
-    Tip whole(graze.model, graze.eta, graze.start), parts = whole;
-    ASSERT_EQ(whole.advance({1000, 0.0}), Outcome::impact);
-    for (const double before : {1e-6, 1e-9, 0.0, -1e-9}) {
-      const ModelTime limit = ModelTime{} + (graze.s - before);
-      if (!(limit < whole.now())) continue;
-      ASSERT_EQ(parts.advance(limit), Outcome::time_limit);
-    }
-    ASSERT_EQ(parts.advance({1000, 0.0}), Outcome::impact);
-    ASSERT_TRUE(parts.now() == whole.now()) << i;
-    ASSERT_EQ(parts.last_impact().normal_speed, whole.last_impact().normal_speed);
   }
 }
 
