@@ -55,7 +55,7 @@ constexpr std::array<double, kLastLevel + 1> kAngle = make_angles();
 
 constexpr std::array<SwingTable, kLevels + 1> make_swing_tables() {
   std::array<SwingTable, kLevels + 1> tables{};
-  for (int i = 0; i < kLevels; ++i) tables[i] = make_swing_table(kAngle[i]);
+  for (std::size_t i = 0; i < kLevels; ++i) tables[i] = make_swing_table(kAngle[i]);
   tables[kLevels] = make_swing_table(0.0);
   return tables;
 }
@@ -175,9 +175,10 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
   const SpringConstants<double>& m = s.m_;
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
   const double u0 = s.start_.u, X0 = s.start_.X, eta = s.eta_, H = m.H, y0 = m.y0;
-  const SwingTable& table = kSwing[free == 0.0 ? kLevels : std::min(level, kLevels)];
+  const SwingTable& table = kSwing[static_cast<std::size_t>(free == 0.0 ? kLevels : std::min(level, kLevels))];
   const double least = Limits::kLeastStiffness * (wh2 * free + k2 * u0 * u0);
-  const double longest = std::min(kMaxLength, kAngle[level] / std::sqrt(std::max(stiffness, least)));
+  const double angle = kAngle[static_cast<std::size_t>(level)];
+  const double longest = std::min(kMaxLength, angle / std::sqrt(std::max(stiffness, least)));
   const double h = std::max(kMinLength, longest);
   const double h2 = h * h, inverse_h = 1.0 / h, kappa = table.angle * table.angle / h2;
   const double drag = wh2 * eta * free / s.first_.N2, n0 = h2 * s.first_.force, n1 = h2 * h * drag, n_u = h * u0;
