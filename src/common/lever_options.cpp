@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -40,6 +41,12 @@ fs::path path_of(const std::string& option, const std::string& name) {
   return path;
 }
 
+// Whether ROS reads the same number: YAML 1.1 takes 013 for octal, and 2e-1 or a quoted number for text.
+bool is_number(const YAML::Node& node) {
+  static const std::regex kNumber(R"([-+]?(0|[1-9]\d*|\d+\.\d*([eE][-+]\d+)?|\.\d+([eE][-+]\d+)?))");
+  return node.IsScalar() && node.Tag() == "?" && std::regex_match(node.Scalar(), kNumber);
+}
+
 // Reads the file of a lever or a surface: numbers by their keys. Returns the keys that are there. Throws
 // std::invalid_argument where it is no such file, or has a key that is not known.
 std::set<std::string> read(const std::string& option, const std::string& name,
@@ -52,8 +59,9 @@ std::set<std::string> read(const std::string& option, const std::string& name,
       const std::string key = entry.first.as<std::string>();
       const auto number = known.find(key);
       if (number == known.end()) throw std::invalid_argument("it says nothing of a " + option + " by its " + key);
-      if (!YAML::convert<double>::decode(entry.second, *number->second))
-        throw std::invalid_argument(key + " must be a number");
+      if (!is_number(entry.second))
+        throw std::invalid_argument(key + " must be a number as ROS reads it, such as 13000.0 or 1.3e+4");
+      *number->second = entry.second.as<double>();
       keys.insert(key);
     }
   } catch (const YAML::Exception& fault) {

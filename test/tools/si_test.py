@@ -174,19 +174,21 @@ class Levers(unittest.TestCase):
                 self.assertEqual(code, 2 if words else 0, complaint)
                 for word in words:
                     self.assertIn(word, complaint)
-            lever = 'spring_constant_n_per_m: 0.5\nresonance_hz: 2.0e4\n'
+            lever = 'spring_constant_n_per_m: 0.5\nresonance_hz: 2.0e+4\n'
             refused(lever + 'lateral_spring_constant_n_per_m: 60\n')
             refused(lever, 'lateral_spring_constant_n_per_m')
             refused(lever + 'lateral_spring_constant_n_per_m: high\n', file.name,
                     'lateral_spring_constant_n_per_m must')
+            for number in ('013', '6e-1', '6.0e1', '"60"'):  # which ROS takes for octal, or for text
+                refused(lever + 'lateral_spring_constant_n_per_m: %s\n' % number, 'as ROS reads it')
             refused(lever + 'stiffness: 3\n', file.name, 'stiffness')
             refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')
             refused('', file.name, 'a key and a number')
             refused('- 0.5\n', file.name, 'a key and a number')
-            by_model = 'omega_v_rad_per_s: 4.0e4\nomega_h_rad_per_s: 2.5e5\ntip_mass_kg: 4.0e-10\nquality_factor: 20\n'
+            by_model = 'omega_v_rad_per_s: 4.0e+4\nomega_h_rad_per_s: 2.5e+5\ntip_mass_kg: 4.0e-10\nquality_factor: 20\n'
             refused(by_model)
             refused(by_model.split('\n', 1)[1], file.name, 'lacks omega_v_rad_per_s')
-            refused(by_model + 'resonance_hz: 2.0e4\n', file.name, 'twice')
+            refused(by_model + 'resonance_hz: 2.0e+4\n', file.name, 'twice')
             refused(by_model + lever + 'lateral_spring_constant_n_per_m: 60\n', file.name, 'twice')
 
     def test_a_lever_by_its_frequencies_is_the_same_lever(self):

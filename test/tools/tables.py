@@ -6,8 +6,8 @@ import subprocess
 TIME_LIMIT_S = float(os.environ.get('AFM_TIME_LIMIT', '100'))  # under a sanitizer all takes longer
 
 
-def run_tool(*command):
-    """The exit code, the rows as dictionaries, and the standard error."""
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+def run_tool(*command, text=None):
+    """The exit code, the rows as dictionaries, and the standard error. text: the standard input."""
+    done = subprocess.run(command, input=text, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
                           timeout=TIME_LIMIT_S)
     return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
