@@ -10,7 +10,7 @@ SUBSTITUTIONS = [
     (r'^(cmake --build ~/afm/examples)', r'\1 --target one_tip'),
     # these go on until Ctrl-C
     (r'^rostopic echo', 'rostopic echo -n 1'),
-    (r'^(roslaunch afm_emulator (?:emulator|pair|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)',
+    (r'^(roslaunch afm_emulator (?:emulator|view|hold_force|seek_peak)\.launch|roslaunch .*view:=true)',
      r'until_interrupted \1'),
     # a bag as a killed emulator leaves it
     (r'^rosbag reindex (\S+)\.active', r'cp \1 \1.active && rosbag reindex \1.active'),
@@ -58,7 +58,6 @@ NOT_RUN = [
     (r'durations\.py --builds', 'builds everything for minutes'),
     (r'^dask-|--scheduler HEAD', 'needs a second machine'),
     (r'^podman', 'needs a container engine'),
-    (r'right_address:=', 'needs a second machine'),
     (r'^(rqt_plot|rosrun rqt_\w+) ', 'opens a window'),
     (r'^python3 -m venv', 'builds for minutes; the test without_ros does it in short'),
 ]
