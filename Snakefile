@@ -69,6 +69,7 @@ TARGETS.update({name: [image(name)] for name in EXAMPLES})
 TARGETS.update({"view": [image("view")],
                 "scene_pictures": [image(name) for name in PICTURES if name.startswith("scene_")],
                 "chart": TARGETS["speed_accuracy"] + TARGETS["pace"]})
+TARGETS["scenes"] = TARGETS["scene_pictures"] + TARGETS["scene_levels"]
 TARGETS["paper"] = [file for name in PICTURES if re.match("fig|model", name) for file in TARGETS[name]] + \
     [table(name) for name in ("mica_in_si", "friction_attractors", "friction_orbits", "friction_averages")]
 TARGETS["hammer"] = [file for name in PICTURES if name.startswith("hammer") for file in TARGETS[name]]

@@ -30,7 +30,7 @@ LOAD_ETAS = (0.5, 2, 3.4)
 LEVERS, CRYSTALS = ("paper", "ppp_cont", "csc37_b"), ("mica", "nacl", "hopg")  # of the picture friction against load
 LEVER_SPEED, MOST_LOAD = 5e-6, 0.2e-9  # [m/s], [N]
 CUTOFF_SPEED = 1.66e-7  # [m/s]
-HAMMER_ETA = 3.2
+HAMMER_ETA, HAMMER_ETAS = 3.2, (1.5, 2.0, 3.4)
 # no even numbers, at which the horizontal spring is in resonance with the orbit of even eta
 RATIOS = (2.25, 3.25, 4.25, 6.25, 8.25, 12.25, 17.25, 24.25, 34.25, 48.25, 68.25, 98.25, 140.25, 198.25)
 BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--gamma", 0.7), ("--eta 2 --vary eta --to 1.2",
@@ -99,12 +99,13 @@ def commands(quick):
     for eta in (2, 2.5, 3.75, 6.5):
         add("coexisting_%g" % eta, "attractors --eta", eta, "--relative-cutoff --cutoff 0.1 --starts", choose(10, 100))
     for low, high in WINDOWS:
-        step = (high - low) / choose(10, 100)
-        add("coexistence_%g" % low, "attractors", *mica, "--eta", "%g:%g:%g" % (low, high, step), "--starts",
-            choose(10, 60), "--friction-duration 300")
+        add("coexistence_%g" % low, "attractors", *mica, "--eta", "%g:%g:%g"
+            % (low, high, (high - low) / choose(10, 100)),
+            "--starts", choose(10, 60), "--friction-duration 300")
         for direction in ("up", "down"):
             curve("sweep_%s_%g" % (direction, low), *mica, "--eta", "%g:%g:%g" % (low, high, choose(0.025, 0.0025)),
-                  "--sweep", direction, "--duration 3000")
+                  "--sweep", direction,
+                  "--duration 3000")
     add("periodic_orbits", "periodic_orbits --eta 3.4", *mica, choose("--max-length 6 --trajectory 20000 --guesses 200",
         "--max-length 10 --trajectory 1000000 --guesses 3000"), "--averages {out}/cycle_averages.csv --quiet",
         sides=["cycle_averages"])
@@ -118,8 +119,9 @@ def commands(quick):
             add("%s_branch_%d" % (name, i), "continue_orbits --cutoff 0.05", branch)
         for direction in ("up", "down"):
             step = (bounds[1] - bounds[0]) / choose(60, 600)
-            add("%s_%s" % (name, direction), "bifurcations --vary", vary, "--range", "%.6g:%.6g:%.6g" % (*bounds, step),
-                "--sweep", direction, "--impacts 60 --cutoff 0.05 --transient 300", *fixed)
+            add("%s_%s" % (name, direction), "bifurcations --vary", vary, "--range",
+                "%.6g:%.6g:%.6g" % (*bounds, step), "--sweep",
+                direction, "--impacts 60 --cutoff 0.05 --transient 300", *fixed)
     add("atlas", "attractors --eta", choose("0.1:9:0.1 --gamma 0.3:0.95:0.05", "0.03:9:0.03 --gamma 0.3:0.95:0.01"),
         "--cutoff 0.05 --starts 1 --friction-duration 200")
     curve("scaling_eta", "--eta", choose("0.5:9:0.1 --duration 1000", "0.5:9:0.02 --duration 5000"), *mica)
@@ -132,8 +134,10 @@ def commands(quick):
               *length)
     add("hammer_error_eta", "model_error --eta", choose("0.5:9:0.5", "0.1:9:0.1"),
         "--relative-cutoff --cutoff 0.05 --starts 2", *length)
-    add("hammer_error_ratio", "model_error --eta 1.5,2.0,3.4 --frequency-ratio",
-        ",".join(map(str, choose(RATIOS[::3], RATIOS))), "--relative-cutoff --cutoff 0.05 --starts 2", *length)
+    ratios = RATIOS[::3] if quick else RATIOS
+    add("hammer_error_ratio", "model_error --eta", ",".join(map(str, HAMMER_ETAS)), "--frequency-ratio",
+        ",".join(map(str, ratios)),
+        "--relative-cutoff --cutoff 0.05 --starts 2", *length)
     add("hammer_words", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 8 --impacts 50000",
                                                                       "--max-length 14 --impacts 2000000"),
         "--section {out}/hammer_section.csv --forbidden {out}/hammer_forbidden.csv",
@@ -159,11 +163,13 @@ def commands(quick):
                   "--duration", choose(500, 20000), *bath(kelvin, quality))
         for eta in THERMAL_FINE:  # between the points of the whole curve
             curve("thermal_fine_%s_%g" % (bath_name(kelvin, quality), eta), "--eta",
-                  "%g:%g:0.05" % (eta - 0.225, eta + 0.225), "--duration", choose(500, 3000), *bath(kelvin, quality))
+                  "%g:%g:0.05" % (eta - 0.225, eta + 0.225),
+                  "--duration", choose(500, 3000), *bath(kelvin, quality))
     for eta, quality, theta in kicks_cases(quick):
         for kicks in (GOLDEN[::3] if quick else GOLDEN) + (REFERENCE_KICKS,):
             curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature",
-                  theta, "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
+                  theta,
+                  "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
     add("thermal_real_time", "real_time --temperature 0.926 --quality-factor 100 --cutoff 0.05",
         choose("--step 1 --tau 100", "--step 0.05 --tau 5000"))
     add("thermostats", "thermostats --seconds", choose(0.2, 12))
@@ -186,12 +192,13 @@ def commands(quick):
             curve("load_%g_%s" % (eta, name), "--eta", eta, "--rest-height",
                   choose("-1.1:0.09:0.1 --duration 500", "-1.1:0.09:0.01 --duration 10000"), *heat)
 
-    for lever, crystal in itertools.product(LEVERS, CRYSTALS):
-        words, most = lever_scene(lever, crystal)
-        points = choose(5, 20)
-        step = float("%.6g" % (most / points))  # so short that the range ends at 0 to the digit
-        curve("lever_%s_%s" % (lever, crystal), words, "--rest-height",
-              "%.9g:0:%.9g --duration %d" % (-points * step, step, choose(300, 4000)))
+    for lever in LEVERS:
+        for crystal in CRYSTALS:
+            words, most = lever_scene(lever, crystal)
+            points = choose(5, 20)
+            step = float("%.6g" % (most / points))  # so short that the range ends at 0 to the digit
+            curve("lever_%s_%s" % (lever, crystal), words, "--rest-height",
+                  "%.9g:0:%.9g --duration %d" % (-points * step, step, choose(300, 4000)))
     add("levers", "benchmark/levers.py", choose("--tau 30 --transient 20", ""))
 
     # accuracy, speed, stability
@@ -228,10 +235,12 @@ def commands(quick):
                   "--temperature 0.926 --quality-factor 100 --kicks-per-tau", kicks, "--frequency-ratio", ratio,
                   "--duration", choose(200, 50000))
 
-    for ratio, quality, kicks in itertools.product(LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS):
-        curve("locked_kicks_%g_%g_%g" % (ratio, quality, kicks), "--eta 4 --cutoff 0.05 --temperature 0.926",
-              "--quality-factor", quality, "--kicks-per-tau", kicks, "--frequency-ratio", ratio, "--duration",
-              choose(200, 50000))
+    for ratio in LOCK_RATIOS:
+        for quality in LOCK_QUALITIES:
+            for kicks in LOCK_KICKS:
+                curve("locked_kicks_%g_%g_%g" % (ratio, quality, kicks), "--eta 4 --cutoff 0.05 --temperature 0.926",
+                      "--quality-factor", quality, "--kicks-per-tau", kicks, "--frequency-ratio", ratio,
+                      "--duration", choose(200, 50000))
 
     # scenes, recording, control
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep",
