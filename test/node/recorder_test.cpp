@@ -57,7 +57,7 @@ class RecorderTest : public testing::Test {
   Recorder::Status record(bool unhurried) {
     Recorder recorder(settings(), can_be_asked);
     begin(recorder, "run", unhurried);
-    for (int i = 0; i < kMessages; ++i) recorder.record(topic_, bytes_, Role::batch, unhurried);
+    for (int i = 0; i < kMessages; ++i) recorder.record(topic_, bytes_, Role::ordinary, unhurried);
     EXPECT_TRUE(recorder.stop().success);
     return recorder.status();
   }
@@ -161,31 +161,49 @@ TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
   EXPECT_TRUE(fs::exists(file("again.bag")));
 }
 
-// Nothing of a recording is lost that is stopped behind the snapshot of its next part; and in a pause, in which only the
-// status is published, no part is asked for.
-TEST_F(RecorderTest, EveryBagButTheFirstHoldsSomethingBehindItsSnapshot) {
+// One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
+TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
   for (const bool whole : {false, true}) {
-    std::atomic<int> asked{0};
-    Recorder recorder(settings(1), [&] { return ++asked > 0; });
+    std::promise<void> asked;
+    Recorder recorder(settings(1), [&, calls = 0]() mutable {
+      if (calls++ == 0) asked.set_value();
+      return true;
+    });
     const std::string name = whole ? "whole" : "part";
     begin(recorder, name);
-    recorder.record(topic_, bytes_, Role::batch_end, true);
-    recorder.record(topic_, bytes_, Role::snapshot, true);
-    for (int i = 0; i < 5; ++i) recorder.record(topic_, bytes_, Role::status, true);
-    if (whole) {
-      recorder.record(topic_, bytes_, Role::snapshot, true);  // of a reset, before the one that was asked for
-      recorder.record(topic_, bytes_, Role::batch_end, true);
-    }
-    const std::string last =
-        file(name + (whole ? "_001.bag: the last of 2 bags with 14 messages" : ".bag: 9 messages"));
-    EXPECT_EQ(recorder.stop().message, last);
-    EXPECT_EQ(asked, whole ? 2 : 1);
-    EXPECT_EQ(messages_in_bag(name + ".bag"), 9u);
+    ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
+    recorder.record(topic_, bytes_, Role::snapshot, false);
+    recorder.record(topic_, bytes_, Role::ordinary, false);
+    if (whole) recorder.record(topic_, bytes_, Role::batch_end, false);
+    EXPECT_TRUE(recorder.stop().success);
+    EXPECT_EQ(messages_in_bag(name + ".bag"), whole ? 3u : 5u);
     ASSERT_EQ(fs::exists(file(name + "_001.bag")), whole);
     if (whole) {
       EXPECT_EQ(messages_in_bag(name + "_001.bag"), 5u);
     }
   }
+}
+
+// As in a pause, in which only the status is published.
+TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
+  std::promise<void> asked[2];
+  Recorder recorder(settings(1), [&, calls = 0]() mutable {
+    if (calls < 2) asked[calls++].set_value();
+    return true;
+  });
+  const auto was_asked = [&](int time) {
+    return asked[time].get_future().wait_for(std::chrono::seconds(50)) == std::future_status::ready;
+  };
+  begin(recorder);
+  ASSERT_TRUE(was_asked(0));
+  recorder.record(topic_, bytes_, Role::snapshot, true);
+  for (int i = 0; i < 120; ++i) recorder.record(topic_, bytes_, Role::ordinary, true);
+  ASSERT_TRUE(was_asked(1));
+  recorder.record(topic_, bytes_, Role::snapshot, true);
+  recorder.record(topic_, bytes_, Role::batch_end, true);
+  EXPECT_EQ(recorder.stop().message, file("run_001.bag") + ": the last of 2 bags with 128 messages");
+  EXPECT_EQ(messages_in_bag(), 124u);
+  EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
 }
 
 TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
@@ -195,7 +213,7 @@ TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
     return calls > 2;
   });
   begin(recorder);
-  for (int i = 0; i < 3; ++i) recorder.record(topic_, bytes_, Role::batch_end, false);  // it asks once at each
+  for (int i = 0; i < 2; ++i) recorder.record(topic_, bytes_, Role::ordinary, false);  // it asks once at each
   EXPECT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
 }
 

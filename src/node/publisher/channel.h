@@ -69,8 +69,8 @@ class Outstanding {
 template <class Message>
 class Channel {
  public:
-  Channel(ros::NodeHandle& node, Recorder& recorder, const char* name, unsigned queue_size, Role role)
-      : latched_(role == Role::configuration || role == Role::applied || role == Role::snapshot),
+  Channel(ros::NodeHandle& node, Recorder& recorder, const char* name, unsigned queue_size, Role role = Role::ordinary)
+      : latched_(role != Role::ordinary && role != Role::batch_end),
         queue_size_(queue_size),
         role_(role),
         publisher_(advertise(node, name, queue_size, latched_)),

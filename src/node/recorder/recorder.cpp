@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 // Eight seconds at 1 MHz of samples: longer than a disk stalls to flush its caches.
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
+constexpr std::size_t kMostHeld = 100;  // messages: a batch has three, and ten seconds of a pause have as many as this
 
 // The fault of a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken
 // for another kind of file.
@@ -51,6 +52,17 @@ std::string bag_base(const std::string& directory, const std::string& name) {
 }
 
 }  // namespace
+
+std::int64_t free_bytes(const std::string& directory) {
+  std::error_code error;
+  for (fs::path path = fs::absolute(directory, error); !error; path = path.parent_path()) {
+    const fs::space_info room = fs::space(path, error);
+    if (!error) return static_cast<std::int64_t>(room.available);
+    if (!path.has_relative_path()) break;
+    error.clear();
+  }
+  return -1;
+}
 
 Recorder::Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot)
     : settings_(settings), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
@@ -90,7 +102,6 @@ Recorder::Reply Recorder::start(const std::string& name) {
     messages_ = 0;
     part_ = 0;
     full_ = begun_ = false;
-    next_.reset();
     dropped_before_ = dropped_messages_;
   } catch (const std::exception& error) {
     return {false, error.what(), ""};
@@ -130,15 +141,19 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const Messag
   if (role == Role::configuration) configuration_ = message;
   if (role == Role::applied) applied_ = message;
   if (!bag_ || stopping_) return;
-  begun_ = begun_ || role == Role::snapshot;
-  if (begun_) push(lock, {message, role, {}, configuration_, applied_}, unhurried);
+  if (role == Role::snapshot) {
+    begun_ = true;
+    push(lock, {message, {}, configuration_, applied_}, unhurried);
+  } else if (begun_) {
+    push(lock, {message, {}, {}, {}, role == Role::batch_end}, unhurried);
+  }
 }
 
 // A snapshot finds room in a full queue: without it no part of a recording begins.
 // Stamps in the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by them.
 void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried) {
   const std::size_t bytes = item.message.bytes.size();
-  const std::size_t room = item.role == Role::snapshot ? 2 * kMaxQueueBytes : kMaxQueueBytes;
+  const std::size_t room = item.is_snapshot() ? 2 * kMaxQueueBytes : kMaxQueueBytes;
   const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= room; };
   if (unhurried) room_.wait(lock, [&] { return has_room() || stopping_; });
   if (!bag_ || stopping_ || !begun_) return;  // it may have ended while we waited
@@ -147,8 +162,7 @@ void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurrie
     return;
   }
   const ros::WallTime now = ros::WallTime::now();
-  last_stamp_ =
-      std::max(last_stamp_ + ros::Duration(0, item.role == Role::snapshot ? 3 : 1), ros::Time(now.sec, now.nsec));
+  last_stamp_ = std::max(last_stamp_ + ros::Duration(0, item.is_snapshot() ? 3 : 1), ros::Time(now.sec, now.nsec));
   item.stamp = last_stamp_;
   queue_bytes_ += bytes;
   queue_.push_back(std::move(item));
@@ -181,23 +195,26 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
   ++messages_;
 }
 
-// The next bag begins where something follows its snapshot: no bag has nothing that can be checked.
+// The next bag begins with the snapshot once a batch that follows it is whole: no bag has nothing that can be checked.
+// Where none comes, as in a pause, what is held goes into this bag, and a later snapshot begins the next.
 std::string Recorder::take(const Item& item) {
   try {
-    if (full_ && !next_ && item.role == Role::snapshot) {
-      next_ = item;
-      return {};
+    if (!full_ || (held_.empty() && !item.is_snapshot())) {
+      write(item);
+    } else {
+      held_.push_back(item);
+      if (item.ends_batch) {
+        begin_next_bag();
+        write_held();
+      } else if (held_.size() >= kMostHeld) {
+        write_held();
+        full_ = ask_for_snapshot_();
+      }
     }
-    if (next_ && item.role != Role::status) {
-      begin_next_bag();
-      write(*std::exchange(next_, {}));
-    }
-    write(item);
   } catch (const std::exception& error) {
     return error.what();
   }
-  // not in a pause, in which only the status goes on
-  if (!full_ && item.role == Role::batch_end && is_full(item.stamp)) full_ = ask_for_snapshot_();
+  if (!full_ && is_full(item.stamp)) full_ = ask_for_snapshot_();
   return {};
 }
 
@@ -205,12 +222,16 @@ std::string Recorder::take(const Item& item) {
 void Recorder::write(const Item& item) {
   const std::string trouble = bag_->check_space(item.message.bytes.size());
   if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
-  if (item.role == Role::snapshot && bag_->messages() == 0) {
+  if (item.is_snapshot() && bag_->messages() == 0) {
     begin_stamp_ = item.stamp;
     write(item.configuration, item.stamp - ros::Duration(0, 2));
     write(item.applied, item.stamp - ros::Duration(0, 1));
   }
   write(item.message, item.stamp);
+}
+
+void Recorder::write_held() {
+  for (const Item& item : std::exchange(held_, {})) write(item);
 }
 
 bool Recorder::is_full(const ros::Time& stamp) const {
@@ -237,6 +258,11 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
   room_.notify_one();
   if (bag_) {
     lock.unlock();
+    try {
+      write_held();
+    } catch (const std::exception& failure) {
+      if (error.empty()) error = failure.what();
+    }
     const std::string close_error = bag_->close();
     lock.lock();
     if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;

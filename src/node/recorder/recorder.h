@@ -8,16 +8,20 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "bag_file.h"
 
 namespace afm::node {
 
-// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
-enum class Role { status, batch, batch_end, configuration, applied, snapshot };
+// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag, and
+// every bag but the first has a whole batch.
+enum class Role { ordinary, batch_end, configuration, applied, snapshot };
+
+// Free on the disk on which the directory is, or would be made [bytes]; negative: unknown.
+std::int64_t free_bytes(const std::string& directory);
 
 class Recorder {
  public:
@@ -58,9 +62,10 @@ class Recorder {
   };
   struct Item {
     Message message;
-    Role role;
     ros::Time stamp;
-    Message configuration, applied;  // the latest: what a bag that begins with it, a snapshot, holds before it
+    Message configuration, applied;  // of a snapshot: what a bag that begins with it holds before it
+    bool ends_batch = false;
+    bool is_snapshot() const { return configuration.topic != nullptr; }
   };
 
   void push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried);
@@ -68,6 +73,7 @@ class Recorder {
   std::string take(const Item& item);  // returns why the recording must end, or nothing
   void write(const Message& message, const ros::Time& stamp);
   void write(const Item& item);
+  void write_held();
   bool is_full(const ros::Time& stamp) const;
   void begin_next_bag();
   void finish(std::unique_lock<std::mutex>& lock, std::string error);
@@ -94,8 +100,8 @@ class Recorder {
   // of the thread alone
   std::uint32_t part_ = 0;
   ros::Time begin_stamp_;
-  bool full_ = false;         // a snapshot was asked for
-  std::optional<Item> next_;  // the snapshot with which the next bag begins
+  bool full_ = false;       // a snapshot was asked for
+  std::vector<Item> held_;  // from this snapshot on, until the end of a batch
   std::thread thread_;
 };
 
