@@ -26,6 +26,8 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace afm_emulator {
@@ -127,7 +129,15 @@ class Client {
     if (timeout > kLongest) throw EmulatorError("timeout = " + text(timeout) + ": must be at most 1e9 s");
     node_.setCallbackQueue(&queue_);
     subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
-    subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) { applied_ = m; });
+    subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) {
+      // the numbers of a new start begin again; a latched message that comes again has its stamp
+      if (applied_ && applied_->header.stamp != m->header.stamp &&
+          std::tie(m->epoch, m->number) <= std::tie(applied_->epoch, applied_->number)) {
+        restarted_ = true;
+        impacts_.clear();
+      }
+      applied_ = m;
+    });
     wait_for([this] { return configuration_ != nullptr; }, name_ + "/configuration");
     wait_for([this] { return applied_ != nullptr; }, name_ + "/applied");
     if (is_lockstep()) {
@@ -136,6 +146,10 @@ class Client {
     }
     subscribe<Deflection>("deflection", [this](const Deflection::ConstPtr& m) { batches_.push_back(m); });
     subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) { impacts_.push_back(m); });
+    // batches of one topic without those of the other would count
+    for (const ros::Subscriber& subscriber : subscribers_) {
+      wait_for([&] { return subscriber.getNumPublishers() > 0; }, subscriber.getTopic());
+    }
   }
 
   const Configuration& configuration() const { return *configuration_; }
@@ -153,7 +167,11 @@ class Client {
     check_not_negative("duration", duration);
     check_finite("drag_velocity", drag_velocity);
     check_finite("rest_height", rest_height);
-    if (!is_lockstep()) return measure(command_and_wait(drag_velocity, rest_height), duration);
+    if (!is_lockstep()) {
+      queue_.callAvailable();
+      check_restart();
+      return measure(command_and_wait(drag_velocity, rest_height), duration);
+    }
     Control call;
     call.request.drag_velocity = drag_velocity.value_or(kNaN);
     call.request.rest_height = rest_height.value_or(kNaN);
@@ -237,6 +255,10 @@ class Client {
     if (value < 0.0) throw EmulatorError(name + " = " + text(value) + ": must not be negative");
   }
 
+  void check_restart() {
+    if (std::exchange(restarted_, false)) throw EmulatorError(name_ + ": it was restarted, and its state is lost");
+  }
+
   void connect() {
     const std::string service = name_ + "/control";
     wait_for([&] { return ros::service::exists(service, false); }, service);
@@ -307,15 +329,26 @@ class Client {
     batches_.clear();
     while (impacts_.size() > kKeptImpacts) impacts_.pop_front();  // those of a batch may come before it
     std::uint32_t first = 0, last = 0;                            // batches that count
+    std::uint64_t expected = 0;                                   // running index of the next sample; 0: not known
+    bool same_speed = true;
     double seconds = 0.0, impulse = 0.0, vertical = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
+    wait_for([this] { return !impacts_.empty(); }, name_ + "/impacts");  // of a new connection, after a restart
     while (seconds < duration) {
       wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
       const Deflection& batch = *batches_.front();
-      if (batch.epoch != since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
+      check_restart();
+      if (batch.epoch > since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
+      if (batch.epoch < since.epoch || (expected != 0 && batch.first_sample != expected)) {
+        comes_true([this] { return restarted_; }, kAgain);  // its other topics say so a little later
+        check_restart();
+        throw EmulatorError(name_ + "/deflection: messages were lost while it was measured");
+      }
+      expected = batch.first_sample + batch.vertical.size();
       const double age = static_cast<double>(batch.time.tau - since.time.tau) + (batch.time.phase - since.time.phase);
-      if (age >= 0.0) {
+      if (age >= 0.0 && batch.header.seq >= impacts_.front()->header.seq) {
         if (r.samples == 0) r.begin = batch.time, first = batch.header.seq;
         last = batch.header.seq;
+        same_speed = same_speed && batch.drag_velocity == since.drag_velocity;
         r.samples += batch.vertical.size();
         for (const double y : batch.vertical) vertical += y, vertical_squares += y * y;
         for (const double x : batch.lateral) lateral_squares += x * x;
@@ -327,13 +360,18 @@ class Client {
     // impacts come on a connection of their own
     const auto has_come = [&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; };
     if (r.samples > 0) wait_for(has_come, name_ + "/impacts");
+    std::uint32_t missing = r.samples > 0 ? last - first + 1 : 0;
     for (const ImpactArray::ConstPtr& batch : impacts_) {
       const bool counts = batch->epoch == since.epoch && batch->header.seq >= first && batch->header.seq <= last;
       if (r.samples == 0 || !counts) continue;
+      --missing;
       for (const Impact& impact : batch->impacts) {
         r.impact_count += impact.count;
         r.energy_loss += impact.energy_loss;
       }
+    }
+    if (missing > 0) {
+      throw EmulatorError(name_ + "/impacts: " + std::to_string(missing) + " messages were lost while it was measured");
     }
     const double n = static_cast<double>(r.samples), total = r.begin.phase + seconds / tau();
     r.end.tau = r.begin.tau + static_cast<std::int64_t>(std::floor(total));
@@ -343,7 +381,9 @@ class Client {
     r.mean_lateral_force = impulse / seconds;
     r.rms_lateral_force = lateral_stiffness() * std::sqrt(lateral_squares / n);
     r.mean_normal_force = vertical_stiffness() * r.mean_vertical;
-    const double v0 = since.drag_velocity != 0.0 ? since.drag_velocity : kNaN;
+    const double until_end = static_cast<double>(r.end.tau - applied_->time.tau) + (r.end.phase - applied_->time.phase);
+    if (applied_->epoch == since.epoch && until_end > 0.0) r.applied = applied_->number;
+    const double v0 = same_speed && since.drag_velocity != 0.0 ? since.drag_velocity : kNaN;
     r.k_f = r.energy_loss / (v0 * v0 * seconds);
     r.k_f_work = r.mean_lateral_force / v0;
     return r;
@@ -355,6 +395,7 @@ class Client {
   const double timeout_;
   ros::Publisher drag_publisher_, height_publisher_;
   std::vector<ros::Subscriber> subscribers_;
+  bool restarted_ = false;      // and no call has said so
   ros::ServiceClient control_;  // in lockstep
   TimedCall timed_call_;
   Configuration::ConstPtr configuration_;

@@ -14,7 +14,7 @@ def argument(word):
 def answer(tip, name, *words):
     result = getattr(tip, name)(*map(argument, words))
     if name == 'control':
-        return '%d %d %d' % (result.samples, result.applied, result.epoch)
+        return '%d %d %d %g' % (result.samples, result.applied, result.epoch, result.k_f_work)
     if name == 'command_and_wait':
         return '%d %g %g' % (result.number, result.drag_velocity, result.rest_height_m)
     return '%g' % result

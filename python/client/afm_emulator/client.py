@@ -72,6 +72,7 @@ class Client:
             raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_TIMEOUT_S))
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
+        self._restarted = False    # and no call has said so
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
         self._batches = None       # Deflection messages, while something is measured
@@ -87,8 +88,11 @@ class Client:
         if self.is_lockstep:
             self._call_control()  # its service is advertised after the topics
             return  # the answers of the service hold what is measured
-        for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray)):
-            rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
+        measured = [rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True,
+                                     buff_size=QUEUE_BYTES)
+                    for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray))]
+        for subscriber in measured:  # batches of one topic without those of the other would count
+            self._wait_for(lambda: subscriber.get_num_connections() > 0, subscriber.resolved_name)
 
     @property
     def is_lockstep(self):
@@ -126,6 +130,7 @@ class Client:
         drag_velocity = finite_or_none('drag_velocity', drag_velocity)
         rest_height = finite_or_none('rest_height', rest_height)
         if not self.is_lockstep:
+            self._check_restart()
             return self._measure(self.command_and_wait(drag_velocity, rest_height), duration)
         request = ControlRequest(math.nan if drag_velocity is None else drag_velocity,
                                  math.nan if rest_height is None else rest_height, duration)
@@ -221,8 +226,14 @@ class Client:
 
     def _keep(self, message, topic):
         with self._news:
+            before = getattr(self, topic)
             setattr(self, topic, message)
             if topic == 'applied':
+                # the numbers of a new start begin again; a latched message that comes again has its stamp
+                if before is not None and before.header.stamp != message.header.stamp and \
+                        (message.epoch, message.number) <= (before.epoch, before.number):
+                    self._restarted = True
+                    self._impacts.clear()
                 self._commanded.append(message)
             self._news.notify_all()
 
@@ -282,12 +293,19 @@ class Client:
         with self._news:
             return self._batches.pop(0)
 
+    def _check_restart(self):
+        with self._news:
+            restarted, self._restarted = self._restarted, False
+        if restarted:
+            raise EmulatorError('%s: it was restarted, and its state is lost' % self.name)
+
     def _measure(self, applied, duration):
         """As the emulator measures in lockstep, from the batches that it publishes."""
         with self._news:
             self._batches = []
             del self._impacts[:-KEPT_IMPACTS]
         try:
+            self._wait_for(lambda: self._impacts, self.name + '/impacts')  # of a new connection, after a restart
             return self._measured(applied, duration)
         finally:
             with self._news:
@@ -296,16 +314,24 @@ class Client:
     def _measured(self, applied, duration):
         answer, squares = ControlResponse(success=True, epoch=applied.epoch, applied=applied.number), [0.0, 0.0]
         answer.begin = applied.time
-        seconds, first, last = 0.0, None, None
+        seconds, first, last, expected, speeds = 0.0, None, None, None, {applied.drag_velocity}
         while seconds < duration:
             batch = self._next_batch(self.timeout + duration / self.configuration.time_scale)
-            if batch.epoch != applied.epoch:
+            self._check_restart()
+            if batch.epoch > applied.epoch:
                 raise EmulatorError('%s: reset while it was measured' % self.name)
-            if tau_between(applied.time, batch.time) < 0.0:
+            if batch.epoch < applied.epoch or expected not in (None, batch.first_sample):
+                self._wait_for(lambda: self._restarted, '', AGAIN_S, True)  # its other topics say so a little later
+                self._check_restart()
+                raise EmulatorError('%s/deflection: messages were lost while it was measured' % self.name)
+            expected = batch.first_sample + len(batch.vertical)
+            impacts = self._impacts[:1]  # none: of a restart, which the next batch says
+            if tau_between(applied.time, batch.time) < 0.0 or not impacts or batch.header.seq < impacts[0].header.seq:
                 continue
             if first is None:
                 answer.begin, first = batch.time, batch.header.seq
             last = batch.header.seq
+            speeds.add(batch.drag_velocity)
             answer.samples += len(batch.vertical)
             answer.mean_vertical += sum(batch.vertical)
             answer.mean_lateral_force += batch.lateral_impulse
@@ -316,8 +342,11 @@ class Client:
         if first is not None:  # impacts come on a connection of their own
             self._wait_for(lambda: self._impacts and self._impacts[-1].header.seq >= last, self.name + '/impacts')
             with self._news:
-                counted = [i for m in self._impacts if first <= m.header.seq <= last and m.epoch == applied.epoch
-                           for i in m.impacts]
+                arrays = [m for m in self._impacts if first <= m.header.seq <= last and m.epoch == applied.epoch]
+            if len(arrays) != last - first + 1:
+                raise EmulatorError('%s/impacts: %d messages were lost while it was measured' %
+                                    (self.name, last - first + 1 - len(arrays)))
+            counted = [i for m in arrays for i in m.impacts]
         answer.impact_count = sum(i.count for i in counted)
         answer.energy_loss = math.fsum(i.energy_loss for i in counted)
         n = answer.samples or math.nan
@@ -328,7 +357,9 @@ class Client:
         answer.mean_normal_force = self.stiffness * answer.mean_vertical
         total = answer.begin.phase + seconds / self.tau_s
         answer.end.tau, answer.end.phase = answer.begin.tau + math.floor(total), total - math.floor(total)
-        v0 = applied.drag_velocity or float('nan')
+        if self.applied.epoch == applied.epoch and tau_between(self.applied.time, answer.end) > 0.0:
+            answer.applied = self.applied.number
+        v0 = (applied.drag_velocity if len(speeds) == 1 else 0.0) or math.nan
         answer.k_f = answer.energy_loss / (v0 * v0 * (seconds or math.nan))
         answer.k_f_work = answer.mean_lateral_force / v0
         return answer
