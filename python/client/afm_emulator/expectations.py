@@ -101,8 +101,8 @@ def configuration_of(emulator, timeout_s):
     try:
         return rospy.wait_for_message(emulator + '/configuration', Configuration, timeout_s)
     except rospy.ROSException as fault:
-        raise AssertionError('%s/configuration: nothing came within %g s: no emulator there?' %
-                             (emulator, timeout_s)) from fault
+        raise AssertionError('%s/configuration: %s nothing had come: no emulator there?' %
+                             (emulator, how_long(timeout_s))) from fault
 
 
 def results_path(name):
