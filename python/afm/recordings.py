@@ -2,6 +2,7 @@
 import bisect
 import contextlib
 import os
+import warnings
 from collections import defaultdict
 from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
@@ -18,8 +19,8 @@ _MOST_WAITING = 100  # batches in the queues of the topics when a recorder is st
 Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
 
-def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any]]:
-    """Topic, name of the node, type, bytes, and message; of samples and impacts None."""
+def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
+    """Topic, name of the node, type, bytes, message, and stamp in the bag; the message of samples and impacts is None."""
     try:
         import rosbag
     except ImportError as fault:
@@ -31,35 +32,47 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any]]:
     kinds = ['afm_emulator/' + kind for kind in _KINDS]
     try:
         with rosbag.Bag(str(path)) as bag:
-            for topic, raw, _, header in bag.read_messages(
+            # rosbag record repeats latched messages without the name of their node: it is that of its namespace
+            named = {c.topic.rpartition('/')[0]: c.header['callerid'] for c in bag._get_connections()
+                     if 'callerid' in c.header}
+            for topic, raw, stamp, header in bag.read_messages(
                     raw=True, return_connection_header=True,
                     connection_filter=lambda _, datatype, *__: datatype in kinds):
-                node = header.get('callerid', b'')
+                node = header.get('callerid', named.get(topic.rpartition('/')[0], b''))
                 kind = raw[0].split('/')[1]
                 message = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
-                yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message
+                yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message, stamp
     except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
         if getattr(fault, 'filename', None):
             raise
         raise ValueError('%s: cannot be read: %s' % (path, str(fault) or type(fault).__name__)) from fault
 
 
-def _read(paths: Sequence[Any], namespace: Optional[str]) -> Dict[str, Dict[int, Any]]:
-    """Of one emulator, by type: the messages by their numbers in their topic."""
+def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dict[int, Any]], bool]:
+    """Of one emulator, by type: the messages by their numbers in their topic. And whether the node recorded them, which
+    alone stamps the command in force a nanosecond before the snapshot with which a bag begins."""
     found: Any = defaultdict(lambda: defaultdict(dict))
     known: Dict[Tuple[str, str, int], Tuple[str, int]] = {}
+    stamps: Any = defaultdict(dict)  # of the first messages
     for path in paths:
-        for topic, node, kind, data, message in _messages(path):
+        nothing = True
+        for topic, node, kind, data, message, stamp in _messages(path):
+            nothing = False
+            stamps[node].setdefault(kind, stamp)
             seq, said = int.from_bytes(data[:4], 'little'), (topic, hash(data))  # latched ones are repeated
             if known.setdefault((node, kind, seq), said) != said:
                 raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' % (path, node))
             found[node][kind][seq] = message
+        if nothing and len(paths) > 1:
+            raise ValueError('%s: the bag holds no message of an emulator' % path)
     if namespace is None and len(found) == 1:
         namespace = next(iter(found))
     if namespace not in found:
         raise ValueError('namespace = %s: the bag holds recordings of %s' %
                          (namespace, ', '.join(sorted(found)) or 'nothing'))
-    return {kind: dict(sorted(found[namespace][kind].items())) for kind in _KINDS}
+    first = [stamps[namespace].get(kind) for kind in ('Applied', 'Snapshot')]
+    by_node = None not in first and (first[1] - first[0]).to_nsec() == 1
+    return {kind: dict(sorted(found[namespace][kind].items())) for kind in _KINDS}, by_node
 
 
 def _model_time(message: Any) -> ModelTime:
@@ -87,17 +100,22 @@ class Recording:
     """
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
-        read = _read([path] if isinstance(path, (str, os.PathLike)) else path, namespace)
+        read, by_node = _read([path] if isinstance(path, (str, os.PathLike)) else path, namespace)
         for kind, why in (('Snapshot', 'the state at its beginning'), ('Applied', 'what took effect'),
                           ('Friction', 'the end of the run')):
             if not read[kind]:
                 raise ValueError('the bag holds no message of %s: %s is not known' % (kind, why))
         last = max(read['Friction'])
-        for kind in ('Deflection', 'ImpactArray'):
-            if max(read[kind], default=0) > last + _MOST_WAITING:
+        for kind in ('Deflection', 'ImpactArray'):  # where the node is killed, a bag ends within a batch
+            if max(read[kind], default=0) > last + (1 if by_node else _MOST_WAITING):
                 raise ValueError('messages of Friction are missing at the end')
         self.epochs: List[int] = sorted({m.epoch for m in read['Snapshot'].values()})
-        self.epoch: int = self.epochs[0] if epoch is None else epoch
+        if epoch is None and min(m.epoch for m in read['Friction'].values()) < self.epochs[0]:
+            raise ValueError('the bag begins before its first snapshot: the state there is not known; epoch = %d is '
+                             'whole' % self.epochs[0])
+        with_batches = {m.epoch for m in read['Friction'].values()}
+        first = next((e for e in self.epochs if e in with_batches), self.epochs[0])
+        self.epoch: int = first if epoch is None else epoch
         if self.epoch not in self.epochs:
             raise ValueError('epoch = %s: the bag holds %s' % (epoch, self.epochs))
         self._snapshots, frictions = (_of_epoch(kind, read[kind], self.epoch) for kind in ('Snapshot', 'Friction'))
@@ -149,7 +167,10 @@ class Recording:
     def _settings(self, applied: Any) -> Dict[str, Any]:
         """What is in force, as Run.apply() takes it."""
         model = self._units(applied).model
-        bath: Bath = self.units.bath(seed=self.configuration.seed, **{name: getattr(applied, name) for name in _BATH})
+        with warnings.catch_warnings():
+            warnings.simplefilter('ignore')  # of a temperature without damping: the node has said so
+            bath: Bath = self.units.bath(seed=self.configuration.seed,
+                                         **{name: getattr(applied, name) for name in _BATH})
         return dict(eta=applied.drag_velocity / self.units.velocity, gamma=model.gamma, cutoff=model.cutoff,
                     rest_height=model.rest_height, kind=applied.model, contact_tolerance=applied.contact_tolerance,
                     bath=bath, friction_window=applied.friction_window_tau, sample_period=applied.sample_period_tau,
@@ -213,6 +234,6 @@ class Recording:
 def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:
     """A recording of the emulator. path: of its bag, or a list of the bags that it was split into, in order.
 
-    epoch: None is the first in the bag; namespace: the name of the node, where a bag holds several.
+    epoch: None is the first in the bag that advanced; namespace: the name of the node, where a bag holds several.
     """
     return Recording(path, epoch, namespace)

@@ -53,7 +53,9 @@ Bath bath_of(const SiUnits& u, double temperature_k, double quality_factor, doub
   const SiBath si{temperature_k, quality_factor, lateral_quality_factor, kicks_per_tau, seed};
   refuse(find_faults(si, u.units));
   const Bath bath = u.units.to_natural(si);
-  require_damping("temperature_k", temperature_k, bath);
+  if (temperature_k != 0.0 && !bath.is_on()) {  // the node takes it too, and so do its recordings
+    warn({{"temperature_k", temperature_k, "has no effect: quality_factor is 0, so no heat reaches the tip"}});
+  }
   return bath;
 }
 

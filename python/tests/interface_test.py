@@ -49,7 +49,8 @@ class Errors(unittest.TestCase):
         self.refused('surface_amplitude_m', 1, afm.Units, surface_amplitude_m=1)
         self.refused('quality_factor', 0.01, afm.Bath, quality_factor=0.01)
         self.refused('temperature', 1, afm.Bath, temperature=1)
-        self.refused('temperature_k', 300, afm.Units().bath, temperature_k=300)
+        with self.assertWarnsRegex(RuntimeWarning, 'temperature_k = 300: has no effect'):  # a node takes it too
+            afm.Units().bath(temperature_k=300)
         self.refused('temperature_k', -1, afm.Units().bath, temperature_k=-1, quality_factor=100)
         self.refused('lattice_spacing_m', 0.52, afm.Units, lattice_spacing_m=0.52)
         self.refused('y', -1, afm.Tip, y=-1)

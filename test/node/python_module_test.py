@@ -73,6 +73,7 @@ class PythonModule(NodeTest):
         self.command(2.0)
         self.emulator.set(restitution_gamma=0.5, cutoff_speed=3e-7)
         self.command(3.0)
+        self.emulator.set(temperature_k=77.0)  # without damping it has no effect
         self.emulator.set(temperature_k=300.0, quality_factor=50.0)
         self.emulator.set(rest_height_m=-1e-11, sample_rate_hz=20000.0)
         self.command(2.5)
@@ -84,7 +85,7 @@ class PythonModule(NodeTest):
         checks.assert_identical(self, path)
         epochs = afm.from_bag(path).epochs
         self.assertEqual(len(epochs), 2)
-        for epoch, commands in zip(epochs, (1 + 5 + 6, 1 + 4 + 3)):
+        for epoch, commands in zip(epochs, (1 + 5 + 6, 1 + 4 + 4)):
             recording, samples, impacts = self.assert_repeats([path], epoch)
             self.assertGreater(samples, 5000)
             self.assertGreater(impacts, 100)
@@ -144,10 +145,13 @@ class PythonModule(NodeTest):
                 return True
             return alter
         last = max(m.header.seq for m in bags.read(path)['friction'] if m.epoch == 0)
+        newest = bags.read(path)['friction'][-1].header.seq
         for keeps, words in ((lambda topic, m: topic != 'friction', 'Friction'),
                              (lambda topic, m: topic != 'snapshot', 'Snapshot'),
                              (lambda topic, m: topic != 'applied', 'Applied'),
                              (lambda topic, m: topic != 'friction' or m.header.seq != 20, 'Friction'),
+                             (lambda topic, m: topic != 'friction' or m.header.seq < newest - 1, 'missing at the end'),
+                             (lambda topic, m: topic != 'snapshot' or m.epoch > 0, 'begins before its first snapshot'),
                              (lambda topic, m: topic != 'applied' or m.number != 2, 'Applied'),
                              (lambda topic, m: topic != 'snapshot' or m.time.tau > 10, 'Snapshot'),
                              (lambda topic, m: topic != 'applied' or (m.epoch, m.number) != (0, 11), 'Applied'),
