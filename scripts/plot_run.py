@@ -11,7 +11,7 @@ try:
     matplotlib.use('Agg')
     import numpy as np
     import rosbag
-    from afm_emulator.bags import read_raw
+    from afm_emulator.bags import in_order, read_raw
     from afm_emulator.impacts import read_impacts
     from matplotlib import pyplot
 except ImportError as missing:
@@ -223,8 +223,9 @@ def main():
     parser.add_argument('--node', help='the name of the emulator such as /afm, where the bag holds several')
     parser.add_argument('--output', help='picture to write (png, pdf, svg); default: beside the bag, as .png')
     arguments = parser.parse_args()
-    figure = draw(read(arguments.bags, arguments.node), arguments.bags)
-    output = arguments.output or os.path.splitext(arguments.bags[0])[0] + '.png'
+    bags = in_order(arguments.bags)
+    figure = draw(read(bags, arguments.node), bags)
+    output = arguments.output or os.path.splitext(bags[0])[0] + '.png'
     try:
         figure.savefig(output, dpi=144)
     except (OSError, ValueError) as fault:  # no such folder, or no such format

@@ -61,9 +61,8 @@ class BagToCsv(NodeTest):
         self.check_deflection()
         self.check_friction()
         self.check_commands()
-        code, rows, complaint = call(*self.paths[::-1], '--topic', 'friction')
-        self.assertEqual((code, rows), (USAGE, []))
-        self.assertIn('does not go on where', complaint)
+        reversed_paths = call(*self.paths[::-1], '--topic', 'friction')
+        self.assertEqual(reversed_paths[:2], (0, self.table('friction')))  # a shell may list them in another order
 
     def table(self, topic):
         return table(self.paths, '--topic', topic)

@@ -209,11 +209,31 @@ class SpoiledBags(SpoiledBag):
                               ('run_002.bag', latched + everything[ends[1]:])):
             self.entries = entries
             parts.append(self.write(name))
-        self.assertEqual(checks.bag_check(*parts).code, SOUND)
-        for paths, words in ((parts[::2], '20 batches between them are missing'), (parts[1::-1], 'it began before')):
-            answer = checks.bag_check(*paths)
-            self.assertEqual(answer.code, DIFFERS, answer.text)
-            self.assertIn('%s does not go on where %s ends: %s' % (paths[1].name, paths[0].name, words), answer.text)
+        for paths in (parts, parts[::-1]):  # a shell may list them in another order
+            self.assertEqual(checks.bag_check(*paths).code, SOUND)
+            self.assertEqual(checks.replay_check(*paths).code, SOUND)
+        named = parts[2].rename(parts[2].with_name('run_002.bag.active'))  # as one that was killed and indexed again
+        answer = checks.bag_check(parts[0], named)
+        self.assertEqual(answer.code, DIFFERS, answer.text)
+        self.assertIn('%s does not go on where run.bag ends: 20 batches between them are missing' % named.name,
+                      answer.text)
+
+    def test_latched_messages_come_again(self):
+        """The parts of a split recording merged, or played and recorded again."""
+        middle = self.entries.index(self.of('friction')[39]) + 1
+        again = [copy.copy(entry) for entry in self.entries[:3]]
+        for entry in again:
+            entry.stamp = self.entries[middle].stamp
+        self.entries[middle:middle] = again
+        self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=self.write('merged.bag'))
+
+    def test_a_bag_without_an_emulator_beside_a_good_one(self):
+        foreign = self.directory / 'foreign.bag'
+        with rosbag.Bag(str(foreign), 'w') as bag:
+            bag.write('/chatter', String('hello'))
+        answer = checks.replay_check(self.good, foreign)
+        self.assertEqual(answer.code, UNCHECKED, answer.text)
+        self.assertIn('foreign.bag: holds no message of an emulator', answer.text)
 
     def test_physics_alone_tells(self):
         """bag_check knows what a mean and an energy balance are, and does not call it physics where messages lack."""

@@ -1,5 +1,6 @@
 """The messages of emulators in a bag, as bytes: for whoever needs few of their fields, of very many messages."""
 import collections
+import itertools
 
 import rosbag
 from afm_emulator import msg
@@ -14,8 +15,21 @@ Raw = collections.namedtuple('Raw', 'kind topic node data md5sum of_type stamp')
 def read_raw(bag, kinds):
     """Those of these kinds, in the order of the bag."""
     types = ['afm_emulator/' + kind for kind in kinds]
+    # rosbag record repeats latched messages without the name of their node: it is that of its namespace
+    named = {c.topic.rpartition('/')[0]: c.header['callerid'] for c in bag._get_connections() if 'callerid' in c.header}
     for topic, raw, stamp, header in bag.read_messages(
             raw=True, return_connection_header=True, connection_filter=lambda _, datatype, *__: datatype in types):
-        node = header.get('callerid', b'')
+        node = header.get('callerid', named.get(topic.rpartition('/')[0], b''))
         yield Raw(raw[0].split('/')[1], topic, node.decode() if isinstance(node, bytes) else node, raw[1], raw[2],
                   raw[4], stamp)
+
+
+def in_order(paths):
+    """Bags in the order of their batches: a shell may list the parts of a recording in another one."""
+    def begin(path):
+        try:
+            with rosbag.Bag(str(path)) as bag:
+                return min((m.stamp.to_nsec() for m in itertools.islice(read_raw(bag, ['Friction']), 1)), default=0)
+        except Exception:  # whoever reads it says why
+            return 0
+    return sorted(paths, key=begin)

@@ -7,6 +7,7 @@
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/Snapshot.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -39,12 +40,34 @@ std::string find_fault(const std::string& path) {
   return begin == "#ROS" ? "" : "is not a bag, or cannot be read";
 }
 
+std::string callerid(const rosbag::ConnectionInfo& connection) {
+  if (!connection.header) return "";
+  const auto found = connection.header->find("callerid");
+  return found == connection.header->end() ? "" : found->second;
+}
+
+// rosbag record repeats latched messages without the name of their node: it is that of its namespace.
+std::map<std::uint32_t, std::string> nodes_of(const rosbag::Bag& bag) {
+  const auto space = [](const rosbag::ConnectionInfo& c) { return c.topic.substr(0, c.topic.rfind('/')); };
+  std::map<std::string, std::string> named;
+  std::map<std::uint32_t, std::string> nodes;
+  const auto connections = rosbag::View(bag).getConnections();
+  for (const rosbag::ConnectionInfo* c : connections) {
+    if (!callerid(*c).empty()) named[space(*c)] = callerid(*c);
+  }
+  for (const rosbag::ConnectionInfo* c : connections) {
+    nodes[c->id] = callerid(*c).empty() ? named[space(*c)] : callerid(*c);
+  }
+  return nodes;
+}
+
 File open(const std::string& path) {
-  const File file{path, std::make_shared<rosbag::Bag>()};
+  File file{path, std::make_shared<rosbag::Bag>(), {}};
   std::string fault = find_fault(path);
   if (fault.empty()) {
     try {
       file.bag->open(path, rosbag::bagmode::Read);
+      file.nodes = nodes_of(*file.bag);
     } catch (const std::exception& error) {
       fault =
           error.what() + ("; if it was not closed or is damaged, `rosbag reindex " + path) + "` recovers what is in it";
@@ -52,12 +75,6 @@ File open(const std::string& path) {
   }
   if (!fault.empty()) throw Problem(path + ": " + fault);
   return file;
-}
-
-std::string callerid(const rosbag::ConnectionInfo& connection) {
-  if (!connection.header) return "";
-  const auto found = connection.header->find("callerid");
-  return found == connection.header->end() ? "" : found->second;
 }
 
 void add_topic(const rosbag::ConnectionInfo& connection, const std::string& path, Recording::Topics& topics) {
@@ -77,7 +94,7 @@ void add_topic(const rosbag::ConnectionInfo& connection, const std::string& path
 std::map<std::string, Recording::Topics> emulators_of(const File& file) {
   std::map<std::string, Recording::Topics> found;
   for (const rosbag::ConnectionInfo* connection : rosbag::View(*file.bag).getConnections()) {
-    if (kTypes.count(connection->datatype) > 0) add_topic(*connection, file.path, found[callerid(*connection)]);
+    if (kTypes.count(connection->datatype) > 0) add_topic(*connection, file.path, found[file.nodes.at(connection->id)]);
   }
   return found;
 }
@@ -139,8 +156,9 @@ std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ro
   for (const File& file : files_) {
     view->addQuery(
         *file.bag,
-        [topic, node = node_](const rosbag::ConnectionInfo* connection) {
-          return connection->topic == topic && callerid(*connection) == node && kTypes.count(connection->datatype) > 0;
+        [topic, node = node_, nodes = file.nodes](const rosbag::ConnectionInfo* connection) {
+          return connection->topic == topic && nodes.at(connection->id) == node &&
+                 kTypes.count(connection->datatype) > 0;
         },
         begin);
   }
@@ -187,9 +205,17 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {
   std::map<std::string, std::vector<Recording>> found;
-  for (const std::string& path : paths) {
-    const File file = open(path);
-    for (const auto& [name, topics] : emulators_of(file)) {
+  std::vector<File> files;
+  for (const std::string& path : paths) files.push_back(open(path));
+  // a shell may list the parts of a recording in another order
+  const auto begin = [](const File& file) {
+    return rosbag::View(*file.bag, rosbag::TypeQuery("afm_emulator/Friction")).getBeginTime();
+  };
+  std::stable_sort(files.begin(), files.end(), [&](const File& a, const File& b) { return begin(a) < begin(b); });
+  for (const File& file : files) {
+    const auto emulators = emulators_of(file);
+    if (emulators.empty()) throw Problem(file.path + ": holds no message of an emulator");
+    for (const auto& [name, topics] : emulators) {
       std::vector<Recording>& recordings = found[name];
       const Recording part(name, topics, {file});
       const auto between = recordings.empty() ? std::nullopt : batches_between(recordings.back(), part);
@@ -200,7 +226,6 @@ std::vector<Recording> open_recordings(const std::vector<std::string>& paths, co
       }
     }
   }
-  if (found.empty()) throw Problem(paths.front() + ": holds no message of an emulator");
   if (!node.empty() && found.count(node) == 0) {
     throw Problem("node = " + node + ": there is none of this name, but " + known_names(found));
   }

@@ -101,6 +101,7 @@ class Recording {
   struct File {
     std::string path;
     std::shared_ptr<rosbag::Bag> bag;
+    std::map<std::uint32_t, std::string> nodes;  // by the numbers of their connections
   };
   using Topics = std::map<std::string, std::string>;  // by type
 

@@ -69,7 +69,11 @@ void RunCheck::read_marks() {
     marks_.push_back({snapshots->number(), nullptr, snapshots->get()});
   }
   const auto applied = recording_.read<afm_emulator::Applied>();
-  for (; applied->get(); applied->next()) marks_.push_back({applied->number(), applied->get(), nullptr});
+  std::uint64_t lost = 0, known_lost = 0;
+  for (; applied->get(); applied->next()) {
+    marks_.push_back({applied->number(), applied->get(), nullptr});
+    lost += applied->lost();
+  }
   const auto key = [](const Mark& c) {
     return std::make_tuple(c.number.start, c.epoch(), c.in_force().number, c.snapshot != nullptr, c.number.seq);
   };
@@ -79,8 +83,9 @@ void RunCheck::read_marks() {
     Mark& c = marks_[i - 1];
     if (next.number.start != c.number.start || next.epoch() != c.epoch()) continue;
     const std::uint64_t expected = c.in_force().number + (next.applied ? 1 : 0), number = next.in_force().number;
-    if (number > expected) c.lost_commands = number - expected;
+    if (number > expected) known_lost += c.lost_commands = number - expected;
   }
+  if (lost > known_lost) lose("commands", lost - known_lost);  // those with which an epoch begins
 }
 
 // Each stands in the snapshots of its epoch too. There is one an epoch, so its number is that of the epoch.
