@@ -63,8 +63,8 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dic
             if known.setdefault((node, kind, seq), said) != said:
                 raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' % (path, node))
             found[node][kind][seq] = message
-        if nothing and len(paths) > 1:
-            raise ValueError('%s: the bag holds no message of an emulator' % path)
+        if nothing and len(paths) > 1:  # such as of rosbag record before the emulator began
+            warnings.warn('%s: the bag holds no message of an emulator' % path, RuntimeWarning, stacklevel=4)
     if namespace is None and len(found) == 1:
         namespace = next(iter(found))
     if namespace not in found:

@@ -1,6 +1,5 @@
 """The messages of emulators in a bag, as bytes: for whoever needs few of their fields, of very many messages."""
 import collections
-import itertools
 
 import rosbag
 from afm_emulator import msg
@@ -29,7 +28,8 @@ def in_order(paths):
     def begin(path):
         try:
             with rosbag.Bag(str(path)) as bag:
-                return min((m.stamp.to_nsec() for m in itertools.islice(read_raw(bag, ['Friction']), 1)), default=0)
+                batch = next(read_raw(bag, ['Friction']), None)
+                return batch.stamp.to_sec() if batch else bag.get_start_time()
         except Exception:  # whoever reads it says why
-            return 0
+            return 0.0
     return sorted(paths, key=begin)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <optional>
 #include <regex>
 
@@ -209,12 +210,14 @@ std::vector<Recording> open_recordings(const std::vector<std::string>& paths, co
   for (const std::string& path : paths) files.push_back(open(path));
   // a shell may list the parts of a recording in another order
   const auto begin = [](const File& file) {
-    return rosbag::View(*file.bag, rosbag::TypeQuery("afm_emulator/Friction")).getBeginTime();
+    rosbag::View batches(*file.bag, rosbag::TypeQuery("afm_emulator/Friction"));
+    return batches.size() > 0 ? batches.getBeginTime() : rosbag::View(*file.bag).getBeginTime();
   };
   std::stable_sort(files.begin(), files.end(), [&](const File& a, const File& b) { return begin(a) < begin(b); });
+  std::vector<std::string> empty;  // such as of rosbag record before the emulator began
   for (const File& file : files) {
     const auto emulators = emulators_of(file);
-    if (emulators.empty()) throw Problem(file.path + ": holds no message of an emulator");
+    if (emulators.empty()) empty.push_back(file.path + ": holds no message of an emulator");
     for (const auto& [name, topics] : emulators) {
       std::vector<Recording>& recordings = found[name];
       const Recording part(name, topics, {file});
@@ -226,6 +229,8 @@ std::vector<Recording> open_recordings(const std::vector<std::string>& paths, co
       }
     }
   }
+  if (found.empty()) throw Problem(empty.front());
+  for (const std::string& note : empty) std::cerr << note << std::endl;
   if (!node.empty() && found.count(node) == 0) {
     throw Problem("node = " + node + ": there is none of this name, but " + known_names(found));
   }
