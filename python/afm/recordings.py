@@ -34,7 +34,7 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
         with rosbag.Bag(str(path)) as bag:
             # rosbag record repeats latched messages without the name of their node: it is that of its namespace
             named = {c.topic.rpartition('/')[0]: c.header['callerid'] for c in bag._get_connections()
-                     if 'callerid' in c.header}
+                     if c.datatype in kinds and 'callerid' in c.header}
             for topic, raw, stamp, header in bag.read_messages(
                     raw=True, return_connection_header=True,
                     connection_filter=lambda _, datatype, *__: datatype in kinds):

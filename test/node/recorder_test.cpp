@@ -162,7 +162,7 @@ TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
 }
 
 // One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
-TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
+TEST_F(RecorderTest, EveryBagOfASplitRecordingHasAWholeBatch) {
   for (const bool whole : {false, true}) {
     std::promise<void> asked;
     Recorder recorder(settings(1), [&, calls = 0]() mutable {
@@ -171,12 +171,13 @@ TEST_F(RecorderTest, EveryBagButTheFirstHasAWholeBatch) {
     });
     const std::string name = whole ? "whole" : "part";
     begin(recorder, name);
+    recorder.record(topic_, bytes_, Role::batch_end, false);  // before that no other bag is asked for
     ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
     recorder.record(topic_, bytes_, Role::snapshot, false);
     recorder.record(topic_, bytes_, Role::ordinary, false);
     if (whole) recorder.record(topic_, bytes_, Role::batch_end, false);
     EXPECT_TRUE(recorder.stop().success);
-    EXPECT_EQ(messages_in_bag(name + ".bag"), whole ? 3u : 5u);
+    EXPECT_EQ(messages_in_bag(name + ".bag"), whole ? 4u : 6u);
     ASSERT_EQ(fs::exists(file(name + "_001.bag")), whole);
     if (whole) {
       EXPECT_EQ(messages_in_bag(name + "_001.bag"), 5u);
@@ -195,14 +196,15 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
     return asked[time].get_future().wait_for(std::chrono::seconds(50)) == std::future_status::ready;
   };
   begin(recorder);
+  recorder.record(topic_, bytes_, Role::batch_end, true);
   ASSERT_TRUE(was_asked(0));
   recorder.record(topic_, bytes_, Role::snapshot, true);
   for (int i = 0; i < 120; ++i) recorder.record(topic_, bytes_, Role::ordinary, true);
   ASSERT_TRUE(was_asked(1));
   recorder.record(topic_, bytes_, Role::snapshot, true);
   recorder.record(topic_, bytes_, Role::batch_end, true);
-  EXPECT_EQ(recorder.stop().message, file("run_001.bag") + ": the last of 2 bags with 128 messages");
-  EXPECT_EQ(messages_in_bag(), 124u);
+  EXPECT_EQ(recorder.stop().message, file("run_001.bag") + ": the last of 2 bags with 129 messages");
+  EXPECT_EQ(messages_in_bag(), 125u);
   EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
 }
 
@@ -213,7 +215,7 @@ TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
     return calls > 2;
   });
   begin(recorder);
-  for (int i = 0; i < 2; ++i) recorder.record(topic_, bytes_, Role::ordinary, false);  // it asks once at each
+  for (int i = 0; i < 3; ++i) recorder.record(topic_, bytes_, Role::batch_end, false);  // it asks once at each
   EXPECT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
 }
 

@@ -15,7 +15,8 @@ def read_raw(bag, kinds):
     """Those of these kinds, in the order of the bag."""
     types = ['afm_emulator/' + kind for kind in kinds]
     # rosbag record repeats latched messages without the name of their node: it is that of its namespace
-    named = {c.topic.rpartition('/')[0]: c.header['callerid'] for c in bag._get_connections() if 'callerid' in c.header}
+    named = {c.topic.rpartition('/')[0]: c.header['callerid'] for c in bag._get_connections()
+             if c.datatype in types and 'callerid' in c.header}
     for topic, raw, stamp, header in bag.read_messages(
             raw=True, return_connection_header=True, connection_filter=lambda _, datatype, *__: datatype in types):
         node = header.get('callerid', named.get(topic.rpartition('/')[0], b''))

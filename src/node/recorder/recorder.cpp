@@ -214,7 +214,7 @@ std::string Recorder::take(const Item& item) {
   } catch (const std::exception& error) {
     return error.what();
   }
-  if (!full_ && is_full(item.stamp)) full_ = ask_for_snapshot_();
+  if (!full_ && item.ends_batch && is_full(item.stamp)) full_ = ask_for_snapshot_();  // this bag has a batch, too
   return {};
 }
 

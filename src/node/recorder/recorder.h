@@ -17,7 +17,7 @@
 namespace afm::node {
 
 // The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag, and
-// every bag but the first has a whole batch.
+// every bag of a split recording has a whole batch.
 enum class Role { ordinary, batch_end, configuration, applied, snapshot };
 
 // Free on the disk on which the directory is, or would be made [bytes]; negative: unknown.

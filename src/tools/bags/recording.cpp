@@ -54,7 +54,7 @@ std::map<std::uint32_t, std::string> nodes_of(const rosbag::Bag& bag) {
   std::map<std::uint32_t, std::string> nodes;
   const auto connections = rosbag::View(bag).getConnections();
   for (const rosbag::ConnectionInfo* c : connections) {
-    if (!callerid(*c).empty()) named[space(*c)] = callerid(*c);
+    if (kTypes.count(c->datatype) > 0 && !callerid(*c).empty()) named[space(*c)] = callerid(*c);
   }
   for (const rosbag::ConnectionInfo* c : connections) {
     nodes[c->id] = callerid(*c).empty() ? named[space(*c)] : callerid(*c);
