@@ -219,7 +219,7 @@ def draw(run, paths):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('bags', nargs='+', help='a recording; the bags of a split one in order')
+    parser.add_argument('bags', nargs='+', help='a recording; of a split one all bags')
     parser.add_argument('--node', help='the name of the emulator such as /afm, where the bag holds several')
     parser.add_argument('--output', help='picture to write (png, pdf, svg); default: beside the bag, as .png')
     arguments = parser.parse_args()

@@ -232,7 +232,7 @@ class Recording:
 
 
 def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:
-    """A recording of the emulator. path: of its bag, or a list of the bags that it was split into, in order.
+    """A recording of the emulator. path: of its bag, or a list of the bags that it was split into.
 
     epoch: None is the first in the bag that advanced; namespace: the name of the node, where a bag holds several.
     """

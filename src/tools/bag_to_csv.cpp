@@ -228,7 +228,7 @@ int write(const std::vector<std::string>& paths, const std::string& node, const 
   const auto recordings = afm::bags::open_recordings(paths, node);
   if (recordings.size() > 1) {
     throw std::invalid_argument(recordings[1].name() + " does not go on where " + recordings[0].name() +
-                                " ends: give the bags of one recording, in order, and --node where there are several");
+                                " ends: give the bags of one recording, and --node where there are several");
   }
   const Recording& recording = recordings.front();
   const afm::Units units = units_of(recording);
@@ -249,7 +249,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> paths;
   std::string topic, node;
   bool natural = false;
-  app.arguments("bags", paths, "a recording; the bags of a split one in order");
+  app.arguments("bags", paths, "a recording; of a split one all bags");
   app.require("bags");
   app.option("topic", topic, "impacts, deflection, friction or commands");
   app.require("topic");

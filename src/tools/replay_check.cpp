@@ -19,7 +19,7 @@ using afm::bags::RunCheck;
 
 const char kDescription[] =
     "Simulates a recorded run again, from its snapshots and what was applied, and compares every message with the\n"
-    "recording, bit for bit. Needs no ROS master. The bags of a split recording are given in order, or each by itself.";
+    "recording, bit for bit. Needs no ROS master. The bags of a split recording are given together, or each by itself.";
 const char kExitCodes[] =
     "Exit codes: 0 identical; 1 different; 2 wrong arguments; 3 it cannot be checked, or not as a whole.";
 
@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
   app.footer(kExitCodes);
   std::vector<std::string> paths;
   std::string node;
-  app.arguments("bags", paths, "recordings; the bags of a split one in order");
+  app.arguments("bags", paths, "recordings; of a split one all bags");
   app.require("bags");
   app.option("node", node, "the emulator's name such as /afm; else all that the bags hold");
   return app.run(argc, argv, [&] {

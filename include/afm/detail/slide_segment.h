@@ -27,8 +27,8 @@ class SlideSegment {
 
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(series_.lambda, s); }  // the reaction along y [a/tau^2]
-  std::array<T, 4> pressure_jet(const T& s) const;  // and its first three time derivatives
-  T displacement_integral(const T& s) const;        // of x - x(start) over time [a tau]
+  std::array<T, 4> pressure_jet(const T& s) const;                    // and its first three time derivatives
+  T displacement_integral(const T& s) const;                          // of x - x(start) over time [a tau]
 
   T length() const { return length_; }  // [tau]
   const SlideState<T>& start() const { return start_; }

@@ -52,8 +52,8 @@ struct Health {
   bool budget_spent = false;  // recently
   bool timed_out = false;     // the drag was stopped as no command came
   double command_timeout_s = 0.0;
-  std::string refusal;        // the latest, if recent
-  bool overload = false;      // it was refused as too many were waiting
+  std::string refusal;    // the latest, if recent
+  bool overload = false;  // it was refused as too many were waiting
   std::uint64_t refused_changes = 0;
   double lattice_spacing_m = 0.0;
   std::uint64_t dropped_from_recording = 0;
