@@ -89,12 +89,15 @@ class Expect(NodeTest):
             self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
                                 for_s=value)
 
-    def test_repeats_of_a_run_that_died_or_held_nothing(self):
+    def test_repeats_of_a_run_that_died_or_held_nothing_or_does_not_repeat(self):
         launch = Path(self.temporary_directory()) / 'closed_loop.launch'
         emulator = '<include file="$(find %s)/launch/test_fixture.launch">%s</include>' % (
             PACKAGE, '<arg name="bag_directory" value="$(arg bag_directory)"/>')
-        for program, sentence in (('false', 'a node has died'), ('true', 'has recorded no batch')):
-            script = launch.parent / program
+        control = 'rosservice call /afm/control "{drag_velocity: 5.$(date +%N)e-06, rest_height: .nan, duration: 0.01}"'
+        for program, sentence in (('false', 'a node has died'), ('kill -SEGV $$', 'a node has died'),
+                                  ('true', 'has recorded no batch'),
+                                  (control, 'of the runs differs: /afm/applied: drag_velocity: 5')):
+            script = launch.parent / 'script'
             script.write_text('#!/bin/sh\nsleep 3\n%s\n' % program)
             script.chmod(0o755)
             node = '<node pkg="%s" type="replay_check" name="controller" required="true" launch-prefix="%s"/>' % (
