@@ -24,8 +24,8 @@ struct FrictionEstimate {
   double window_K_f = 0.0;
   double window_K_f_std_error = 0.0;
   double mean_lateral_force = 0.0;  // of the holder on the tip, exact since the last restart [m a / tau^2]
-  // Without a bath that of K_f, and what the tip has stored since the last restart. With a bath, and at rest, from bins:
-  // too large in short runs, because the tip carries momentum across their ends.
+  // Without a bath: that of K_f, and what the tip has stored since the last restart. With a bath, and at rest, it comes
+  // from bins: too large in short runs, because the tip carries momentum across their ends.
   double mean_lateral_force_std_error = 0.0;
   double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;

@@ -20,7 +20,7 @@ Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
 
 def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
-    """Topic, name of the node, type, bytes, message, and stamp in the bag; the message of samples and impacts is None."""
+    """Topic, name of the node, type, bytes, message (of samples and impacts None), and stamp in the bag."""
     try:
         import rosbag
     except ImportError as fault:

@@ -185,7 +185,8 @@ class Levers(unittest.TestCase):
             refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')
             refused('', file.name, 'a key and a number')
             refused('- 0.5\n', file.name, 'a key and a number')
-            by_model = 'omega_v_rad_per_s: 4.0e+4\nomega_h_rad_per_s: 2.5e+5\ntip_mass_kg: 4.0e-10\nquality_factor: 20\n'
+            by_model = ('omega_v_rad_per_s: 4.0e+4\nomega_h_rad_per_s: 2.5e+5\ntip_mass_kg: 4.0e-10\n'
+                        'quality_factor: 20\n')
             refused(by_model)
             refused(by_model.split('\n', 1)[1], file.name, 'lacks omega_v_rad_per_s')
             refused(by_model + 'resonance_hz: 2.0e+4\n', file.name, 'twice')
