@@ -10,6 +10,7 @@
 #include <afm_emulator/Control.h>
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/ImpactArray.h>
+#include <afm_emulator/measurement.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_msgs/Float64.h>
@@ -320,73 +321,37 @@ class Client {
 
   // As the emulator measures in lockstep, from the batches that it publishes.
   Control::Response measure(const Applied& since, double duration) {
-    Control::Response r;
-    r.success = true;
-    r.epoch = since.epoch;
-    r.applied = since.number;
-    r.begin = since.time;
     queue_.callAvailable();  // what came while nobody measured is of the past
     batches_.clear();
-    while (impacts_.size() > kKeptImpacts) impacts_.pop_front();  // those of a batch may come before it
-    std::uint32_t first = 0, last = 0;                            // batches that count
-    std::uint64_t expected = 0;                                   // running index of the next sample; 0: not known
-    bool same_speed = true;
-    double seconds = 0.0, impulse = 0.0, vertical = 0.0, vertical_squares = 0.0, lateral_squares = 0.0;
+    while (impacts_.size() > kKeptImpacts) impacts_.pop_front();         // those of a batch may come before it
     wait_for([this] { return !impacts_.empty(); }, name_ + "/impacts");  // of a new connection, after a restart
-    while (seconds < duration) {
+    Measurement measurement(since);
+    std::uint64_t expected = 0;  // running index of the next sample; 0: not known
+    while (measurement.seconds() < duration) {
       wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
-      const Deflection& batch = *batches_.front();
+      const Deflection::ConstPtr batch = batches_.front();
+      batches_.pop_front();
       check_restart();
-      if (batch.epoch > since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
-      if (batch.epoch < since.epoch || (expected != 0 && batch.first_sample != expected)) {
+      if (batch->epoch > since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
+      if (batch->epoch < since.epoch || (expected != 0 && batch->first_sample != expected)) {
         comes_true([this] { return restarted_; }, kAgain);  // its other topics say so a little later
         check_restart();
         throw EmulatorError(name_ + "/deflection: messages were lost while it was measured");
       }
-      expected = batch.first_sample + batch.vertical.size();
-      const double age = static_cast<double>(batch.time.tau - since.time.tau) + (batch.time.phase - since.time.phase);
-      if (age >= 0.0 && batch.header.seq >= impacts_.front()->header.seq) {
-        if (r.samples == 0) r.begin = batch.time, first = batch.header.seq;
-        last = batch.header.seq;
-        same_speed = same_speed && batch.drag_velocity == since.drag_velocity;
-        r.samples += batch.vertical.size();
-        for (const double y : batch.vertical) vertical += y, vertical_squares += y * y;
-        for (const double x : batch.lateral) lateral_squares += x * x;
-        impulse += batch.lateral_impulse;
-        seconds += static_cast<double>(batch.vertical.size()) * batch.sample_period;
-      }
-      batches_.pop_front();
+      expected = batch->first_sample + batch->vertical.size();
+      const bool has_its_impacts = batch->header.seq >= impacts_.front()->header.seq;
+      if (tau_between(since.time, batch->time) >= 0.0 && has_its_impacts) measurement.add(*batch);
     }
-    // impacts come on a connection of their own
-    const auto has_come = [&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; };
-    if (r.samples > 0) wait_for(has_come, name_ + "/impacts");
-    std::uint32_t missing = r.samples > 0 ? last - first + 1 : 0;
-    for (const ImpactArray::ConstPtr& batch : impacts_) {
-      const bool counts = batch->epoch == since.epoch && batch->header.seq >= first && batch->header.seq <= last;
-      if (r.samples == 0 || !counts) continue;
-      --missing;
-      for (const Impact& impact : batch->impacts) {
-        r.impact_count += impact.count;
-        r.energy_loss += impact.energy_loss;
-      }
+    if (measurement.last()) {  // impacts come on a connection of their own
+      const std::uint32_t last = *measurement.last();
+      wait_for([&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; }, name_ + "/impacts");
     }
-    if (missing > 0) {
-      throw EmulatorError(name_ + "/impacts: " + std::to_string(missing) + " messages were lost while it was measured");
+    for (const ImpactArray::ConstPtr& batch : impacts_) measurement.add_impacts(*batch);
+    if (measurement.lost() > 0) {
+      throw EmulatorError(name_ + "/impacts: " + std::to_string(measurement.lost()) +
+                          " messages were lost while it was measured");
     }
-    const double n = static_cast<double>(r.samples), total = r.begin.phase + seconds / tau();
-    r.end.tau = r.begin.tau + static_cast<std::int64_t>(std::floor(total));
-    r.end.phase = total - std::floor(total);
-    r.mean_vertical = vertical / n;
-    r.rms_vertical = std::sqrt(vertical_squares / n);
-    r.mean_lateral_force = impulse / seconds;
-    r.rms_lateral_force = lateral_stiffness() * std::sqrt(lateral_squares / n);
-    r.mean_normal_force = vertical_stiffness() * r.mean_vertical;
-    const double until_end = static_cast<double>(r.end.tau - applied_->time.tau) + (r.end.phase - applied_->time.phase);
-    if (applied_->epoch == since.epoch && until_end > 0.0) r.applied = applied_->number;
-    const double v0 = same_speed && since.drag_velocity != 0.0 ? since.drag_velocity : kNaN;
-    r.k_f = r.energy_loss / (v0 * v0 * seconds);
-    r.k_f_work = r.mean_lateral_force / v0;
-    return r;
+    return measurement.answer(*applied_, {tau(), vertical_stiffness(), lateral_stiffness()});
   }
 
   ros::NodeHandle node_;

@@ -11,8 +11,9 @@ import time
 
 import rospy
 from afm_emulator.connection import Connection
+from afm_emulator.measurement import Measurement, tau_between
 from afm_emulator.msg import Applied, Configuration, Deflection, ImpactArray
-from afm_emulator.srv import Control, ControlRequest, ControlResponse
+from afm_emulator.srv import Control, ControlRequest
 from std_msgs.msg import Float64
 
 AGAIN_S = 1.0  # of wall time: a command without effect is published again, as the emulator may have been restarted
@@ -25,11 +26,6 @@ LONGEST_TIMEOUT_S = 1e9
 
 class EmulatorError(RuntimeError):
     """What did not come in time, or why the emulator refused."""
-
-
-def tau_between(begin, end):
-    """Model time from one ModelTime message to another [tau]."""
-    return (end.tau - begin.tau) + (end.phase - begin.phase)
 
 
 def finite(name, value, wanted='a finite number'):
@@ -312,10 +308,8 @@ class Client:
                 self._batches = None
 
     def _measured(self, applied, duration):
-        answer, squares = ControlResponse(success=True, epoch=applied.epoch, applied=applied.number), [0.0, 0.0]
-        answer.begin = applied.time
-        seconds, first, last, expected, speeds = 0.0, None, None, None, {applied.drag_velocity}
-        while seconds < duration:
+        measurement, expected = Measurement(applied, self), None
+        while measurement.seconds < duration:
             batch = self._next_batch(self.timeout + duration / self.configuration.time_scale)
             self._check_restart()
             if batch.epoch > applied.epoch:
@@ -326,40 +320,13 @@ class Client:
                 raise EmulatorError('%s/deflection: messages were lost while it was measured' % self.name)
             expected = batch.first_sample + len(batch.vertical)
             impacts = self._impacts[:1]  # none: of a restart, which the next batch says
-            if tau_between(applied.time, batch.time) < 0.0 or not impacts or batch.header.seq < impacts[0].header.seq:
-                continue
-            if first is None:
-                answer.begin, first = batch.time, batch.header.seq
-            last = batch.header.seq
-            speeds.add(batch.drag_velocity)
-            answer.samples += len(batch.vertical)
-            answer.mean_vertical += sum(batch.vertical)
-            answer.mean_lateral_force += batch.lateral_impulse
-            squares[0] += sum(y * y for y in batch.vertical)
-            squares[1] += sum(x * x for x in batch.lateral)
-            seconds += len(batch.vertical) * batch.sample_period
-        counted = []
-        if first is not None:  # impacts come on a connection of their own
-            self._wait_for(lambda: self._impacts and self._impacts[-1].header.seq >= last, self.name + '/impacts')
-            with self._news:
-                arrays = [m for m in self._impacts if first <= m.header.seq <= last and m.epoch == applied.epoch]
-            if len(arrays) != last - first + 1:
-                raise EmulatorError('%s/impacts: %d messages were lost while it was measured' %
-                                    (self.name, last - first + 1 - len(arrays)))
-            counted = [i for m in arrays for i in m.impacts]
-        answer.impact_count = sum(i.count for i in counted)
-        answer.energy_loss = math.fsum(i.energy_loss for i in counted)
-        n = answer.samples or math.nan
-        answer.mean_vertical /= n
-        answer.rms_vertical = math.sqrt(squares[0] / n)
-        answer.mean_lateral_force /= seconds or math.nan
-        answer.rms_lateral_force = self.lateral_stiffness * math.sqrt(squares[1] / n)
-        answer.mean_normal_force = self.stiffness * answer.mean_vertical
-        total = answer.begin.phase + seconds / self.tau_s
-        answer.end.tau, answer.end.phase = answer.begin.tau + math.floor(total), total - math.floor(total)
-        if self.applied.epoch == applied.epoch and tau_between(self.applied.time, answer.end) > 0.0:
-            answer.applied = self.applied.number
-        v0 = (applied.drag_velocity if len(speeds) == 1 else 0.0) or math.nan
-        answer.k_f = answer.energy_loss / (v0 * v0 * (seconds or math.nan))
-        answer.k_f_work = answer.mean_lateral_force / v0
-        return answer
+            if tau_between(applied.time, batch.time) >= 0.0 and impacts and batch.header.seq >= impacts[0].header.seq:
+                measurement.add(batch)
+        if measurement.last is not None:  # impacts come on a connection of their own
+            self._wait_for(lambda: self._impacts and self._impacts[-1].header.seq >= measurement.last,
+                           self.name + '/impacts')
+        with self._news:
+            lost = measurement.add_impacts(self._impacts)
+        if lost:
+            raise EmulatorError('%s/impacts: %d messages were lost while it was measured' % (self.name, lost))
+        return measurement.answer(self.applied)

@@ -1,0 +1,93 @@
+// The figures of a control period in real time: those of the service ~control, from the batches that are published.
+#pragma once
+
+#include <afm_emulator/Applied.h>
+#include <afm_emulator/Control.h>
+#include <afm_emulator/Deflection.h>
+#include <afm_emulator/ImpactArray.h>
+#include <afm_emulator/ModelTime.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace afm_emulator {
+
+// Model time from one to the other [tau].
+inline double tau_between(const ModelTime& begin, const ModelTime& end) {
+  return static_cast<double>(end.tau - begin.tau) + (end.phase - begin.phase);
+}
+
+// Sums over the batches of a period, which come in order and without a gap.
+class Measurement {
+ public:
+  struct Lever {
+    double tau_s, stiffness, lateral_stiffness;  // [s], [N/m]
+  };
+
+  // since: in force at its begin
+  explicit Measurement(const Applied& since) : since_(since), begin_(since.time) {}
+
+  void add(const Deflection& batch) {
+    if (!last_) begin_ = batch.time, first_ = batch.header.seq;
+    last_ = batch.header.seq;
+    same_speed_ = same_speed_ && batch.drag_velocity == since_.drag_velocity;
+    samples_ += batch.vertical.size();
+    for (const double y : batch.vertical) vertical_ += y, vertical_squares_ += y * y;
+    for (const double x : batch.lateral) lateral_squares_ += x * x;
+    impulse_ += batch.lateral_impulse;
+    seconds_ += static_cast<double>(batch.vertical.size()) * batch.sample_period;
+  }
+
+  // After all batches: those of other batches do not count.
+  void add_impacts(const ImpactArray& batch) {
+    if (!last_ || batch.epoch != since_.epoch || batch.header.seq < first_ || batch.header.seq > *last_) return;
+    ++with_impacts_;
+    for (const Impact& impact : batch.impacts) impact_count_ += impact.count, energy_loss_ += impact.energy_loss;
+  }
+
+  double seconds() const { return seconds_; }                         // of model time
+  const std::optional<std::uint32_t>& last() const { return last_; }  // header.seq of the last batch
+  std::uint32_t lost() const { return last_ ? *last_ - first_ + 1 - with_impacts_ : 0; }  // batches without impacts
+
+  // As the emulator gives it in lockstep. latest: of the Applied messages.
+  Control::Response answer(const Applied& latest, const Lever& lever) const {
+    Control::Response r;
+    r.success = true;
+    r.epoch = since_.epoch;
+    r.begin = begin_;
+    r.samples = samples_;
+    const double n = static_cast<double>(samples_), total = begin_.phase + seconds_ / lever.tau_s;
+    r.end.tau = begin_.tau + static_cast<std::int64_t>(std::floor(total));
+    r.end.phase = total - std::floor(total);
+    const bool holds = latest.epoch == since_.epoch && tau_between(latest.time, r.end) > 0.0;
+    r.applied = holds ? latest.number : since_.number;
+    r.mean_vertical = vertical_ / n;
+    r.rms_vertical = std::sqrt(vertical_squares_ / n);
+    r.mean_lateral_force = impulse_ / seconds_;
+    r.rms_lateral_force = lever.lateral_stiffness * std::sqrt(lateral_squares_ / n);
+    r.mean_normal_force = lever.stiffness * r.mean_vertical;
+    r.impact_count = impact_count_;
+    r.energy_loss = energy_loss_;
+    const bool has_speed = same_speed_ && since_.drag_velocity != 0.0;
+    const double v0 = has_speed ? since_.drag_velocity : std::numeric_limits<double>::quiet_NaN();
+    r.k_f = r.energy_loss / (v0 * v0 * seconds_);
+    r.k_f_work = r.mean_lateral_force / v0;
+    return r;
+  }
+
+ private:
+  const Applied since_;
+  ModelTime begin_;
+  std::uint32_t first_ = 0;  // header.seq
+  std::optional<std::uint32_t> last_;
+  bool same_speed_ = true;
+  double seconds_ = 0.0, impulse_ = 0.0;
+  double vertical_ = 0.0, vertical_squares_ = 0.0, lateral_squares_ = 0.0;
+  std::uint64_t samples_ = 0, impact_count_ = 0;
+  double energy_loss_ = 0.0;
+  std::uint32_t with_impacts_ = 0;
+};
+
+}  // namespace afm_emulator

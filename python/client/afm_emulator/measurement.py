@@ -1,0 +1,70 @@
+"""The figures of a control period in real time: those of the service ~control, from the batches that are published."""
+import math
+
+from afm_emulator.srv import ControlResponse
+
+
+def tau_between(begin, end):
+    """Model time from one ModelTime message to another [tau]."""
+    return (end.tau - begin.tau) + (end.phase - begin.phase)
+
+
+class Measurement:
+    """Sums over the batches of a period, which come in order and without a gap.
+
+    applied: the Applied message that is in force at its begin
+    lever: has tau_s [s], stiffness and lateral_stiffness [N/m], as a Client has
+    """
+
+    def __init__(self, applied, lever):
+        self.seconds = 0.0  # of model time
+        self.first = self.last = None  # header.seq of the batches; None: there is none yet
+        self._since, self._lever = applied, lever
+        self._begin = applied.time
+        self._samples, self._impulse = 0, 0.0
+        self._vertical = self._vertical_squares = self._lateral_squares = 0.0
+        self._impacts = []
+        self._same_speed = True
+
+    def add(self, batch):
+        """A Deflection message."""
+        if self.first is None:
+            self._begin, self.first = batch.time, batch.header.seq
+        self.last = batch.header.seq
+        self._same_speed = self._same_speed and batch.drag_velocity == self._since.drag_velocity
+        self._samples += len(batch.vertical)
+        self._vertical += sum(batch.vertical)
+        self._vertical_squares += sum(y * y for y in batch.vertical)
+        self._lateral_squares += sum(x * x for x in batch.lateral)
+        self._impulse += batch.lateral_impulse
+        self.seconds += len(batch.vertical) * batch.sample_period
+
+    def add_impacts(self, messages):
+        """ImpactArray messages, of which those of its batches count. Returns how many of these lack."""
+        if self.first is None:
+            return 0
+        of_period = [m for m in messages
+                     if self.first <= m.header.seq <= self.last and m.epoch == self._since.epoch]
+        self._impacts += [impact for m in of_period for impact in m.impacts]
+        return self.last - self.first + 1 - len(of_period)
+
+    def answer(self, applied):
+        """A ControlResponse, as the emulator gives it in lockstep. applied: the latest Applied message."""
+        r = ControlResponse(success=True, epoch=self._since.epoch)
+        samples, seconds = self._samples or math.nan, self.seconds or math.nan
+        r.begin, r.samples = self._begin, self._samples
+        total = r.begin.phase + self.seconds / self._lever.tau_s
+        r.end.tau, r.end.phase = r.begin.tau + math.floor(total), total - math.floor(total)
+        holds = applied.epoch == self._since.epoch and tau_between(applied.time, r.end) > 0.0
+        r.applied = applied.number if holds else self._since.number
+        r.mean_vertical = self._vertical / samples
+        r.rms_vertical = math.sqrt(self._vertical_squares / samples)
+        r.mean_lateral_force = self._impulse / seconds
+        r.rms_lateral_force = self._lever.lateral_stiffness * math.sqrt(self._lateral_squares / samples)
+        r.mean_normal_force = self._lever.stiffness * r.mean_vertical
+        r.impact_count = sum(impact.count for impact in self._impacts)
+        r.energy_loss = math.fsum(impact.energy_loss for impact in self._impacts)
+        v0 = (self._since.drag_velocity if self._same_speed else 0.0) or math.nan
+        r.k_f = r.energy_loss / (v0 * v0 * seconds)
+        r.k_f_work = r.mean_lateral_force / v0
+        return r
