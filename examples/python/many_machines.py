@@ -12,6 +12,7 @@ import itertools
 import logging
 from pathlib import Path
 
+import dask
 import numpy as np
 from distributed import Client, LocalCluster
 
@@ -49,6 +50,7 @@ def main():
         parser.error('%s holds other points, or was measured for another duration' % options.table)
     options.table.write_text(''.join(done))
     todo = points[len(done):]
+    dask.config.set({'distributed.worker.profile.enabled': False})  # it looks at the stack of a worker each 10 ms
     # silent: a heartbeat that is under way at the end is no error, and one of a task is raised by result()
     cluster = options.scheduler or LocalCluster(options.workers, threads_per_worker=1, dashboard_address=None,
                                                 silence_logs=logging.CRITICAL)
