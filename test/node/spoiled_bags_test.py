@@ -57,6 +57,12 @@ class SpoiledBags(SpoiledBag):
             self.of('applied')[1].edit(**values)
         self.spoil_each(
             (DIFFERS, ('first_sample',), None, lambda: edit(first_sample=3)),
+            (DIFFERS, ('  number\n    recorded   0\n    simulated  1\n',), None, lambda: edit(number=0)),
+            (DIFFERS, ('  epoch\n    recorded   2\n    simulated  1\n',), None,
+             lambda: self.of('applied')[-1].edit(epoch=2, number=0)),
+            (DIFFERS, ('expected_error',), None, lambda: edit(expected_error=0.25)),
+            (DIFFERS, ('  epoch\n    recorded   16777216\n',), None,
+             lambda: self.of('snapshot')[0].edit(epoch=1 << 24)),
             (DIFFERS, ('recorded',), None, lambda: edit(rest_height_m=-2.1e-12)),
             (UNCHECKED, ('CANNOT BE CHECKED', 'rest_height_m = 1'), None, lambda: edit(rest_height_m=1.0)),
             (UNCHECKED, ('CANNOT BE CHECKED', 'unknown model'), None, lambda: edit(model='nail')),
@@ -117,6 +123,35 @@ class SpoiledBags(SpoiledBag):
         self.spoil_each((SOUND, ('IDENTICAL',), None, lambda: start_again(0)),  # said again
                         (UNCHECKED, words, None, lambda: start_again(0, force=1.0)),
                         (UNCHECKED, words, None, lambda: start_again(60)))
+
+    def test_two_starts(self):
+        """On wall time each message is of one of them, whatever is lost."""
+        def start_again():
+            later = [copy.copy(entry) for entry in self.entries]
+            for entry in later:
+                header = entry.message().header
+                header.stamp += genpy.Duration(100)
+                entry.edit(header=header)
+                entry.stamp += genpy.Duration(100)
+            return later
+
+        def lose(*topics, until=None):
+            later = start_again()
+            for topic in topics:
+                self.remove(*self.of(topic)[:until])
+            self.entries += later
+
+        def end_with(topic, number):
+            self.entries.append(copy.copy(self.of(topic)[number]))
+            self.entries[-1].stamp = self.entries[-2].stamp + genpy.Duration(1)
+        batches = len(self.of('friction'))
+        self.spoil_each(
+            (SOUND, ('IDENTICAL', '%d batches' % (2 * batches), '2 epochs'), True, lose),
+            (UNCHECKED, ('not compared: %d batches' % batches, 'what was compared is identical'), None,
+             lambda: lose('configuration', 'applied', 'snapshot')),
+            (UNCHECKED, ('%d messages of /afm/deflection at the beginning' % batches,), False,
+             lambda: lose('deflection')),
+            (UNCHECKED, ('/afm/deflection: number 9 comes behind',), True, lambda: end_with('deflection', 9)))
 
     def test_the_configuration_of_a_snapshot(self):
         configuration = self.of('snapshot')[0].message().configuration

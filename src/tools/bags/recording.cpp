@@ -152,7 +152,8 @@ void Recording::add(const Recording& next, std::uint32_t batches_between) {
   files_.insert(files_.end(), next.files_.begin(), next.files_.end());
 }
 
-std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ros::Time& begin) const {
+std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ros::Time& begin,
+                                              const ros::Time& end) const {
   auto view = std::make_unique<rosbag::View>();
   for (const File& file : files_) {
     view->addQuery(
@@ -161,9 +162,29 @@ std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ro
           return connection->topic == topic && nodes.at(connection->id) == node &&
                  kTypes.count(connection->datatype) > 0;
         },
-        begin);
+        begin, end);
   }
   return view;
+}
+
+// From the topics that have few messages: in each, a start is where the number is 0, or lower than the one before.
+std::shared_ptr<const Starts> Recording::starts() const {
+  if (starts_) return starts_;
+  Starts starts;
+  for (const std::string& topic :
+       {topic<afm_emulator::Configuration>(), topic<afm_emulator::Applied>(), topic<afm_emulator::Snapshot>()}) {
+    const auto messages = view(topic);
+    std::optional<std_msgs::Header> last;
+    for (const rosbag::MessageInstance& message : *messages) {
+      const std_msgs::Header header = header_of(message);
+      if (is_simulated(header.stamp) || (last && header.stamp <= last->stamp)) continue;
+      const bool again = last && header.seq <= last->seq;
+      if (header.seq == 0 || again) starts.add(last ? last->stamp : ros::TIME_MIN, header.stamp);
+      last = header;
+    }
+  }
+  starts.merge();
+  return starts_ = std::make_shared<const Starts>(std::move(starts));
 }
 
 std::optional<Recording::Ends> Recording::ends_of(const std::string& topic) const {
@@ -187,21 +208,29 @@ bool Recording::is_by_node() const {
 Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   const auto key = [](const std_msgs::Header& header) { return std::make_pair(header.stamp, header.seq); };
   std::optional<Ends> own, all;
+  std::string first_of, last_of;  // topics with the first and the last batch
   for (const auto& [name, topic] : topics_) {
     const auto ends = kBatchTypes.count(name) > 0 ? ends_of(topic) : std::nullopt;
     if (!ends) continue;
     if (name == type) own = ends;
-    if (!all) all = ends;
-    if (key(ends->first) < key(all->first)) all->first = ends->first;
-    if (key(ends->second) > key(all->second)) all->second = ends->second;
+    if (!all) all = ends, first_of = last_of = topic;
+    if (key(ends->first) < key(all->first)) all->first = ends->first, first_of = topic;
+    if (key(ends->second) > key(all->second)) all->second = ends->second, last_of = topic;
   }
   if (!own) return {};
   const auto count = [](const std_msgs::Header& from, const std_msgs::Header& to, std::uint32_t allowed) {
     return to.seq > from.seq && to.seq - from.seq > allowed ? to.seq - from.seq : 0;
   };
+  const auto have_one_start = [&](const std_msgs::Header& a, const std_msgs::Header& b) {
+    return starts()->of(a.stamp) == starts()->of(b.stamp);
+  };
   const bool exact = is_by_node();
-  return {count(all->first, own->first, exact ? 0 : node::kBatchQueueSize),
-          count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)};
+  const auto mine = view(topics_.at(type));
+  const ros::Duration tick(0, 1);
+  return {have_one_start(all->first, own->first) ? count(all->first, own->first, exact ? 0 : node::kBatchQueueSize)
+                                                 : view(first_of, ros::TIME_MIN, mine->getBeginTime() - tick)->size(),
+          have_one_start(own->second, all->second) ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
+                                                   : view(last_of, mine->getEndTime() + tick)->size()};
 }
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {

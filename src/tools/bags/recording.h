@@ -31,25 +31,54 @@ struct Problem : std::runtime_error {
 
 // The number of a message in its topic. The numbers begin again when the node is started again.
 struct Number {
-  std::uint32_t start = 0;  // of the node, counted in the bags
+  std::uint64_t start = 0;  // of the node: when it was [ns]; 0: the first one, or on simulated time
   std::uint32_t seq = 0;    // of the header
 };
 inline bool operator<(const Number& a, const Number& b) { return std::tie(a.start, a.seq) < std::tie(b.start, b.seq); }
 inline bool operator==(const Number& a, const Number& b) { return a.start == b.start && a.seq == b.seq; }
 
+// When the node was started. On wall time the stamp of a message tells of which start it is, whatever else is missing.
+class Starts {
+ public:
+  // A start is behind one stamp, and at the other at the latest.
+  void add(const ros::Time& behind, const ros::Time& latest) { found_.push_back({latest, behind}); }
+  void merge() {
+    std::sort(found_.begin(), found_.end());
+    for (const auto& [latest, behind] : found_) {
+      if (times_.empty() || times_.back() <= behind) times_.push_back(latest);
+    }
+  }
+  // Of the last one that is not later, or 0.
+  std::uint64_t of(const ros::Time& stamp) const {
+    const auto later = std::upper_bound(times_.begin(), times_.end(), stamp);
+    return later == times_.begin() ? 0 : (later - 1)->toNSec();
+  }
+  std::uint32_t between(std::uint64_t one, std::uint64_t other) const {
+    const auto is_between = [&](const ros::Time& time) { return one < time.toNSec() && time.toNSec() < other; };
+    return static_cast<std::uint32_t>(std::count_if(times_.begin(), times_.end(), is_between));
+  }
+
+ private:
+  std::vector<std::pair<ros::Time, ros::Time>> found_;
+  std::vector<ros::Time> times_;
+};
+
+// Simulated time begins at 1 s, and wall clocks have passed 1e9 s in 2001.
+inline bool is_simulated(const ros::Time& stamp) { return stamp < ros::Time(1000000000, 0); }
+
 // The messages of one topic, each once: latched ones stand in every bag of a split recording.
 template <class Message>
 class Cursor {
  public:
-  explicit Cursor(std::unique_ptr<rosbag::View> view)
-      : view_(std::move(view)), at_(view_->begin()), size_(view_->size()) {
+  Cursor(std::unique_ptr<rosbag::View> view, std::shared_ptr<const Starts> starts)
+      : view_(std::move(view)), at_(view_->begin()), size_(view_->size()), starts_(std::move(starts)) {
     read();
   }
 
   // The next message; null at the end.
   const boost::shared_ptr<Message>& get() const { return message_; }
   const Number& number() const { return number_; }
-  // Messages lost between the one before and this one.
+  // Messages lost between the one before and this one; one for each start of the node of which all are lost.
   std::uint32_t lost() const { return lost_; }
   void next() {
     ++at_;
@@ -67,17 +96,27 @@ class Cursor {
       const std_msgs::Header& header = message->header;
       const bool is_twice = last_ && header.seq == number_.seq && header.stamp == last_->header.stamp;
       if (is_twice && is_same(*message, *last_)) continue;
-      const bool again = last_ && header.seq <= number_.seq;
-      lost_ = last_ && !again ? header.seq - number_.seq - 1 : 0;
-      if (is_twice || (lost_ > 0 && number_.start > 0 && header.seq == last_of_start_ + 1)) {
-        throw Problem(at_->getTopic() + ": number " + std::to_string(header.seq) +
-                      " is of another start of the node than the one before: two starts on simulated time are mixed");
-      }
-      if (again) last_of_start_ = number_.seq;
-      number_ = {number_.start + (again ? 1 : 0), header.seq};
+      find_number(header);
       last_ = message_ = message;
       return;
     }
+  }
+
+  void find_number(const std_msgs::Header& header) {
+    Number next{starts_->of(header.stamp), header.seq};
+    if (last_) {
+      // a start of which nothing else is left
+      const bool again = header.seq <= number_.seq && header.stamp > last_->header.stamp && !is_simulated(header.stamp);
+      next.start = std::max(next.start, again && next.start <= number_.start ? header.stamp.toNSec() : number_.start);
+      if (!(number_ < next)) {
+        throw Problem(at_->getTopic() + ": number " + std::to_string(header.seq) + " comes behind number " +
+                      std::to_string(number_.seq) + ": it is there twice, or the messages are out of order, or of " +
+                      "another start of the node on simulated time");
+      }
+    }
+    const bool same = !last_ || next.start == number_.start;
+    lost_ = !last_ ? 0 : same ? header.seq - number_.seq - 1 : starts_->between(number_.start, next.start);
+    number_ = next;
   }
 
   // A message of another start may have the same number and, on simulated time, the same stamp.
@@ -91,7 +130,7 @@ class Cursor {
   const std::size_t size_;
   boost::shared_ptr<Message> message_, last_;
   Number number_;
-  std::uint32_t last_of_start_ = 0;  // before the present one
+  std::shared_ptr<const Starts> starts_;
   std::uint32_t lost_ = 0;
   std::size_t done_ = 0;
 };
@@ -124,14 +163,15 @@ class Recording {
   }
   template <class Message>
   std::unique_ptr<Cursor<Message>> read() const {
-    return std::make_unique<Cursor<Message>>(view(topic<Message>()));
+    return std::make_unique<Cursor<Message>>(view(topic<Message>()), starts());
   }
-  std::unique_ptr<rosbag::View> view(const std::string& topic, const ros::Time& begin = ros::TIME_MIN) const;
+  std::unique_ptr<rosbag::View> view(const std::string& topic, const ros::Time& begin = ros::TIME_MIN,
+                                     const ros::Time& end = ros::TIME_MAX) const;
   using Ends = std::pair<std_msgs::Header, std_msgs::Header>;  // of the first and the last message
   std::optional<Ends> ends_of(const std::string& topic) const;
 
   struct Missing {
-    std::uint32_t at_beginning = 0, at_end = 0;
+    std::uint64_t at_beginning = 0, at_end = 0;
   };
   // Batches at the ends of the recording of which it should hold a message of this type, but does not.
   template <class Message>
@@ -142,11 +182,13 @@ class Recording {
  private:
   Missing missing_at_ends(const std::string& type) const;
   bool is_by_node() const;
+  std::shared_ptr<const Starts> starts() const;
 
   std::string node_;
   Topics topics_;
   std::vector<File> files_;
-  std::string holes_;  // between the files, in words
+  std::string holes_;                             // between the files, in words
+  mutable std::shared_ptr<const Starts> starts_;  // once they were asked for
 };
 
 // From the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each

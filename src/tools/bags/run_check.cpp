@@ -71,6 +71,7 @@ void RunCheck::read_marks() {
   const auto applied = recording_.read<afm_emulator::Applied>();
   std::uint64_t lost = 0, known_lost = 0;
   for (; applied->get(); applied->next()) {
+    if (!marks_.empty() && applied->lost() == 0) check_number(marks_.back(), *applied->get(), applied->number());
     marks_.push_back({applied->number(), applied->get(), nullptr});
     lost += applied->lost();
   }
@@ -86,6 +87,16 @@ void RunCheck::read_marks() {
     if (number > expected) known_lost += c.lost_commands = number - expected;
   }
   if (lost > known_lost) lose("commands", lost - known_lost);  // those with which an epoch begins
+}
+
+// What is applied is counted in each epoch.
+void RunCheck::check_number(const Mark& before, const afm_emulator::Applied& applied, const Number& number) {
+  if (!before.applied || before.number.start != number.start) return;
+  afm_emulator::Applied expected = applied;
+  const bool same = applied.epoch == before.epoch();
+  expected.epoch = before.epoch() + (same ? 0 : 1);
+  expected.number = same ? before.applied->number + 1 : 0;
+  compare(applied, expected);
 }
 
 // Each stands in the snapshots of its epoch too. There is one an epoch, so its number is that of the epoch.
@@ -127,7 +138,7 @@ void RunCheck::run() {
 // True if it comes before the next batch.
 bool RunCheck::is_due(const Mark& c) const {
   const afm_emulator::Friction& batch = *batches_->get();
-  const auto place = [](std::uint32_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {
+  const auto place = [](std::uint64_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {
     return std::make_tuple(start, epoch, time.tau, time.phase, impacts);
   };
   const auto next = place(batches_->number().start, batch.epoch, batch.begin, batch.first_impact);
@@ -178,6 +189,8 @@ void RunCheck::begin_at(const Mark& mark) {
   run_.emplace(state);
   note_beginning(mark);
   applied_ = snapshot.applied;
+  // of its own epoch, and of nothing but what it says
+  compare(snapshot, node::to_snapshot(state, configuration_, applied_, {snapshot.header.stamp, applied_.epoch}));
   const Mark* before = next_mark_ >= 2 ? &marks_[next_mark_ - 2] : nullptr;
   if (!before || !before->applied || before->number.start != start_ || before->epoch() != applied_.epoch) return;
   if (before->applied->number == applied_.number) compare(*before->applied, applied_);
@@ -203,6 +216,7 @@ void RunCheck::take_applied(const afm_emulator::Applied& applied) {
   simulated.energy_dropped = run_->apply(live) * Units(in_force_.si).energy();
   simulated.samples_per_batch = live.samples_per_batch;
   simulated.sample_period_tau = live.sample_period;
+  if (in_force_.model != node::kAuto) simulated.expected_error = std::numeric_limits<double>::quiet_NaN();
   compare(applied, simulated);
   applied_ = applied;
   last_.reset();

@@ -73,6 +73,7 @@ class RunCheck {
   };
 
   void read_marks();
+  void check_number(const Mark& before, const afm_emulator::Applied& applied, const Number& number);
   void check_configurations();
   bool is_due(const Mark& mark) const;
   void take(const Mark& mark);
@@ -107,7 +108,7 @@ class RunCheck {
 
   // the run; without one, nothing is compared up to the next snapshot
   std::optional<Run> run_;
-  std::uint32_t start_ = 0;  // of the node that it is by
+  std::uint64_t start_ = 0;  // of the node that it is by
   node::Parameters in_force_;
   afm_emulator::Configuration configuration_;
   afm_emulator::Applied applied_;
