@@ -55,7 +55,7 @@ constexpr double kMinFrequencyRatio = 0.01;
 constexpr double kMaxFrequencyRatio = 1000.0;  // the paper's is 6.25; the hammer is the limit of stiff springs
 constexpr double kMinAmplitude = 1e-6;         // [a]
 constexpr double kMaxAmplitude = 1.0;          // [a]: ten times mica
-constexpr double kMinRestHeight = -1e5;  // y0 [a]: 100 nN on graphite at 0.004 N/m; above it a gap keeps 10 digits
+constexpr double kMinRestHeight = -1e5;  // y0 [a]: 98 nN on graphite at 0.004 N/m; above it a gap keeps 10 digits
 constexpr double kMinCutoff = 1e-9;      // [a/tau], or 0
 constexpr double kMinGapRate = 1e-16;    // [a/tau]: slower bounces are contact; the rounding of a velocity of 1 a/tau
 

@@ -154,6 +154,20 @@ TEST(Parameters, ATipUnderALoadBeginsAtRestInAValley) {
   EXPECT_EQ(read({{"load_n", 1e-12}}, faults).initial.phase, Parameters().initial.phase);
 }
 
+TEST(Parameters, TheLimitOfTheDragGivesWayToASlowLever) {
+  const Given slow{{"spring_constant_n_per_m", 0.03},
+                   {"resonance_hz", 400.0},
+                   {"lateral_spring_constant_n_per_m", 3.0},
+                   {"lattice_spacing_m", 0.246e-9},
+                   {"drag_velocity", 1e-6}};
+  Faults faults;
+  EXPECT_LT(to_eta(read(slow, faults).max_drag_velocity, read(slow, faults).si), 1000.1);
+  EXPECT_EQ(describe(faults), "");
+  Given fast = slow;
+  fast["max_drag_velocity"] = 1.1e-4;
+  EXPECT_TRUE(is_blamed("max_drag_velocity", refusal(fast)));
+}
+
 // A lever of omega_h/omega_v = 22 in a bath, with so many kicks.
 Parameters heated_lever(double kicks_per_tau, const Given& more = {}) {
   Given given{{"spring_constant_n_per_m", 0.2}, {"resonance_hz", 13e3},    {"lateral_spring_constant_n_per_m", 96.8},
@@ -197,6 +211,35 @@ TEST(Advice, ARunThatIsTooSlowIsToldHowSlowlyItCanRun) {
   EXPECT_NE(fault.find("kicks_per_tau = 13.597"), std::string::npos) << fault;
   EXPECT_EQ(find_pace_fault(heated_lever(29.034, {{"time_scale", 0.3}}), 0.5), "");
   EXPECT_EQ(find_pace_fault(heated_lever(29.034, {{"pace", std::string("lockstep")}}), 0.5), "");
+}
+
+TEST(Advice, TheTrialOfATipThatSticksAndSlipsHasItsSlips) {
+  const auto crosses_a_cell = [](double load_n) {
+    Given given{{"spring_constant_n_per_m", 0.5},
+                {"resonance_hz", 20e3},
+                {"lateral_spring_constant_n_per_m", 2.0},
+                {"lattice_spacing_m", 0.246e-9},
+                {"drag_velocity", 5e-8}};
+    given["load_n"] = load_n;
+    Faults faults;
+    afm::Run run = trial_run(read(given, faults));
+    EXPECT_EQ(describe(faults), "");
+    double most = 0.0;
+    Batch batch;
+    for (int i = 0; i < 100; ++i) {
+      run.advance(run.now() + 0.1, 1000000, batch);
+      for (const double x : batch.lateral) most = std::max(most, std::abs(x));
+    }
+    return most > 1.0;
+  };
+  EXPECT_TRUE(crosses_a_cell(100e-9));
+  EXPECT_FALSE(crosses_a_cell(0.1e-9));
+}
+
+TEST(Advice, TheTipIsDescribedWithTheBathOfEitherSpring) {
+  Faults faults;
+  const std::string text = describe_tip(read({{"lateral_quality_factor", 20.0}, {"temperature_k", 300.0}}, faults));
+  EXPECT_NE(text.find("; lateral Q = 20 at 300 K, 29.034 kicks a tau"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ std::string describe_tip(const Parameters& parameters);
 // time-out of commands in lockstep.
 std::vector<std::string> find_traps(const Parameters& parameters);
 
+// The run that a trial goes on with. Undamped, a tip that has slipped swings for good, and a slow drag may take seconds
+// to its first slip: where the tip sticks and slips, it was dragged over a slip first.
+Run trial_run(const Parameters& parameters);
+
 // Model time per processor time of the run alone, without what it costs to publish, from a trial run of some
 // milliseconds.
 double measure_pace(const Parameters& parameters);

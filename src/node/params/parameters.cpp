@@ -102,6 +102,12 @@ void set_initial_state(Parameters& p) {
   if (!is_given && is_held_down(model)) p.initial = lowered_tip(model.H);
 }
 
+// A slow lever cannot be dragged as fast: the default of the limit gives way.
+void set_most_drag(Parameters& p) {
+  const double usual = Parameters().max_drag_velocity;
+  if (p.max_drag_velocity == usual) p.max_drag_velocity = std::min(usual, kMaxEta * Units(p.si).velocity());
+}
+
 std::string expand_home(const std::string& path) {
   const char* home = std::getenv("HOME");
   return home != nullptr && path.compare(0, 2, "~/") == 0 ? home + path.substr(1) : path;
@@ -161,7 +167,10 @@ Parameters read_parameters(Value tree, Faults& faults) {
   Faults of_values;
   check_files(parameters, of_values);
   add(set_lever_and_load(parameters.lever, parameters.load_n, parameters.si), of_values);
-  if (find_faults(parameters.si).empty()) set_initial_state(parameters);
+  if (find_faults(parameters.si).empty()) {
+    set_initial_state(parameters);
+    set_most_drag(parameters);
+  }
   parameters.bag_directory = expand_home(parameters.bag_directory);
   parameters.level_table = expand_home(parameters.level_table);
   for (const Fault& fault : find_faults(parameters)) of_values.push_back(fault);
