@@ -159,6 +159,13 @@ class SpoiledBags(SpoiledBag):
         self.of('snapshot')[0].edit(configuration=configuration)
         self.assert_reported(DIFFERS, 'restitution_gamma', 'of /afm/snapshot holds, and either may be wrong')
 
+    def test_the_time_of_a_snapshot(self):
+        snapshot = self.of('snapshot')[0]
+        time = snapshot.message().time
+        time.tau = 7
+        snapshot.edit(time=time)
+        self.assert_reported(UNCHECKED, 'the snapshot at model time 7 + 0 tau of epoch 0: ')
+
     def test_a_topic_is_filtered_out(self):
         self.spoil_each(
             (SOUND, ('IDENTICAL in what it holds; it holds no deflection',), True,

@@ -185,8 +185,13 @@ void RunCheck::begin_at(const Mark& mark) {
   in_force_ = node::to_parameters(configuration_);
   node::apply_to(in_force_, snapshot.applied);
   const Snapshot state = from_message(snapshot);
-  require_possible(in_force_, state.settings, "the snapshot at " + to_text(snapshot.time, snapshot.epoch));
-  run_.emplace(state);
+  const std::string where = "the snapshot at " + to_text(snapshot.time, snapshot.epoch);
+  require_possible(in_force_, state.settings, where);
+  try {
+    run_.emplace(state);
+  } catch (const ParameterError& fault) {
+    throw Problem(where + ": " + fault.what());
+  }
   note_beginning(mark);
   applied_ = snapshot.applied;
   // of its own epoch, and of nothing but what it says
