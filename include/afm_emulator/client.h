@@ -146,7 +146,14 @@ class Client {
       return;
     }
     subscribe<Deflection>("deflection", [this](const Deflection::ConstPtr& m) { batches_.push_back(m); });
-    subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) { impacts_.push_back(m); });
+    subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) {
+      if (!impacts_.empty() && m->header.seq <= impacts_.back()->header.seq &&
+          m->header.stamp <= impacts_.back()->header.stamp) {
+        restarted_ = true;  // on simulated time `applied` may be as it was
+        impacts_.clear();
+      }
+      impacts_.push_back(m);
+    });
     // batches of one topic without those of the other would count
     for (const ros::Subscriber& subscriber : subscribers_) {
       wait_for([&] { return subscriber.getNumPublishers() > 0; }, subscriber.getTopic());
@@ -187,6 +194,7 @@ class Client {
                           "The next call connects again");
     }
     if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
+    queue_.callAvailable();  // configuration() and applied() are the latest that have come
     return call.response;
   }
 

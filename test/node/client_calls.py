@@ -1,17 +1,37 @@
 #!/usr/bin/python3
 """client_calls.cpp in Python: a word in quotes is a text. usage: client_calls.py TIMEOUT"""
 import sys
+import threading
 
 from afm_emulator import ending
 import rospy
 from afm_emulator import Client, EmulatorError
+from afm_emulator.measurement import tau_between
 
 
 def argument(word):
     return None if word == '-' else word.strip("'") if word.startswith("'") else float(word)
 
 
+def control_in_threads(tip, *durations):
+    """The lengths of 100 periods of each, that it got [us]."""
+    found = [set() for _ in durations]
+
+    def control(duration, lengths):
+        for _ in range(100):
+            period = tip.control(duration)
+            lengths.add(round(1e6 * tip.tau_s * tau_between(period.begin, period.end)))
+    threads = [threading.Thread(target=control, args=each) for each in zip(durations, found)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return ' '.join(str(length) for lengths in found for length in lengths)
+
+
 def answer(tip, name, *words):
+    if name == 'control_in_threads':
+        return control_in_threads(tip, *map(argument, words))
     result = getattr(tip, name)(*map(argument, words))
     if name == 'control':
         return '%d %d %d %g' % (result.samples, result.applied, result.epoch, result.k_f_work)

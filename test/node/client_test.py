@@ -166,6 +166,11 @@ class Python(Claims, NodeTest):
     def program(self):
         return ['/usr/bin/python3', str(Path(__file__).with_name('client_calls.py'))]
 
+    def test_calls_from_several_threads_take_turns(self):
+        """As from callbacks of rospy."""
+        tip = self.start_both('lockstep')
+        self.assertEqual(tip.call('control_in_threads 1e-3 2e-3'), '1000 2000')
+
     def test_a_text_is_no_number(self):
         tip = self.start_both('lockstep')
         self.assertRegex(tip.call("control '0.01'"), '^EmulatorError: duration = ')

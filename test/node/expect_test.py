@@ -56,6 +56,24 @@ class Expect(NodeTest):
         self.assertRegex(said, r'friction/drag_velocity = \S+ at model time \S+ s: expected \S+ to inf from')
         self.assertTrue(list(self.results.glob('*.png')), said)
 
+    def test_what_was_applied_holds_until_the_next(self):
+        tip = self.start_emulator()
+
+        def judged(*speeds, **parameters):
+            rospy.ServiceProxy('/afm/reset', Trigger)()
+            node = self.node(field='applied/drag_velocity', after_s=0.06, for_s=0.08, **parameters)
+            wait_until(lambda: NAME in connected_to('/afm/applied'), 'it listens')
+            for speed in speeds:
+                tip.control(0.05, speed)
+            return self.end(node)
+        code, said = judged(2 * SPEED, None, None, value=2 * SPEED, within=1e-9)
+        self.assertEqual(code, 0, said)
+        code, said = judged(2 * SPEED, None, SPEED, value=SPEED, within=1e-9)
+        self.assertEqual(code, 1, said)
+        self.assertIn('at model time 0.06 s', said)
+        code, said = judged(2 * SPEED, None, SPEED, value=1.5 * SPEED, within=0.01 * SPEED, mean=True)  # 1 : 1
+        self.assertEqual(code, 0, said)
+
     def test_the_latest_epoch_is_judged(self):
         tip = self.start_emulator()
         node = self.node(field='friction/drag_velocity', value=2 * SPEED, within=1e-9, for_s=0.1)

@@ -58,7 +58,8 @@ class Client:
         than the 12 s after which the emulator itself answers that a control period takes too long.
 
     `configuration` and `applied` are the latest messages of these topics. They are there from the beginning. Every call
-    raises a rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file.
+    raises a rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file. Calls from several
+    threads, such as callbacks of rospy, take turns.
     """
 
     def __init__(self, name='afm', timeout=15.0):
@@ -69,6 +70,7 @@ class Client:
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
         self._restarted = False    # and no call has said so
+        self._turn = threading.RLock()  # of the call under way
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
         self._batches = None       # Deflection messages, while something is measured
@@ -125,12 +127,12 @@ class Client:
         duration = not_negative('duration', duration)
         drag_velocity = finite_or_none('drag_velocity', drag_velocity)
         rest_height = finite_or_none('rest_height', rest_height)
-        if not self.is_lockstep:
-            self._check_restart()
-            return self._measure(self.command_and_wait(drag_velocity, rest_height), duration)
-        request = ControlRequest(math.nan if drag_velocity is None else drag_velocity,
-                                 math.nan if rest_height is None else rest_height, duration)
-        answer = self._call_control(request)
+        with self._turn:
+            if not self.is_lockstep:
+                self._check_restart()
+                return self._measure(self.command_and_wait(drag_velocity, rest_height), duration)
+            answer = self._call_control(ControlRequest(math.nan if drag_velocity is None else drag_velocity,
+                                                       math.nan if rest_height is None else rest_height, duration))
         if not answer.success:
             raise EmulatorError('%s/control: %s' % (self.name, answer.message))
         return answer
@@ -146,16 +148,17 @@ class Client:
         rest_height = finite_or_none('rest_height', rest_height)
         if drag_velocity is None and rest_height is None:
             return self.applied
-        if self.is_lockstep:
-            self._forget_commanded()
-            answer = self.control(0.0, drag_velocity, rest_height)
-            return self._wait_for(lambda: next((m for m in self._commanded if (m.epoch, m.number) ==
-                                                (answer.epoch, answer.applied)), None), self.name + '/applied')
-        for topic, field, value in (('drag_velocity', 'drag_velocity', drag_velocity),
-                                    ('rest_height', 'rest_height_m', rest_height)):
-            if value is not None:
-                applied = self._command(topic, field, value)
-        return applied
+        with self._turn:
+            if self.is_lockstep:
+                self._forget_commanded()
+                answer = self.control(0.0, drag_velocity, rest_height)
+                return self._wait_for(lambda: next((m for m in self._commanded if (m.epoch, m.number) ==
+                                                    (answer.epoch, answer.applied)), None), self.name + '/applied')
+            for topic, field, value in (('drag_velocity', 'drag_velocity', drag_velocity),
+                                        ('rest_height', 'rest_height_m', rest_height)):
+                if value is not None:
+                    applied = self._command(topic, field, value)
+            return applied
 
     def mean_force(self, duration, settle=0.0, drag_velocity=None, rest_height=None):
         """Mean force of the holder on the tip along +x [N].
@@ -236,6 +239,10 @@ class Client:
     def _take(self, message):
         with self._news:
             if isinstance(message, ImpactArray):
+                if self._impacts and message.header.seq <= self._impacts[-1].header.seq and \
+                        message.header.stamp <= self._impacts[-1].header.stamp:
+                    self._restarted = True  # on simulated time `applied` may be as it was
+                    self._impacts.clear()
                 self._impacts.append(message)
                 if self._batches is None:
                     del self._impacts[:-KEPT_IMPACTS]
