@@ -254,6 +254,10 @@ class SpoiledBags(SpoiledBag):
         for paths in (parts, parts[::-1]):  # a shell may list them in another order
             self.assertEqual(checks.bag_check(*paths).code, SOUND)
             self.assertEqual(checks.replay_check(*paths).code, SOUND)
+        others = [self.directory / name for name in ('run_003.bag', 'run_20261128.bag')]  # names that users choose
+        for part, other in zip((parts[0], parts[2]), others):
+            other.write_bytes(part.read_bytes())
+        self.assertEqual(checks.bag_check(*others).code, SOUND)
         named = parts[2].rename(parts[2].with_name('run_002.bag.active'))  # as one that was killed and indexed again
         answer = checks.bag_check(parts[0], named)
         self.assertEqual(answer.code, DIFFERS, answer.text)
