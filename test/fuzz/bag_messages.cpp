@@ -1,6 +1,7 @@
 // A small recording, with messages altered, lost, doubled, moved and cut: replay_check ends in words, and what is not
 // as it was published is never called identical.
 #include <afm_emulator/EmulatorStatus.h>
+#include <sys/mman.h>
 #include <topic_tools/shape_shifter.h>
 #include <unistd.h>
 
@@ -14,8 +15,6 @@
 #include "target.h"
 #include "tools/bags/run_check.h"
 
-#include <sys/mman.h>
-
 // An altered length may ask for more memory than any machine has. That fails here above a gigabyte: the address
 // sanitizer would end the program instead.
 __attribute__((noinline)) void* operator new(std::size_t size) {
@@ -23,6 +22,9 @@ __attribute__((noinline)) void* operator new(std::size_t size) {
   void* const block = size > kMemory ? nullptr : std::malloc(size);
   if (block == nullptr) throw std::bad_alloc();
   return block;
+}
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // of std::stable_sort
+  return std::malloc(size);
 }
 // not inlined: GCC would see free() of what came from new
 __attribute__((noinline)) void operator delete(void* block) noexcept { std::free(block); }
@@ -173,7 +175,8 @@ bool is_identical(const std::string& path) {
   try {
     bool identical = true;
     for (const bags::Recording& recording : bags::open_recordings({path}, "")) {
-      bags::RunCheck check(recording, [](std::size_t, std::size_t) {}, kMostGap);
+      bags::RunCheck check(
+          recording, [](std::size_t, std::size_t) {}, kMostGap);
       check.run();
       identical = identical && !check.difference() && check.missing().empty() && check.extent().batches_unknown == 0;
     }
