@@ -23,9 +23,8 @@ const char kDescription[] =
     "estimator), k_f_work from the work of the drag (the definition; with a heat bath only this is friction). The\n"
     "true mean is within 1.96 k_f_std_error 95 times in 100, and so for k_f_work, whose error is too large\n"
     "where a bath heats a slow tip. Beside the table lies OUTPUT.settings: interrupted and started again, the same\n"
-    "command goes on where it was; with --sweep up or down it repeats the sweep of eta that was not finished. The "
-    "numbers\n"
-    "depend on nothing but the options that name them: not on threads or interruptions.";
+    "command goes on where it was; with --sweep up or down it repeats the sweep of eta that was not finished.\n"
+    "The numbers depend on nothing but the options that name them: not on threads or interruptions.";
 
 struct Options {
   std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", rest_height = "0", amplitude, frequency_ratio,

@@ -73,11 +73,12 @@ Run trial_run(const Parameters& p) {
   live.level = choose_level(p, settings).level;
   Run run(settings);
   const Model& m = settings.model;
-  // over omega_h^2: the steepest rise of the force along x with which the load holds the tip in a valley
-  const double hold = is_held_down(m) ? -m.y0 * m.H * kTwoPi * kTwoPi / (m.frequency_ratio * m.frequency_ratio) : 0.0;
-  if (hold > 1.0 && live.eta != 0.0 && !settings.bath.is_on()) {
+  // the load along a flank over the lateral spring: its most, as an extension [a], and its steepest rise along x
+  const double extension = is_held_down(m) ? -m.y0 * m.H * kTwoPi / (m.frequency_ratio * m.frequency_ratio) : 0.0;
+  const bool slips = kTwoPi * extension > 1.0 && live.eta != 0.0;
+  if (slips && !settings.bath.is_on()) {
     LiveSettings fast = live;
-    fast.eta = std::copysign(std::min(1.0 + hold / kTwoPi, kMaxEta), live.eta);
+    fast.eta = std::copysign(std::min(1.0 + extension, kMaxEta), live.eta);
     run.apply(fast);
     Batch batch = preallocated_batch(p);
     run.advance(run.now() + 1.0, kTrialImpacts, batch);

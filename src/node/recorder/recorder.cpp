@@ -53,17 +53,6 @@ std::string bag_base(const std::string& directory, const std::string& name) {
 
 }  // namespace
 
-std::int64_t free_bytes(const std::string& directory) {
-  std::error_code error;
-  for (fs::path path = fs::absolute(directory, error); !error; path = path.parent_path()) {
-    const fs::space_info room = fs::space(path, error);
-    if (!error) return static_cast<std::int64_t>(room.available);
-    if (!path.has_relative_path()) break;
-    error.clear();
-  }
-  return -1;
-}
-
 Recorder::Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot)
     : settings_(settings), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
 

@@ -20,9 +20,6 @@ namespace afm::node {
 // every bag of a split recording has a whole batch.
 enum class Role { ordinary, batch_end, configuration, applied, snapshot };
 
-// Free on the disk on which the directory is, or would be made [bytes]; negative: unknown.
-std::int64_t free_bytes(const std::string& directory);
-
 class Recorder {
  public:
   struct Settings {
