@@ -12,24 +12,15 @@ namespace afm::view {
 
 class Picture {
  public:
-  explicit Picture(const Look& look) : look_(look) {}
+  explicit Picture(double cells) : cells_(cells) {}
 
   visualization_msgs::MarkerArray draw(const RunView& run, ros::Time stamp);
 
  private:
-  // The points that one picture adds to the cloud.
-  struct Puff {
-    std::vector<Place> positions, impacts;
-  };
-  void gather(const RunView& run);
-  void draw_motion(Canvas& canvas, const RunView& run) const;
-  void draw_positions(Canvas& canvas) const;
-  void draw_impacts(Canvas& canvas, const Units& units, bool scattered) const;
-
-  const Look look_;
+  const double cells_;
   std::uint32_t epoch_ = 0;
-  ModelTime seen_;  // up to here
-  std::deque<Puff> cloud_;
+  ModelTime seen_;                                      // up to here
+  std::deque<std::vector<Place>> positions_, impacts_;  // what each of the last pictures added to the cloud
 };
 
 }  // namespace afm::view

@@ -1,5 +1,4 @@
-// A run as far as it is known, live or replayed. Topics come in any order: each message is kept by itself, and a
-// picture is drawn when all that it needs is of one epoch. Lengths in a, times in tau.
+// A run as far as it is known, live or replayed. Lengths in a, times in tau.
 #pragma once
 
 #include <afm_emulator/Applied.h>
@@ -22,7 +21,8 @@ namespace afm::view {
 constexpr double kPictureRate = 30.0;  // [1/s] of wall time
 constexpr double kPathTau = 8.0;       // how far back a path is drawn, at most [tau]
 
-// Where the tip was, in the lab; for an impact also what happened there.
+// Where the tip was, in the lab: along the surface, a crest at every whole number, and over mid-surface. For an impact
+// also what happened there.
 struct Place {
   ModelTime time;
   double x = 0.0, y = 0.0;
@@ -34,12 +34,13 @@ struct Place {
 class RunView {
  public:
   void take(const afm_emulator::Configuration& message);
-  void take(const afm_emulator::Applied& message);
+  void take(const afm_emulator::Applied& message) { applied_ = message; }
+  // Samples before a gap are forgotten; those of an epoch of which nothing else is known yet are not taken.
   void take(const afm_emulator::Deflection& message);
   void take(const afm_emulator::ImpactArray& message);
   void take(const afm_emulator::Friction& message) { friction_ = message; }
 
-  // False as long as something is missing. The functions below need it.
+  // False as long as something is missing, or is of another epoch. The functions below need it.
   bool complete() const;
 
   const afm_emulator::Configuration& configuration() const { return *configuration_; }
@@ -49,24 +50,13 @@ class RunView {
   const Model& model() const { return model_; }
 
   ModelTime now() const { return samples_.back().time; }
-  double holder_x(const ModelTime& time) const;  // along the surface, a crest at every whole number
-  double holder_y(const ModelTime& time) const;  // over mid-surface
-  double eta() const { return samples_.back().eta; }
+  Place holder() const { return holder_; }  // now
+  double eta() const { return eta_; }
   // Samples and impacts in (from, now()], in order of time. At most so many, evenly.
   std::vector<Place> samples_since(const ModelTime& from, std::size_t most) const;
   std::vector<Place> impacts_since(const ModelTime& from, std::size_t most) const;
 
  private:
-  struct Sample {
-    ModelTime time;
-    double holder, eta;
-    double X, Y;  // tip minus holder
-  };
-  // Of the holder from there on. In SI, as messages may come before the units.
-  struct Height {
-    ModelTime begin;
-    double metres;
-  };
   bool in_contact(const ModelTime& time) const;
   Place place(const afm_emulator::Impact& impact) const;
   void forget_old();
@@ -76,10 +66,11 @@ class RunView {
   std::optional<afm_emulator::Friction> friction_;
   std::optional<Units> units_;
   Model model_;
-  std::deque<Height> heights_;
-  std::deque<Sample> samples_;
+  Place holder_;
+  double eta_ = 0.0;
+  std::deque<Place> samples_;
   std::deque<afm_emulator::Impact> impacts_;
-  std::uint32_t heights_epoch_ = 0, samples_epoch_ = 0, impacts_epoch_ = 0;
+  std::uint32_t samples_epoch_ = 0, impacts_epoch_ = 0;
   std::uint64_t next_sample_ = 0, next_impact_ = 0;
   bool contact_before_ = false;  // the first impact kept
 };

@@ -9,13 +9,11 @@
 namespace afm::view {
 namespace {
 
-using visualization_msgs::Marker;
-
 constexpr double kCornersPerCell = 24.0;
 constexpr double kThickness = 0.25;    // of the block under the surface
 constexpr double kEdgeDepth = -0.005;  // before the block, which would hide half of it
 constexpr double kKeyLeft = -1.7, kKeyRight = 1.7, kKeyTop = -1.4, kKeyBottom = -1.52;
-constexpr int kKeySteps = 64;
+constexpr double kKeySteps = 64;
 
 // printf into a string; what does not fit is cut off.
 template <class... Values>
@@ -25,60 +23,45 @@ std::string text(const char* format, Values... values) {
   return buffer;
 }
 
-void add_quad(Marker& marker, const geometry_msgs::Point (&corners)[4], const std_msgs::ColorRGBA& colour) {
-  for (const int i : {0, 1, 2, 0, 2, 3}) {
-    marker.points.push_back(corners[i]);
+// From a line down to the bottom.
+void add_quad(Marker& marker, geometry_msgs::Point a, geometry_msgs::Point b, double bottom,
+              const std_msgs::ColorRGBA& colour) {
+  a.y = b.y = 0.0;
+  const auto under = [bottom](const geometry_msgs::Point& p) { return point(p.x, p.y, bottom); };
+  for (const auto& corner : {a, under(a), under(b), a, under(b), b}) {
+    marker.points.push_back(corner);
     marker.colors.push_back(colour);
   }
 }
 
-std::vector<geometry_msgs::Point> profile(const Canvas& canvas, const Model& model) {
-  std::vector<geometry_msgs::Point> corners;
+void draw_surface(Canvas& canvas, const Model& model) {
+  Marker& edge = canvas.add("surface", Marker::LINE_STRIP, edge_colour(), 0.02);
+  Marker& block = canvas.add("block", Marker::TRIANGLE_LIST, surface_colour());
+  const double bottom = -model.H * canvas.scale() - kThickness;
   const int steps = static_cast<int>(std::ceil((canvas.right() - canvas.left()) * kCornersPerCell));
   for (int i = 0; i <= steps; ++i) {
     const double x = canvas.left() + (canvas.right() - canvas.left()) * i / steps;
-    corners.push_back(canvas.place(x, surface_jet(model.H, x).h, kEdgeDepth));
-  }
-  return corners;
-}
-
-void draw_surface(Canvas& canvas, const Model& model) {
-  const auto corners = profile(canvas, model);
-  Marker& edge = canvas.add("surface", Marker::LINE_STRIP);
-  edge.points = corners;
-  edge.scale.x = 0.02;
-  edge.color = edge_colour();
-  Marker& block = canvas.add("block", Marker::TRIANGLE_LIST);
-  const double bottom = -model.H * canvas.scale() - kThickness;
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    const auto &a = corners[i], &b = corners[i + 1];
-    add_quad(block, {point(a.x, 0, a.z), point(a.x, 0, bottom), point(b.x, 0, bottom), point(b.x, 0, b.z)},
-             surface_colour());
+    edge.points.push_back(canvas.place(x, surface_jet(model.H, x).h, kEdgeDepth));
+    if (i > 0) add_quad(block, edge.points[i - 1], edge.points[i], bottom, surface_colour());
   }
 }
 
 void draw_length_scale(Canvas& canvas, const Units& units) {
-  const double left = -3.3, z = kKeyTop;
-  Marker& bar = canvas.add("length_scale", Marker::LINE_STRIP);
-  bar.points = {point(left, 0.0, z), point(left + canvas.scale(), 0.0, z)};
-  bar.scale.x = 0.03;
-  bar.color = text_colour();
-  canvas.add_text("length", text("%.3g nm", units.length() * 1e9), point(left + 0.5 * canvas.scale(), 0.0, z - 0.17),
-                  0.15);
+  const double left = -3.3, right = left + canvas.scale(), z = kKeyTop;
+  canvas.add("length_scale", Marker::LINE_STRIP, text_colour(), 0.03).points = {point(left, 0, z), point(right, 0, z)};
+  canvas.add_text("length", text("%.3g nm", units.length() * 1e9), point(0.5 * (left + right), 0, z - 0.17), 0.15);
 }
 
 void draw_key(Canvas& canvas, const Units& units) {
-  Marker& bar = canvas.add("key", Marker::TRIANGLE_LIST);
-  const auto along = [](double part) { return kKeyLeft + (kKeyRight - kKeyLeft) * part; };
-  for (int i = 0; i < kKeySteps; ++i) {
-    const double a = along(1.0 * i / kKeySteps), b = along((i + 1.0) / kKeySteps);
-    add_quad(bar, {point(a, 0, kKeyTop), point(a, 0, kKeyBottom), point(b, 0, kKeyBottom), point(b, 0, kKeyTop)},
-             EnergyScale::colour_at((i + 0.5) / kKeySteps));
+  Marker& bar = canvas.add("key", Marker::TRIANGLE_LIST, text_colour());
+  const auto along = [](double part) { return point(kKeyLeft + (kKeyRight - kKeyLeft) * part, 0.0, kKeyTop); };
+  for (double i = 0; i < kKeySteps; ++i) {
+    add_quad(bar, along(i / kKeySteps), along((i + 1) / kKeySteps), kKeyBottom, colour_on_scale((i + 0.5) / kKeySteps));
   }
-  const double top = EnergyScale(units.energy()).top() * 1e21;
-  for (int decade = 0; decade <= EnergyScale::kDecades; ++decade) {
-    canvas.add_text("key_" + std::to_string(decade), text("%g", top * std::pow(10.0, decade - EnergyScale::kDecades)),
-                    point(along(1.0 * decade / EnergyScale::kDecades), 0.0, kKeyBottom - 0.13), 0.14);
+  const double top = top_of_scale(units.energy()) * 1e21;
+  for (int decade = 0; decade <= kDecades; ++decade) {
+    canvas.add_text("key_" + std::to_string(decade), text("%g", top * std::pow(10.0, decade - kDecades)),
+                    point(along(1.0 * decade / kDecades).x, 0.0, kKeyBottom - 0.13), 0.14);
   }
   canvas.add_text("key_title", "energy lost in an impact [zJ]", point(0.0, 0.0, kKeyBottom - 0.35), 0.15);
   const double right = 2.75, row = 0.22, height = 0.16;

@@ -14,8 +14,7 @@ namespace {
 using namespace afm;
 using afm::view::RunView;
 
-constexpr unsigned kBatchesKept =
-    1000;  // a step in slow motion makes hundreds at once, and a gap would cut the path off
+constexpr unsigned kBatchesKept = 1000;  // a step in slow motion makes hundreds at once, and a gap cuts the path off
 
 template <class Message>
 ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned queue_size, RunView& run) {
@@ -26,8 +25,8 @@ ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned
 // Listens and keeps what it hears, as long as it is.
 class Looking {
  public:
-  Looking(ros::NodeHandle& emulator, const view::Look& look)
-      : picture_(look),
+  Looking(ros::NodeHandle& emulator, double cells)
+      : picture_(cells),
         subscribers_{
             subscribe<afm_emulator::Configuration>(emulator, node::kConfigurationTopic, node::kLatchedQueueSize, run_),
             subscribe<afm_emulator::Applied>(emulator, node::kAppliedTopic, node::kCommandQueueSize, run_),
@@ -48,10 +47,9 @@ class Looking {
 int main(int argc, char** argv) {
   ros::init(argc, argv, "afm_view");
   ros::NodeHandle handle("~");
-  view::Look look;
-  handle.param("cells", look.cells, look.cells);
-  if (!(look.cells >= 1.0 && look.cells <= 100.0)) {
-    ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", look.cells);
+  const double cells = handle.param("cells", 6.0);
+  if (!(cells >= 1.0 && cells <= 100.0)) {
+    ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", cells);
     return 1;
   }
   ros::NodeHandle emulator(handle.param<std::string>("emulator", "afm"));
@@ -59,7 +57,7 @@ int main(int argc, char** argv) {
   std::optional<Looking> looking;  // while somebody looks: otherwise nothing is listened to, and nothing is kept
   const auto draw = [&](const ros::WallTimerEvent&) {
     if (publisher.getNumSubscribers() == 0) return looking.reset();
-    if (!looking) looking.emplace(emulator, look);
+    if (!looking) looking.emplace(emulator, cells);
     publisher.publish(looking->draw());
   };
   // of wall time: a replay may come without a clock

@@ -54,7 +54,7 @@ class Picture:
         return [(p.x / SCALE, p.z / SCALE) for p in self.markers[name].points] if self.has(name) else []
 
     def tip(self):
-        return self.places('tip')[0]
+        return self.places('tip')[-1]
 
     def spots(self):
         return len(self.places('impacts')) + len(self.places('contacts'))
