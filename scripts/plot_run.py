@@ -83,6 +83,9 @@ def open_bag(path):
     try:
         with rosbag.Bag(path) as bag:
             yield bag
+    except rosbag.bag.ROSBagUnindexedException:
+        sys.exit('plot_run.py: %s: not closed: rosbag reindex recovers what is in it (take a copy while it is written)'
+                 % path)
     except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
         sys.exit('plot_run.py: %s: %s' % (path, str(fault) or type(fault).__name__))
 

@@ -22,23 +22,29 @@ parser.add_argument('duration', nargs='?', type=float, default=2000.0, help='of 
 options = parser.parse_args()
 
 
-def read(kind, name, *ways):
-    """The numbers of a file, which needs all the keys of one of the ways."""
+def read(kind, name, ways, more=frozenset()):
+    """The numbers of a file, which has all the keys of one of the ways, and may have more."""
     path = Path(name) if name.endswith('.yaml') else CONFIG / kind / (name + '.yaml')
     try:
-        values = {key: float(value) for key, value in yaml.safe_load(path.read_text()).items()}
+        # as texts: YAML would read 013000 as octal, and 1:30 as 90
+        values = {key: float(value) for key, value in yaml.load(path.read_text(), yaml.BaseLoader).items()}
     except (OSError, yaml.YAMLError) as fault:
         parser.error('%s: %s' % (path, ' '.join(str(fault).split())))
     except (AttributeError, TypeError, ValueError):
         parser.error('%s: must hold lines of a key and a number' % path)
     if not any(way <= set(values) for way in ways):
         parser.error('%s: must have %s' % (path, ', or '.join(', '.join(sorted(way)) for way in ways)))
+    foreign = set(values) - more.union(*ways)
+    if foreign:
+        parser.error('%s: says nothing of its %s by %s' % (path, kind[:-1], ', '.join(sorted(foreign))))
     return values
 
 
-lever = read('levers', options.lever, BY_SPRINGS, BY_MODEL)
-surface = read('surfaces', options.surface, {'lattice_spacing_m', 'surface_amplitude_m'})
+lever = read('levers', options.lever, (BY_SPRINGS, BY_MODEL), BATH)
+surface = read('surfaces', options.surface, ({'lattice_spacing_m', 'surface_amplitude_m'},))
 heat = {name: lever.pop(name) for name in BATH & set(lever)}
+if not heat.get('quality_factor'):
+    parser.error('%s: must have a quality_factor above 0: without one no bath heats it' % options.lever)
 eta = np.arange(0.25, 8.1, 0.25)
 try:
     units = afm.Units(load_n=options.load_n, **lever, **surface)

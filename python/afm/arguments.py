@@ -20,7 +20,11 @@ def number(name: str, value: Any) -> float:
 def array(name: str, values: Any, reason: str = 'must be numbers') -> np.ndarray:
     """The values as an array of any shape."""
     try:
-        return np.asarray(values + 0.0 if isinstance(values, (str, bytes)) else values, float)
+        given = np.ma.asarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
+        # a list of nothing has floats; times, texts, booleans and complex numbers are none
+        if given.dtype.kind not in 'iuf' or np.ma.is_masked(given):
+            raise ValueError
+        return np.asarray(given, float)
     except (TypeError, ValueError):
         raise ArgumentTypeError(name, values, reason) from None
 
@@ -55,12 +59,13 @@ def thread_count(value: Any) -> int:
 
 
 def _check(name, kind, value):
-    """kind: as pybind11 writes it, such as float, typing.SupportsFloat or afm._afm.Bath."""
+    """The value, a whole float as a whole number. kind: as pybind11 writes it, such as typing.SupportsFloat or
+    afm._afm.Bath."""
     last = kind.rsplit('.', 1)[-1]
     if last in ('float', 'SupportsFloat'):
         number(name, value)
     elif last in ('int', 'SupportsInt', 'SupportsIndex'):
-        count(name, value, most=2 ** 64 - 1)
+        return count(name, value, most=2 ** 64 - 1)
     elif last == 'str' and not isinstance(value, str):
         raise ArgumentTypeError(name, value, 'must be a text')
     elif kind.startswith('afm.') and type(value).__name__ != last:
@@ -68,6 +73,7 @@ def _check(name, kind, value):
     elif last in ('List', 'list', 'Sequence') and not (isinstance(value, (list, tuple)) and
                                                        {type(item).__name__ for item in value} <= {'Tip'}):
         raise ArgumentTypeError(name, value, 'must be a list of tips')
+    return value
 
 
 def _explained(call: Callable) -> Callable:
@@ -80,14 +86,15 @@ def _explained(call: Callable) -> Callable:
         except TypeError as fault:
             if 'incompatible' not in str(fault):
                 raise
-            for (name, kind), value in zip(kinds, arguments):
-                _check(name, kind, value)
-            for name, value in options.items():
+            for name in options:
                 if name not in dict(kinds):
                     raise TypeError('%s has no argument %s; it has %s' % (
                         type(self).__name__, name, ', '.join(dict(kinds)))) from None
-                _check(name, dict(kinds)[name], value)
-            raise
+            taken = [_check(name, kind, value) for (name, kind), value in zip(kinds, arguments)]
+            if len(taken) < len(arguments):
+                raise
+            return call(self, *taken, **{name: _check(name, dict(kinds)[name], value)
+                                         for name, value in options.items()})
     return explained
 
 

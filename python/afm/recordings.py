@@ -9,6 +9,7 @@ from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from ._afm import VERSION, Bath, Model, Run, Units, arithmetic_fingerprint
+from .errors import ArgumentTypeError
 from .values import Batch, ModelTime
 
 _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_spacing_m', 'surface_amplitude_m',
@@ -42,6 +43,9 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
                 kind = raw[0].split('/')[1]
                 message = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
                 yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message, stamp
+    except rosbag.bag.ROSBagUnindexedException as fault:
+        raise ValueError('%s: not closed: rosbag reindex recovers what is in it (take a copy while it is written)' %
+                         path) from fault
     except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
         if getattr(fault, 'filename', None):
             raise
@@ -100,7 +104,10 @@ class Recording:
     """
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
-        read, by_node = _read([path] if isinstance(path, (str, os.PathLike)) else path, namespace)
+        paths = [path] if isinstance(path, (str, os.PathLike)) else path
+        if not isinstance(paths, (list, tuple)) or not paths or not all(isinstance(p, (str, os.PathLike)) for p in paths):
+            raise ArgumentTypeError('path', path, 'must be the path of a bag, or a list of paths')
+        read, by_node = _read(paths, namespace)
         for kind, why in (('Snapshot', 'the state at its beginning'), ('Applied', 'what took effect'),
                           ('Friction', 'the end of the run')):
             if not read[kind]:

@@ -76,6 +76,8 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
     if not isinstance(sweep, str):
         raise ArgumentTypeError('sweep', sweep, 'must be fresh, up or down')
+    if progress is not None and not callable(progress):
+        raise ArgumentTypeError('progress', progress, 'must be a function of two numbers')
     if sweep != 'fresh' and not np.all(np.diff(axes[0]) > 0.0):
         raise ParameterError('eta', eta, 'must ascend where sweep is up or down')
     return _structured(*_afm.friction_curve(axes, chosen.kind, sweep, number('duration', duration),

@@ -15,6 +15,7 @@ EXAMPLES = Path(sys.argv[1] if len(sys.argv) > 1 else '.').resolve()
 LEVER = [str(EXAMPLES.parents[1] / 'config' / file) for file in ('levers/soft.yaml', 'surfaces/mica.yaml')]
 SMALL = {'friction_peaks': ['20'], 'bifurcations': ['5'], 'thermal_histogram': ['100000'],
          'friction_of_lever': LEVER + ['1e-10', '20']}
+SPRINGS = 'spring_constant_n_per_m: 0.2\nlateral_spring_constant_n_per_m: 80.0\n'
 BY_A_TEST_OF_ITS_OWN = {'read_bag', 'many_machines'}  # a recording; a cluster
 
 
@@ -37,7 +38,11 @@ class Examples(unittest.TestCase):
                 return str(path)
             for arguments, words in (([file('')], 'a key and a number'), ([file('- 1')], 'a key and a number'),
                                      ([file('resonance_hz: high')], 'a key and a number'), ([file('a: [')], '.yaml: '),
-                                     ([file('quality_factor: 100')], 'must have'), ([surface], 'must have'),
+                                     ([file('quality_factor: 100')], 'must have'),
+                                     ([file(SPRINGS + 'resonance_hz: 1:30')], 'a key and a number'),
+                                     ([file(SPRINGS + 'resonance_hz: 13e3')], 'a quality_factor above 0'),
+                                     ([file(SPRINGS + 'resonance_hz: 13e3\nrestitution_gamma: 0.5')],
+                                      'says nothing of its lever by restitution_gamma'), ([surface], 'must have'),
                                      ([good, file('lattice_spacing_m: 4.0e-10')], 'surface_amplitude_m'),
                                      ([good, file('lattice_spacing_m: 0.4\nsurface_amplitude_m: 5.0e-11')],
                                       'lattice_spacing_m = 0.4'),

@@ -100,6 +100,11 @@ class Errors(unittest.TestCase):
                            ('sample_period', lambda: afm.Run(sample_period='short')),
                            ('impacts', lambda: run.advance(10, 'all')), ('cutoff', lambda: run.apply(cutoff='low')),
                            ('eta', lambda: afm.friction_curve('all')), ('eta', lambda: afm.friction_curve([[1], [2]])),
+                           ('eta', lambda: afm.friction_curve([None])), ('eta', lambda: afm.friction_curve([2 + 1j])),
+                           ('eta', lambda: afm.friction_curve(np.ma.array([2., 3.], mask=[1, 0]))),
+                           ('eta', lambda: afm.friction_curve(np.array([2], 'm8[s]'))),
+                           ('progress', lambda: afm.friction_curve(2, duration=1, progress=3)),
+                           ('path', lambda: afm.from_bag([])), ('path', lambda: afm.from_bag(b'run.bag')),
                            ('duration', lambda: afm.friction_curve(2, duration='long')),
                            ('seed', lambda: afm.friction_curve(2, seed='one')),
                            ('bath', lambda: afm.friction_curve(2, bath=0.9)),
@@ -116,9 +121,12 @@ class Errors(unittest.TestCase):
                 with self.assertRaises(afm.ArgumentTypeError) as caught:
                     call()
                 self.assertEqual(caught.exception.name, name)
-                self.assertRegex(str(caught.exception), name + ' = .*: must be ')
+                self.assertRegex(str(caught.exception), '(?s)' + name + ' = .*: must be ')
                 self.assertIsInstance(caught.exception, (TypeError, afm.ParameterError))
         self.assertRaisesRegex(TypeError, 'Model has no argument colour', afm.Model, colour=1)
+
+    def test_a_whole_float_is_a_whole_number(self):
+        self.assertEqual(len(afm.Tip().samples(0.1, 5.0)), 5)
 
     def test_all_faults_of_a_call_are_there(self):
         with self.assertRaises(afm.ParameterError) as caught:

@@ -2,6 +2,7 @@
 tests what the recorder refuses, and how a recording ends by itself."""
 import itertools
 import os
+import shutil
 import signal
 import subprocess
 
@@ -76,6 +77,21 @@ class Recording(NodeTest):
         for path in paths:
             checks.assert_identical(self, path)
         checks.assert_identical(self, *paths[1:])  # the status goes on between them
+
+    def test_a_copy_is_read_while_the_recording_goes_on(self):
+        emulator, deflection = self.record(record=True), Topic('deflection')
+        deflection.wait_for(lambda m: m.first_sample > 300000, 'one and a half seconds')
+        active, = self.directory.iterdir()
+        answer = checks.replay_check(active)
+        self.assertEqual(answer.code, checks.UNCHECKED, answer.text)
+        self.assertIn('take a copy while it is written', answer.text)
+        copy = self.directory / 'copy.bag'
+        shutil.copy(str(active), str(copy))
+        subprocess.run(['rosbag', 'reindex', str(copy)], check=True, stdout=subprocess.DEVNULL)
+        checks.assert_identical(self, copy)
+        deflection.wait_for_more(50)
+        self.end(emulator)
+        checks.assert_identical(self, active.with_suffix(''))
 
     def test_killed(self):
         emulator, deflection = self.record(record=True), Topic('deflection')

@@ -70,8 +70,8 @@ File open(const std::string& path) {
       file.bag->open(path, rosbag::bagmode::Read);
       file.nodes = nodes_of(*file.bag);
     } catch (const std::exception& error) {
-      fault =
-          error.what() + ("; if it was not closed or is damaged, `rosbag reindex " + path) + "` recovers what is in it";
+      fault = error.what() + ("; if it was not closed or is damaged, `rosbag reindex " + path) +
+              "` recovers what is in it (take a copy while it is written)";
     }
   }
   if (!fault.empty()) throw Problem(path + ": " + fault);
