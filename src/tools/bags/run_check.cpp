@@ -17,8 +17,6 @@ namespace {
 using node::from_message;
 using node::to_message;
 
-constexpr std::uint64_t kAnyNumber = std::numeric_limits<std::uint64_t>::max();
-
 std::string to_text(const afm_emulator::ModelTime& time, std::uint32_t epoch) {
   char text[96];
   std::snprintf(text, sizeof text, "model time %" PRId64 " + %.17g tau of epoch %" PRIu32, time.tau, time.phase, epoch);
@@ -246,7 +244,7 @@ void RunCheck::settle() {
     if (batch && from_message(batch->begin) == run_->now() && batch->first_impact == run_->impacts()) {
       check_batch();
     } else {
-      run_->advance(run_->now(), kAnyNumber, batch_);
+      run_->advance(run_->now(), run_->settings().impact_budget, batch_);
     }
   }
 }
@@ -289,13 +287,14 @@ void RunCheck::check_batch() {
   extent_.impacts += impacts ? batch_.impacts.size() : 0;
 }
 
-// As the emulator did.
+// As the emulator did: no batch has more impacts than its budget, and one that ended by its time has not spent it.
 void RunCheck::advance(const afm_emulator::Friction& recorded) {
   const ModelTime end = from_message(recorded.time);
-  if (recorded.impact_limit > 0) {
-    run_->advance(kEndOfTime, recorded.impact_limit, batch_);
+  const std::uint64_t limit = recorded.impact_limit, budget = run_->settings().impact_budget;
+  if (limit > 0) {
+    run_->advance(kEndOfTime, std::min(limit, budget), batch_);
   } else {
-    run_->advance(is_possible(end) && run_->now() <= end ? end : run_->now(), kAnyNumber, batch_);
+    run_->advance(is_possible(end) && run_->now() <= end ? end : run_->now(), budget, batch_);
   }
 }
 
@@ -305,7 +304,9 @@ void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) 
   if (!is_possible(time) || time - run_->now() > most_gap_) return;
   while (run_->now() < time || (run_->now() == time && run_->impacts() < impacts)) {
     const bool impacts_lack = run_->impacts() < impacts;
-    run_->advance(impacts_lack ? kEndOfTime : time, impacts_lack ? impacts - run_->impacts() : kAnyNumber, batch_);
+    const std::uint64_t budget = run_->settings().impact_budget;
+    run_->advance(impacts_lack ? kEndOfTime : time, impacts_lack ? std::min(impacts - run_->impacts(), budget) : budget,
+                  batch_);
   }
 }
 
