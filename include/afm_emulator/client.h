@@ -138,6 +138,8 @@ class Client {
         impacts_.clear();
       }
       applied_ = m;
+      recently_applied_.push_back(m);
+      if (recently_applied_.size() > kKeptApplied) recently_applied_.pop_front();
     });
     wait_for([this] { return configuration_ != nullptr; }, name_ + "/configuration");
     wait_for([this] { return applied_ != nullptr; }, name_ + "/applied");
@@ -243,6 +245,7 @@ class Client {
 
  private:
   static constexpr std::size_t kKeptImpacts = 100;  // messages before a measurement: a second at the default rate
+  static constexpr std::size_t kKeptApplied = 1000;
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside
   static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted
@@ -359,7 +362,7 @@ class Client {
       throw EmulatorError(name_ + "/impacts: " + std::to_string(measurement.lost()) +
                           " messages were lost while it was measured");
     }
-    return measurement.answer(*applied_, {tau(), vertical_stiffness(), lateral_stiffness()});
+    return measurement.answer(recently_applied_, {tau(), vertical_stiffness(), lateral_stiffness()});
   }
 
   ros::NodeHandle node_;
@@ -373,6 +376,7 @@ class Client {
   TimedCall timed_call_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
+  std::deque<Applied::ConstPtr> recently_applied_;
   std::deque<Deflection::ConstPtr> batches_;
   std::deque<ImpactArray::ConstPtr> impacts_;
 };

@@ -7,8 +7,10 @@
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/ModelTime.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <optional>
 
@@ -27,11 +29,12 @@ class Measurement {
   };
 
   // since: in force at its begin
-  explicit Measurement(const Applied& since) : since_(since), begin_(since.time) {}
+  explicit Measurement(const Applied& since) : since_(since), begin_(since.time), last_begin_(since.time) {}
 
   void add(const Deflection& batch) {
     if (!last_) begin_ = batch.time, first_ = batch.header.seq;
     last_ = batch.header.seq;
+    last_begin_ = batch.time;
     same_speed_ = same_speed_ && batch.drag_velocity == since_.drag_velocity;
     samples_ += batch.vertical.size();
     for (const double y : batch.vertical) vertical_ += y, vertical_squares_ += y * y;
@@ -51,8 +54,8 @@ class Measurement {
   const std::optional<std::uint32_t>& last() const { return last_; }  // header.seq of the last batch
   std::uint32_t lost() const { return last_ ? *last_ - first_ + 1 - with_impacts_ : 0; }  // batches without impacts
 
-  // As the emulator gives it in lockstep. latest: of the Applied messages.
-  Control::Response answer(const Applied& latest, const Lever& lever) const {
+  // As the emulator gives it in lockstep. applied: the messages since its begin.
+  Control::Response answer(const std::deque<Applied::ConstPtr>& applied, const Lever& lever) const {
     Control::Response r;
     r.success = true;
     r.epoch = since_.epoch;
@@ -61,8 +64,11 @@ class Measurement {
     const double n = static_cast<double>(samples_), total = begin_.phase + seconds_ / lever.tau_s;
     r.end.tau = begin_.tau + static_cast<std::int64_t>(std::floor(total));
     r.end.phase = total - std::floor(total);
-    const bool holds = latest.epoch == since_.epoch && tau_between(latest.time, r.end) > 0.0;
-    r.applied = holds ? latest.number : since_.number;
+    r.applied = since_.number;
+    for (const Applied::ConstPtr& m : applied) {  // they act where a batch begins
+      const bool holds = m->epoch == since_.epoch && tau_between(m->time, last_begin_) >= 0.0;
+      if (holds) r.applied = std::max(r.applied, m->number);
+    }
     r.mean_vertical = vertical_ / n;
     r.rms_vertical = std::sqrt(vertical_squares_ / n);
     r.mean_lateral_force = impulse_ / seconds_;
@@ -79,8 +85,8 @@ class Measurement {
 
  private:
   const Applied since_;
-  ModelTime begin_;
-  std::uint32_t first_ = 0;  // header.seq
+  ModelTime begin_, last_begin_;  // the latter of the last batch
+  std::uint32_t first_ = 0;       // header.seq
   std::optional<std::uint32_t> last_;
   bool same_speed_ = true;
   double seconds_ = 0.0, impulse_ = 0.0;

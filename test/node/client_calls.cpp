@@ -4,6 +4,7 @@
 #include <afm_emulator/client.h>
 
 #include <cstdlib>
+#include <iomanip>
 #include <iostream>
 
 using afm_emulator::Client;
@@ -19,7 +20,8 @@ std::string answer(Client& tip, std::istream& line) {
   std::ostringstream text;
   if (name == "control") {
     const afm_emulator::Control::Response r = tip.control(*given[0], given[1], given[2]);
-    text << r.samples << ' ' << r.applied << ' ' << r.epoch << ' ' << r.k_f_work;
+    text << r.samples << ' ' << r.applied << ' ' << r.epoch << ' ' << r.k_f_work << ' ' << std::fixed
+         << std::setprecision(9) << static_cast<double>(r.end.tau) + r.end.phase;
   } else if (name == "command_and_wait") {
     const afm_emulator::Applied m = tip.command_and_wait(given[0], given[1]);
     text << m.number << ' ' << m.drag_velocity << ' ' << m.rest_height_m;

@@ -34,7 +34,8 @@ def answer(tip, name, *words):
         return control_in_threads(tip, *map(argument, words))
     result = getattr(tip, name)(*map(argument, words))
     if name == 'control':
-        return '%d %d %d %g' % (result.samples, result.applied, result.epoch, result.k_f_work)
+        return '%d %d %d %g %.9f' % (result.samples, result.applied, result.epoch, result.k_f_work,
+                                     result.end.tau + result.end.phase)
     if name == 'command_and_wait':
         return '%d %g %g' % (result.number, result.drag_velocity, result.rest_height_m)
     return '%g' % result

@@ -7,8 +7,11 @@ import subprocess
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import roslib.packages
+from afm_emulator.measurement import Measurement
+from afm_emulator.msg import Applied, Deflection, ModelTime
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
 from topics import DEADLINE_S, PATIENCE, Topic
@@ -117,8 +120,23 @@ class Claims:
         tip.begin('control 1')
         Topic('deflection').wait_for_more(20)
         self.emulator.publisher('drag_velocity').publish(2.0 * SPEED_UNIT)
-        samples, applied, _, friction = self.numbers(tip.answer())
+        samples, applied, _, friction, _ = self.numbers(tip.answer())
         self.assertEqual((applied, math.isnan(friction)), (1, True))
+
+    def test_the_number_of_what_is_in_force_at_the_end_of_a_period(self):
+        """While another commands."""
+        tip = self.start_both('real_time')
+        applied, deflection = Topic('applied'), Topic('deflection')
+        heights = self.emulator.publisher('rest_height')
+        tip.begin('control 0.2')
+        for i in range(60):  # a batch takes 0.01 s
+            deflection.wait_for_next()
+            heights.publish(-1e-10 - 1e-13 * i)
+        _, number, _, _, end = self.numbers(tip.answer())
+        before = [m.number for m in applied.messages if m.time.tau + m.time.phase < end - 1e-6]
+        self.assertEqual(number, before[-1])
+        self.assertGreater(number, 1)
+        self.assertGreater(applied.messages[-1].number, number)
 
     def test_a_command_returns_its_own_message(self):
         for pace in ('lockstep', 'real_time'):
@@ -165,6 +183,15 @@ class Claims:
 class Python(Claims, NodeTest):
     def program(self):
         return ['/usr/bin/python3', str(Path(__file__).with_name('client_calls.py'))]
+
+    def test_what_took_effect_after_the_end_does_not_hide_what_did_before(self):
+        lever = SimpleNamespace(tau_s=TAU_S, stiffness=1.0, lateral_stiffness=1.0)
+        period = Measurement(Applied(number=3, time=ModelTime(10, 0.0)), lever)
+        for tau in (20, 21):
+            period.add(Deflection(time=ModelTime(tau, 0.5), sample_period=TAU_S, vertical=[0.0], lateral=[0.0]))
+        applied = [Applied(number=4 + i, time=ModelTime(tau, 0.5)) for i, tau in enumerate((19, 20, 21, 22, 23))]
+        self.assertEqual(period.answer(applied).applied, 6)
+        self.assertEqual(period.answer([]).applied, 3)
 
     def test_calls_from_several_threads_take_turns(self):
         """As from callbacks of rospy."""

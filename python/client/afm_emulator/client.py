@@ -336,4 +336,5 @@ class Client:
             lost = measurement.add_impacts(self._impacts)
         if lost:
             raise EmulatorError('%s/impacts: %d messages were lost while it was measured' % (self.name, lost))
-        return measurement.answer(self.applied)
+        with self._news:
+            return measurement.answer(list(self._commanded))

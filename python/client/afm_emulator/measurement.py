@@ -20,7 +20,7 @@ class Measurement:
         self.seconds = 0.0  # of model time
         self.first = self.last = None  # header.seq of the batches; None: there is none yet
         self._since, self._lever = applied, lever
-        self._begin = applied.time
+        self._begin = self._last_begin = applied.time
         self._samples, self._impulse = 0, 0.0
         self._vertical = self._vertical_squares = self._lateral_squares = 0.0
         self._impacts = []
@@ -30,7 +30,7 @@ class Measurement:
         """A Deflection message."""
         if self.first is None:
             self._begin, self.first = batch.time, batch.header.seq
-        self.last = batch.header.seq
+        self.last, self._last_begin = batch.header.seq, batch.time
         self._same_speed = self._same_speed and batch.drag_velocity == self._since.drag_velocity
         self._samples += len(batch.vertical)
         self._vertical += sum(batch.vertical)
@@ -49,14 +49,15 @@ class Measurement:
         return self.last - self.first + 1 - len(of_period)
 
     def answer(self, applied):
-        """A ControlResponse, as the emulator gives it in lockstep. applied: the latest Applied message."""
+        """A ControlResponse, as the emulator gives it in lockstep. applied: the Applied messages since its begin."""
         r = ControlResponse(success=True, epoch=self._since.epoch)
         samples, seconds = self._samples or math.nan, self.seconds or math.nan
         r.begin, r.samples = self._begin, self._samples
         total = r.begin.phase + self.seconds / self._lever.tau_s
         r.end.tau, r.end.phase = r.begin.tau + math.floor(total), total - math.floor(total)
-        holds = applied.epoch == self._since.epoch and tau_between(applied.time, r.end) > 0.0
-        r.applied = applied.number if holds else self._since.number
+        # they act where a batch begins
+        r.applied = max([self._since.number] + [m.number for m in applied if m.epoch == self._since.epoch and
+                                                tau_between(m.time, self._last_begin) >= 0.0])
         r.mean_vertical = self._vertical / samples
         r.rms_vertical = math.sqrt(self._vertical_squares / samples)
         r.mean_lateral_force = self._impulse / seconds
