@@ -207,17 +207,19 @@ class Client {
     check_finite("rest_height", rest_height);
     queue_.callAvailable();  // what came until here is older than the command
     if (!drag_velocity && !rest_height) return *applied_;
+    Applied::ConstPtr mine;
     if (is_lockstep()) {
-      const Applied::ConstPtr before = applied_;
+      recently_applied_.clear();
       const Control::Response answer = control(0.0, drag_velocity, rest_height);
-      wait_for(
-          [&] { return applied_ != before && applied_->epoch == answer.epoch && applied_->number == answer.applied; },
-          name_ + "/applied");
+      const auto is_mine = [&](const Applied& m) { return m.epoch == answer.epoch && m.number == answer.applied; };
+      wait_for([&] { return (mine = recently_applied(is_mine)) != nullptr; }, name_ + "/applied");
     } else {
-      command(drag_publisher_, drag_velocity, &Applied::drag_velocity);
-      command(height_publisher_, rest_height, &Applied::rest_height_m);
+      check_restart();
+      if (drag_velocity) mine = command(drag_publisher_, *drag_velocity, &Applied::drag_velocity);
+      if (rest_height) mine = command(height_publisher_, *rest_height, &Applied::rest_height_m);
+      check_restart();
     }
-    return *applied_;
+    return *mine;
   }
 
   // Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after
@@ -316,18 +318,28 @@ class Client {
       throw EmulatorError(what + ": nothing came within " + text(timeout_ + longer) + " s");
   }
 
+  // The first of these messages that is so, or nothing: others may command, too, and theirs come after it.
+  template <class Condition>
+  Applied::ConstPtr recently_applied(Condition is_so) const {
+    const auto found = std::find_if(recently_applied_.begin(), recently_applied_.end(),
+                                    [&](const Applied::ConstPtr& m) { return is_so(*m); });
+    return found == recently_applied_.end() ? nullptr : *found;
+  }
+
   // The emulator reports every command, also one of the value that holds already.
-  void command(const ros::Publisher& publisher, Command value, double Applied::*field) {
-    if (!value) return;
-    const Applied::ConstPtr before = applied_;
+  Applied::ConstPtr command(const ros::Publisher& publisher, double value, double Applied::*field) {
+    const auto is_mine = [&](const Applied& m) { return m.*field == value; };
+    Applied::ConstPtr mine;
+    recently_applied_.clear();
     const double end = ros::WallTime::now().toSec() + timeout_;
     do {
       if (ros::WallTime::now().toSec() > end) {
-        throw EmulatorError(publisher.getTopic() + ": " + text(*value) + " had no effect within " + timeout() +
+        throw EmulatorError(publisher.getTopic() + ": " + text(value) + " had no effect within " + timeout() +
                             ": refused, or no emulator there?");
       }
-      publisher.publish(to_message(*value));
-    } while (!comes_true([&] { return applied_ != before && (*applied_).*field == *value; }, kAgain));
+      publisher.publish(to_message(value));
+    } while (!comes_true([&] { return (mine = recently_applied(is_mine)) != nullptr; }, kAgain));
+    return mine;
   }
 
   // As the emulator measures in lockstep, from the batches that it publishes.
@@ -376,7 +388,7 @@ class Client {
   TimedCall timed_call_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
-  std::deque<Applied::ConstPtr> recently_applied_;
+  std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
   std::deque<Deflection::ConstPtr> batches_;
   std::deque<ImpactArray::ConstPtr> impacts_;
 };

@@ -113,6 +113,23 @@ class Claims:
         self.emulator = self.start(Emulator({'pace': 'real_time'}))
         self.assertRegex(tip.answer(), 'EmulatorError: /afm: .*restarted')
         self.assertGreater(self.numbers(tip.call('control 0.01'))[0], 1999)
+        self.emulator.child.kill()
+        tip.begin('command_and_wait 3e-6')  # waits for the emulator
+        self.emulator = self.start(Emulator({'pace': 'real_time'}))
+        self.assertRegex(tip.answer(), 'EmulatorError: /afm: .*restarted')
+        self.assertEqual(self.numbers(tip.call('command_and_wait 4e-6'))[1], 4e-6)
+
+    def test_a_command_is_found_among_those_of_others(self):
+        """The client in C++ looked at the latest message alone, and waited in vain."""
+        tip = self.start_both('lockstep')
+        others = [self.start(Calls(self.program())) for _ in range(2)]
+        for i in range(100):
+            for j, other in enumerate(others):
+                other.begin('control 0 %r' % (1e-6 * (2 + j)))
+            number, velocity, _ = self.numbers(tip.call('command_and_wait 4e-6'))
+            self.assertEqual(velocity, 4e-6)
+            for other in others:
+                self.numbers(other.answer())
 
     def test_a_speed_that_changes_has_no_friction_coefficient(self):
         tip = self.start_both('real_time')

@@ -32,7 +32,7 @@ def finite(name, value, wanted='a finite number'):
     """The value as a float. An EmulatorError names an argument that is no finite number."""
     try:
         number = math.nan if isinstance(value, (str, bytes)) else float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
         raise EmulatorError('%s = %r: must be %s' % (name, value, wanted))
@@ -154,10 +154,12 @@ class Client:
                 answer = self.control(0.0, drag_velocity, rest_height)
                 return self._wait_for(lambda: next((m for m in self._commanded if (m.epoch, m.number) ==
                                                     (answer.epoch, answer.applied)), None), self.name + '/applied')
+            self._check_restart()
             for topic, field, value in (('drag_velocity', 'drag_velocity', drag_velocity),
                                         ('rest_height', 'rest_height_m', rest_height)):
                 if value is not None:
                     applied = self._command(topic, field, value)
+            self._check_restart()
             return applied
 
     def mean_force(self, duration, settle=0.0, drag_velocity=None, rest_height=None):
