@@ -233,15 +233,14 @@ class Client {
       for_periods(settle, drag_velocity, rest_height, ignore);
       drag_velocity = rest_height = kAsItIs;
     }
-    double samples = 0.0, mean = 0.0;
+    double time = 0.0, mean = 0.0;
     for_periods(duration, drag_velocity, rest_height, [&](const Control::Response& answer) {
-      if (answer.samples == 0) return;
-      const double more = static_cast<double>(answer.samples);
-      samples += more;
-      mean += more / samples * (answer.mean_lateral_force - mean);
+      const double more = tau_between(answer.begin, answer.end);
+      if (!(more > 0.0)) return;
+      time += more;
+      mean += more / time * (answer.mean_lateral_force - mean);
     });
-    if (samples == 0.0)
-      throw EmulatorError("duration = " + text(duration) + " s: too short, there is no sample within");
+    if (time == 0.0) throw EmulatorError("duration = " + text(duration) + " s: too short, no time passes in it");
     return mean;
   }
 
@@ -330,15 +329,17 @@ class Client {
   Applied::ConstPtr command(const ros::Publisher& publisher, double value, double Applied::*field) {
     const auto is_mine = [&](const Applied& m) { return m.*field == value; };
     Applied::ConstPtr mine;
-    recently_applied_.clear();
     const double end = ros::WallTime::now().toSec() + timeout_;
+    const auto left = [&] { return end - ros::WallTime::now().toSec(); };
+    comes_true([&] { return publisher.getNumSubscribers() > 0; }, timeout_);
+    recently_applied_.clear();
     do {
-      if (ros::WallTime::now().toSec() > end) {
+      if (left() < 0.0) {
         throw EmulatorError(publisher.getTopic() + ": " + text(value) + " had no effect within " + timeout() +
                             ": refused, or no emulator there?");
       }
       publisher.publish(to_message(value));
-    } while (!comes_true([&] { return (mine = recently_applied(is_mine)) != nullptr; }, kAgain));
+    } while (!comes_true([&] { return (mine = recently_applied(is_mine)) != nullptr; }, std::min(kAgain, left())));
     return mine;
   }
 
@@ -351,7 +352,8 @@ class Client {
     Measurement measurement(since);
     std::uint64_t expected = 0;  // running index of the next sample; 0: not known
     while (measurement.seconds() < duration) {
-      wait_for([this] { return !batches_.empty(); }, name_ + "/deflection", duration / configuration_->time_scale);
+      wait_for([this] { return !batches_.empty(); }, name_ + "/deflection (is the emulator paused?)",
+               duration / configuration_->time_scale);
       const Deflection::ConstPtr batch = batches_.front();
       batches_.pop_front();
       check_restart();

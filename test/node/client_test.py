@@ -155,6 +155,14 @@ class Claims:
         self.assertGreater(number, 1)
         self.assertGreater(applied.messages[-1].number, number)
 
+    def test_thousands_of_impacts_a_batch(self):
+        """The client in Python unpacked each, fell behind, and lost messages."""
+        tip = self.start_both('real_time')
+        self.numbers(tip.call('command_and_wait 1e-6'))
+        for _ in range(4):
+            self.numbers(tip.call('control 0.5'))
+        self.assertEqual(Topic('status').wait_for().dropped_messages, 0)
+
     def test_a_command_returns_its_own_message(self):
         for pace in ('lockstep', 'real_time'):
             tip = self.start_both(pace)

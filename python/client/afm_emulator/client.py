@@ -11,8 +11,9 @@ import time
 
 import rospy
 from afm_emulator.connection import Connection
+from afm_emulator.impacts import order_of
 from afm_emulator.measurement import Measurement, tau_between
-from afm_emulator.msg import Applied, Configuration, Deflection, ImpactArray
+from afm_emulator.msg import Applied, Configuration, Deflection
 from afm_emulator.srv import Control, ControlRequest
 from std_msgs.msg import Float64
 
@@ -74,7 +75,7 @@ class Client:
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
         self._batches = None       # Deflection messages, while something is measured
-        self._impacts = []         # ImpactArray messages: those of a batch may come before it
+        self._impacts = []         # (sequence number, stamp, bytes) of ImpactArray: those of a batch may come before it
         self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
                                                    tcp_nodelay=True)
                             for topic in ('drag_velocity', 'rest_height')}
@@ -86,9 +87,9 @@ class Client:
         if self.is_lockstep:
             self._call_control()  # its service is advertised after the topics
             return  # the answers of the service hold what is measured
-        measured = [rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._take, tcp_nodelay=True,
-                                     buff_size=QUEUE_BYTES)
-                    for topic, kind in (('deflection', Deflection), ('impacts', ImpactArray))]
+        measured = [rospy.Subscriber('%s/%s' % (self.name, topic), kind, take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
+                    for topic, kind, take in (('deflection', Deflection, self._take_batch),
+                                              ('impacts', rospy.AnyMsg, self._take_impacts))]
         for subscriber in measured:  # batches of one topic without those of the other would count
             self._wait_for(lambda: subscriber.get_num_connections() > 0, subscriber.resolved_name)
 
@@ -177,13 +178,14 @@ class Client:
             for _ in self._periods(settle, drag_velocity, rest_height):
                 pass
             drag_velocity = rest_height = None
-        samples, mean = 0, 0.0
+        tau, mean = 0.0, 0.0
         for answer in self._periods(duration, drag_velocity, rest_height):
-            if answer.samples > 0:
-                samples += answer.samples
-                mean += answer.samples / samples * (answer.mean_lateral_force - mean)
-        if samples == 0:
-            raise EmulatorError('duration = %g s: too short, there is no sample within' % duration)
+            more = tau_between(answer.begin, answer.end)
+            if more > 0.0:
+                tau += more
+                mean += more / tau * (answer.mean_lateral_force - mean)
+        if tau == 0.0:
+            raise EmulatorError('duration = %g s: too short, no time passes in it' % duration)
         return mean
 
     def _periods(self, duration, drag_velocity, rest_height):
@@ -238,18 +240,22 @@ class Client:
                 self._commanded.append(message)
             self._news.notify_all()
 
-    def _take(self, message):
+    def _take_batch(self, message):
         with self._news:
-            if isinstance(message, ImpactArray):
-                if self._impacts and message.header.seq <= self._impacts[-1].header.seq and \
-                        message.header.stamp <= self._impacts[-1].header.stamp:
-                    self._restarted = True  # on simulated time `applied` may be as it was
-                    self._impacts.clear()
-                self._impacts.append(message)
-                if self._batches is None:
-                    del self._impacts[:-KEPT_IMPACTS]
-            elif self._batches is not None:
+            if self._batches is not None:
                 self._batches.append(message)
+            self._news.notify_all()
+
+    def _take_impacts(self, message):
+        """As bytes: thousands of impacts a batch would take a processor to unpack."""
+        seq, stamp = order_of(message._buff)
+        with self._news:
+            if self._impacts and seq <= self._impacts[-1][0] and stamp <= self._impacts[-1][1]:
+                self._restarted = True  # on simulated time `applied` may be as it was
+                self._impacts.clear()
+            self._impacts.append((seq, stamp, message._buff))
+            if self._batches is None:
+                del self._impacts[:-KEPT_IMPACTS]
             self._news.notify_all()
 
     def _wait_for(self, condition, what, seconds=None, may_fail=False):
@@ -275,12 +281,13 @@ class Client:
 
     def _command(self, topic, field, value):
         end = time.monotonic() + self.timeout
+        self._wait_for(lambda: self._publishers[topic].get_num_connections() > 0, '', may_fail=True)
         self._forget_commanded()
         while True:
             self._publish(topic, value)
             # the emulator reports every command, also one of the value that holds already
             applied = self._wait_for(lambda: next((m for m in self._commanded if getattr(m, field) == value), None), '',
-                                     AGAIN_S, True)
+                                     min(AGAIN_S, max(0.0, end - time.monotonic())), True)
             if applied:
                 return applied
             if time.monotonic() > end:
@@ -294,7 +301,7 @@ class Client:
             raise rospy.ROSInterruptException('shut down') from fault
 
     def _next_batch(self, seconds):
-        self._wait_for(lambda: self._batches, self.name + '/deflection', seconds)
+        self._wait_for(lambda: self._batches, self.name + '/deflection (is the emulator paused?)', seconds)
         with self._news:
             return self._batches.pop(0)
 
@@ -329,13 +336,13 @@ class Client:
                 raise EmulatorError('%s/deflection: messages were lost while it was measured' % self.name)
             expected = batch.first_sample + len(batch.vertical)
             impacts = self._impacts[:1]  # none: of a restart, which the next batch says
-            if tau_between(applied.time, batch.time) >= 0.0 and impacts and batch.header.seq >= impacts[0].header.seq:
+            if tau_between(applied.time, batch.time) >= 0.0 and impacts and batch.header.seq >= impacts[0][0]:
                 measurement.add(batch)
         if measurement.last is not None:  # impacts come on a connection of their own
-            self._wait_for(lambda: self._impacts and self._impacts[-1].header.seq >= measurement.last,
+            self._wait_for(lambda: self._impacts and self._impacts[-1][0] >= measurement.last,
                            self.name + '/impacts')
         with self._news:
-            lost = measurement.add_impacts(self._impacts)
+            lost = measurement.add_impacts([(seq, data) for seq, _, data in self._impacts])
         if lost:
             raise EmulatorError('%s/impacts: %d messages were lost while it was measured' % (self.name, lost))
         with self._news:

@@ -1,6 +1,7 @@
 """The figures of a control period in real time: those of the service ~control, from the batches that are published."""
 import math
 
+from afm_emulator.impacts import read_impacts
 from afm_emulator.srv import ControlResponse
 
 
@@ -40,13 +41,13 @@ class Measurement:
         self.seconds += len(batch.vertical) * batch.sample_period
 
     def add_impacts(self, messages):
-        """ImpactArray messages, of which those of its batches count. Returns how many of these lack."""
+        """(sequence number, bytes) of ImpactArray messages: those of its batches count. Returns how many of these
+        lack."""
         if self.first is None:
             return 0
-        of_period = [m for m in messages
-                     if self.first <= m.header.seq <= self.last and m.epoch == self._since.epoch]
-        self._impacts += [impact for m in of_period for impact in m.impacts]
-        return self.last - self.first + 1 - len(of_period)
+        of_period = [read_impacts(data) for seq, data in messages if self.first <= seq <= self.last]
+        self._impacts = [impacts for epoch, _, impacts in of_period if epoch == self._since.epoch]
+        return self.last - self.first + 1 - len(self._impacts)
 
     def answer(self, applied):
         """A ControlResponse, as the emulator gives it in lockstep. applied: the Applied messages since its begin."""
@@ -63,8 +64,8 @@ class Measurement:
         r.mean_lateral_force = self._impulse / seconds
         r.rms_lateral_force = self._lever.lateral_stiffness * math.sqrt(self._lateral_squares / samples)
         r.mean_normal_force = self._lever.stiffness * r.mean_vertical
-        r.impact_count = sum(impact.count for impact in self._impacts)
-        r.energy_loss = math.fsum(impact.energy_loss for impact in self._impacts)
+        r.impact_count = sum(int(impacts['count'].sum(dtype='u8')) for impacts in self._impacts)
+        r.energy_loss = math.fsum(loss for impacts in self._impacts for loss in impacts['energy_loss'].tolist())
         v0 = (self._since.drag_velocity if self._same_speed else 0.0) or math.nan
         r.k_f = r.energy_loss / (v0 * v0 * seconds)
         r.k_f_work = r.mean_lateral_force / v0

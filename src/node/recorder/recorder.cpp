@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <ros/console.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <chrono>
@@ -33,7 +34,8 @@ std::string find_name_fault(const std::string& name) {
   return "must be of letters, digits and _ . + - only, and begin and end with a letter or digit";
 }
 
-// directory/NAME without .bag; of an empty name afm_2024-05-31-12-00-00 (local time), or what follows if that is taken.
+// directory/NAME without .bag; of an empty name that of the node with the local time, afm_2024-05-31-12-00-00, or what
+// follows if that is taken. Two nodes may begin in the same moment.
 std::string bag_base(const std::string& directory, const std::string& name) {
   const fs::path place = fs::absolute(directory);
   if (!name.empty()) return place / std::regex_replace(name, std::regex("\\.bag$"), "");
@@ -41,8 +43,11 @@ std::string bag_base(const std::string& directory, const std::string& name) {
   std::tm local{};
   localtime_r(&now, &local);
   char text[64];
-  std::strftime(text, sizeof text, "afm_%Y-%m-%d-%H-%M-%S", &local);
-  const std::string base = place / text;
+  std::strftime(text, sizeof text, "_%Y-%m-%d-%H-%M-%S", &local);
+  std::string node = ros::this_node::getName();
+  node.erase(0, node.find_first_not_of('/'));
+  std::replace(node.begin(), node.end(), '/', '_');
+  const std::string base = place / (node + text);
   const auto is_taken = [](const std::string& path) {
     return fs::exists(path + ".bag") || fs::exists(path + ".bag.active");
   };
