@@ -45,7 +45,7 @@ class Recorder {
   Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot);
   ~Recorder();  // writes what waits and closes
 
-  Reply start(const std::string& name);  // empty: a name from the time. It begins with the next snapshot
+  Reply start(const std::string& name);  // empty: that of the node, and the time. It begins with the next snapshot
   Reply stop();
   Status status() const;
 
