@@ -11,7 +11,7 @@ try:
     matplotlib.use('Agg')
     import numpy as np
     import rosbag
-    from afm_emulator.bags import in_order, read_raw
+    from afm_emulator.bags import in_order, read_raw, why_unreadable
     from afm_emulator.impacts import read_impacts
     from matplotlib import pyplot
 except ImportError as missing:
@@ -83,11 +83,8 @@ def open_bag(path):
     try:
         with rosbag.Bag(path) as bag:
             yield bag
-    except rosbag.bag.ROSBagUnindexedException:
-        sys.exit('plot_run.py: %s: not closed: rosbag reindex recovers what is in it (take a copy while it is written)'
-                 % path)
-    except Exception as fault:  # damaged bytes make rosbag raise whatever they lead to
-        sys.exit('plot_run.py: %s: %s' % (path, str(fault) or type(fault).__name__))
+    except Exception as fault:
+        sys.exit('plot_run.py: %s: %s' % (path, why_unreadable(fault)))
 
 
 def count_samples(paths):

@@ -245,8 +245,8 @@ class Client {
   }
 
  private:
-  static constexpr std::size_t kKeptImpacts = 100;  // messages before a measurement: a second at the default rate
-  static constexpr std::size_t kKeptApplied = 1000;
+  static constexpr std::size_t kKeptImpacts = 100;   // messages before a measurement: a second at the default rate
+  static constexpr std::size_t kKeptApplied = 1000;  // messages, where nothing is commanded from here
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside
   static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted

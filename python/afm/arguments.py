@@ -20,7 +20,7 @@ def number(name: str, value: Any) -> float:
 def array(name: str, values: Any, reason: str = 'must be numbers') -> np.ndarray:
     """The values as an array of any shape."""
     try:
-        given = np.ma.asarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
+        given = np.asanyarray(values)  # which keeps a mask
         # a list of nothing has floats; times, texts, booleans and complex numbers are none
         if given.dtype.kind not in 'iuf' or np.ma.is_masked(given):
             raise ValueError

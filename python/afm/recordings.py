@@ -105,7 +105,8 @@ class Recording:
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
         paths = [path] if isinstance(path, (str, os.PathLike)) else path
-        if not isinstance(paths, (list, tuple)) or not paths or not all(isinstance(p, (str, os.PathLike)) for p in paths):
+        are_paths = isinstance(paths, (list, tuple)) and all(isinstance(p, (str, os.PathLike)) for p in paths)
+        if not are_paths or not paths:
             raise ArgumentTypeError('path', path, 'must be the path of a bag, or a list of paths')
         read, by_node = _read(paths, namespace)
         for kind, why in (('Snapshot', 'the state at its beginning'), ('Applied', 'what took effect'),

@@ -27,7 +27,7 @@ class Canvas {
   // A place along the surface, moved by whole cells to lie over the nth of the cells seen.
   double over_cell(double x, std::size_t nth) const;
 
-  // Adds a marker of its own name. One that gets no points, or no text, takes the place of the last one and is not seen.
+  // Adds a marker of its own name. One that gets no points, or no text, takes the place of the last one, unseen.
   Marker& add(const std::string& name, int type, const std_msgs::ColorRGBA& colour, double size = 1.0);
   Marker& add_text(const std::string& name, const std::string& text, const geometry_msgs::Point& where, double height);
 

@@ -11,6 +11,13 @@ rosbag.bag._message_types.update({kind._md5sum: kind for kind in vars(msg).value
 Raw = collections.namedtuple('Raw', 'kind topic node data md5sum of_type stamp')
 
 
+def why_unreadable(fault):
+    """In words, of what rosbag raises: damaged bytes make it raise whatever they lead to."""
+    if isinstance(fault, rosbag.bag.ROSBagUnindexedException):
+        return 'not closed: rosbag reindex recovers what is in it (take a copy while it is written)'
+    return str(fault) or type(fault).__name__
+
+
 def read_raw(bag, kinds):
     """Those of these kinds, in the order of the bag."""
     types = ['afm_emulator/' + kind for kind in kinds]

@@ -346,4 +346,5 @@ class Client:
         if lost:
             raise EmulatorError('%s/impacts: %d messages were lost while it was measured' % (self.name, lost))
         with self._news:
-            return measurement.answer(list(self._commanded))
+            applied = list(self._commanded)
+        return measurement.answer(applied)
