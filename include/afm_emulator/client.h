@@ -21,13 +21,13 @@
 #include <condition_variable>
 #include <deque>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -131,12 +131,6 @@ class Client {
     node_.setCallbackQueue(&queue_);
     subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
     subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) {
-      // the numbers of a new start begin again; a latched message that comes again has its stamp
-      if (applied_ && applied_->header.stamp != m->header.stamp &&
-          std::tie(m->epoch, m->number) <= std::tie(applied_->epoch, applied_->number)) {
-        restarted_ = true;
-        impacts_.clear();
-      }
       applied_ = m;
       recently_applied_.push_back(m);
       if (recently_applied_.size() > kKeptApplied) recently_applied_.pop_front();
@@ -148,14 +142,7 @@ class Client {
       return;
     }
     subscribe<Deflection>("deflection", [this](const Deflection::ConstPtr& m) { batches_.push_back(m); });
-    subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) {
-      if (!impacts_.empty() && m->header.seq <= impacts_.back()->header.seq &&
-          m->header.stamp <= impacts_.back()->header.stamp) {
-        restarted_ = true;  // on simulated time `applied` may be as it was
-        impacts_.clear();
-      }
-      impacts_.push_back(m);
-    });
+    subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) { impacts_.push_back(m); });
     // batches of one topic without those of the other would count
     for (const ros::Subscriber& subscriber : subscribers_) {
       wait_for([&] { return subscriber.getNumPublishers() > 0; }, subscriber.getTopic());
@@ -269,7 +256,9 @@ class Client {
   }
 
   void check_restart() {
-    if (std::exchange(restarted_, false)) throw EmulatorError(name_ + ": it was restarted, and its state is lost");
+    if (std::exchange(starts_told_, starts_) < starts_) {
+      throw EmulatorError(name_ + ": it was restarted, and its state is lost");
+    }
   }
 
   void connect() {
@@ -288,11 +277,24 @@ class Client {
     }
   }
 
+  // A new connection is to a new start of the emulator. Each topic meets it at its own time.
+  void note_connection(const std::string& topic, const boost::shared_ptr<ros::M_string>& header) {
+    Connection& latest = connections_[topic];
+    if (latest.header == header) return;
+    latest = {header, latest.count + 1};
+    if (latest.count > starts_ || topic == "impacts") impacts_.clear();
+    starts_ = std::max(starts_, latest.count);
+  }
+
   template <class Message, class Take>
   void subscribe(const std::string& topic, Take take) {
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback = take;
+    using Event = ros::MessageEvent<const Message>;
+    const boost::function<void(const Event&)> callback = [this, topic, take](const Event& event) {
+      note_connection(topic, event.getConnectionHeaderPtr());
+      take(event.getConstMessage());
+    };
     subscribers_.push_back(
-        node_.subscribe<Message>(name_ + "/" + topic, 1000, callback, {}, ros::TransportHints().tcpNoDelay()));
+        node_.subscribe<const Event&>(name_ + "/" + topic, 1000, callback, {}, ros::TransportHints().tcpNoDelay()));
   }
 
   // roslaunch ends its nodes one after another: if the emulator has gone first, our turn comes soon.
@@ -358,9 +360,8 @@ class Client {
       batches_.pop_front();
       check_restart();
       if (batch->epoch > since.epoch) throw EmulatorError(name_ + ": reset while it was measured");
-      if (batch->epoch < since.epoch || (expected != 0 && batch->first_sample != expected)) {
-        comes_true([this] { return restarted_; }, kAgain);  // its other topics say so a little later
-        check_restart();
+      if (batch->epoch < since.epoch) continue;
+      if (expected != 0 && batch->first_sample != expected) {
         throw EmulatorError(name_ + "/deflection: messages were lost while it was measured");
       }
       expected = batch->first_sample + batch->vertical.size();
@@ -385,8 +386,13 @@ class Client {
   const double timeout_;
   ros::Publisher drag_publisher_, height_publisher_;
   std::vector<ros::Subscriber> subscribers_;
-  bool restarted_ = false;      // and no call has said so
-  ros::ServiceClient control_;  // in lockstep
+  struct Connection {
+    boost::shared_ptr<ros::M_string> header;
+    int count = 0;
+  };
+  std::map<std::string, Connection> connections_;  // by topic: the latest one, and how many there were
+  int starts_ = 1, starts_told_ = 1;  // of the emulator, since this client was made; those that a call has told
+  ros::ServiceClient control_;        // in lockstep
   TimedCall timed_call_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;

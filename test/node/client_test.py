@@ -113,11 +113,12 @@ class Claims:
         self.emulator = self.start(Emulator({'pace': 'real_time'}))
         self.assertRegex(tip.answer(), 'EmulatorError: /afm: .*restarted')
         self.assertGreater(self.numbers(tip.call('control 0.01'))[0], 1999)
-        self.emulator.child.kill()
-        tip.begin('command_and_wait 3e-6')  # waits for the emulator
-        self.emulator = self.start(Emulator({'pace': 'real_time'}))
-        self.assertRegex(tip.answer(), 'EmulatorError: /afm: .*restarted')
-        self.assertEqual(self.numbers(tip.call('command_and_wait 4e-6'))[1], 4e-6)
+        for _ in range(3):  # a command may have its effect before anything else of the new start has come
+            self.emulator.child.kill()
+            self.emulator = self.start(Emulator({'pace': 'real_time'}))
+            self.assertRegex(tip.call('command_and_wait 3e-6'), 'EmulatorError: /afm: .*restarted')
+            for call in ('command_and_wait 4e-6', 'command_and_wait 4e-6'):  # it is told once
+                self.assertEqual(self.numbers(tip.call(call))[1], 4e-6)
 
     def test_a_command_is_found_among_those_of_others(self):
         """The client in C++ looked at the latest message alone, and waited in vain."""

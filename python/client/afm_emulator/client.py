@@ -11,7 +11,7 @@ import time
 
 import rospy
 from afm_emulator.connection import Connection
-from afm_emulator.impacts import order_of
+from afm_emulator.impacts import sequence_number
 from afm_emulator.measurement import Measurement, tau_between
 from afm_emulator.msg import Applied, Configuration, Deflection
 from afm_emulator.srv import Control, ControlRequest
@@ -70,12 +70,13 @@ class Client:
             raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_TIMEOUT_S))
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
-        self._restarted = False    # and no call has said so
+        self._connections = {}     # topic: (header of its latest connection, number of connections)
+        self._starts = self._starts_told = 1  # of the emulator, since this client was made; those that a call has told
         self._turn = threading.RLock()  # of the call under way
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
         self._batches = None       # Deflection messages, while something is measured
-        self._impacts = []         # (sequence number, stamp, bytes) of ImpactArray: those of a batch may come before it
+        self._impacts = []         # (sequence number, bytes) of ImpactArray: those of a batch may come before it
         self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
                                                    tcp_nodelay=True)
                             for topic in ('drag_velocity', 'rest_height')}
@@ -227,33 +228,37 @@ class Client:
                 raise rospy.ROSInterruptException('shut down')
             time.sleep(0.02)
 
+    def _note_connection(self, topic, message):
+        """A new connection is to a new start of the emulator. Each topic meets it at its own time."""
+        header, count = self._connections.get(topic, (None, 0))
+        if message._connection_header is header:
+            return
+        self._connections[topic] = message._connection_header, count + 1
+        if count + 1 > self._starts or topic == 'impacts':
+            self._impacts.clear()
+        self._starts = max(self._starts, count + 1)
+
     def _keep(self, message, topic):
         with self._news:
-            before = getattr(self, topic)
+            self._note_connection(topic, message)
             setattr(self, topic, message)
             if topic == 'applied':
-                # the numbers of a new start begin again; a latched message that comes again has its stamp
-                if before is not None and before.header.stamp != message.header.stamp and \
-                        (message.epoch, message.number) <= (before.epoch, before.number):
-                    self._restarted = True
-                    self._impacts.clear()
                 self._commanded.append(message)
             self._news.notify_all()
 
     def _take_batch(self, message):
         with self._news:
+            self._note_connection('deflection', message)
             if self._batches is not None:
                 self._batches.append(message)
             self._news.notify_all()
 
     def _take_impacts(self, message):
         """As bytes: thousands of impacts a batch would take a processor to unpack."""
-        seq, stamp = order_of(message._buff)
+        seq = sequence_number(message._buff)
         with self._news:
-            if self._impacts and seq <= self._impacts[-1][0] and stamp <= self._impacts[-1][1]:
-                self._restarted = True  # on simulated time `applied` may be as it was
-                self._impacts.clear()
-            self._impacts.append((seq, stamp, message._buff))
+            self._note_connection('impacts', message)
+            self._impacts.append((seq, message._buff))
             if self._batches is None:
                 del self._impacts[:-KEPT_IMPACTS]
             self._news.notify_all()
@@ -307,8 +312,8 @@ class Client:
 
     def _check_restart(self):
         with self._news:
-            restarted, self._restarted = self._restarted, False
-        if restarted:
+            told, self._starts_told = self._starts_told, self._starts
+        if told < self._starts_told:
             raise EmulatorError('%s: it was restarted, and its state is lost' % self.name)
 
     def _measure(self, applied, duration):
@@ -330,9 +335,9 @@ class Client:
             self._check_restart()
             if batch.epoch > applied.epoch:
                 raise EmulatorError('%s: reset while it was measured' % self.name)
-            if batch.epoch < applied.epoch or expected not in (None, batch.first_sample):
-                self._wait_for(lambda: self._restarted, '', AGAIN_S, True)  # its other topics say so a little later
-                self._check_restart()
+            if batch.epoch < applied.epoch:
+                continue
+            if expected not in (None, batch.first_sample):
                 raise EmulatorError('%s/deflection: messages were lost while it was measured' % self.name)
             expected = batch.first_sample + len(batch.vertical)
             impacts = self._impacts[:1]  # none: of a restart, which the next batch says
@@ -342,7 +347,7 @@ class Client:
             self._wait_for(lambda: self._impacts and self._impacts[-1][0] >= measurement.last,
                            self.name + '/impacts')
         with self._news:
-            lost = measurement.add_impacts([(seq, data) for seq, _, data in self._impacts])
+            lost = measurement.add_impacts(self._impacts)
         if lost:
             raise EmulatorError('%s/impacts: %d messages were lost while it was measured' % (self.name, lost))
         with self._news:

@@ -8,10 +8,9 @@ IMPACT = np.dtype([('tau', '<i8'), ('phase', '<f8'), ('surface_phase', '<f8'), (
                    ('tangential_velocity', '<f8'), ('energy_loss', '<f8'), ('kind', 'u1'), ('count', '<u4')])
 
 
-def order_of(data):
-    """(sequence number, stamp as a tuple) of the bytes of a message with a header."""
-    seq, secs, nsecs = struct.unpack_from('<III', data)
-    return seq, (secs, nsecs)
+def sequence_number(data):
+    """Of the bytes of a message with a header."""
+    return struct.unpack_from('<I', data)[0]
 
 
 def read_impacts(data):
