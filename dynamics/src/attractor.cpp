@@ -212,6 +212,7 @@ Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& 
   Attractor found;
   if (tip.eta() == 0.0) {
     found.kind = AttractorKind::rest;
+    found.contact_share = kNaN;
     return found;
   }
   Observer observer(tip, settings.most_events);

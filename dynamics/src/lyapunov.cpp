@@ -30,7 +30,9 @@ class Growth {
       for (const auto& batch : batches_) squares += (batch[i] - sum / n) * (batch[i] - sum / n);
       const bool finite = static_cast<int>(i) < s.rank;
       s.exponents[i] = finite ? sum / s.duration : -kInfinity;
-      s.std_errors[i] = finite ? std::sqrt(squares / (n - 1.0) / n) / width : 0.0;
+      if (s.outcome == LyapunovOutcome::measured) {
+        s.std_errors[i] = finite ? std::sqrt(squares / (n - 1.0) / n) / width : 0.0;
+      }
     }
     s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume_ / s.duration;
   }
@@ -58,9 +60,6 @@ bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s)
 
 LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& settings) {
   LyapunovSpectrum s;
-  s.exponents.fill(kNaN);
-  s.std_errors.fill(kNaN);
-  s.volume_rate = kNaN;
   if (!skip(tip, settings.transient, settings.most_events, s)) {
     s.outcome = LyapunovOutcome::budget_spent;
     return s;

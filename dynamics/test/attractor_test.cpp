@@ -75,7 +75,11 @@ TEST(Attractor, AtEtaOneTheTipCreepsIntoContact) {
   EXPECT_GT(a.contact_share, 0.9);
 }
 
-TEST(Attractor, WithoutDragThereIsRest) { EXPECT_EQ(from_above(0.0, 0.05).name(), "rest"); }
+TEST(Attractor, WithoutDragThereIsRest) {
+  const Attractor rest = from_above(0.0, 0.05);
+  EXPECT_EQ(rest.name(), "rest");
+  EXPECT_TRUE(std::isnan(rest.lyapunov.exponents[0]) && std::isnan(rest.contact_share));  // they are not measured
+}
 
 TEST(Attractor, WithTooSmallABudgetIsUndecided) {
   AttractorSettings settings;

@@ -72,7 +72,7 @@ std::vector<afm::Column> columns(const Options& o) {
 }
 
 int run(const afm::CommandLine& app, Options& o) {
-  take_si(app, o.dynamics);
+  take_si(app, o.dynamics, !o.relative_cutoff);
   afm::take_si(app, o.dynamics.si, "transient", o.transient);
   const std::vector<double> values = checked_values(app, o);
   afm::ProgressBar bar(values.size(), 0);

@@ -100,6 +100,8 @@ ModelTime to_time(const py::object& time) {
     if (parts.size() != 2 || PyIndex_Check(parts[0].ptr()) == 0) {  // NumPy's whole numbers too, as of an event
       refuse_type("time", time, "must be a number of tau, or whole tau and a phase");
     }
+    const double tau = real("time", parts[0]);
+    require(std::abs(tau) <= kLongest, "time", tau, "must be at most 1e15 tau");
     result = {py::int_(parts[0]).cast<std::int64_t>(), real("time", parts[1])};
     require(result.phase >= 0.0 && result.phase < 1.0, "time", result.phase, "the phase must be in [0, 1)");
   } else {
@@ -107,8 +109,6 @@ ModelTime to_time(const py::object& time) {
     require(std::abs(tau) <= kLongest, "time", tau, "must be finite and at most 1e15 tau");
     result = ModelTime{} + tau;
   }
-  require(std::abs(static_cast<double>(result.tau)) <= kLongest, "time", static_cast<double>(result.tau),
-          "must be at most 1e15 tau");
   return result;
 }
 

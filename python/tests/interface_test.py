@@ -58,6 +58,7 @@ class Errors(unittest.TestCase):
         self.refused('eta', 2000, afm.Tip().drag, 2000)
         self.refused('cutoff', -1, afm.Tip().change, cutoff=-1)
         self.refused('time', -1, afm.Tip().advance, -1)
+        self.refused('time', 1e30, afm.Tip().advance, (10 ** 30, 0.0))
         self.refused('period', 0, afm.Tip().samples, 0, 10)
         self.refused('sample_period', 0, afm.Run, sample_period=0)
         self.refused('friction_window', -1, afm.Run().apply, friction_window=-1)

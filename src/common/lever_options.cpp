@@ -15,9 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTwice[][2] = {{"lever", "omega-v"},         {"lever", "tip-mass"},
-                                     {"lever", "frequency-ratio"}, {"surface", "lattice-spacing"},
-                                     {"surface", "amplitude"},     {"load", "rest-height"}};
+constexpr const char* kTwice[][2] = {{"lever", "frequency-ratio"}, {"surface", "amplitude"}, {"load", "rest-height"}};
+constexpr const char* kScale[] = {"lattice-spacing", "omega-v", "tip-mass"};
 
 // Of an installed tool beside it, else in the sources.
 fs::path config() {
@@ -139,6 +138,10 @@ LeverScene::LeverScene(const CommandLine& app, const LeverOptions& o) {
   for (const auto& [one, other] : kTwice) {
     if (!app.is_given(one) || !app.is_given(other)) continue;
     throw std::invalid_argument(std::string(other) + ": is given beside --" + one + ": give one of them");
+  }
+  for (const std::string option : kScale) {
+    if (!app.is_given(option)) continue;
+    throw std::invalid_argument(option + ": is that of --lever and --surface, or the paper's: a file has another one");
   }
   Lever lever;
   const auto check = [](const std::string& option, const std::string& name, const std::string& fault) {

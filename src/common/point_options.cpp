@@ -88,9 +88,9 @@ void add_si_options(CommandLine& app, PointOptions& o) {
   add_si_options(app, o.si);
 }
 
-void take_si(const CommandLine& app, PointOptions& o) {
+void take_si(const CommandLine& app, PointOptions& o, bool cutoff_is_a_speed) {
   checked_units(app, o.si);
-  take_si(app, o.si, "cutoff", o.cutoff);
+  if (cutoff_is_a_speed) take_si(app, o.si, "cutoff", o.cutoff);
   if (has_drag_velocity(app, o.si)) {
     const std::vector<double> values = range_option("drag-velocity", o.drag_velocity);
     if (values.size() != 1) throw std::invalid_argument("drag-velocity = " + o.drag_velocity + ": must be one number");

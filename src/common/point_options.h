@@ -22,7 +22,7 @@ void add_options(CommandLine& app, PointOptions& options);
 // --si and --drag-velocity, beside the options of add_options(); and what follows from them: eta and cutoff in natural
 // units. Throws std::invalid_argument.
 void add_si_options(CommandLine& app, PointOptions& options);
-void take_si(const CommandLine& app, PointOptions& options);
+void take_si(const CommandLine& app, PointOptions& options, bool cutoff_is_a_speed = true);
 void add_model_option(CommandLine& app, std::string& model);
 
 // Throws std::invalid_argument where there is no such model.

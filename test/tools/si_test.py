@@ -108,6 +108,12 @@ class SameNumbers(unittest.TestCase):
         self.assertEqual((code, [row['drag_velocity_m_per_s'] for row in rows]),
                          (0, ['6.6000000000000003e-06', '6.7000000000000002e-06']), complaint)
 
+    def test_a_share_of_eta_has_no_unit(self):
+        """It was divided by that of a speed."""
+        arguments = ['bifurcations', '--vary', 'gamma', '--range', '0.6:0.7:0.1', '--impacts', 3, '--relative-cutoff',
+                     '--cutoff', 0.1]
+        self.compare(run(*arguments), run(*arguments, '--si'), ['normal_speed_m_per_s', 'extension_m'])
+
     def test_return_scan(self):
         arguments = ['return_scan', '--eta', 3.4, '--points', 2, '--depth', 2]
         self.compare(run(*arguments), run(*arguments, '--si'),
@@ -250,7 +256,9 @@ class Refused(unittest.TestCase):
         self.refuse('drag-velocity = 1e-6:2e-6:1e-6: must be one number', 'return_scan', '--si', '--drag-velocity',
                     '1e-6:2e-6:1e-6')
         self.refuse('lever, surface, load: have a meaning only with --si', 'friction_curve', '--lever', 'soft')
-        self.refuse('omega-v: is given beside --lever', 'friction_curve', '--si', '--lever', 'soft', '--omega-v', 1e4)
+        for scale in ('omega-v', 'tip-mass', 'lattice-spacing'):  # once only two of these were refused
+            for scene in (('--lever', 'soft'), ('--surface', 'nacl'), ('--load', 1e-9)):
+                self.refuse(scale + ': is that of --lever', 'friction_curve', '--si', *scene, '--' + scale, 1e-10)
         self.refuse('rest-height: is given beside --load', 'real_time', '--load', 1e-9, '--rest-height', 0)
         self.refuse('load_n = nan: must be finite', 'real_time', '--load', 'nan')
         self.refuse('load_n = 1: ', 'real_time', '--load', 1)

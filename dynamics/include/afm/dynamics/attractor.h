@@ -33,7 +33,8 @@ struct Attractor {
   // cells that the holder passes, so the period is cells / |eta| tau.
   int impacts = 0;
   int cells = 0;
-  double contact_share = 0.0;     // part of the time in contact, in chatter or in bounces below 0.01 a/tau
+  // part of the time in contact, in chatter or in bounces below 0.01 a/tau; at rest NaN, as nothing is measured
+  double contact_share = 0.0;
   double cells_per_impact = 0.0;  // 0 without impacts
   double rotation_number = 0.0;   // if quasi-periodic: turns about the centre of the section per impact, in [0, 1/2]
   LyapunovSpectrum lyapunov;      // if periodic: logarithms of the multipliers over the period

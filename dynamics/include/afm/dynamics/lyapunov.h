@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "afm/model.h"
 #include "afm/state.h"
@@ -30,15 +31,16 @@ enum class LyapunovOutcome : std::uint8_t {
 // Largest first [1/tau]. In contact two directions collapse, so after a contact the last two exponents are minus
 // infinity. The hammer has two exponents, and none after contact; the others are minus infinity. std_errors come from
 // batch means. On a chaotic orbit they are the scatter; on a regular one the error falls like 1/duration, and they
-// bound nothing. All are NaN where nothing was measured.
+// bound nothing. All are NaN where nothing was measured, and std_errors where the measurement ended early.
 struct LyapunovSpectrum {
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   LyapunovOutcome outcome = LyapunovOutcome::no_event;
   int rank = 0;  // exponents that are finite
-  std::array<double, 4> exponents{};
-  std::array<double, 4> std_errors{};
+  std::array<double, 4> exponents{kNaN, kNaN, kNaN, kNaN};
+  std::array<double, 4> std_errors{kNaN, kNaN, kNaN, kNaN};
   // The sum of the exponents, from the restitution alone: an impact shrinks the volume by gamma_eff times the slope of
   // the law, a flight keeps it. NaN after a chatter sequence; minus infinity after contact.
-  double volume_rate = 0.0;
+  double volume_rate = kNaN;
   double duration = 0.0;  // measured [tau]
   std::uint64_t events = 0;
 };
