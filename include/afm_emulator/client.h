@@ -18,16 +18,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <deque>
+#include <future>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -50,68 +48,6 @@ inline std_msgs::Float64 to_message(double value) {
   message.data = value;
   return message;
 }
-
-// Calls a service with a time-out, which ros::ServiceClient has not: a thread of its own drops the connection when the
-// time is over, and the call fails.
-class TimedCall {
- public:
-  TimedCall() : watchdog_([this] { watch(); }) {}
-  ~TimedCall() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ending_ = true;
-    }
-    news_.notify_one();
-    watchdog_.join();
-  }
-  TimedCall(const TimedCall&) = delete;
-  TimedCall& operator=(const TimedCall&) = delete;
-
-  enum class Result { success, late, failure };
-
-  // Unless it succeeds, the client is of no use after it.
-  template <class Service>
-  Result operator()(ros::ServiceClient& client, Service& call, double seconds) {
-    begin(&client, seconds);
-    const bool success = client.call(call);
-    return finish() ? Result::late : success ? Result::success : Result::failure;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds kPoll{50};  // so a call needs not wake the watchdog
-
-  void begin(ros::ServiceClient* client, double seconds) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    client_ = client;
-    late_ = false;
-    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
-
-  bool finish() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    client_ = nullptr;
-    return late_;
-  }
-
-  void watch() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (!ending_) {
-      news_.wait_for(lock, kPoll);
-      if (!client_ || Clock::now() < deadline_) continue;
-      late_ = true;
-      client_->shutdown();
-      client_ = nullptr;
-    }
-  }
-
-  std::mutex mutex_;
-  std::condition_variable news_;
-  ros::ServiceClient* client_ = nullptr;  // of the call under way
-  Clock::time_point deadline_;
-  bool late_ = false, ending_ = false;
-  std::thread watchdog_;  // the last to begin
-};
 
 class Client {
  public:
@@ -174,10 +110,19 @@ class Client {
     call.request.rest_height = rest_height.value_or(kNaN);
     call.request.duration = duration;
     if (control_ == ros::ServiceClient()) connect();
-    const TimedCall::Result result = timed_call_(control_, call, timeout_);
-    if (result != TimedCall::Result::success) control_ = {};
-    if (result == TimedCall::Result::late) throw EmulatorError(name_ + "/control: did not answer within " + timeout());
-    if (result == TimedCall::Result::failure) {
+    // ros::ServiceClient has no time-out: when the time is over, its connection is dropped, and the call fails
+    std::promise<void> answered;
+    std::future<bool> is_late = std::async(std::launch::async, [this, answer = answered.get_future()] {
+      const bool late = answer.wait_for(std::chrono::duration<double>(timeout_)) == std::future_status::timeout;
+      if (late) control_.shutdown();
+      return late;
+    });
+    const bool success = control_.call(call);
+    answered.set_value();
+    const bool late = is_late.get();
+    if (late || !success) control_ = {};
+    if (late) throw EmulatorError(name_ + "/control: did not answer within " + timeout());
+    if (!success) {
       end_with_the_launch();
       throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
                           "The next call connects again");
@@ -393,7 +338,6 @@ class Client {
   std::map<std::string, Connection> connections_;  // by topic: the latest one, and how many there were
   int starts_ = 1, starts_told_ = 1;  // of the emulator, since this client was made; those that a call has told
   ros::ServiceClient control_;        // in lockstep
-  TimedCall timed_call_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
   std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command

@@ -141,7 +141,8 @@ LeverScene::LeverScene(const CommandLine& app, const LeverOptions& o) {
   }
   for (const std::string option : kScale) {
     if (!app.is_given(option)) continue;
-    throw std::invalid_argument(option + ": is that of --lever and --surface, or the paper's: a file has another one");
+    throw std::invalid_argument(
+        option + ": is that of --lever and --surface, or the paper's; another one goes into a .yaml of your own");
   }
   Lever lever;
   const auto check = [](const std::string& option, const std::string& name, const std::string& fault) {

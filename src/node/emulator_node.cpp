@@ -54,12 +54,6 @@ std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
   return static_cast<std::size_t>(std::max(kMinBatches, std::min(wanted, kMaxQueueBytes / bytes)));
 }
 
-Recorder::Settings recorder_settings(const Parameters& p) {
-  const auto bytes = [](double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); };
-  return {p.bag_directory, bytes(p.disk_reserve_mb), bytes(p.split_size_mb), p.split_duration_s,
-          p.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed};
-}
-
 std::string find_step_fault(double tau, std::uint32_t impacts) {
   std::ostringstream text;
   if (!std::isfinite(tau) || tau < 0.0 || tau > kMaxStepTau) {
@@ -114,7 +108,7 @@ class EmulatorNode {
       : parameters_(parameters),
         queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
         runner_(parameters, queue_),
-        recorder_(recorder_settings(parameters), [this] { return runner_.submit(Request(Kind::snapshot)); }) {
+        recorder_(parameters, [this] { return runner_.submit(Request(Kind::snapshot)); }) {
     if (parameters.publish_clock) {
       const std::string other = find_clock_publisher();
       if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
@@ -194,8 +188,9 @@ class EmulatorNode {
     std::ostringstream text;
     text << request.cause << " = " << number_text(given) << ' ' << unit << ": "
          << (fault.empty() ? "too many commands are waiting" : fault);
-    refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str());
-    ROS_WARN_STREAM_THROTTLE(1.0, "refused: " << text.str());
+    if (refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str())) {
+      ROS_WARN_STREAM("refused: " << text.str());
+    }
   }
 
   // The fault, or nothing.
@@ -331,37 +326,28 @@ constexpr char kHelp[] =
     "started by: roslaunch afm_emulator emulator.launch\n"
     "config/emulator.yaml describes every parameter, docs/interface.md the topics and services.\n";
 
-// How soon a shutdown by ROS (rosnode kill) is noticed.
-constexpr std::chrono::milliseconds kShutdownPoll{100};
+// How soon a shutdown is noticed.
+constexpr std::chrono::milliseconds kShutdownPoll{20};
 constexpr int kLargeBuffer =
     256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 
 std::atomic<bool> g_running{false}, g_stop{false};
-Semaphore g_signalled;
 
-// roscpp handles SIGINT alone and tears the connections down at once; we end in our own order, on SIGTERM too.
-extern "C" void on_signal(int) {
-  g_stop = true;
-  g_signalled.post();
-  if (!g_running) ros::requestShutdown();  // it may be waiting for a master
-}
-
-void handle_signals() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
-// For this thread and those that it starts from now on: a signal would interrupt a call to the master, which would then
-// seem not to answer. The threads of roscpp that are there already take the signals.
-void leave_signals_to_roscpp() {
+// roscpp handles SIGINT alone and tears the connections down at once; we end in our own order, on SIGTERM too. One
+// thread waits for both, and all others are spared: a signal would interrupt a call to the master, which would then
+// seem not to answer.
+void await_signals() {
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::thread([signals] {
+    int unused = 0;
+    sigwait(&signals, &unused);
+    g_stop = true;
+    for (; !g_running; std::this_thread::sleep_for(kShutdownPoll)) ros::requestShutdown();  // it may wait for a master
+  }).detach();
 }
 
 // One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
@@ -375,7 +361,7 @@ void keep_memory_flat() {
 void run(const ros::NodeHandle& handle, const Parameters& parameters) {
   const EmulatorNode node(handle, parameters);
   g_running = true;
-  while (ros::ok() && !g_stop) g_signalled.wait_for(kShutdownPoll);
+  while (ros::ok() && !g_stop) std::this_thread::sleep_for(kShutdownPoll);
 }
 
 }  // namespace
@@ -388,10 +374,9 @@ int main(int argc, char** argv) {
     return 0;
   }
   keep_memory_flat();
+  await_signals();
   ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
-  handle_signals();
   const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle
-  leave_signals_to_roscpp();
   Faults faults;
   const auto parameters = load_parameters(handle, faults);
   if (!faults.empty()) {

@@ -11,7 +11,6 @@
 #include "afm/fingerprint.h"
 #include "bytes.h"
 #include "node/publisher/messages.h"
-#include "node/recorder/message_bytes.h"
 #include "target.h"
 #include "tools/bags/run_check.h"
 
@@ -48,12 +47,12 @@ class Writer {
   void put(const std::string& topic, Message message) {
     message.header.seq = sequences_[topic]++;
     message.header.stamp = ros::Time(1000, static_cast<std::uint32_t>(entries.size()) * 1000);
-    const node::MessageBytes bytes = node::to_bytes(message);
+    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
     entries.push_back({"/afm/" + topic,
                        ros::message_traits::datatype<Message>(),
                        ros::message_traits::md5sum<Message>(),
                        ros::message_traits::definition<Message>(),
-                       {bytes.begin(), bytes.begin() + bytes.size()}});
+                       {bytes.message_start, bytes.buf.get() + bytes.num_bytes}});
   }
 
   Entries entries;

@@ -18,9 +18,12 @@ class Answer:
         self.code, self.text = code, text
 
 
+def find(tool):
+    return roslib.packages.find_node(PACKAGE, tool)[0]
+
+
 def call(tool, *arguments):
-    binary = roslib.packages.find_node(PACKAGE, tool)[0]
-    done = subprocess.run([binary] + [str(argument) for argument in arguments], stdout=subprocess.PIPE,
+    done = subprocess.run([find(tool)] + [str(argument) for argument in arguments], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, universal_newlines=True, timeout=60 * PATIENCE)
     return Answer(done.returncode, done.stdout)
 
@@ -31,7 +34,7 @@ def replay_check(*arguments):
 
 def bag_check(*arguments):
     """In this process, which has what it imports already."""
-    path, said, code = roslib.packages.find_node(PACKAGE, 'bag_check')[0], io.StringIO(), None
+    path, said, code = find('bag_check'), io.StringIO(), None
     with mock.patch('sys.argv', [path] + [str(argument) for argument in arguments]), \
             contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         try:

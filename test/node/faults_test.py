@@ -1,4 +1,5 @@
 """What happens around a running emulator: it goes on, or says what it did not do; and its recording stays whole."""
+import math
 import os
 import signal
 import struct
@@ -84,6 +85,8 @@ class Faults(NodeTest):
         self.assertLess(abs(self.status.wait_for_next().header.stamp.to_sec() - time.time()), 60.0)
         Topic('/diagnostics', DiagnosticArray).wait_for(
             lambda m: any(s.name == 'afm: emulation' for s in m.status), 'diagnostics')
+        self.emulator.drag(math.nan)
+        wait_until(lambda: 'refused: drag_velocity = nan' in self.emulator.output(), 'it is logged')
 
     def subscribers_are_killed(self):
         for name in ('deflection', 'impacts', 'friction'):

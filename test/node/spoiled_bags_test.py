@@ -1,6 +1,9 @@
 """Whatever is altered, lost, renamed or filtered in a recording: both checks say what, in words and by their exit
 codes. What is intact is never called damaged, and what is altered never identical."""
 import copy
+import os
+import pty
+import re
 import subprocess
 from unittest import mock
 
@@ -12,7 +15,7 @@ import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
 from emulator_under_test import SPEED_UNIT
 from spoiled_bag import SpoiledBag
-from topics import NAMESPACE
+from topics import NAMESPACE, PATIENCE
 
 
 class SpoiledBags(SpoiledBag):
@@ -51,6 +54,18 @@ class SpoiledBags(SpoiledBag):
              lambda: self.of('impacts')[80].edit(impacts=self.of('impacts')[80].message().impacts[:-1])),
             (DIFFERS, ('estimate_energy[', '/afm/snapshot'), None,
              lambda: self.of('snapshot')[0].edit(estimate_energy=[1e-300, 0.0])))
+
+    def test_progress_is_shown(self):
+        """It stood at 0."""
+        screen, terminal = pty.openpty()
+        done = subprocess.run([checks.find('replay_check'), str(self.write())], stdout=subprocess.PIPE, stderr=terminal,
+                              timeout=60 * PATIENCE)
+        os.close(terminal)
+        self.addCleanup(os.close, screen)
+        batches = len(self.of('friction'))
+        shown = re.findall(r'(\d+)/%d batches' % batches, os.read(screen, 1 << 16).decode())
+        self.assertEqual((done.returncode, shown[-1]), (SOUND, str(batches)))
+        self.assertLess(len(shown), batches)
 
     def test_what_was_applied(self):
         def edit(**values):

@@ -6,10 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <map>
+#include <set>
 #include <sstream>
 #include <utility>
-#include <variant>
 
 #include "afm/number_text.h"
 #include "common/lever_options.h"
@@ -18,22 +17,8 @@
 namespace afm::node {
 namespace {
 
-using Field = std::variant<double*, std::uint64_t*, bool*, std::string*, std::vector<double>*>;
-
 // diagnostic_updater reads these in our namespace
 constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn"};
-
-std::map<std::string, Field> fields_of(Parameters& p) {
-  std::map<std::string, Field> fields;
-  for_each_parameter(p, [&](const char* name, auto& value) { fields.emplace(name, &value); });
-  return fields;
-}
-
-std::string known_names(const std::map<std::string, Field>& fields) {
-  std::string names;
-  for (const auto& [name, field] : fields) names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
 
 using Value = XmlRpc::XmlRpcValue;
 
@@ -144,24 +129,23 @@ void check_files(const Parameters& p, Faults& faults) {
   check("surface_file", p.surface_file, find_surface_file_fault);
 }
 
-bool is_foreign(const std::string& name) {
-  return std::find(std::begin(kForeignNames), std::end(kForeignNames), name) != std::end(kForeignNames);
-}
-
 }  // namespace
 
 Parameters read_parameters(Value tree, Faults& faults) {
   Parameters parameters;
-  const auto fields = fields_of(parameters);
-  if (tree.getType() == Value::TypeStruct) {
+  const bool has_values = tree.getType() == Value::TypeStruct;
+  std::set<std::string> known(std::begin(kForeignNames), std::end(kForeignNames));
+  std::string names;
+  for_each_parameter(parameters, [&](const char* name, auto& value) {
+    known.insert(name);
+    names += (names.empty() ? "" : ", ") + std::string(name);
+    const std::string wrong = has_values && tree.hasMember(name) ? read(tree[name], &value) : "";
+    if (!wrong.empty()) faults.push_back({name, text_of(tree[name]), wrong});
+  });
+  if (has_values) {
     for (auto& [name, value] : tree) {
-      const auto field = fields.find(name);
-      if (field != fields.end()) {
-        const std::string wrong = std::visit([&v = value](auto* out) { return read(v, out); }, field->second);
-        if (!wrong.empty()) faults.push_back({name, text_of(value), wrong});
-      } else if (!is_foreign(name)) {
-        faults.push_back({name, text_of(value), "there is no such parameter; there are " + known_names(fields)});
-      }
+      if (known.count(name) > 0) continue;
+      faults.push_back({name, text_of(value), "there is no such parameter; there are " + names});
     }
   }
   Faults of_values;

@@ -81,14 +81,14 @@ class Channel {
   // for room in the recording.
   void send(Message message, bool unhurried) {
     message.header.seq = sequence_++;
-    const MessageBytes bytes = to_bytes(message);
+    const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
     if (latched_) {
-      publisher_.publish(bytes);
+      publisher_.publish(message);  // seldom: that it is serialized again does not matter
     } else {
       if (unhurried) wait_for_subscribers();
       ros::SerializedMessage unused;
       ros::TopicManager::instance()->publish(
-          bag_topic_->name, [tracked = outstanding_.track(bytes.message)] { return tracked; }, unused);
+          bag_topic_->name, [tracked = outstanding_.track(bytes)] { return tracked; }, unused);
       lost();
     }
     recorder_.record(bag_topic_, bytes, role_, unhurried);

@@ -120,7 +120,7 @@ class Publisher {
   // The stamp is wall time, or model time if the emulator publishes the clock.
   ros::Time stamp_of(const Report& report) const {
     ros::Time stamp;
-    if (!clock_) return stamp.fromNSec(static_cast<std::uint64_t>(report.wall_ns));
+    if (!clock_) return stamp.fromNSec(report.wall_ns);
     const ModelTime& t = report.state.time;
     const double seconds = static_cast<double>(t.tau) * units_.time() + t.phase * units_.time();
     return stamp.fromNSec(epoch_begin_.toNSec() + static_cast<std::uint64_t>(std::llround(seconds * 1e9)));

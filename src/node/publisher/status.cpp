@@ -1,7 +1,6 @@
 #include "status.h"
 
 #include "messages.h"
-#include "node/runner/threads.h"
 
 namespace afm::node {
 namespace {
@@ -46,7 +45,7 @@ afm_emulator::EmulatorStatus StatusTracker::update_status(const Recorder::Status
                                                           std::uint64_t lost_messages) {
   count_impacts();
   afm_emulator::EmulatorStatus& status = health_.status;
-  status.header.stamp.fromNSec(static_cast<std::uint64_t>(wall_now_ns()));
+  status.header.stamp.fromNSec(ros::WallTime::now().toNSec());
   status.epoch = state_.epoch;
   status.time = to_message(state_.time);
   status.real_time_factor = state_.real_time_factor;

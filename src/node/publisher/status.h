@@ -28,12 +28,16 @@ class Refusals {
     std::chrono::steady_clock::time_point when;
   };
 
-  void add(Refusal kind, const std::string& reason) {
+  // True once a second: a flood is not logged whole. By the clock of the wall, as that of ROS may stand still.
+  bool add(Refusal kind, const std::string& reason) {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++(kind == Refusal::faulty_change ? summary_.changes : summary_.commands);
     summary_.kind = kind;
     summary_.reason = reason;
     summary_.when = std::chrono::steady_clock::now();
+    if (summary_.when - logged_ < std::chrono::seconds(1)) return false;
+    logged_ = summary_.when;
+    return true;
   }
   Summary summary() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -43,6 +47,7 @@ class Refusals {
  private:
   mutable std::mutex mutex_;
   Summary summary_;
+  std::chrono::steady_clock::time_point logged_;
 };
 
 // The state that diagnostics judge.

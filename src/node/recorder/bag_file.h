@@ -3,26 +3,35 @@
 #pragma once
 
 #include <rosbag/bag.h>
+#include <topic_tools/shape_shifter.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
 
-#include "message_bytes.h"
+#include "node/params/parameters.h"
 
 namespace afm::node {
+
+// A topic as a bag describes it, for readers such as rosbag play.
+struct BagTopic {
+  std::string name;
+  boost::shared_ptr<ros::M_string> connection_header;
+};
 
 class BagFile {
  public:
   // Throws std::runtime_error with the reason.
-  BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::CompressionType compression);
+  BagFile(const std::string& path, const Parameters& parameters);
   ~BagFile();  // closes, whatever happens
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;
 
   // Throws rosbag::BagException.
-  void write(const BagTopic& topic, const ros::Time& stamp, const MessageBytes& bytes) {
-    bag_->write(topic.name, stamp, bytes, topic.connection_header);
+  void write(const BagTopic& topic, const ros::Time& stamp, const ros::SerializedMessage& message) {
+    ros::serialization::IStream bytes(message.message_start, static_cast<std::uint32_t>(message.num_bytes - 4));
+    message_.read(bytes);  // behind their length
+    bag_->write(topic.name, stamp, message_, topic.connection_header);
     ++messages_;
   }
 
@@ -44,6 +53,7 @@ class BagFile {
   std::uint64_t messages_ = 0;
   std::uint64_t bytes_allowed_ = 0;  // that may be written before the disk is asked again
   std::unique_ptr<rosbag::Bag> bag_;
+  topic_tools::ShapeShifter message_;  // of any type: that is in the connection header
 };
 
 }  // namespace afm::node

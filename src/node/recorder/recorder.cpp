@@ -58,8 +58,8 @@ std::string bag_base(const std::string& directory, const std::string& name) {
 
 }  // namespace
 
-Recorder::Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot)
-    : settings_(settings), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
+Recorder::Recorder(const Parameters& parameters, std::function<bool()> ask_for_snapshot)
+    : parameters_(parameters), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
 
 Recorder::~Recorder() {
   {
@@ -86,9 +86,9 @@ Recorder::Reply Recorder::start(const std::string& name) {
   const std::string fault = name.empty() ? "" : find_name_fault(name);
   if (!fault.empty()) return {false, "name = \"" + name + "\": " + fault, ""};
   try {
-    std::filesystem::create_directories(std::filesystem::absolute(settings_.directory));
-    base_ = bag_base(settings_.directory, name);
-    auto bag = std::make_unique<BagFile>(part_path(0), settings_.reserve_bytes, settings_.compression);
+    std::filesystem::create_directories(std::filesystem::absolute(parameters_.bag_directory));
+    base_ = bag_base(parameters_.bag_directory, name);
+    auto bag = std::make_unique<BagFile>(part_path(0), parameters_);
     const std::lock_guard<std::mutex> lock(mutex_);
     bag_ = std::move(bag);
     path_ = bag_->path();
@@ -128,7 +128,7 @@ Recorder::Status Recorder::status() const {
   return {bag_ ? path_ : "", error_, dropped_messages_, dropped_messages_ - dropped_before_};
 }
 
-void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role,
+void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const ros::SerializedMessage& bytes, Role role,
                       bool unhurried) {
   std::unique_lock<std::mutex> lock(mutex_);
   const Message message{topic, bytes};
@@ -146,7 +146,7 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const Messag
 // A snapshot finds room in a full queue: without it no part of a recording begins.
 // Stamps in the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by them.
 void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried) {
-  const std::size_t bytes = item.message.bytes.size();
+  const std::size_t bytes = item.message.bytes.num_bytes;
   const std::size_t room = item.is_snapshot() ? 2 * kMaxQueueBytes : kMaxQueueBytes;
   const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= room; };
   if (unhurried) room_.wait(lock, [&] { return has_room() || stopping_; });
@@ -174,7 +174,7 @@ void Recorder::write_loop() {
     }
     const Item item = std::move(queue_.front());
     queue_.pop_front();
-    queue_bytes_ -= item.message.bytes.size();
+    queue_bytes_ -= item.message.bytes.num_bytes;
     room_.notify_one();
     lock.unlock();
     std::string error = take(item);
@@ -214,7 +214,7 @@ std::string Recorder::take(const Item& item) {
 
 // Throws why the recording must end.
 void Recorder::write(const Item& item) {
-  const std::string trouble = bag_->check_space(item.message.bytes.size());
+  const std::string trouble = bag_->check_space(item.message.bytes.num_bytes);
   if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
   if (item.is_snapshot() && bag_->messages() == 0) {
     begin_stamp_ = item.stamp;
@@ -229,12 +229,13 @@ void Recorder::write_held() {
 }
 
 bool Recorder::is_full(const ros::Time& stamp) const {
-  const bool large = settings_.split_bytes > 0 && bag_->bytes() >= settings_.split_bytes;
-  return large || (settings_.split_seconds > 0.0 && (stamp - begin_stamp_).toSec() >= settings_.split_seconds);
+  const double megabytes = parameters_.split_size_mb, seconds = parameters_.split_duration_s;
+  const bool is_large = megabytes > 0.0 && static_cast<double>(bag_->bytes()) >= megabytes * 1e6;
+  return is_large || (seconds > 0.0 && (stamp - begin_stamp_).toSec() >= seconds);
 }
 
 void Recorder::begin_next_bag() {
-  auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
+  auto next = std::make_unique<BagFile>(part_path(part_ + 1), parameters_);
   ++part_;  // only now, as that may fail: then this bag is the last
   const std::string error = bag_->close();
   {

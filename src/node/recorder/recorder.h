@@ -22,13 +22,6 @@ enum class Role { ordinary, batch_end, configuration, applied, snapshot };
 
 class Recorder {
  public:
-  struct Settings {
-    std::string directory;
-    std::uint64_t reserve_bytes;
-    std::uint64_t split_bytes;  // a new bag after so much; 0: never
-    double split_seconds;       // of stamps; 0: never
-    rosbag::CompressionType compression;
-  };
   struct Reply {
     bool success = false;
     std::string message, path;
@@ -42,7 +35,7 @@ class Recorder {
 
   // ask_for_snapshot: called by the recorder's thread when the bag is full; the next one begins with that snapshot.
   // False: it could not be asked for, and is asked for again.
-  Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot);
+  Recorder(const Parameters& parameters, std::function<bool()> ask_for_snapshot);
   ~Recorder();  // writes what waits and closes
 
   Reply start(const std::string& name);  // empty: that of the node, and the time. It begins with the next snapshot
@@ -50,12 +43,13 @@ class Recorder {
   Status status() const;
 
   // A message that finds no room in the queue, as the disk is slow, is counted as dropped. An unhurried one waits.
-  void record(const std::shared_ptr<const BagTopic>& topic, const MessageBytes& bytes, Role role, bool unhurried);
+  void record(const std::shared_ptr<const BagTopic>& topic, const ros::SerializedMessage& bytes, Role role,
+              bool unhurried);
 
  private:
   struct Message {
     std::shared_ptr<const BagTopic> topic;  // what waits to be written outlives its publisher
-    MessageBytes bytes;
+    ros::SerializedMessage bytes;
   };
   struct Item {
     Message message;
@@ -77,7 +71,7 @@ class Recorder {
   std::string part_path(std::uint32_t part) const;
   std::string summary() const;  // of a recording that has ended
 
-  const Settings settings_;
+  const Parameters parameters_;
   const std::function<bool()> ask_for_snapshot_;
   mutable std::mutex mutex_;
   std::mutex orders_;  // one start or stop at a time: both take their time

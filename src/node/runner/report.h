@@ -90,7 +90,7 @@ struct InForce {
 struct Report {
   enum class Kind : std::uint8_t { epoch, applied, snapshot, batch, answer };
   Kind kind = Kind::batch;
-  std::int64_t wall_ns = 0;  // wall clock [ns since 1970]
+  std::uint64_t wall_ns = 0;  // wall clock [ns since 1970]
   InForce in_force;
   RunnerState state;
   Batch* batch = nullptr;  // of kind batch; it belongs to the receiver, who gives it back

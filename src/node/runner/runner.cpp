@@ -1,5 +1,7 @@
 #include "runner.h"
 
+#include <ros/time.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -266,7 +268,7 @@ Outcome Runner::run_batch(Advance advance) {
   if (batch == nullptr) return Outcome::time_limit;
   const Outcome outcome = advance(*batch);
   last_batch_impacts_ = batch->impacts.size();
-  measured_.add(*batch);
+  if (lockstep_) measured_.add(*batch);
   Report report = make_report(Report::Kind::batch);
   report.batch = batch;
   queue_.offer(report);  // there is room: requests leave it for all batches
@@ -278,7 +280,7 @@ Report Runner::make_report(Report::Kind kind) {
   Report report;
   report.kind = kind;
   report.unhurried = is_held();
-  report.wall_ns = wall_now_ns();
+  report.wall_ns = ros::WallTime::now().toNSec();
   report.in_force = in_force_;
   report.state = state_;
   return report;

@@ -19,14 +19,11 @@ void follow_real_time();
 // Names the calling thread for top -H and debuggers: 15 letters at most.
 void name_thread(const char* name);
 
-std::int64_t wall_now_ns();  // since 1970
-
 // Time on the monotonic clock.
-std::chrono::nanoseconds monotonic_now();
+inline std::chrono::nanoseconds monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 void sleep_until(std::chrono::nanoseconds deadline);
 
-// A counting semaphore: post() neither blocks, locks nor allocates, so the running thread and signal handlers may use
-// it.
+// A counting semaphore: post() neither blocks, locks nor allocates, so the running thread may use it.
 class Semaphore {
  public:
   Semaphore() { sem_init(&semaphore_, 0, 0); }

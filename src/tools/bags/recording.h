@@ -5,6 +5,7 @@
 
 #include <afm_emulator/Friction.h>
 #include <ros/message_traits.h>
+#include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <std_msgs/Header.h>
@@ -20,14 +21,16 @@
 #include <utility>
 #include <vector>
 
-#include "node/recorder/message_bytes.h"
-
 namespace afm::bags {
 
 // Why bags cannot be read or a run cannot be checked.
 struct Problem : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+inline bool same_bytes(const ros::SerializedMessage& a, const ros::SerializedMessage& b) {
+  return std::equal(a.buf.get(), a.buf.get() + a.num_bytes, b.buf.get(), b.buf.get() + b.num_bytes);
+}
 
 // The number of a message in its topic. The numbers begin again when the node is started again.
 struct Number {
@@ -82,6 +85,7 @@ class Cursor {
   std::uint32_t lost() const { return lost_; }
   void next() {
     ++at_;
+    ++done_;
     read();
   }
 
@@ -121,8 +125,7 @@ class Cursor {
 
   // A message of another start may have the same number and, on simulated time, the same stamp.
   static bool is_same(const Message& a, const Message& b) {
-    const node::MessageBytes first = node::to_bytes(a), second = node::to_bytes(b);
-    return std::equal(first.begin(), first.begin() + first.size(), second.begin(), second.begin() + second.size());
+    return same_bytes(ros::serialization::serializeMessage(a), ros::serialization::serializeMessage(b));
   }
 
   std::unique_ptr<rosbag::View> view_;

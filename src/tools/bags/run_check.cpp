@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 
 #include "afm/fingerprint.h"
 #include "afm/units.h"
 #include "node/publisher/messages.h"
-#include "node/recorder/message_bytes.h"
 
 namespace afm::bags {
 namespace {
@@ -340,8 +338,8 @@ void RunCheck::take_next(Cursor<Message>* messages) {
 template <class Message>
 void RunCheck::compare(const Message& recorded, Message simulated) {
   simulated.header = recorded.header;
-  const node::MessageBytes a = node::to_bytes(recorded), b = node::to_bytes(simulated);
-  if (difference_ || (a.size() == b.size() && std::memcmp(a.begin(), b.begin(), a.size()) == 0)) return;
+  using ros::serialization::serializeMessage;
+  if (difference_ || same_bytes(serializeMessage(recorded), serializeMessage(simulated))) return;
   difference_ = Difference{recording_.topic<Message>(), recorded.header.seq, find_difference(recorded, simulated),
                            run_ ? to_text(to_message(run_->now()), applied_.epoch) : "the beginning",
                            run_ ? to_text(applied_) : "none"};
