@@ -9,6 +9,7 @@
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Control.h>
 #include <afm_emulator/Deflection.h>
+#include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/measurement.h>
 #include <ros/callback_queue.h>
@@ -79,6 +80,7 @@ class Client {
     }
     subscribe<Deflection>("deflection", [this](const Deflection::ConstPtr& m) { batches_.push_back(m); });
     subscribe<ImpactArray>("impacts", [this](const ImpactArray::ConstPtr& m) { impacts_.push_back(m); });
+    subscribe<Friction>("friction", [this](const Friction::ConstPtr& m) { frictions_.push_back(m); });
     // batches of one topic without those of the other would count
     for (const ros::Subscriber& subscriber : subscribers_) {
       wait_for([&] { return subscriber.getNumPublishers() > 0; }, subscriber.getTopic());
@@ -148,8 +150,10 @@ class Client {
     } else {
       check_restart();
       if (drag_velocity) mine = command(drag_publisher_, *drag_velocity, &Applied::drag_velocity);
+      const std::uint32_t epoch = mine ? mine->epoch : 0;
       if (rest_height) mine = command(height_publisher_, *rest_height, &Applied::rest_height_m);
       check_restart();
+      if (drag_velocity && mine->epoch != epoch) throw EmulatorError(name_ + ": reset between two commands");
     }
     return *mine;
   }
@@ -177,8 +181,9 @@ class Client {
   }
 
  private:
-  static constexpr std::size_t kKeptImpacts = 100;   // messages before a measurement: a second at the default rate
+  static constexpr std::size_t kKeptBatches = 100;   // before a measurement: a second at the default rate
   static constexpr std::size_t kKeptApplied = 1000;  // messages, where nothing is commanded from here
+  static constexpr double kRounding = 1e-9;          // of a sum of batches: ten of 0.01 s are 0.1 s
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside
   static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted
@@ -228,6 +233,7 @@ class Client {
     if (latest.header == header) return;
     latest = {header, latest.count + 1};
     if (latest.count > starts_ || topic == "impacts") impacts_.clear();
+    if (latest.count > starts_ || topic == "friction") frictions_.clear();
     starts_ = std::max(starts_, latest.count);
   }
 
@@ -290,15 +296,32 @@ class Client {
     return mine;
   }
 
+  // What comes beside Deflection, on a connection of its own: that of a batch may come before it.
+  template <class Message>
+  void begin_with(std::deque<Message>& beside, const std::string& topic) {
+    while (beside.size() > kKeptBatches) beside.pop_front();
+    wait_for([&] { return !beside.empty(); }, name_ + topic);  // of a new connection, after a restart
+  }
+  template <class Message>
+  void complete(const std::deque<Message>& beside, const std::string& topic, Measurement& measurement,
+                std::uint32_t (Measurement::*lacking)() const) {
+    if (!measurement.last()) return;
+    wait_for([&] { return !beside.empty() && beside.back()->header.seq >= *measurement.last(); }, name_ + topic);
+    for (const Message& batch : beside) measurement.add(*batch);
+    const std::uint32_t lost = (measurement.*lacking)();
+    if (lost == 0) return;
+    throw EmulatorError(name_ + topic + ": " + std::to_string(lost) + " messages were lost while it was measured");
+  }
+
   // As the emulator measures in lockstep, from the batches that it publishes.
   Control::Response measure(const Applied& since, double duration) {
     queue_.callAvailable();  // what came while nobody measured is of the past
     batches_.clear();
-    while (impacts_.size() > kKeptImpacts) impacts_.pop_front();         // those of a batch may come before it
-    wait_for([this] { return !impacts_.empty(); }, name_ + "/impacts");  // of a new connection, after a restart
+    begin_with(impacts_, "/impacts");
+    begin_with(frictions_, "/friction");
     Measurement measurement(since);
     std::uint64_t expected = 0;  // running index of the next sample; 0: not known
-    while (measurement.seconds() < duration) {
+    while (measurement.seconds() < duration * (1.0 - kRounding)) {
       wait_for([this] { return !batches_.empty(); }, name_ + "/deflection (is the emulator paused?)",
                duration / configuration_->time_scale);
       const Deflection::ConstPtr batch = batches_.front();
@@ -310,18 +333,11 @@ class Client {
         throw EmulatorError(name_ + "/deflection: messages were lost while it was measured");
       }
       expected = batch->first_sample + batch->vertical.size();
-      const bool has_its_impacts = batch->header.seq >= impacts_.front()->header.seq;
-      if (tau_between(since.time, batch->time) >= 0.0 && has_its_impacts) measurement.add(*batch);
+      const std::uint32_t whole_from = std::max(impacts_.front()->header.seq, frictions_.front()->header.seq);
+      if (tau_between(since.time, batch->time) >= 0.0 && batch->header.seq >= whole_from) measurement.add(*batch);
     }
-    if (measurement.last()) {  // impacts come on a connection of their own
-      const std::uint32_t last = *measurement.last();
-      wait_for([&] { return !impacts_.empty() && impacts_.back()->header.seq >= last; }, name_ + "/impacts");
-    }
-    for (const ImpactArray::ConstPtr& batch : impacts_) measurement.add_impacts(*batch);
-    if (measurement.lost() > 0) {
-      throw EmulatorError(name_ + "/impacts: " + std::to_string(measurement.lost()) +
-                          " messages were lost while it was measured");
-    }
+    complete(impacts_, "/impacts", measurement, &Measurement::without_impacts);
+    complete(frictions_, "/friction", measurement, &Measurement::without_friction);
     return measurement.answer(recently_applied_, {tau(), vertical_stiffness(), lateral_stiffness()});
   }
 
@@ -343,6 +359,7 @@ class Client {
   std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
   std::deque<Deflection::ConstPtr> batches_;
   std::deque<ImpactArray::ConstPtr> impacts_;
+  std::deque<Friction::ConstPtr> frictions_;
 };
 
 }  // namespace afm_emulator

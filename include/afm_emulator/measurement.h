@@ -4,6 +4,7 @@
 #include <afm_emulator/Applied.h>
 #include <afm_emulator/Control.h>
 #include <afm_emulator/Deflection.h>
+#include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/ModelTime.h>
 
@@ -29,10 +30,11 @@ class Measurement {
   };
 
   // since: in force at its begin
-  explicit Measurement(const Applied& since) : since_(since), begin_(since.time), last_begin_(since.time) {}
+  explicit Measurement(const Applied& since)
+      : since_(since), begin_(since.time), end_(since.time), last_begin_(since.time) {}
 
   void add(const Deflection& batch) {
-    if (!last_) begin_ = batch.time, first_ = batch.header.seq;
+    if (!last_) first_ = batch.header.seq;
     last_ = batch.header.seq;
     last_begin_ = batch.time;
     same_speed_ = same_speed_ && batch.drag_velocity == since_.drag_velocity;
@@ -43,16 +45,24 @@ class Measurement {
     seconds_ += static_cast<double>(batch.vertical.size()) * batch.sample_period;
   }
 
-  // After all batches: those of other batches do not count.
-  void add_impacts(const ImpactArray& batch) {
-    if (!last_ || batch.epoch != since_.epoch || batch.header.seq < first_ || batch.header.seq > *last_) return;
+  // Both after all batches: those of other batches do not count.
+  void add(const ImpactArray& batch) {
+    if (!is_of_period(batch.header)) return;
     ++with_impacts_;
     for (const Impact& impact : batch.impacts) impact_count_ += impact.count, energy_loss_ += impact.energy_loss;
   }
 
-  double seconds() const { return seconds_; }                         // of model time
+  void add(const Friction& batch) {
+    if (!is_of_period(batch.header)) return;
+    if (++with_friction_ == 1) begin_ = batch.begin;
+    end_ = batch.time;
+  }
+
+  // Of model time, by the samples: batches may begin and end between them.
+  double seconds() const { return seconds_; }
   const std::optional<std::uint32_t>& last() const { return last_; }  // header.seq of the last batch
-  std::uint32_t lost() const { return last_ ? *last_ - first_ + 1 - with_impacts_ : 0; }  // batches without impacts
+  std::uint32_t without_impacts() const { return batches() - with_impacts_; }
+  std::uint32_t without_friction() const { return batches() - with_friction_; }
 
   // As the emulator gives it in lockstep. applied: the messages since its begin.
   Control::Response answer(const std::deque<Applied::ConstPtr>& applied, const Lever& lever) const {
@@ -60,10 +70,9 @@ class Measurement {
     r.success = true;
     r.epoch = since_.epoch;
     r.begin = begin_;
+    r.end = end_;
     r.samples = samples_;
-    const double n = static_cast<double>(samples_), total = begin_.phase + seconds_ / lever.tau_s;
-    r.end.tau = begin_.tau + static_cast<std::int64_t>(std::floor(total));
-    r.end.phase = total - std::floor(total);
+    const double n = static_cast<double>(samples_), seconds = tau_between(begin_, end_) * lever.tau_s;
     r.applied = since_.number;
     for (const Applied::ConstPtr& m : applied) {  // they act where a batch begins
       const bool holds = m->epoch == since_.epoch && tau_between(m->time, last_begin_) >= 0.0;
@@ -71,29 +80,34 @@ class Measurement {
     }
     r.mean_vertical = vertical_ / n;
     r.rms_vertical = std::sqrt(vertical_squares_ / n);
-    r.mean_lateral_force = impulse_ / seconds_;
+    r.mean_lateral_force = impulse_ / seconds;
     r.rms_lateral_force = lever.lateral_stiffness * std::sqrt(lateral_squares_ / n);
     r.mean_normal_force = lever.stiffness * r.mean_vertical;
     r.impact_count = impact_count_;
     r.energy_loss = energy_loss_;
     const bool has_speed = same_speed_ && since_.drag_velocity != 0.0;
     const double v0 = has_speed ? since_.drag_velocity : std::numeric_limits<double>::quiet_NaN();
-    r.k_f = r.energy_loss / (v0 * v0 * seconds_);
+    r.k_f = r.energy_loss / (v0 * v0 * seconds);
     r.k_f_work = r.mean_lateral_force / v0;
     return r;
   }
 
  private:
+  bool is_of_period(const std_msgs::Header& header) const {
+    return last_ && header.seq >= first_ && header.seq <= *last_;
+  }
+  std::uint32_t batches() const { return last_ ? *last_ - first_ + 1 : 0; }
+
   const Applied since_;
-  ModelTime begin_, last_begin_;  // the latter of the last batch
-  std::uint32_t first_ = 0;       // header.seq
+  ModelTime begin_, end_, last_begin_;  // the latter of the last batch
+  std::uint32_t first_ = 0;             // header.seq
   std::optional<std::uint32_t> last_;
   bool same_speed_ = true;
   double seconds_ = 0.0, impulse_ = 0.0;
   double vertical_ = 0.0, vertical_squares_ = 0.0, lateral_squares_ = 0.0;
   std::uint64_t samples_ = 0, impact_count_ = 0;
   double energy_loss_ = 0.0;
-  std::uint32_t with_impacts_ = 0;
+  std::uint32_t with_impacts_ = 0, with_friction_ = 0;
 };
 
 }  // namespace afm_emulator

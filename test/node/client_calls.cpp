@@ -21,7 +21,8 @@ std::string answer(Client& tip, std::istream& line) {
   if (name == "control") {
     const afm_emulator::Control::Response r = tip.control(*given[0], given[1], given[2]);
     text << r.samples << ' ' << r.applied << ' ' << r.epoch << ' ' << r.k_f_work << ' ' << std::fixed
-         << std::setprecision(9) << static_cast<double>(r.end.tau) + r.end.phase;
+         << std::setprecision(9) << static_cast<double>(r.end.tau) + r.end.phase << ' '
+         << static_cast<double>(r.begin.tau) + r.begin.phase << ' ' << 1e12 * r.mean_lateral_force;
   } else if (name == "command_and_wait") {
     const afm_emulator::Applied m = tip.command_and_wait(given[0], given[1]);
     text << m.number << ' ' << m.drag_velocity << ' ' << m.rest_height_m;

@@ -34,8 +34,9 @@ def answer(tip, name, *words):
         return control_in_threads(tip, *map(argument, words))
     result = getattr(tip, name)(*map(argument, words))
     if name == 'control':
-        return '%d %d %d %g %.9f' % (result.samples, result.applied, result.epoch, result.k_f_work,
-                                     result.end.tau + result.end.phase)
+        end, begin = (time.tau + time.phase for time in (result.end, result.begin))
+        return '%d %d %d %g %.9f %.9f %.9f' % (result.samples, result.applied, result.epoch, result.k_f_work, end,
+                                               begin, 1e12 * result.mean_lateral_force)
     if name == 'command_and_wait':
         return '%d %g %g' % (result.number, result.drag_velocity, result.rest_height_m)
     return '%g' % result

@@ -24,6 +24,10 @@ FAULTY = (('duration', 'control nan'), ('duration', 'control inf'), ('duration',
           ('duration', 'mean_force 0'))
 
 
+def at(time):
+    return time.tau + time.phase
+
+
 class Calls:
     """A controller that calls what it is told."""
 
@@ -138,7 +142,7 @@ class Claims:
         tip.begin('control 1')
         Topic('deflection').wait_for_more(20)
         self.emulator.publisher('drag_velocity').publish(2.0 * SPEED_UNIT)
-        samples, applied, _, friction, _ = self.numbers(tip.answer())
+        samples, applied, _, friction, *_ = self.numbers(tip.answer())
         self.assertEqual((applied, math.isnan(friction)), (1, True))
 
     def test_the_number_of_what_is_in_force_at_the_end_of_a_period(self):
@@ -152,9 +156,31 @@ class Claims:
             heights.publish(-1e-10)
         heights.publish(-2e-10)
         applied.wait_for(lambda m: m.rest_height_m == -2e-10, 'the last command')
-        _, number, _, _, end = self.numbers(tip.answer())
+        _, number, _, _, end, *_ = self.numbers(tip.answer())
         before = [m.number for m in applied.messages if m.time.tau + m.time.phase < end - 1e-6]
         self.assertEqual(number, before[-1])
+
+    def test_a_period_in_real_time_is_exact(self):
+        """Also where its batches begin and end between samples: there it was that of its samples."""
+        tip = self.start_both('real_time', impact_budget=7)
+        deflection, friction = Topic('deflection'), Topic('friction')
+        friction.wait_for_connection()
+        deflection.wait_for_connection()
+        for duration in (0.001, 0.013):
+            *_, end, begin, force = self.numbers(tip.call('control %g' % duration))
+            friction.wait_for(lambda m: at(m.time) > end + 1e-8, 'what follows')
+            of_period = [m.header.seq for m in friction.messages if begin - 1e-8 < at(m.begin) and at(m.time) < end + 1e-8]
+            times = [at(m) for f in friction.messages if f.header.seq in of_period for m in (f.begin, f.time)]
+            self.assertAlmostEqual(times[0], begin, delta=1e-8)
+            self.assertAlmostEqual(times[-1], end, delta=1e-8)
+            deflection.wait_for(lambda m: m.header.seq >= of_period[-1], 'the batches')
+            impulse = sum(m.lateral_impulse for m in deflection.messages if m.header.seq in of_period)
+            self.assertAlmostEqual(1e12 * impulse / ((end - begin) * TAU_S) / force, 1.0, delta=1e-6)
+
+    def test_whole_batches_are_not_rounded_up(self):
+        """The sum of ten times 0.01 s is below 0.1 s."""
+        tip = self.start_both('real_time')
+        self.assertEqual([self.numbers(tip.call('control 0.1'))[0] for _ in range(3)], [20000] * 3)
 
     def test_thousands_of_impacts_a_batch(self):
         """The client in Python unpacked each, fell behind, and lost messages."""

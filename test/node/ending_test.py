@@ -16,7 +16,9 @@ import roslib.packages
 from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
 from topics import Topic, wait_until
 
-NODES = ('detector.py', 'hold_force.py', 'plot_force.py', 'seek_peak.py', 'live_status', 'panel')
+LONG = ('_for_s:=1e6', '_timeout_s:=1e6')
+NODES = {'detector.py': (), 'hold_force.py': (), 'plot_force.py': (), 'seek_peak.py': (), 'live_status': (), 'panel': (),
+         'expect': ('_field:=friction/force', '_least:=-1.0') + LONG, 'expect_sound': LONG}
 ROUNDS = int(os.environ.get('AFM_STOPS', 1))
 LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0
@@ -43,7 +45,8 @@ class Ending(NodeTest):
             emulator.stop()
 
     def start_node(self, name):
-        return self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0]],
+        return self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0],
+                                   *NODES[name]],
                                   dict(os.environ, QT_QPA_PLATFORM='offscreen')))
 
     def test_at_any_moment(self):

@@ -20,9 +20,10 @@ from std_msgs.msg import Float64
 AGAIN_S = 1.0  # of wall time: a command without effect is published again, as the emulator may have been restarted
 QUEUE_BYTES = 1 << 22
 KEPT_APPLIED = 1000
-KEPT_IMPACTS = 100  # messages before a measurement: a second at the default rate
+KEPT_BATCHES = 100  # before a measurement: a second at the default rate
 MOST_TAU = 9999.0  # of a period of mean_force in lockstep: the emulator takes 10000, rounding aside
 LONGEST_TIMEOUT_S = 1e9
+ROUNDING = 1e-9  # of a sum of batches: ten of 0.01 s are 0.1 s
 
 
 class EmulatorError(RuntimeError):
@@ -76,7 +77,8 @@ class Client:
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
         self._batches = None       # Deflection messages, while something is measured
-        self._impacts = []         # (sequence number, bytes) of ImpactArray: those of a batch may come before it
+        # (sequence number, bytes) of what comes beside Deflection: that of a batch may come before it
+        self._beside = {'impacts': [], 'friction': []}
         self._publishers = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
                                                    tcp_nodelay=True)
                             for topic in ('drag_velocity', 'rest_height')}
@@ -88,9 +90,10 @@ class Client:
         if self.is_lockstep:
             self._call_control()  # its service is advertised after the topics
             return  # the answers of the service hold what is measured
-        measured = [rospy.Subscriber('%s/%s' % (self.name, topic), kind, take, tcp_nodelay=True, buff_size=QUEUE_BYTES)
-                    for topic, kind, take in (('deflection', Deflection, self._take_batch),
-                                              ('impacts', rospy.AnyMsg, self._take_impacts))]
+        options = dict(tcp_nodelay=True, buff_size=QUEUE_BYTES)
+        measured = [rospy.Subscriber(self.name + '/deflection', Deflection, self._take_batch, **options)]
+        measured += [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, self._take_beside, topic, **options)
+                     for topic in self._beside]
         for subscriber in measured:  # batches of one topic without those of the other would count
             self._wait_for(lambda: subscriber.get_num_connections() > 0, subscriber.resolved_name)
 
@@ -157,12 +160,15 @@ class Client:
                 return self._wait_for(lambda: next((m for m in self._commanded if (m.epoch, m.number) ==
                                                     (answer.epoch, answer.applied)), None), self.name + '/applied')
             self._check_restart()
+            applied = []
             for topic, field, value in (('drag_velocity', 'drag_velocity', drag_velocity),
                                         ('rest_height', 'rest_height_m', rest_height)):
                 if value is not None:
-                    applied = self._command(topic, field, value)
+                    applied.append(self._command(topic, field, value))
             self._check_restart()
-            return applied
+            if applied[0].epoch != applied[-1].epoch:
+                raise EmulatorError('%s: reset between two commands' % self.name)
+            return applied[-1]
 
     def mean_force(self, duration, settle=0.0, drag_velocity=None, rest_height=None):
         """Mean force of the holder on the tip along +x [N].
@@ -234,8 +240,9 @@ class Client:
         if message._connection_header is header:
             return
         self._connections[topic] = message._connection_header, count + 1
-        if count + 1 > self._starts or topic == 'impacts':
-            self._impacts.clear()
+        for kept in self._beside:
+            if topic == kept or count + 1 > self._starts:
+                self._beside[kept].clear()
         self._starts = max(self._starts, count + 1)
 
     def _keep(self, message, topic):
@@ -253,14 +260,14 @@ class Client:
                 self._batches.append(message)
             self._news.notify_all()
 
-    def _take_impacts(self, message):
+    def _take_beside(self, message, topic):
         """As bytes: thousands of impacts a batch would take a processor to unpack."""
-        seq = sequence_number(message._buff)
         with self._news:
-            self._note_connection('impacts', message)
-            self._impacts.append((seq, message._buff))
+            self._note_connection(topic, message)
+            kept = self._beside[topic]
+            kept.append((sequence_number(message._buff), message._buff))
             if self._batches is None:
-                del self._impacts[:-KEPT_IMPACTS]
+                del kept[:-KEPT_BATCHES]
             self._news.notify_all()
 
     def _wait_for(self, condition, what, seconds=None, may_fail=False):
@@ -320,9 +327,11 @@ class Client:
         """As the emulator measures in lockstep, from the batches that it publishes."""
         with self._news:
             self._batches = []
-            del self._impacts[:-KEPT_IMPACTS]
+            for kept in self._beside.values():
+                del kept[:-KEPT_BATCHES]
         try:
-            self._wait_for(lambda: self._impacts, self.name + '/impacts')  # of a new connection, after a restart
+            for topic, kept in self._beside.items():  # of a new connection, after a restart
+                self._wait_for(lambda: kept, '%s/%s' % (self.name, topic))
             return self._measured(applied, duration)
         finally:
             with self._news:
@@ -330,7 +339,7 @@ class Client:
 
     def _measured(self, applied, duration):
         measurement, expected = Measurement(applied, self), None
-        while measurement.seconds < duration:
+        while measurement.seconds < duration * (1.0 - ROUNDING):
             batch = self._next_batch(self.timeout + duration / self.configuration.time_scale)
             self._check_restart()
             if batch.epoch > applied.epoch:
@@ -340,16 +349,18 @@ class Client:
             if expected not in (None, batch.first_sample):
                 raise EmulatorError('%s/deflection: messages were lost while it was measured' % self.name)
             expected = batch.first_sample + len(batch.vertical)
-            impacts = self._impacts[:1]  # none: of a restart, which the next batch says
-            if tau_between(applied.time, batch.time) >= 0.0 and impacts and batch.header.seq >= impacts[0][0]:
+            with self._news:  # nothing: of a restart, which the next batch says
+                whole = all(kept and batch.header.seq >= kept[0][0] for kept in self._beside.values())
+            if whole and tau_between(applied.time, batch.time) >= 0.0:
                 measurement.add(batch)
-        if measurement.last is not None:  # impacts come on a connection of their own
-            self._wait_for(lambda: self._impacts and self._impacts[-1][0] >= measurement.last,
-                           self.name + '/impacts')
-        with self._news:
-            lost = measurement.add_impacts(self._impacts)
-        if lost:
-            raise EmulatorError('%s/impacts: %d messages were lost while it was measured' % (self.name, lost))
+        for topic, add in (('impacts', measurement.add_impacts), ('friction', measurement.add_friction)):
+            kept, name = self._beside[topic], '%s/%s' % (self.name, topic)
+            if measurement.last is not None:  # it comes on a connection of its own
+                self._wait_for(lambda: kept and kept[-1][0] >= measurement.last, name)
+            with self._news:
+                lost = add(kept)
+            if lost:
+                raise EmulatorError('%s: %d messages were lost while it was measured' % (name, lost))
         with self._news:
             applied = list(self._commanded)
         return measurement.answer(applied)

@@ -22,6 +22,11 @@ def _wait():
     rospy.signal_shutdown('signal')
 
 
+def unblock():
+    """For a child, which would inherit that signals are blocked."""
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+
+
 def init_node(name, **options):
     """rospy.init_node() without rospy's handlers."""
     import rospy

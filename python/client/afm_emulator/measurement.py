@@ -2,6 +2,7 @@
 import math
 
 from afm_emulator.impacts import read_impacts
+from afm_emulator.msg import Friction
 from afm_emulator.srv import ControlResponse
 
 
@@ -18,10 +19,10 @@ class Measurement:
     """
 
     def __init__(self, applied, lever):
-        self.seconds = 0.0  # of model time
+        self.seconds = 0.0  # of model time, by the samples: batches may begin and end between them
         self.first = self.last = None  # header.seq of the batches; None: there is none yet
         self._since, self._lever = applied, lever
-        self._begin = self._last_begin = applied.time
+        self._begin = self._end = self._last_begin = applied.time
         self._samples, self._impulse = 0, 0.0
         self._vertical = self._vertical_squares = self._lateral_squares = 0.0
         self._impacts = []
@@ -30,7 +31,7 @@ class Measurement:
     def add(self, batch):
         """A Deflection message."""
         if self.first is None:
-            self._begin, self.first = batch.time, batch.header.seq
+            self.first = batch.header.seq
         self.last, self._last_begin = batch.header.seq, batch.time
         self._same_speed = self._same_speed and batch.drag_velocity == self._since.drag_velocity
         self._samples += len(batch.vertical)
@@ -43,19 +44,30 @@ class Measurement:
     def add_impacts(self, messages):
         """(sequence number, bytes) of ImpactArray messages: those of its batches count. Returns how many of these
         lack."""
-        if self.first is None:
-            return 0
-        of_period = [read_impacts(data) for seq, data in messages if self.first <= seq <= self.last]
+        of_period = [read_impacts(data) for data in self._of_period(messages)]
         self._impacts = [impacts for epoch, _, impacts in of_period if epoch == self._since.epoch]
-        return self.last - self.first + 1 - len(self._impacts)
+        return self._batches - len(self._impacts)
+
+    def add_friction(self, messages):
+        """The same of Friction messages, which have the exact begin and end of each batch."""
+        of_period = self._of_period(messages)
+        if of_period:
+            self._begin = Friction().deserialize(of_period[0]).begin
+            self._end = Friction().deserialize(of_period[-1]).time
+        return self._batches - len(of_period)
+
+    @property
+    def _batches(self):
+        return 0 if self.first is None else self.last - self.first + 1
+
+    def _of_period(self, messages):
+        return [data for seq, data in messages if self._batches and self.first <= seq <= self.last]
 
     def answer(self, applied):
         """A ControlResponse, as the emulator gives it in lockstep. applied: the Applied messages since its begin."""
         r = ControlResponse(success=True, epoch=self._since.epoch)
-        samples, seconds = self._samples or math.nan, self.seconds or math.nan
-        r.begin, r.samples = self._begin, self._samples
-        total = r.begin.phase + self.seconds / self._lever.tau_s
-        r.end.tau, r.end.phase = r.begin.tau + math.floor(total), total - math.floor(total)
+        r.begin, r.end, r.samples = self._begin, self._end, self._samples
+        samples, seconds = self._samples or math.nan, tau_between(r.begin, r.end) * self._lever.tau_s or math.nan
         # they act where a batch begins
         r.applied = max([self._since.number] + [m.number for m in applied if m.epoch == self._since.epoch and
                                                 tau_between(m.time, self._last_begin) >= 0.0])

@@ -37,13 +37,13 @@ class Publisher {
         units_(parameters.si),
         fingerprint_(arithmetic_fingerprint()),
         sources_(std::move(sources)),
+        configuration_(node, sources_.recorder, kConfigurationTopic, kLatchedQueueSize, Role::configuration),
+        applied_(node, sources_.recorder, kAppliedTopic, kCommandQueueSize, Role::applied),
+        snapshot_(node, sources_.recorder, "snapshot", kLatchedQueueSize, Role::snapshot),
         deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize),
         impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
         friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize, Role::batch_end),
         status_(node, sources_.recorder, "status", kStatusQueueSize),
-        configuration_(node, sources_.recorder, kConfigurationTopic, kLatchedQueueSize, Role::configuration),
-        applied_(node, sources_.recorder, kAppliedTopic, kCommandQueueSize, Role::applied),
-        snapshot_(node, sources_.recorder, "snapshot", kLatchedQueueSize, Role::snapshot),
         status_tracker_(parameters) {
     if (parameters.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kBatchQueueSize);
     diagnostics_.setHardwareID("none");
@@ -169,13 +169,14 @@ class Publisher {
   const Units units_;
   const std::string fingerprint_;
   Sources sources_;
+  // roscpp sends what waits in this order: what was applied goes before the batch in which it holds
+  Channel<afm_emulator::Configuration> configuration_;
+  Channel<afm_emulator::Applied> applied_;
+  Channel<afm_emulator::Snapshot> snapshot_;
   Channel<afm_emulator::Deflection> deflection_;
   Channel<afm_emulator::ImpactArray> impacts_;
   Channel<afm_emulator::Friction> friction_;
   Channel<afm_emulator::EmulatorStatus> status_;
-  Channel<afm_emulator::Configuration> configuration_;
-  Channel<afm_emulator::Applied> applied_;
-  Channel<afm_emulator::Snapshot> snapshot_;
   afm_emulator::Configuration latest_configuration_;
   afm_emulator::Applied latest_applied_;
   // model time, if it is to be published: it goes on where the epoch before ended
