@@ -87,6 +87,10 @@ std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& op
 int run(const afm::CommandLine& app, Options& options) {
   take_si(app, options);
   const std::vector<afm::SweepPoint> points = grid(app, options);
+  for (const afm::SweepPoint& point : points) {
+    const double transient = options.basins.attractor.transient;
+    for (const auto& trap : afm::find_short_drag("transient", transient, point.eta, 1.0)) app.warn(trap.what());
+  }
   afm::TableWriter table(std::cout, afm::basin_columns(), afm::table_units(options.dynamics.si));
   table.write_header();
   afm::ProgressBar bar(points.size(), 0);

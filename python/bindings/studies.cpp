@@ -60,6 +60,7 @@ py::tuple attractors(const std::vector<std::vector<double>>& points, const std::
   for (const std::vector<double>& p : points) {
     grid.push_back({p.at(0), p.at(1), p.at(2), kind_of(kind), p.at(3), p.at(4), p.at(5)});
     refuse(find_faults(grid.back()));
+    warn(find_short_drag("transient", transient, grid.back().eta, 1.0));
   }
   for (const std::vector<double>& g : given) {
     const FreeState start{g.at(0), g.at(1), g.at(2), g.at(3), g.at(4)};

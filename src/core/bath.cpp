@@ -11,18 +11,19 @@ namespace {
 // The hammer has no lateral spring.
 double lateral_ratio(const Model& model) { return is_free_along_x(model) * model.frequency_ratio; }
 
-bool locks(const Model& model, double kicks_per_tau) {
-  constexpr double kFewTurns = 0.4;  // where the spring turns less from kick to kick, the kicks follow its swing
-  constexpr double kNear = 0.05;     // measured: 0.02 of a turn off, K_f is still 2 % wrong (docs/levers.md)
-  const double turns = lateral_ratio(model) / kicks_per_tau;
-  return turns > kFewTurns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < kNear;
-}
-
 // Whether the tip forgets so slowly that few kicks suffice: measured from Q = 100 on (docs/levers.md).
 bool is_slow(const Bath& bath) {
   constexpr double kSlow = 100.0;
   const auto slow = [](double q) { return q == 0.0 || q >= kSlow; };
   return slow(bath.quality_factor) && slow(bath.lateral_quality_factor);
+}
+
+// Where the spring turns less than few_turns from kick to kick, the kicks follow its swing. Measured (docs/levers.md): at
+// Q = 10 K_f is 2 to 7 % off up to 0.1 of a turn from a lock, at Q = 100 up to 0.02.
+bool locks(const Model& model, const Bath& bath, double kicks_per_tau) {
+  const double few_turns = is_slow(bath) ? 0.4 : 0.39, near = is_slow(bath) ? 0.05 : 0.11;
+  const double turns = lateral_ratio(model) / kicks_per_tau;
+  return turns > few_turns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < near;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ std::vector<ParameterError> find_faults(const Bath& b) {
   return list.faults;
 }
 
-bool kicks_lock(const Model& model, const Bath& bath) { return bath.is_on() && locks(model, bath.kicks_per_tau); }
+bool kicks_lock(const Model& model, const Bath& bath) { return bath.is_on() && locks(model, bath, bath.kicks_per_tau); }
 
 double suitable_kicks(const Model& model, const Bath& bath) {
   constexpr double kGolden = 0.618034;  // 1.618 turns of the lateral spring from kick to kick: far from every lock
@@ -57,7 +58,7 @@ double suitable_kicks(const Model& model, const Bath& bath) {
   const std::vector<double> few{11.09, 29.034, 46.979}, many{29.034, 46.979, 122.99};  // powers of the golden ratio
   if (is_slow(bath) && section >= kLeast) return section;
   for (const double kicks : is_slow(bath) ? few : many) {
-    if (!locks(model, kicks)) return kicks;
+    if (!locks(model, bath, kicks)) return kicks;
   }
   return section;  // all of `many` lock only from omega_h/omega_v = 49 on: this is then 30 or more
 }

@@ -42,10 +42,13 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
 
 std::vector<ParameterError> find_traps(const CurveSettings& s) {
   std::vector<ParameterError> traps;
+  const auto is_slower = [](double a, double b) { return a != 0.0 && (b == 0.0 || std::abs(a) < std::abs(b)); };
+  const double slowest = *std::min_element(s.eta.begin(), s.eta.end(), is_slower);
+  const double lowest = *std::min_element(s.rest_height.begin(), s.rest_height.end());
+  const double highest = *std::max_element(s.amplitude.begin(), s.amplitude.end());
   for (const double ratio : s.frequency_ratio) {
-    SweepPoint point{s.eta.front(), s.gamma.front(), s.cutoff.front(), s.model};
-    point.frequency_ratio = ratio;
-    for (const ParameterError& trap : find_traps(point, s.sweep.bath)) traps.push_back(trap);
+    const SweepPoint point{slowest, s.gamma.front(), s.cutoff.front(), s.model, lowest, highest, ratio};
+    for (const ParameterError& trap : find_traps(point, s.sweep)) traps.push_back(trap);
   }
   return traps;
 }

@@ -61,6 +61,8 @@ TEST(Bath, SuitableKicksAreThoseThatWereMeasured) {
   EXPECT_EQ(suitable(5.5, 100.0), 29.034);   // half a turn
   EXPECT_EQ(suitable(6.25, 20.0), 29.034);
   EXPECT_EQ(suitable(14.0, 20.0), 46.979);
+  EXPECT_EQ(suitable(12.5, 20.0), 46.979);  // K_f was 2 to 3 % wrong
+  EXPECT_FALSE(kicks_lock(with_ratio(12.5), with(100.0, 29.034)));
 }
 
 TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {

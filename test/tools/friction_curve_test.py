@@ -132,6 +132,13 @@ class Refusals(Case):
         silent = self.run_tool(['--eta', '2', '--frequency-ratio', '14', '--kicks-per-tau', '46.979', *heat])
         self.assertEqual(silent.stderr, b'')
 
+    def test_a_drag_over_less_than_the_surface_is_warned_of(self):
+        """K_f was many standard errors off, with the sign of the slope below the tip."""
+        bath = ['--temperature', '0.926', '--quality-factor', '100', '--rest-height', '-0.3', '--duration', '100']
+        done = self.run_tool(['--eta', '1e-5', *bath])
+        self.assertIn(b'duration = 100: at eta = 1e-05 the holder passes only 0.001 lattice spacings', done.stderr)
+        self.assertEqual(self.run_tool(['--eta', '0.2', *bath]).stderr, b'')
+
     def test_other_settings(self):
         table, curve = self.table(MAP, 'curve.csv'), self.directory / 'curve.csv'
         self.assertEqual(self.table(MAP, 'curve.csv'), table)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ class Uniform {
 std::string option_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
+}
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 }  // namespace
@@ -79,6 +86,26 @@ std::vector<ParameterError> find_traps(const SweepPoint& point, const Bath& bath
   std::vector<ParameterError> traps;
   for (const ParameterError& trap : find_traps(model_of(point), bath))
     traps.emplace_back(option_of(trap.name), trap.value, trap.reason);
+  return traps;
+}
+
+std::vector<ParameterError> find_short_drag(const char* name, double duration, double eta, double spacings) {
+  if (eta == 0.0 || std::abs(eta) * duration >= spacings) return {};
+  return {ParameterError(name, duration,
+                         "at eta = " + rounded(eta) + " the holder passes only " + rounded(std::abs(eta) * duration) +
+                             " lattice spacings in it: the result is that of a place of the surface, whatever its " +
+                             "error; give at least " + rounded(std::ceil(spacings / std::abs(eta))) + " tau")};
+}
+
+std::vector<ParameterError> find_traps(const SweepPoint& point, const SweepSettings& settings) {
+  constexpr double kSpacings = 10.0;
+  std::vector<ParameterError> traps = find_traps(point, settings.bath);
+  const double extension =
+      std::max(0.0, -point.y0) * point.H * kTwoPi / (point.frequency_ratio * point.frequency_ratio);
+  for (const ParameterError& trap :
+       find_short_drag("duration", settings.duration, point.eta, kSpacings * (1.0 + extension))) {
+    traps.push_back(trap);
+  }
   return traps;
 }
 

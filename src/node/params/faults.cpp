@@ -93,8 +93,11 @@ void check_drag(const Parameters& p, Check& check) {
   const bool limited = p.max_drag_velocity > 0.0 && p.max_drag_velocity <= most;
   check.require(limited, "max_drag_velocity", p.max_drag_velocity,
                 "must be above 0 and at most " + number_text(most) + " m/s, a thousand lattice spacings per tau");
-  check.require(std::isfinite(p.drag_velocity), "drag_velocity", p.drag_velocity, "must be finite");
-  if (limited && std::isfinite(p.drag_velocity)) {
+  const bool possible = std::abs(p.drag_velocity) <= most;  // false for NaN
+  check.require(
+      possible, "drag_velocity", p.drag_velocity,
+      "must be finite and at most " + number_text(most) + " m/s, a thousand lattice spacings per tau of this lever");
+  if (limited && possible) {
     check.require(!(std::abs(p.drag_velocity) > p.max_drag_velocity), "max_drag_velocity", p.max_drag_velocity,
                   "is below the drag velocity at start, drag_velocity = " + number_text(p.drag_velocity));
   }
