@@ -192,20 +192,9 @@ void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const
 }  // namespace
 
 std::string Attractor::name() const {
-  switch (kind) {
-    case AttractorKind::periodic:
-      return "period-" + std::to_string(impacts);
-    case AttractorKind::quasi_periodic:
-      return "quasi-periodic";
-    case AttractorKind::chaotic:
-      return "chaotic";
-    case AttractorKind::contact:
-      return "contact";
-    case AttractorKind::rest:
-      return "rest";
-    default:
-      return "undecided";
-  }
+  constexpr const char* kNames[] = {"", "quasi-periodic", "chaotic", "contact", "rest", "undecided"};
+  if (kind == AttractorKind::periodic) return "period-" + std::to_string(impacts);
+  return kNames[static_cast<std::size_t>(kind)];  // in the order of AttractorKind
 }
 
 Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& settings) {

@@ -176,18 +176,8 @@ class Continuation {
 }  // namespace
 
 const char* name(BifurcationKind kind) {
-  switch (kind) {
-    case BifurcationKind::saddle_node:
-      return "saddle-node";
-    case BifurcationKind::period_doubling:
-      return "period doubling";
-    case BifurcationKind::torus:
-      return "torus";
-    case BifurcationKind::corner:
-      return "corner";
-    default:
-      return "grazing";
-  }
+  constexpr const char* kNames[] = {"saddle-node", "period doubling", "torus", "corner", "grazing"};
+  return kNames[static_cast<std::size_t>(kind)];  // in the order of BifurcationKind
 }
 
 PoincareMap map_at(const Model& model, double eta, Parameter vary, double value) {

@@ -109,18 +109,8 @@ py::tuple periodic_orbits(const Model& model, double eta, int max_length, int tr
 }
 
 const char* name_of(LyapunovOutcome outcome) {
-  switch (outcome) {
-    case LyapunovOutcome::measured:
-      return "measured";
-    case LyapunovOutcome::budget_spent:
-      return "budget_spent";
-    case LyapunovOutcome::no_event:
-      return "no_event";
-    case LyapunovOutcome::search_failed:
-      return "search_failed";
-    default:
-      return "no_number";
-  }
+  constexpr const char* kNames[] = {"measured", "budget_spent", "no_event", "search_failed", "no_number"};
+  return kNames[static_cast<std::size_t>(outcome)];  // in the order of LyapunovOutcome
 }
 
 py::object exponents(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
