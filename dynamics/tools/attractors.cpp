@@ -91,7 +91,7 @@ int run(const afm::CommandLine& app, Options& options) {
     const double transient = options.basins.attractor.transient;
     for (const auto& trap : afm::find_short_drag("transient", transient, point.eta, 1.0)) app.warn(trap.what());
   }
-  afm::TableWriter table(std::cout, afm::basin_columns(), afm::table_units(options.dynamics.si));
+  afm::TableWriter table(std::cout, afm::kBasinColumns, afm::table_units(options.dynamics.si));
   table.write_header();
   afm::ProgressBar bar(points.size(), 0);
   const auto compute = [&](std::size_t i) { return find_basins(points[i], options.basins); };

@@ -9,9 +9,9 @@
 #include "afm/dynamics/cycle_expansion.h"
 #include "afm/dynamics/orbit_search.h"
 #include "afm/state.h"
+#include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "common/point_options.h"
 #include "study_rows.h"
 
 namespace {
@@ -96,7 +96,7 @@ int run(const afm::CommandLine& app, Options& options) {
   afm::ProgressBar bar(kSteps, 0);
   const auto show = [&](double share) { bar.show(static_cast<std::size_t>(share * kSteps)); };
   const auto found = search_orbits(afm::PoincareMap(model, options.dynamics.eta), options.search, show);
-  afm::TableWriter table(std::cout, afm::orbit_columns(), afm::table_units(options.dynamics.si));
+  afm::TableWriter table(std::cout, afm::kOrbitColumns, afm::table_units(options.dynamics.si));
   table.write_header();
   for (const afm::FoundOrbit& orbit : found.orbits) write_row(model.H, orbit.orbit, table);
   if (!options.averages.empty()) write_averages(options, found);

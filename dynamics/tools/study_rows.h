@@ -12,8 +12,46 @@
 
 namespace afm {
 
-const std::vector<Column>& basin_columns();
-const std::vector<Column>& orbit_columns();
+inline const std::vector<Column> kBasinColumns{{"eta", Quantity::velocity, "drag_velocity"},
+                                               {"gamma"},
+                                               {"cutoff", Quantity::velocity},
+                                               {"attractor"},
+                                               {"impacts"},
+                                               {"cells"},
+                                               {"k_f", Quantity::friction},
+                                               {"k_f_std_error", Quantity::friction},
+                                               {"lyapunov_1", Quantity::rate},
+                                               {"lyapunov_2", Quantity::rate},
+                                               {"lyapunov_3", Quantity::rate},
+                                               {"lyapunov_4", Quantity::rate},
+                                               {"rotation_number"},
+                                               {"contact_share"},
+                                               {"basin"},
+                                               {"basin_std_error"},
+                                               {"phase"},
+                                               {"extension", Quantity::length},
+                                               {"y", Quantity::length},
+                                               {"u", Quantity::velocity},
+                                               {"w", Quantity::velocity}};
+
+// The residual is in natural units always: the largest of errors of several kinds.
+inline const std::vector<Column> kOrbitColumns{{"length"},
+                                               {"cells"},
+                                               {"period", Quantity::time},
+                                               {"k_f", Quantity::friction},
+                                               {"residual"},
+                                               {"phase"},
+                                               {"extension", Quantity::length},
+                                               {"u", Quantity::velocity},
+                                               {"w", Quantity::velocity},
+                                               {"multiplier_1_re"},
+                                               {"multiplier_1_im"},
+                                               {"multiplier_2_re"},
+                                               {"multiplier_2_im"},
+                                               {"multiplier_3_re"},
+                                               {"multiplier_3_im"},
+                                               {"multiplier_4_re"},
+                                               {"multiplier_4_im"}};
 
 template <class Table>
 void write_row(const SweepPoint& point, const Basin& basin, Table& to) {

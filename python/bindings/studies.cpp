@@ -82,7 +82,7 @@ py::tuple attractors(const std::vector<std::vector<double>>& points, const std::
   for (std::size_t i = 0; i < grid.size(); ++i) {
     for (const Basin& basin : basins[i]) write_row(grid[i], basin, rows);
   }
-  return rows.result(basin_columns()) + py::make_tuple(labels(grid, basins, settings));
+  return rows.result(kBasinColumns) + py::make_tuple(labels(grid, basins, settings));
 }
 
 void check_eta(double eta, bool may_be_zero) {
@@ -105,7 +105,7 @@ py::tuple periodic_orbits(const Model& model, double eta, int max_length, int tr
   run_on_threads(1, [&] { found = search_orbits(PoincareMap(model, eta), settings); });
   TableRows rows;
   for (const FoundOrbit& orbit : found.orbits) write_row(model.H, orbit.orbit, rows);
-  return rows.result(orbit_columns());
+  return rows.result(kOrbitColumns);
 }
 
 const char* name_of(LyapunovOutcome outcome) {

@@ -64,7 +64,7 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   for (const std::vector<SweepResult>& chain : chains) {
     for (const SweepResult& result : chain) write_row(grid.at(row++), result, rows);
   }
-  return rows.result(curve_columns());
+  return rows.result(kCurveColumns);
 }
 
 // A row of the input is (eta, gamma, cutoff, phase, extension, u, w, rest_height, amplitude, frequency_ratio). Returns

@@ -45,7 +45,7 @@ std::string with_units(const std::string& identity, const TableUnits& units) {
 
 // Are the rows those of one point, whatever was found there?
 bool are_of_one_point(const std::string& a, const std::string& b) {
-  constexpr std::size_t kOfThePoint[] = {0, 1, 2, 10, 11, 12};  // of curve_columns()
+  constexpr std::size_t kOfThePoint[] = {0, 1, 2, 10, 11, 12};  // of kCurveColumns
   const std::vector<std::string> one = split_fields(a), other = split_fields(b);
   return one.size() == other.size() && std::all_of(std::begin(kOfThePoint), std::end(kOfThePoint),
                                                    [&](std::size_t column) { return one[column] == other[column]; });
@@ -55,7 +55,7 @@ bool are_of_one_point(const std::string& a, const std::string& b) {
 
 CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, const SweepGrid& grid,
                      const TableUnits& units)
-    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, curve_columns(), units) {
+    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, kCurveColumns, units) {
   errno = 0;
   if (!is_stream(path)) {
     claim(with_units(identity(settings), units));
@@ -96,9 +96,9 @@ void CurveFile::claim(const std::string& identity) {
 // Cuts off the line that a kill cut short, and the rows of a chain that was not finished: where the next point of it
 // would begin is not in the table. The rows before must be those of the points.
 void CurveFile::keep_whole_chains(const TableUnits& units) {
-  const std::string header = units.header(curve_columns());
+  const std::string header = units.header(kCurveColumns);
   std::ostringstream expected;
-  TableWriter writer(expected, curve_columns(), units);
+  TableWriter writer(expected, kCurveColumns, units);
   std::ifstream file(path_, std::ios::binary);
   std::string line;
   std::size_t lines = 0;

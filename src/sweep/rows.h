@@ -9,7 +9,21 @@
 
 namespace afm {
 
-const std::vector<Column>& curve_columns();
+inline const std::vector<Column> kCurveColumns{{"eta", Quantity::velocity, "drag_velocity"},
+                                               {"gamma"},
+                                               {"cutoff", Quantity::velocity},
+                                               {"k_f", Quantity::friction},
+                                               {"k_f_std_error", Quantity::friction},
+                                               {"impacts_per_tau"},
+                                               {"mean_energy_loss", Quantity::energy},
+                                               {"mean_flight_time", Quantity::time},
+                                               {"largest_lyapunov", Quantity::rate},
+                                               {"attractor"},
+                                               {"rest_height", Quantity::length},
+                                               {"amplitude", Quantity::length},
+                                               {"frequency_ratio"},
+                                               {"k_f_work", Quantity::friction},
+                                               {"k_f_work_std_error", Quantity::friction}};
 
 template <class Table>
 void write_row(const SweepPoint& point, const SweepResult& r, Table& to) {
