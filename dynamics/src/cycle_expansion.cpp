@@ -34,24 +34,6 @@ std::vector<Term> combinations(const std::vector<PeriodicOrbit>& orbits, std::si
   return terms;
 }
 
-class Sum {
- public:
-  explicit Sum(double eta) : eta_(eta) {}
-
-  void add(const Term& t) {
-    ++terms_;
-    weight_ += t.weight;
-    energy_ += t.weight * t.energy;
-    time_ += t.weight * t.time;
-  }
-  CycleAverage average(int order) const { return {order, terms_ - 1, energy_ / time_ / (eta_ * eta_), weight_}; }
-
- private:
-  double eta_;
-  int terms_ = 0;
-  double weight_ = 0.0, energy_ = 0.0, time_ = 0.0;
-};
-
 double determinant(const PeriodicOrbit& orbit, int repeats) {
   std::complex<double> product = 1.0;
   for (const auto& multiplier : orbit.multipliers) product *= 1.0 - std::pow(multiplier, repeats);
@@ -85,11 +67,16 @@ std::vector<CycleAverage> zeta_averages(const std::vector<PeriodicOrbit>& orbits
   const std::vector<Term> terms = combinations(orbits, static_cast<std::size_t>(longest));
   std::vector<CycleAverage> rows;
   for (int n = 1; n <= longest; ++n) {
-    Sum sum(eta);
+    int count = -1;  // the empty product is no cycle
+    double weight = 0.0, energy = 0.0, time = 0.0;
     for (const Term& t : terms) {
-      if (t.length <= static_cast<std::size_t>(n)) sum.add(t);
+      if (t.length > static_cast<std::size_t>(n)) continue;
+      ++count;
+      weight += t.weight;
+      energy += t.weight * t.energy;
+      time += t.weight * t.time;
     }
-    rows.push_back(sum.average(n));
+    rows.push_back({n, count, energy / time / (eta * eta), weight});
   }
   return rows;
 }
