@@ -16,24 +16,6 @@ namespace {
 
 SlideState<double> slide_state_of(const TipState& s) { return {s.phase, s.X, s.u}; }
 
-// A flight from impact to impact, computed again with its Jacobian.
-struct Bounced {
-  TipState after;
-  double normal_speed;
-  SectionJacobian<double> jacobian;
-};
-
-void follow(const Model& model, const SpringConstants<double>& springs, double eta, const TipState& start, double dt,
-            Bounced& bounced) {
-  const Flight<double> flight(springs, eta, start);
-  GapJet<double> landing = flight.gap(dt);
-  landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
-  const Reflection bounce = reflect(model, eta, landing);
-  bounced.after = bounce.after;
-  bounced.normal_speed = bounce.normal_speed;
-  bounced.jacobian = section_jacobian(model, flight, dt, landing);
-}
-
 }  // namespace
 
 // The hammer has two displacements, of phase and gap rate.
@@ -76,13 +58,16 @@ Outcome Tangents::advance(const ModelTime& limit) {
   return outcome;
 }
 
+// Computes the flight from impact to impact again, with its Jacobian.
 void Tangents::carry_bounce(double dt) {
-  Bounced bounced;
-  follow(model_, springs_, tip_.eta(), start_, dt, bounced);
-  carry(bounced.jacobian);
-  const RestitutionJet<double> law = restitution_jet(model_, bounced.normal_speed);
-  growth_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounced.after.g1);
-  restart(bounced.after);
+  const Flight<double> flight(springs_, tip_.eta(), start_);
+  GapJet<double> landing = flight.gap(dt);
+  landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
+  const Reflection bounce = reflect(model_, tip_.eta(), landing);
+  carry(section_jacobian(model_, flight, dt, landing));
+  const RestitutionJet<double> law = restitution_jet(model_, bounce.normal_speed);
+  growth_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounce.after.g1);
+  restart(bounce.after);
 }
 
 // From the state of the tip: that of `bounce` differs by rounding, which an unstable orbit would amplify. A tip that
