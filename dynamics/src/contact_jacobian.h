@@ -13,10 +13,8 @@
 
 namespace afm::detail {
 
-using SlideJacobian = Eigen::Matrix3d;
-
 // A slide of duration s [tau] from `start`, released or not: the exact derivative of its Taylor series.
-SlideJacobian slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s);
+Eigen::Matrix3d slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s);
 
 // d(x, X, u)/dt of a slide, the direction that does not count.
 Eigen::Vector3d slide_velocity(const Model& model, double eta, const SlideState<double>& q);
