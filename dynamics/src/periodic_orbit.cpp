@@ -6,8 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "afm/detail/flight_jets.h"
+#include "afm/dynamics/jacobian.h"
 #include "core/search/double_double.h"
-#include "orbit_polish.h"
 
 namespace afm {
 
@@ -72,22 +73,90 @@ Multipliers eigenvalues(const SectionJacobian<double>& J) {
   return sorted;
 }
 
+using Fine = DoubleDouble;
+
+struct FinePoint {
+  Fine phase, X, u, g1;
+};
+
+struct FineStep {
+  FinePoint after;
+  Fine dt, energy_loss;
+};
+
+// The state in flight after an impact.
+FlightState<Fine> launched(const SpringConstants<Fine>& m, const Fine& eta, const FinePoint& p) {
+  const SurfaceJet<Fine> surface = surface_jet(m.H, p.phase);
+  return {p.phase, p.X, p.u - eta, surface.h - m.y0, p.g1 + surface.h1 * p.u};
+}
+
+Eigen::Vector4d difference(const FinePoint& b, const FinePoint& a) {
+  const Fine phase = b.phase - a.phase;
+  return {static_cast<double>(phase - Fine(nearest(phase.high()))), static_cast<double>(b.X - a.X),
+          static_cast<double>(b.u - a.u), static_cast<double>(b.g1 - a.g1)};
+}
+
+// From an impact to the next, near the time `estimate` [tau].
+FineStep fine_map(const Model& model, double eta, const FinePoint& point, double estimate) {
+  constexpr int kNewtonSteps = 4;  // each doubles the digits: two give all 31, near a graze more are needed
+  FinePoint start = point;
+  if (model.kind == ModelKind::hammer) start.X = Fine(0.0), start.u = eta;
+  const SpringConstants<Fine> m(model);
+  const Fine drag(eta);
+  const FlightState<Fine> launch = launched(m, drag, start);
+  const auto gap = [&](const Fine& time) { return jet_at(m, drag, state_after(m, drag, launch, time)); };
+  Fine s(estimate);
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const GapJet<Fine> jet = gap(s);
+    s = s - jet.g / jet.g1;
+  }
+  const GapJet<Fine> in = gap(s);
+  const Fine speed = Incidence<Fine>(m, drag, in.state, in.g1).normal_speed;
+  const Fine one(1.0), e = restitution_jet(model, speed).restitution;
+  const Fine kick = m.is_free_along_x * (one + e) * in.h1 * in.g1 / (one + in.h1 * in.h1);
+  const FinePoint after{in.state.phase, in.state.X, drag + in.state.U + kick, -(e * in.g1)};
+  return {after, s, Fine(0.5) * (one - e) * (one + e) * speed * speed};
+}
+
+// The last digits of an orbit that is known to rounding: Newton's method with residuals in double-double. Returns the
+// flights from the refined points.
+std::vector<FineStep> polish(const PoincareMap& map, const Shot& shot, std::vector<FinePoint>& points) {
+  const std::size_t n = points.size();
+  std::vector<FineStep> steps;
+  constexpr int kPolishSteps = 3;  // Newton steps with a fixed matrix: each leaves an error of 1e-10 of the one before
+  for (int round = 0; round <= kPolishSteps; ++round) {
+    Eigen::VectorXd error(static_cast<Eigen::Index>(4 * n));
+    steps.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+      steps.push_back(fine_map(map.model(), map.eta(), points[i], shot.steps[i].dt));
+      error.segment<4>(static_cast<Eigen::Index>(4 * i)) = difference(steps.back().after, points[(i + 1) % n]);
+    }
+    if (round == kPolishSteps) break;
+    const Eigen::VectorXd step = newton_step(shot, error);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Eigen::Vector4d d = step.segment<4>(static_cast<Eigen::Index>(4 * i));
+      FinePoint& p = points[i];
+      p = {p.phase + Fine(d[0]), p.X + Fine(d[1]), p.u + Fine(d[2]), p.g1 + Fine(d[3])};
+    }
+  }
+  return steps;
+}
+
 // Refines an orbit that is known to rounding: points, energy, times and friction to the last digit.
-void refine(const PoincareMap& map, const Shot& shot, Points points, PeriodicOrbit& orbit) {
-  std::vector<double> times;
-  for (const MapStep& step : shot.steps) times.push_back(step.dt);
-  const FineOrbit fine =
-      polish(map, points, times, [&](const Eigen::VectorXd& error) { return newton_step(shot, error); });
-  DoubleDouble energy(0.0), period(0.0);
+void refine(const PoincareMap& map, const Shot& shot, const Points& known, PeriodicOrbit& orbit) {
+  std::vector<FinePoint> points;
+  for (const TipState& p : known) points.push_back({p.phase, p.X, p.u, p.g1});
+  const std::vector<FineStep> steps = polish(map, shot, points);
+  Fine energy(0.0), period(0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const FinePoint& p = fine.points[i];
+    const FinePoint& p = points[i];
     orbit.points.push_back({wrap_phase(static_cast<double>(p.phase)), static_cast<double>(p.X),
                             static_cast<double>(p.u), 0.0, static_cast<double>(p.g1)});
-    orbit.times.push_back(static_cast<double>(fine.steps[i].dt));
-    energy = energy + fine.steps[i].energy_loss;
-    period = period + fine.steps[i].dt;
+    orbit.times.push_back(static_cast<double>(steps[i].dt));
+    energy = energy + steps[i].energy_loss;
+    period = period + steps[i].dt;
   }
-  const DoubleDouble eta(map.eta());
+  const Fine eta(map.eta());
   orbit.energy_loss = static_cast<double>(energy);
   orbit.period = static_cast<double>(period);
   orbit.K_f = static_cast<double>(energy / (eta * eta * period));
