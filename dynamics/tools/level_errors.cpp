@@ -1,9 +1,13 @@
 #include "level_errors.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
 
 #include "afm/dynamics/sweep.h"
-#include "tip_times.h"
+#include "common/cpu_clock.h"
 
 namespace afm {
 namespace {
@@ -19,6 +23,30 @@ constexpr double kStandardErrors = 2.0;
 
 TipState start_of(const Model& model, double eta, const LevelErrorSettings& settings, int index) {
   return random_start({eta, model.gamma, model.v_c}, settings.seed, static_cast<std::uint64_t>(index));
+}
+
+constexpr std::size_t kRounds = 15;                       // of the timing
+constexpr double kTimedInterval = 40.0, kWarmUp = 120.0;  // [tau]
+
+void fly(Tip& tip, double duration) {
+  constexpr int kMostEvents = 20000;  // chatter bounce by bounce would not end
+  const ModelTime end = tip.now() + duration;
+  for (int i = 0; i < kMostEvents && tip.advance(end) != Outcome::time_limit; ++i) {
+  }
+}
+
+double time_of_interval(Tip& tip) {
+  const ModelTime begin = tip.now();
+  const double from = thread_seconds();
+  fly(tip, kTimedInterval);
+  const double spent = thread_seconds() - from, passed = tip.now() - begin;
+  return passed > 0.0 ? 1e9 * spent / passed : std::numeric_limits<double>::infinity();
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 // Over that of the full model.
@@ -82,6 +110,18 @@ double distance(const Runs& runs, const Runs& references, Distance between) {
 }
 
 }  // namespace
+
+std::vector<double> nanoseconds_per_tau(std::vector<Tip> tips) {
+  for (std::size_t i = 0; i < tips.size(); ++i)
+    fly(tips[i], kWarmUp + static_cast<double>(i * kRounds) * kTimedInterval);
+  std::vector<std::vector<double>> times(tips.size());
+  for (std::size_t round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < tips.size(); ++i) times[i].push_back(time_of_interval(tips[i]));
+  }
+  std::vector<double> medians;
+  for (std::vector<double>& of_tip : times) medians.push_back(median(of_tip));
+  return medians;
+}
 
 std::vector<MeasuredLevel> measure_levels(const Model& model, double eta, const LevelErrorSettings& settings) {
   const std::vector<double> costs = measure_costs(model, eta, start_of(model, eta, settings, 0));

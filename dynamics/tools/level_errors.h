@@ -6,6 +6,7 @@
 
 #include "afm/dynamics/model_error.h"
 #include "afm/level_table.h"
+#include "afm/tip.h"
 
 namespace afm {
 
@@ -34,5 +35,11 @@ struct MeasuredLevel {
 // that the reference comes to. Errors of K_f include two standard errors, those of the deflection what two samples of
 // one attractor differ by; both are 0 where the level does to the bit what the reference does.
 std::vector<MeasuredLevel> measure_levels(const Model& model, double eta, const LevelErrorSettings& settings);
+
+// Processor time of a tau [ns] of each tip: the median of intervals that the tips fly by turns, so that what else the
+// machine does meets them alike. Each has an interval of its own: where tips make the same chaotic flights, the first
+// would pay a sixth more, as the processor has learned the branches when the others make them. Infinite where a tip
+// does not get on.
+std::vector<double> nanoseconds_per_tau(std::vector<Tip> tips);
 
 }  // namespace afm

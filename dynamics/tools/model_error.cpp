@@ -20,7 +20,6 @@
 #include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "level_errors.h"
-#include "tip_times.h"
 
 namespace {
 
