@@ -22,50 +22,24 @@ constexpr QuantityUnits kUnits[kQuantities] = {
     {[](const Units& u) { return 1.0 / u.time(); }, "_per_s", "_per_tau"},
 };
 
-template <class Of>
-auto each(const Of& of) {
-  std::array<decltype(of(kUnits[0])), kQuantities> all{};
-  for (std::size_t i = 0; i < kQuantities; ++i) all[i] = of(kUnits[i]);
-  return all;
-}
-
-std::array<double, kQuantities> ones() {
-  return each([](const QuantityUnits&) { return 1.0; });
-}
-std::array<double, kQuantities> si_units(const Units& units) {
-  return each([&](const QuantityUnits& q) { return q.si(units); });
-}
-std::array<std::string, kQuantities> no_suffix() { return {}; }
-std::array<std::string, kQuantities> si_suffix() {
-  return each([](const QuantityUnits& q) { return std::string(q.si_suffix); });
-}
-std::array<std::string, kQuantities> natural_suffix() {
-  return each([](const QuantityUnits& q) { return std::string(q.natural_suffix); });
-}
-
 }  // namespace
 
 double si_factor(Quantity quantity, const Units& units) { return kUnits[static_cast<std::size_t>(quantity)].si(units); }
 
-TableUnits TableUnits::plain() { return {ones(), false, no_suffix()}; }
-TableUnits TableUnits::si() { return {ones(), false, si_suffix()}; }
-TableUnits TableUnits::into_si(const Units& units) { return {si_units(units), false, si_suffix()}; }
-TableUnits TableUnits::into_natural(const Units& units) { return {si_units(units), true, natural_suffix()}; }
+double TableUnits::unit(Quantity quantity) const { return units_ ? si_factor(quantity, *units_) : 1.0; }
 
 double TableUnits::convert(Quantity quantity, double value) const {
-  const double unit = unit_[index(quantity)];
-  if (unit == 1.0) return value;
-  return divides_ ? value / unit : value * unit;
+  return suffix_ == Suffix::natural ? value / unit(quantity) : value * unit(quantity);
 }
 
 double TableUnits::invert(Quantity quantity, double value) const {
-  const double unit = unit_[index(quantity)];
-  if (unit == 1.0) return value;
-  return divides_ ? value * unit : value / unit;
+  return suffix_ == Suffix::natural ? value * unit(quantity) : value / unit(quantity);
 }
 
 std::string TableUnits::name(const Column& column) const {
-  const std::string& suffix = suffix_[index(column.quantity)];
+  if (suffix_ == Suffix::none) return column.name;
+  const QuantityUnits& units = kUnits[static_cast<std::size_t>(column.quantity)];
+  const std::string suffix = suffix_ == Suffix::si ? units.si_suffix : units.natural_suffix;
   return (suffix.empty() || column.name_with_unit.empty() ? column.name : column.name_with_unit) + suffix;
 }
 

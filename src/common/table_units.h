@@ -1,8 +1,9 @@
 // The units of a table: SI, or natural ones (lattice spacing a, period tau, tip mass m_tip), and how columns show them.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,14 @@ struct Column {
 
 class TableUnits {
  public:
-  static TableUnits plain();                           // numbers and names stay as they are
-  static TableUnits si();                              // numbers stay; names end in their SI unit, such as _m_per_s
-  static TableUnits into_si(const Units& units);       // natural numbers become SI numbers, names as in si()
-  static TableUnits into_natural(const Units& units);  // SI numbers become natural numbers; names end in _a_per_tau ...
+  // Numbers and names stay as they are.
+  static TableUnits plain() { return {Suffix::none, {}}; }
+  // Numbers stay; names end in their SI unit, such as _m_per_s.
+  static TableUnits si() { return {Suffix::si, {}}; }
+  // Natural numbers become SI numbers, names as in si().
+  static TableUnits into_si(const Units& units) { return {Suffix::si, units}; }
+  // SI numbers become natural numbers; names end in _a_per_tau ...
+  static TableUnits into_natural(const Units& units) { return {Suffix::natural, units}; }
 
   double convert(Quantity quantity, double value) const;
   double invert(Quantity quantity, double value) const;  // from the table's units back
@@ -35,15 +40,12 @@ class TableUnits {
   std::string header(const std::vector<Column>& columns) const;  // with commas between, without a line end
 
  private:
-  using Factors = std::array<double, kQuantities>;
-  using Suffixes = std::array<std::string, kQuantities>;
-  TableUnits(const Factors& unit, bool divides, const Suffixes& suffix)
-      : unit_(unit), divides_(divides), suffix_(suffix) {}
-  static std::size_t index(Quantity quantity) { return static_cast<std::size_t>(quantity); }
+  enum class Suffix : std::uint8_t { none, si, natural };
+  TableUnits(Suffix suffix, const std::optional<Units>& units) : suffix_(suffix), units_(units) {}
+  double unit(Quantity quantity) const;
 
-  Factors unit_;  // 1: not converted
-  bool divides_;
-  Suffixes suffix_;
+  Suffix suffix_;
+  std::optional<Units> units_;  // none: numbers stay as they are
 };
 
 }  // namespace afm
