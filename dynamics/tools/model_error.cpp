@@ -1,14 +1,12 @@
 // How far a simpler level of the model is from the full one, and what it saves; or all levels of a scene.
 #include "afm/dynamics/model_error.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
-#include <iterator>
-#include <map>
-#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -115,76 +113,48 @@ void compare(const Options& o, const Point& point, int start) {
 }
 
 // Parameters of the emulator by their names: those of a scene, and where it is silent those of config/emulator.yaml.
-// Such a file is flat: a name, a colon, a value, and perhaps a comment.
-class SceneParameters {
- public:
-  explicit SceneParameters(const std::string& scene) : scene_(scene) {
-    const std::string folder = AFM_CONFIG;
-    read(scene.find('/') == std::string::npos ? folder + "/scenes/" + scene + ".yaml" : scene);
-    read(folder + "/emulator.yaml");
+YAML::Node parameters_of(const std::string& scene) {
+  const std::string folder = AFM_CONFIG;
+  const bool is_name = scene.find('/') == std::string::npos;
+  YAML::Node all = YAML::LoadFile(folder + "/emulator.yaml");
+  for (const auto& entry : YAML::LoadFile(is_name ? folder + "/scenes/" + scene + ".yaml" : scene)) {
+    all[entry.first.as<std::string>()] = entry.second;
   }
+  return all;
+}
 
-  std::string text(const std::string& name) const {
-    const auto found = texts_.find(name);
-    return found == texts_.end() ? "" : found->second;
-  }
-  double number(const std::string& name) const {
-    std::size_t used = 0;
-    double value = 0.0;
-    try {
-      value = std::stod(text(name), &used);
-    } catch (const std::exception&) {
-    }
-    if (used == 0 || used != text(name).size()) fail(name + " = '" + text(name) + "' is not a number");
-    return value;
-  }
-  [[noreturn]] void fail(const std::string& why) const {
-    throw std::invalid_argument("scene = " + scene_ + ": " + why);
-  }
+double number(const YAML::Node& p, const char* name) {
+  const double value = p[name].as<double>(std::nan(""));
+  if (!std::isfinite(value))
+    throw std::invalid_argument(std::string(name) + " = '" + p[name].Scalar() + "' is not a number");
+  return value;
+}
 
- private:
-  void read(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) fail(path + " cannot be read");
-    const std::string all{std::istreambuf_iterator<char>(file), {}};
-    static const std::regex entry(R"((?:^|\n)(\w+):[ ]*(\[[^\]]*\]|[^#\n]*))");
-    for (std::sregex_iterator i(all.begin(), all.end(), entry), end; i != end; ++i) {
-      texts_.emplace(i->str(1), std::regex_replace(i->str(2), std::regex(R"([\[\]"\s]+)"), ""));
-    }
-  }
-
-  std::string scene_;
-  std::map<std::string, std::string> texts_;
-};
-
-afm::SiModel si_model(const SceneParameters& p) {
+afm::SiModel si_model(const YAML::Node& p) {
   afm::SiModel si;
-  si.omega_v_rad_per_s = p.number("omega_v_rad_per_s");
-  si.omega_h_rad_per_s = p.number("omega_h_rad_per_s");
-  si.tip_mass_kg = p.number("tip_mass_kg");
-  si.lattice_spacing_m = p.number("lattice_spacing_m");
-  si.surface_amplitude_m = p.number("surface_amplitude_m");
-  si.restitution_gamma = p.number("restitution_gamma");
-  si.cutoff_speed = p.number("cutoff_speed");
-  si.rest_height_m = p.number("rest_height_m");
-  const afm::Lever lever{p.number("spring_constant_n_per_m"), p.number("resonance_hz"),
-                         p.number("lateral_spring_constant_n_per_m")};
-  if (lever.is_given()) {
-    for (const afm::ParameterError& fault : find_faults(lever)) p.fail(fault.what());
-    set_lever(lever, si);
-  }
-  if (p.number("load_n") != 0.0) si.rest_height_m = -p.number("load_n") / spring_constant(si);
-  for (const afm::ParameterError& fault : find_faults(si)) p.fail(fault.what());
+  si.omega_v_rad_per_s = number(p, "omega_v_rad_per_s");
+  si.omega_h_rad_per_s = number(p, "omega_h_rad_per_s");
+  si.tip_mass_kg = number(p, "tip_mass_kg");
+  si.lattice_spacing_m = number(p, "lattice_spacing_m");
+  si.surface_amplitude_m = number(p, "surface_amplitude_m");
+  si.restitution_gamma = number(p, "restitution_gamma");
+  si.cutoff_speed = number(p, "cutoff_speed");
+  si.rest_height_m = number(p, "rest_height_m");
+  const afm::Lever lever{number(p, "spring_constant_n_per_m"), number(p, "resonance_hz"),
+                         number(p, "lateral_spring_constant_n_per_m")};
+  for (const afm::ParameterError& fault : set_lever_and_load(lever, number(p, "load_n"), si)) throw fault;
+  for (const afm::ParameterError& fault : find_faults(si)) throw fault;
   return si;
 }
 
 // At most five of the drag velocities that a scene sends; else its own.
-std::vector<double> drag_velocities(const SceneParameters& p, const afm::Units& units) {
+std::vector<double> drag_velocities(const YAML::Node& p, const afm::Units& units) {
   std::set<double> sent;
-  if (!p.text("commands_eta").empty()) {
-    for (const double eta : afm::ranges_option("commands_eta", p.text("commands_eta"))) sent.insert(std::abs(eta));
+  for (const double eta : p["commands_eta"].as<std::vector<double>>()) {
+    if (!std::isfinite(eta)) throw std::invalid_argument("commands_eta must be finite");
+    sent.insert(std::abs(eta));
   }
-  if (sent.empty()) sent.insert(std::abs(p.number("drag_velocity")) / units.velocity());
+  if (sent.empty()) sent.insert(std::abs(number(p, "drag_velocity")) / units.velocity());
   sent.erase(0.0);
   const std::vector<double> all(sent.begin(), sent.end());
   std::vector<double> etas;
@@ -194,12 +164,21 @@ std::vector<double> drag_velocities(const SceneParameters& p, const afm::Units& 
 
 struct Scene {
   explicit Scene(const std::string& name_or_file) : name(name_or_file) {
-    const SceneParameters p(name);
-    if (p.number("quality_factor") > 0.0) p.fail("it has a bath, and levels are compared without one");
-    const afm::Units units(si_model(p));
-    model = units.to_natural(si_model(p));
-    in_use.contact_tolerance = p.number("contact_tolerance");
-    is_stated = afm::parse(p.text("model"), in_use.kind);
+    try {
+      read(parameters_of(name));
+    } catch (const std::exception& fault) {
+      throw std::invalid_argument("scene = " + name + ": " + fault.what());
+    }
+  }
+
+  void read(const YAML::Node& p) {
+    if (number(p, "quality_factor") > 0.0)
+      throw std::invalid_argument("it has a bath, and levels are compared without one");
+    const afm::SiModel si = si_model(p);
+    const afm::Units units(si);
+    model = units.to_natural(si);
+    in_use.contact_tolerance = number(p, "contact_tolerance");
+    is_stated = afm::parse(p["model"].as<std::string>(), in_use.kind);
     etas = drag_velocities(p, units);
   }
 
