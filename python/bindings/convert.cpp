@@ -71,6 +71,10 @@ void require(bool holds, const char* name, double value, const char* reason) {
   if (!holds) refuse({ParameterError(name, value, reason)});
 }
 
+void check_eta(double eta) {
+  require(std::abs(eta) <= kMaxEta, "eta", eta, "must be finite and at most 1000 lattice spacings per tau");
+}
+
 double real(const char* name, const py::handle& value) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() == nullptr) return number;

@@ -29,6 +29,7 @@ void refuse(const std::vector<ParameterError>& faults);
 // The same as warnings (RuntimeWarning), at the line of the user: each function of ours is called by one in Python.
 void warn(const std::vector<ParameterError>& traps);
 void require(bool holds, const char* name, double value, const char* reason);
+void check_eta(double eta);
 
 // An argument that takes more than one type. Raises afm.ParameterError if it is something else.
 [[noreturn]] void refuse_type(const char* name, const py::handle& value, const char* reason);  // of the wrong type
@@ -48,6 +49,11 @@ py::dict to_python(const FrictionEstimate& friction);
 // The start of every run, unchecked; u None: the drag velocity.
 RunSettings to_settings(const Model& model, double eta, double phase, double extension, double y, const py::object& u,
                         double w, double contact_tolerance);
+
+// A snapshot as a dict of numbers and arrays in natural units: of a run, or of a tip alone.
+py::dict to_dict(const Snapshot& snapshot);
+Snapshot to_snapshot(const py::dict& dict);  // throws Faults
+void require_settled(bool settled);
 
 py::dtype impact_dtype();  // of the library's own records
 

@@ -4,13 +4,11 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <thread>
 #include <vector>
 
 #include "convert.h"
-#include "py_tip.h"
 
 namespace afm::python {
 namespace {
@@ -19,14 +17,11 @@ using namespace py::literals;
 
 class PyEnsemble {
  public:
-  PyEnsemble(const std::vector<PyTip>& tips, int threads)
+  PyEnsemble(const std::vector<Tip>& tips, int threads)
       : ensemble_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
     require(threads >= 0 && threads <= 1024, "threads", threads, "must be within 0 and 1024");
     ensemble_.reserve(tips.size());
-    for (const PyTip& tip : tips) {
-      ensemble_.add(tip.tip);
-      earlier_failures_.push_back(tip.earlier_failures);
-    }
+    for (const Tip& tip : tips) ensemble_.add(tip);
   }
 
   std::size_t size() const { return ensemble_.size(); }
@@ -51,15 +46,14 @@ class PyEnsemble {
   }
 
   void drag(double eta) {
-    require(std::abs(eta) <= kMaxEta, "eta", eta, "must be finite and at most 1000 lattice spacings per tau");
+    check_eta(eta);
     for (std::size_t i = 0; i < size(); ++i) ensemble_.drag(i, eta);
   }
 
-  PyTip tip(py::ssize_t i) const {
+  Tip tip(py::ssize_t i) const {
     const auto n = static_cast<py::ssize_t>(size());
     if (i < -n || i >= n) throw py::index_error("an ensemble of " + std::to_string(n) + " tips");
-    const auto of = static_cast<std::size_t>(i < 0 ? i + n : i);
-    return {ensemble_.tip(of), earlier_failures_[of]};
+    return ensemble_.tip(static_cast<std::size_t>(i < 0 ? i + n : i));
   }
 
  private:
@@ -80,7 +74,6 @@ class PyEnsemble {
   }
 
   Ensemble ensemble_;
-  std::vector<std::uint64_t> earlier_failures_;
 };
 
 }  // namespace
@@ -91,7 +84,7 @@ void add_ensemble(py::module& m) {
 
 tips: copies of these; threads: 0 is one for each processor. Each tip gives the same bits as alone. len() is their
 number, ensemble[i] a copy of the i-th Tip as it is now.)")
-      .def(py::init<const std::vector<PyTip>&, int>(), "tips"_a, "threads"_a = 0)
+      .def(py::init<const std::vector<Tip>&, int>(), "tips"_a, "threads"_a = 0)
       .def("advance", &PyEnsemble::advance, "time"_a,
            "All tips to a model time [tau] (a number, or a ModelTime). Returns the number of events of each, shape "
            "(n,).")

@@ -10,7 +10,6 @@
 
 #include "convert.h"
 #include "long_call.h"
-#include "snapshot.h"
 
 namespace afm::python {
 namespace {

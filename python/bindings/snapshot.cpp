@@ -1,6 +1,4 @@
 // A snapshot as a dict.
-#include "snapshot.h"
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -164,6 +162,10 @@ Snapshot to_snapshot(const py::dict& dict) {
   s.friction = Friction(sums);
   refuse(find_faults(s));
   return s;
+}
+
+void require_settled(bool settled) {
+  if (!settled) throw py::value_error("a command has left an event to report: advance to the present first");
 }
 
 }  // namespace afm::python

@@ -85,14 +85,10 @@ py::tuple attractors(const std::vector<std::vector<double>>& points, const std::
   return rows.result(kBasinColumns) + py::make_tuple(labels(grid, basins, settings));
 }
 
-void check_eta(double eta, bool may_be_zero) {
-  require(std::abs(eta) <= kMaxEta, "eta", eta, "must be finite and at most 1000 lattice spacings per tau");
-  require(may_be_zero || eta != 0.0, "eta", eta, "without drag there is no orbit but rest");
-}
-
 py::tuple periodic_orbits(const Model& model, double eta, int max_length, int trajectory, int guesses,
                           std::uint64_t seed) {
-  check_eta(eta, false);
+  check_eta(eta);
+  require(eta != 0.0, "eta", eta, "without drag there is no orbit but rest");
   require(max_length >= 1 && max_length <= 32, "max_length", max_length, "must be within 1 and 32");
   require(trajectory >= 1000 && trajectory <= 10000000, "trajectory", trajectory, "must be within 1000 and 10000000");
   require(guesses >= 1 && guesses <= 1000000, "guesses", guesses, "must be within 1 and 1000000");

@@ -3,38 +3,31 @@
 
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "convert.h"
 #include "long_call.h"
-#include "py_tip.h"
-#include "snapshot.h"
 
 namespace afm::python {
 namespace {
 
 using namespace py::literals;
 
-PyTip to_tip(const Model& model, double eta, double phase, double extension, double y, const py::object& u, double w,
-             double contact_tolerance, const Bath& bath) {
+Tip to_tip(const Model& model, double eta, double phase, double extension, double y, const py::object& u, double w,
+           double contact_tolerance, const Bath& bath) {
   const RunSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(settings));
-  PyTip made{Tip(model, eta, settings.initial, contact_tolerance)};
+  Tip tip(model, eta, settings.initial, contact_tolerance);
   warn(find_traps(model, bath));
-  made.tip.set_bath(bath);
-  return made;
+  tip.set_bath(bath);
+  return tip;
 }
 
-void check_eta(double eta) {
-  require(std::abs(eta) <= kMaxEta, "eta", eta, "must be finite and at most 1000 lattice spacings per tau");
-}
-
-ModelTime later(const PyTip& self, const py::object& time) {
+ModelTime later(const Tip& self, const py::object& time) {
   const ModelTime end = to_time(time);
-  require(self.tip.now() <= end, "time", end - ModelTime{}, "lies before the tip's present");
+  require(self.now() <= end, "time", end - ModelTime{}, "lies before the tip's present");
   return end;
 }
 
@@ -47,18 +40,18 @@ ModelTime next_stop(const Tip& tip, const ModelTime& end) {
   return stop < end ? stop : end;
 }
 
-py::array advance_tip(PyTip& self, const py::object& time, const py::object& most_events) {
+py::array advance_tip(Tip& self, const py::object& time, const py::object& most_events) {
   const ModelTime end = later(self, time);
   const std::uint64_t most =
       most_events.is_none() ? std::numeric_limits<std::uint64_t>::max() : whole("most_events", most_events);
   std::vector<Impact> events;
   if (most > 0) {
     repeat(kStepsAtATime, [&] {
-      const ModelTime stop = next_stop(self.tip, end);
-      const Outcome outcome = self.tip.advance(stop);
+      const ModelTime stop = next_stop(self, end);
+      const Outcome outcome = self.advance(stop);
       if (outcome == Outcome::time_limit) return stop == end;
       if (outcome == Outcome::search_failed) throw std::runtime_error("the search of an impact cannot go on");
-      events.push_back(self.tip.last_impact());
+      events.push_back(self.last_impact());
       return events.size() == most;
     });
   }
@@ -68,17 +61,16 @@ py::array advance_tip(PyTip& self, const py::object& time, const py::object& mos
 // Samples from now on, evenly, taken segment by segment, before the next replaces it.
 class Sampler {
  public:
-  Sampler(PyTip& self, double period, std::size_t count)
-      : self_(self), grid_{period, 0, self.tip.now()}, end_(grid_.time(count)), vertical_(count), lateral_(count) {}
+  Sampler(Tip& tip, double period, std::size_t count)
+      : tip_(tip), grid_{period, 0, tip.now()}, end_(grid_.time(count)), vertical_(count), lateral_(count) {}
 
   bool step() {
-    Tip& tip = self_.tip;
-    const ModelTime stop = next_stop(tip, end_), segment_end = tip.segment_end();
+    const ModelTime stop = next_stop(tip_, end_), segment_end = tip_.segment_end();
     take(segment_end < stop ? segment_end : stop);
-    const Outcome outcome = tip.advance_segment(stop);
+    const Outcome outcome = tip_.advance_segment(stop);
     if (outcome == Outcome::time_limit) return stop == end_;
     if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) {
-      events_.push_back(tip.last_impact());
+      events_.push_back(tip_.last_impact());
     }
     return false;
   }
@@ -94,11 +86,11 @@ class Sampler {
     std::size_t to = taken_;
     while (to < vertical_.size() && grid_.time(to) < until) ++to;
     if (to == taken_) return;
-    self_.tip.deflections(grid_, taken_, to - taken_, &vertical_[taken_], &lateral_[taken_]);
+    tip_.deflections(grid_, taken_, to - taken_, &vertical_[taken_], &lateral_[taken_]);
     taken_ = to;
   }
 
-  PyTip& self_;
+  Tip& tip_;
   SampleGrid grid_;
   ModelTime end_;
   std::size_t taken_ = 0;
@@ -106,25 +98,24 @@ class Sampler {
   std::vector<Impact> events_;
 };
 
-py::object samples(PyTip& self, double period, std::size_t count) {
+py::object samples(Tip& self, double period, std::size_t count) {
   require(period >= 1e-9 && period <= 1e6, "period", period, "must be between 1e-9 and 1e6 tau");
   Sampler sampler(self, period, count);
   repeat(kStepsAtATime, [&] { return sampler.step(); });
   return sampler.result();
 }
 
-void change(PyTip& self, const py::object& gamma, const py::object& cutoff, const py::object& rest_height) {
-  Model model = self.tip.model();
+void change(Tip& self, const py::object& gamma, const py::object& cutoff, const py::object& rest_height) {
+  Model model = self.model();
   if (!gamma.is_none()) model.gamma = real("gamma", gamma);
   if (!cutoff.is_none()) model.v_c = real("cutoff", cutoff);
   if (!rest_height.is_none()) model.y0 = real("rest_height", rest_height);
   refuse(find_faults(model));
-  self.tip.set_parameters(model);
+  self.set_parameters(model);
 }
 
 // As a snapshot of a run that begins here.
-py::tuple pickled_tip(const PyTip& self) {
-  const Tip& tip = self.tip;
+py::dict pickled_tip(const Tip& tip) {
   require_settled(tip.is_settled());
   Snapshot s;
   s.settings.model = tip.model();
@@ -135,22 +126,22 @@ py::tuple pickled_tip(const PyTip& self) {
   s.samples.origin = s.tip.time;
   s.kicks = tip.thermostat().grid();
   s.kick_count = tip.thermostat().count();
-  return py::make_tuple(to_dict(s), self.search_failures());
+  return to_dict(s);
 }
 
-PyTip unpickled_tip(const py::tuple& t) {
-  const Snapshot s = to_snapshot(t[0].cast<py::dict>());
+Tip unpickled_tip(const py::dict& dict) {
+  const Snapshot s = to_snapshot(dict);
   const RunSettings& settings = s.settings;
   const Thermostat kicks(settings.bath, settings.model.frequency_ratio, s.kicks, s.kick_count);
-  return {Tip(settings.model, settings.eta, s.tip, settings.contact_tolerance, kicks), t[1].cast<std::uint64_t>()};
+  return Tip(settings.model, settings.eta, s.tip, settings.contact_tolerance, kicks);
 }
 
 }  // namespace
 
 void add_tip(py::module& m) {
   const FreeState start = RunSettings{}.initial;
-  py::class_<PyTip>(m, "Tip",
-                    R"(One tip: where it is, what has happened to it, what happens next. Exact, impact by impact.
+  py::class_<Tip>(m, "Tip",
+                  R"(One tip: where it is, what has happened to it, what happens next. Exact, impact by impact.
 
 eta: drag velocity [a/tau]. The start: phase, extension and y [a], u and w [a/tau], in the lab; u None: eta.
 contact_tolerance: error allowed where chatter becomes one event [a, a/tau]; 0: every bounce by itself.
@@ -170,39 +161,36 @@ After Ctrl-C the tip stands where it had come to.)")
 
 Returns Samples: time of the first, period, vertical and lateral of shape (count,) [a], events as advance() does.)")
       .def(
-          "drag", [](PyTip& self, double eta) { check_eta(eta), self.tip.drag(eta); }, "eta"_a,
+          "drag", [](Tip& self, double eta) { check_eta(eta), self.drag(eta); }, "eta"_a,
           "A new drag velocity [a/tau] from now on.")
       .def("change", &change, "gamma"_a = py::none(), "cutoff"_a = py::none(), "rest_height"_a = py::none(),
            "Another restitution, cutoff [a/tau] or height of the holder [a] from now on; None: as it is.")
       .def(
           "set_bath",
-          [](PyTip& self, const Bath& bath) {
-            warn(find_traps(self.tip.model(), bath));
-            self.tip.set_bath(bath);
+          [](Tip& self, const Bath& bath) {
+            warn(find_traps(self.model(), bath));
+            self.set_bath(bath);
           },
           "bath"_a, "Another heat bath from now on.")
       .def(
-          "copy", [](const PyTip& self) { return self; }, "Another tip in the same state; copy.copy() does the same.")
-      .def("__copy__", [](const PyTip& self) { return self; })
-      .def("__deepcopy__", [](const PyTip& self, const py::object&) { return self; })
+          "copy", [](const Tip& self) { return self; }, "Another tip in the same state; copy.copy() does the same.")
+      .def("__copy__", [](const Tip& self) { return self; })
+      .def("__deepcopy__", [](const Tip& self, const py::object&) { return self; })
       .def(py::pickle(&pickled_tip, &unpickled_tip))
       .def_property_readonly(
-          "now", [](const PyTip& self) { return to_python(self.tip.now()); }, "ModelTime")
+          "now", [](const Tip& self) { return to_python(self.now()); }, "ModelTime")
       .def_property_readonly(
-          "state", [](const PyTip& self) { return to_python(self.tip.state()); },
+          "state", [](const Tip& self) { return to_python(self.state()); },
           "State(phase, extension, y, u, w) at now, in the lab [a, a/tau]; in a chatter sequence without its bounces")
+      .def_property_readonly("eta", &Tip::eta, "drag velocity [a/tau]")
+      .def_property_readonly("model", &Tip::model, py::return_value_policy::copy, "Model")
       .def_property_readonly(
-          "eta", [](const PyTip& self) { return self.tip.eta(); }, "drag velocity [a/tau]")
-      .def_property_readonly(
-          "model", [](const PyTip& self) { return self.tip.model(); }, "Model")
-      .def_property_readonly(
-          "in_contact", [](const PyTip& self) { return self.tip.in_contact(); },
+          "in_contact", &Tip::in_contact,
           "true while the surface presses on the tip: it slides without bouncing, after CONTACT_BEGUN")
+      .def_property_readonly("stored_energy", &Tip::stored_energy, "in springs and motion, in the lab [m a^2/tau^2]")
       .def_property_readonly(
-          "stored_energy", [](const PyTip& self) { return self.tip.stored_energy(); },
-          "in springs and motion, in the lab [m a^2/tau^2]")
-      .def_property_readonly("search_failures", &PyTip::search_failures,
-                             "must stay 0: searches that failed; the motion goes on from a safe point");
+          "search_failures", &Tip::search_failures,
+          "must stay 0: searches that failed, since the start or unpickling; the motion goes on from a safe point");
 }
 
 }  // namespace afm::python
