@@ -1,6 +1,4 @@
 """The matrix of methods against scenes."""
-from collections import OrderedDict
-
 from matplotlib.patches import Rectangle
 
 from registry import picture
@@ -9,14 +7,14 @@ from . import style
 from .methods import METHODS, method_style
 
 # from the table's verdict: colour, sign, colour of the sign, and what it means. The numbers are in docs/data/stability.csv.
-VERDICTS = OrderedDict([
-    ("right", ("#009E73", "✓", "white", "right")),
-    ("inaccurate", ("#F0E442", "≈", "black", "inaccurate")),
-    ("misses", ("#E69F00", "○", "black", "misses impacts")),
-    ("phantom", ("#CC79A7", "+", "black", "finds impacts that are none")),
-    ("stalls", ("#444444", "‖", "white", "stalls")),
-    ("blows up", ("#D55E00", "✕", "white", "blows up")),
-])
+VERDICTS = {
+    "right": ("#009E73", "✓", "white", "right"),
+    "inaccurate": ("#F0E442", "≈", "black", "inaccurate"),
+    "misses": ("#E69F00", "○", "black", "misses impacts"),
+    "phantom": ("#CC79A7", "+", "black", "finds impacts that are none"),
+    "stalls": ("#444444", "‖", "white", "stalls"),
+    "blows up": ("#D55E00", "✕", "white", "blows up"),
+}
 
 TITLES = {
     "even": "η = 2, 4, 6, 8", "glide": "η = 1, gliding", "rest": "$v_0$ = 0",
@@ -67,7 +65,7 @@ def row_label(scene, rows):
 @picture("stability", name="stability")
 def draw(tables):
     rows = tables.strings("stability")
-    scenes = list(OrderedDict((row["scene"], None) for row in rows))
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
     present = {row["method"] for row in rows}
     methods = [m for m in METHODS if m in present] + sorted(present - set(METHODS))
     height = 0.215 * len(scenes) + 2.5
