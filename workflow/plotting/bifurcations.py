@@ -8,11 +8,12 @@ EVENTS = {"period doubling": (style.PINK, "--"), "torus": (style.GREEN, "-."), "
           "grazing": ("black", "-"), "corner": (style.GREY, (0, (1, 3)))}
 
 
-def events_of(tables, name):
-    """Of the branch with the most friction."""
+def branch(tables, name):
+    """The points and the events of the branch with the most friction."""
     rows = tables.rows(name)
     best = max(rows, key=lambda row: row["k_f"] if not row["event"] else 0)["orbit"]
-    return [row for row in rows if row["orbit"] == best and row["event"] in EVENTS]
+    rows = [row for row in rows if row["orbit"] == best]
+    return [row for row in rows if not row["event"]], [row for row in rows if row["event"] in EVENTS]
 
 
 @picture("even_orbit_gamma", "even_basins")
@@ -69,7 +70,7 @@ def alike(one, other):
 def diagram(tables, axes, name):
     """A parameter carried up and down: where the two sweeps differ attractors coexist."""
     vary, bounds, _, branches = BRANCHES[name]
-    events = [event for index in range(len(branches)) for event in events_of(tables, "%s_branch_%d" % (name, index))]
+    events = [event for index in range(len(branches)) for event in branch(tables, "%s_branch_%d" % (name, index))[1]]
     speeds = {"up": {}, "down": {}}
     for sweep, found in speeds.items():
         for row in tables.rows("%s_%s" % (name, sweep)):
