@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenery.h"
-
 namespace afm::view {
 namespace {
 

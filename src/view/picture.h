@@ -23,4 +23,7 @@ class Picture {
   std::deque<std::vector<Place>> positions_, impacts_;  // what each of the last pictures added to the cloud
 };
 
+// The scenery of the tip (scenery.cpp): the surface, a scale of lengths, the key to the colours, and figures as text.
+void draw_scenery(Canvas& canvas, const RunView& run, bool is_cloud);
+
 }  // namespace afm::view

@@ -1,10 +1,9 @@
-#include "scenery.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "afm/surface.h"
+#include "picture.h"
 
 namespace afm::view {
 namespace {
