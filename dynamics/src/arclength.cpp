@@ -43,11 +43,16 @@ bool Arclength::residual(const Place& p, Eigen::VectorXd& error, std::vector<Map
   return true;
 }
 
-bool Arclength::valid(double parameter) const {
+Model Arclength::model_at(double parameter) const {
   Model m = model_;
   if (vary_ == Parameter::gamma) m.gamma = parameter;
   if (vary_ == Parameter::cutoff) m.v_c = parameter;
-  return find_faults(m).empty() && (vary_ != Parameter::eta || (parameter != 0.0 && std::abs(parameter) <= kMaxEta));
+  return m;
+}
+
+bool Arclength::valid(double parameter) const {
+  return find_faults(model_at(parameter)).empty() &&
+         (vary_ != Parameter::eta || (parameter != 0.0 && std::abs(parameter) <= kMaxEta));
 }
 
 Eigen::VectorXd Arclength::tangent(const Place& at, double target) const {

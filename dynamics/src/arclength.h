@@ -23,7 +23,10 @@ class Arclength {
         vary_(vary),
         weight_(1.0, 1.0, 1.0 / (1.0 + std::abs(eta)), 1.0 / (1.0 + std::abs(eta))) {}
 
-  PoincareMap map(double parameter) const { return map_at(model_, eta_, vary_, parameter); }
+  // At a value of the varied parameter.
+  PoincareMap map(double parameter) const {
+    return PoincareMap(model_at(parameter), vary_ == Parameter::eta ? parameter : eta_);
+  }
 
   // As one vector, with velocities divided by 1 + |eta|.
   Eigen::VectorXd difference(const Place& b, const Place& a) const;
@@ -38,6 +41,7 @@ class Arclength {
  private:
   static Eigen::Index size(const Place& p) { return static_cast<Eigen::Index>(4 * p.points.size()); }
   bool residual(const Place& p, Eigen::VectorXd& error, std::vector<MapStep>* steps) const;
+  Model model_at(double parameter) const;
   bool valid(double parameter) const;
   bool same_branch(const Place& to, const Place& from, double step) const;
   bool derivative(const Place& at, const std::vector<MapStep>& steps, const Eigen::VectorXd& direction,

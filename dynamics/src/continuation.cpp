@@ -9,6 +9,11 @@
 namespace afm {
 namespace {
 
+// Steps along a branch, in arclength of parameter, a, and a/tau divided by 1 + |eta|. All are choices.
+constexpr double kFirstStep = 1e-3, kLargestStep = 2e-2;
+constexpr int kMostSteps = 2000;
+constexpr double kEventTolerance = 1e-10;  // of the parameter at an event
+
 // A branch ends at these limits. All are choices.
 constexpr double kGrazingGap = 1e-5;    // [a] least gap of a flight on the way
 constexpr double kGrazingSpeed = 1e-3;  // [a/tau] normal speed of an impact over 1 + |eta|
@@ -67,17 +72,21 @@ bool confirms(BifurcationKind kind, const PeriodicOrbit& orbit) {
   }
 }
 
+double value_of(const Model& model, double eta, Parameter parameter) {
+  return parameter == Parameter::eta ? eta : parameter == Parameter::gamma ? model.gamma : model.v_c;
+}
+
 class Continuation {
  public:
-  Continuation(const Model& model, double eta, Parameter vary, double target, const ContinuationSettings& settings)
-      : model_(model), eta_(eta), vary_(vary), target_(target), settings_(settings), line_(model, eta, vary) {}
+  Continuation(const Model& model, double eta, Parameter vary, double target)
+      : model_(model), eta_(eta), vary_(vary), target_(target), line_(model, eta, vary) {}
 
   Branch follow(const PeriodicOrbit& start) {
     Place before{start.points, value_of(model_, eta_, vary_)};
     branch_.points.push_back({before.parameter, start});
     Eigen::VectorXd direction = line_.tangent(before, target_);
-    double step = settings_.first_step;
-    for (int i = 0; i < settings_.most_steps; ++i) {
+    double step = kFirstStep;
+    for (int i = 0; i < kMostSteps; ++i) {
       Place now;
       while (!line_.advance(before, direction, step, now)) {
         step *= 0.5;
@@ -86,7 +95,7 @@ class Continuation {
       if (!take(before, direction, step, now)) return branch_;
       direction = line_.difference(now, before).normalized();
       before = now;
-      step = std::min(1.5 * step, settings_.largest_step);
+      step = std::min(1.5 * step, kLargestStep);
     }
     branch_.end = resonates(branch_.points.back()) ? BranchEnd::resonance : BranchEnd::steps_spent;
     return branch_;
@@ -130,7 +139,7 @@ class Continuation {
     double low = 0.0, high = step;
     const int first = sign(kind, branch_.points.back());
     BranchPoint at = branch_.points.back();
-    for (int i = 0; i < kMaxBisections && high - low > settings_.event_tolerance * 0.1; ++i) {
+    for (int i = 0; i < kMaxBisections && high - low > kEventTolerance * 0.1; ++i) {
       const double middle = 0.5 * (low + high);
       Place there;
       if (!line_.advance(before, direction, middle, there)) break;
@@ -168,7 +177,6 @@ class Continuation {
   const double eta_;
   const Parameter vary_;
   const double target_;
-  const ContinuationSettings settings_;
   const Arclength line_;
   Branch branch_;
 };
@@ -180,20 +188,8 @@ const char* name(BifurcationKind kind) {
   return kNames[static_cast<std::size_t>(kind)];  // in the order of BifurcationKind
 }
 
-PoincareMap map_at(const Model& model, double eta, Parameter vary, double value) {
-  Model m = model;
-  if (vary == Parameter::gamma) m.gamma = value;
-  if (vary == Parameter::cutoff) m.v_c = value;
-  return PoincareMap(m, vary == Parameter::eta ? value : eta);
-}
-
-double value_of(const Model& model, double eta, Parameter parameter) {
-  return parameter == Parameter::eta ? eta : parameter == Parameter::gamma ? model.gamma : model.v_c;
-}
-
-Branch continue_orbit(const Model& model, double eta, const PeriodicOrbit& start, Parameter vary, double target,
-                      const ContinuationSettings& settings) {
-  return Continuation(model, eta, vary, target, settings).follow(start);
+Branch continue_orbit(const Model& model, double eta, const PeriodicOrbit& start, Parameter vary, double target) {
+  return Continuation(model, eta, vary, target).follow(start);
 }
 
 }  // namespace afm

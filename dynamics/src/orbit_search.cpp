@@ -86,7 +86,7 @@ class Search {
 
   void attempt(const Points& guess) {
     interruption_point();
-    const OrbitResult r = find_orbit(map_, guess, settings_.newton);
+    const OrbitResult r = find_orbit(map_, guess);
     const double share = static_cast<double>(++attempts_) / (3.0 * settings_.guesses * settings_.longest);
     if (progress_) progress_(share);
     if (r.outcome != OrbitOutcome::found) {

@@ -16,6 +16,11 @@ using namespace detail;
 
 namespace {
 
+// Newton's method. All are choices.
+constexpr double kFoundResidual = 1e-13;  // [a, a/tau]
+constexpr int kMostNewtonSteps = 60;
+constexpr double kSmallestShare = 1e-3;  // of a step
+
 using Points = std::vector<TipState>;
 
 // The map at every point, and the distance of each image from the next point.
@@ -194,8 +199,8 @@ PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot&
 
 // Halves the step until the error falls; returns its part, or 0 if no part makes the error fall.
 double damped_step(const PoincareMap& map, const Points& points, const Eigen::VectorXd& step, const Shot& now,
-                   double smallest, Shot& next) {
-  for (double share = 1.0; share >= smallest; share *= 0.5) {
+                   Shot& next) {
+  for (double share = 1.0; share >= kSmallestShare; share *= 0.5) {
     next = shoot(map, displaced(points, step, share));
     if (next.landed && next.error.norm() < (1.0 - 0.1 * share) * now.error.norm()) return share;
   }
@@ -204,22 +209,22 @@ double damped_step(const PoincareMap& map, const Points& points, const Eigen::Ve
 
 }  // namespace
 
-OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess, const NewtonSettings& settings) {
+OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess) {
   Points points = guess;
   Shot shot = shoot(map, points);
   OrbitOutcome outcome = shot.landed && !points.empty() ? OrbitOutcome::slow : OrbitOutcome::singular;
-  for (int i = 0; i < settings.most_steps && outcome == OrbitOutcome::slow; ++i) {
+  for (int i = 0; i < kMostNewtonSteps && outcome == OrbitOutcome::slow; ++i) {
     const Eigen::VectorXd step = newton_step(shot, shot.error);
     Shot next;
-    const double share = step.allFinite() ? damped_step(map, points, step, shot, settings.smallest_share, next) : 0.0;
+    const double share = step.allFinite() ? damped_step(map, points, step, shot, next) : 0.0;
     if (share > 0.0) {
       points = displaced(points, step, share);
       shot = std::move(next);
       continue;  // also below the residual: one more step gives the last digits
     }
-    outcome = shot.residual() <= settings.residual ? OrbitOutcome::found : OrbitOutcome::singular;
+    outcome = shot.residual() <= kFoundResidual ? OrbitOutcome::found : OrbitOutcome::singular;
   }
-  if (outcome == OrbitOutcome::slow && shot.residual() <= settings.residual) outcome = OrbitOutcome::found;
+  if (outcome == OrbitOutcome::slow && shot.residual() <= kFoundResidual) outcome = OrbitOutcome::found;
   if (outcome != OrbitOutcome::found) return {outcome, {}};
   PeriodicOrbit orbit = describe(map, points, shot);
   // without speed the map is almost the identity on the surface: a tip in contact, not an orbit

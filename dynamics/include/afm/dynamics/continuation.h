@@ -38,7 +38,7 @@ enum class BranchEnd : std::uint8_t {
   grazing,     // the orbit ends in a grazing
   resonance,   // the horizontal spring turns a whole number of times in a period: the extension diverges
   lost,        // no step leads on, however small
-  steps_spent  // most_steps were taken
+  steps_spent  // the step limit came first
 };
 
 struct Branch {
@@ -47,18 +47,7 @@ struct Branch {
   BranchEnd end = BranchEnd::lost;
 };
 
-struct ContinuationSettings {
-  double first_step = 1e-3, largest_step = 2e-2;  // arclength of parameter, a, and a/tau divided by 1 + |eta|
-  int most_steps = 2000;
-  double event_tolerance = 1e-10;  // of the parameter at an event
-};
-
 // From `start` until the varied parameter reaches `target`. Precondition: `start` is an orbit of `model` at `eta`.
-Branch continue_orbit(const Model& model, double eta, const PeriodicOrbit& start, Parameter vary, double target,
-                      const ContinuationSettings& settings = {});
-
-// The map at a value of the varied parameter.
-PoincareMap map_at(const Model& model, double eta, Parameter vary, double value);
-double value_of(const Model& model, double eta, Parameter parameter);
+Branch continue_orbit(const Model& model, double eta, const PeriodicOrbit& start, Parameter vary, double target);
 
 }  // namespace afm

@@ -14,7 +14,6 @@ struct OrbitSearchSettings {
   int trajectory = 200000;  // impacts of the long run that gives first estimates
   int guesses = 3000;       // first estimates for each length and each kind
   std::uint64_t seed = 1;
-  NewtonSettings newton;
 };
 
 struct FoundOrbit {

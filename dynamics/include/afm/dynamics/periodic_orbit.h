@@ -29,10 +29,10 @@ struct PeriodicOrbit {
 };
 
 enum class OrbitOutcome : std::uint8_t {
-  found,
+  found,     // the residual is at most 1e-13
   contact,   // the orbit has shrunk to bounces without speed
   singular,  // no solution nearby: a multiplier is 1, or all steps leave the section
-  slow       // most_steps were taken before the residual was reached
+  slow       // the step limit came first
 };
 
 struct OrbitResult {
@@ -40,16 +40,9 @@ struct OrbitResult {
   PeriodicOrbit orbit;  // the last state of the search
 };
 
-struct NewtonSettings {
-  double residual = 1e-13;
-  int most_steps = 60;
-  // Smallest part of a Newton step. A step is halved until the residual falls (damped Newton method).
-  double smallest_share = 1e-3;
-};
-
 // From a first estimate of each point, in order. Guarantee: points, period and K_f of an orbit found are exact to the
 // last digit, by refinement in double-double. The multipliers have the accuracy of the Jacobians in double.
-OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess, const NewtonSettings& settings = {});
+OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess);
 
 // An orbit from known points, which stay as they are; its residual measures their error. Empty if a flight has no
 // impact.
