@@ -17,8 +17,11 @@ try:
 except ImportError as missing:
     sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
              % missing)
+except KeyboardInterrupt:
+    sys.exit(130)
 
 NAN = float('nan')
+INCOMPLETE = 3  # exit code
 MOST_POINTS = 4000  # of deflection; beyond it the range of every few samples is drawn
 ZOOM_TAU = 6.0  # the end of the run, sample by sample
 # Okabe and Ito's colours, which the colour-blind can tell apart
@@ -35,6 +38,17 @@ class Run:
         self.samples, self.impacts, self.friction, self.drag = [], [], [], []
         self.epochs = []  # where they begin
         self.configuration, self.unit, self.offset, self.last = None, None, 0.0, 0.0
+        self.numbers, self.lost = {}, {}  # of each kind of message
+
+    def count_lost(self, kind, number):
+        lost = number - self.numbers.get(kind, number - 1) - 1
+        self.numbers[kind] = number
+        if lost > 0:
+            self.lost[kind] = self.lost.get(kind, 0) + lost
+            if kind == 'Deflection' and self.samples:
+                self.samples.append(np.full((5, 1), NAN))  # a gap
+            if kind == 'Friction':
+                self.friction.append((self.last, NAN, NAN, NAN))
 
     def begin_epoch(self, configuration):
         self.configuration = configuration
@@ -117,6 +131,8 @@ def read(paths, node):
                 number, said = (m.kind, int.from_bytes(m.data[:4], 'little')), hash(m.data)
                 if known.get(number, said) != said:
                     raise ValueError('%s was started again: this is another run' % (m.node or 'the emulator'))
+                if number not in known:
+                    run.count_lost(*number)
                 is_new = number not in known  # the bags of a split recording repeat what was before
                 known[number] = said
                 if is_new and (m.kind == 'Configuration' or run.configuration is not None):
@@ -133,6 +149,7 @@ def put_legend(axes, **options):
 
 def draw_deflection(axes, run):
     times, *ranges = np.hstack(run.samples)
+    times = np.where(np.isnan(times), np.fmax.accumulate(times), times)
     for name, low, high, colour in (('vertical', ranges[0], ranges[2], BLUE),
                                     ('lateral', ranges[1], ranges[3], ORANGE)):
         axes.fill_between(times, low, high, lw=0.8, color=colour, alpha=0.6, label=name + ', range')
@@ -224,14 +241,21 @@ def main():
     parser.add_argument('--output', help='picture to write (png, pdf, svg); default: beside the bag, as .png')
     arguments = parser.parse_args()
     bags = in_order(arguments.bags)
-    figure = draw(read(bags, arguments.node), bags)
+    run = read(bags, arguments.node)
+    figure = draw(run, bags)
     output = arguments.output or os.path.splitext(bags[0])[0] + '.png'
     try:
         figure.savefig(output, dpi=144)
     except (OSError, ValueError) as fault:  # no such folder, or no such format
         sys.exit('plot_run.py: %s: %s' % (output, fault))
     print(output)
+    for kind, lost in sorted(run.lost.items()):
+        print('plot_run.py: warning: %d messages of %s are missing' % (lost, kind), file=sys.stderr)
+    return INCOMPLETE if run.lost else 0
 
 
 if __name__ == '__main__':
-    main()
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        sys.exit(130)

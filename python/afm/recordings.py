@@ -15,7 +15,7 @@ from .values import Batch, ModelTime
 _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_spacing_m', 'surface_amplitude_m',
              'rest_height_m', 'restitution_gamma', 'cutoff_speed')
 _BATH = ('temperature_k', 'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
-_KINDS = ('Applied', 'Deflection', 'Friction', 'ImpactArray', 'Snapshot')
+_KINDS = ('Applied', 'Configuration', 'Deflection', 'EmulatorStatus', 'Friction', 'ImpactArray', 'Snapshot')
 _MOST_WAITING = 100  # batches in the queues of the topics when a recorder is stopped
 Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
@@ -54,7 +54,7 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
 
 def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dict[int, Any]], bool]:
     """Of one emulator, by type: the messages by their numbers in their topic. And whether the node recorded them, which
-    alone stamps the command in force a nanosecond before the snapshot with which a bag begins."""
+    alone stamps configuration and command two nanoseconds and one before the snapshot with which a bag begins."""
     found: Any = defaultdict(lambda: defaultdict(dict))
     known: Dict[Tuple[str, str, int], Tuple[str, int]] = {}
     stamps: Any = defaultdict(dict)  # of the first messages
@@ -74,8 +74,9 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dic
     if namespace not in found:
         raise ValueError('namespace = %s: the bag holds recordings of %s' %
                          (namespace, ', '.join(sorted(found)) or 'nothing'))
-    first = [stamps[namespace].get(kind) for kind in ('Applied', 'Snapshot')]
-    by_node = None not in first and (first[1] - first[0]).to_nsec() == 1
+    first = stamps[namespace]
+    by_node = 'Snapshot' in first and any(kind in first and (first['Snapshot'] - first[kind]).to_nsec() == behind
+                                          for kind, behind in (('Configuration', 2), ('Applied', 1)))
     return {kind: dict(sorted(found[namespace][kind].items())) for kind in _KINDS}, by_node
 
 
@@ -117,6 +118,10 @@ class Recording:
         for kind in ('Deflection', 'ImpactArray'):  # where the node is killed, a bag ends within a batch
             if max(read[kind], default=0) > last + (1 if by_node else _MOST_WAITING):
                 raise ValueError('messages of Friction are missing at the end')
+        status = list(read['EmulatorStatus'].values())[-1:] if by_node else []  # it comes after what it tells of
+        if any(s.epoch == read['Friction'][last].epoch and
+               _model_time(s.time) > _model_time(read['Friction'][last].time) for s in status):
+            raise ValueError('messages of Friction are missing at the end, as the last status tells')
         self.epochs: List[int] = sorted({m.epoch for m in read['Snapshot'].values()})
         if epoch is None and min(m.epoch for m in read['Friction'].values()) < self.epochs[0]:
             raise ValueError('the bag begins before its first snapshot: the state there is not known; epoch = %d is '

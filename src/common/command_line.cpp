@@ -149,7 +149,7 @@ bool CommandLine::read(int argc, char** argv) {
 
 void CommandLine::warn(const std::string& what) const { std::cerr << tool_ << ": warning: " << what << "\n"; }
 
-int CommandLine::run(int argc, char** argv, const std::function<int()>& work) {
+int CommandLine::run(int argc, char** argv, const std::function<int()>& work, int failure) {
   const auto fail = [&](const std::string& what, int code) {
     std::cout.flush();
     std::cerr << tool_ << ": " << what << "\n";
@@ -157,13 +157,13 @@ int CommandLine::run(int argc, char** argv, const std::function<int()>& work) {
   };
   try {
     const int code = read(argc, argv) ? work() : 0;
-    return std::cout.flush() ? code : fail("cannot write the output", 1);
+    return std::cout.flush() ? code : fail("cannot write the output", failure);
   } catch (const po::error& fault) {
     return fail(std::string(fault.what()) + " (see --help)", 2);
   } catch (const std::invalid_argument& fault) {
     return fail(fault.what(), 2);
   } catch (const std::exception& fault) {
-    return fail(fault.what(), 1);
+    return fail(fault.what(), failure);
   }
 }
 

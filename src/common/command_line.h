@@ -40,8 +40,8 @@ class CommandLine {
   void warn(const std::string& what) const;
 
   // Reads the options, then works. Exit code 0 for --help; 2 for a wrong option and for std::invalid_argument from the
-  // work; 1 for other exceptions, and where the standard output cannot be written; else what the work returns.
-  int run(int argc, char** argv, const std::function<int()>& work);
+  // work; `failure` for other exceptions, and where the standard output cannot be written; else what the work returns.
+  int run(int argc, char** argv, const std::function<int()>& work, int failure = 1);
 
  private:
   enum class Takes { nothing, one, many };

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTwice[][2] = {{"lever", "frequency-ratio"}, {"surface", "amplitude"}, {"load", "rest-height"}};
-constexpr const char* kScale[] = {"lattice-spacing", "omega-v", "tip-mass"};
+constexpr const char* kScaleOptions[] = {"lattice-spacing", "omega-v", "tip-mass"};
 
 // Of an installed tool beside it, else in the sources.
 fs::path config() {
@@ -139,7 +139,7 @@ LeverScene::LeverScene(const CommandLine& app, const LeverOptions& o) {
     if (!app.is_given(one) || !app.is_given(other)) continue;
     throw std::invalid_argument(std::string(other) + ": is given beside --" + one + ": give one of them");
   }
-  for (const std::string option : kScale) {
+  for (const std::string option : kScaleOptions) {
     if (!app.is_given(option)) continue;
     throw std::invalid_argument(
         option + ": is that of --lever and --surface, or the paper's; another one goes into a .yaml of your own");

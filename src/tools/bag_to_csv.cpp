@@ -172,7 +172,8 @@ std::uint64_t write_commands(const Recording& recording, const Target& to) {
   TableWriter table = to.begin(columns);
   afm::node::Live unused;
   afm_emulator::Applied last;
-  const std::uint64_t lost = for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
+  std::uint64_t lost = recording.commands_missing_at_beginning();
+  lost += for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
     last = applied;
     to.begin_row(table, applied.epoch, applied.time);
     table << applied.drag_velocity;

@@ -62,14 +62,19 @@ int check(const Recording& recording) {
     print(*check.difference());
     return kDifferent;
   }
-  if (extent.batches_unknown > 0) {
-    std::cout << "not compared: " << extent.batches_unknown << " batches, as the state before them is not known\n";
-  }
+  const auto print_unknown = [](std::uint64_t count, const char* what) {
+    if (count > 0) std::cout << "not compared: " << count << what << "\n";
+    return count > 0;
+  };
+  bool is_whole = check.missing().empty();
+  is_whole &= !print_unknown(extent.batches_unknown, " batches, as the state before them is not known");
+  is_whole &= !print_unknown(extent.commands_unknown, " commands, as the state before them is not known");
+  is_whole &= !print_unknown(extent.batches_without_friction, " batches without a message of friction");
   if (extent.batches == 0) {
     std::cout << "CANNOT BE CHECKED: there is no batch whose beginning is known\n";
     return kCannotBeChecked;
   }
-  if (!check.missing().empty() || extent.batches_unknown > 0) {
+  if (!is_whole) {
     std::cout << "CANNOT BE CHECKED as a whole; what was compared is identical\n";
     return kCannotBeChecked;
   }
@@ -103,12 +108,13 @@ int main(int argc, char** argv) {
   app.arguments("bags", paths, "recordings; of a split one all bags");
   app.require("bags");
   app.option("node", node, "the emulator's name such as /afm; else all that the bags hold");
-  return app.run(argc, argv, [&] {
+  const auto work = [&] {
     try {
       return check_all(paths, node);
     } catch (const std::exception& error) {
       std::cout << "CANNOT BE CHECKED: " << error.what() << "\n";
       return kCannotBeChecked;
     }
-  });
+  };
+  return app.run(argc, argv, work, kCannotBeChecked);
 }

@@ -9,7 +9,7 @@ from unittest import mock
 
 import genpy
 import rosbag
-from std_msgs.msg import String
+from std_msgs.msg import Header, String
 
 import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
@@ -29,6 +29,11 @@ class SpoiledBags(SpoiledBag):
         if sound is not None:
             audit = checks.bag_check(path)
             self.assertEqual(audit.code, SOUND if sound else DIFFERS, audit.text)
+
+    def end_at_the_last_deflection(self):
+        """As of a node that is killed within a batch."""
+        end = self.of('deflection')[-1].stamp
+        self.remove(*(entry for entry in self.entries if entry.stamp > end))
 
     def spoil_each(self, *spoils):
         """(code, words, sound, spoil): each by itself."""
@@ -66,6 +71,14 @@ class SpoiledBags(SpoiledBag):
         shown = re.findall(r'(\d+)/%d batches' % batches, os.read(screen, 1 << 16).decode())
         self.assertEqual((done.returncode, shown[-1]), (SOUND, str(batches)))
         self.assertLess(len(shown), batches)
+
+    def test_one_altered_epoch(self):
+        """It was blamed on another message and another time."""
+        self.spoil_each((UNCHECKED, ('not compared: 1 batches', 'what was compared is identical'), None,
+                         lambda: self.of('friction')[80].edit(epoch=7)),
+                        (DIFFERS, ('message 80 of /afm/deflection', 'header.frame_id'), None,
+                         lambda: self.of('deflection')[80].edit(
+                             header=Header(80, self.of('deflection')[80].message().header.stamp, 'tip'))))
 
     def test_what_was_applied(self):
         def edit(**values):
@@ -110,14 +123,23 @@ class SpoiledBags(SpoiledBag):
             end = 'messages of /afm/%s at the end' % topic
             self.spoil_each((UNCHECKED, words, None, lambda: self.remove(*self.of(topic)[:3])),
                             (UNCHECKED, (end,), None, lambda: self.remove(*self.of(topic)[-5:])))
-        self.spoil_each((SOUND, ('IDENTICAL',), None,  # as of a node that is killed within a batch
-                         lambda: self.remove(self.of('impacts')[-1], self.of('friction')[-1])))
+        self.spoil_each((SOUND, ('IDENTICAL',), None, self.end_at_the_last_deflection))
+        self.spoil_each((UNCHECKED, ('5 messages of /afm/friction at the end',), False,  # as the status tells
+                         lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
+                                               for e in self.of(topic)[-5:]))),
+                        (UNCHECKED, ('missing: 1 commands',), False, lambda: self.remove(self.of('applied')[0])))
 
     def test_rosbag_record_subscribes_to_topic_after_topic(self):
         def lose_by_rosbag(count):  # it stamps what comes in by itself
             self.of('snapshot')[0].stamp += genpy.Duration(0, 1)
             self.remove(*self.of('deflection')[:count], *self.of('friction')[:2], *self.of('impacts')[-2:])
-        self.spoil_each((SOUND, ('IDENTICAL',), None, lambda: lose_by_rosbag(99)),
+        def alter_what_has_no_friction():
+            lose_by_rosbag(0)
+            self.remove(*self.of('friction')[-20:])
+            self.of('impacts')[-10].edit(first_index=7)
+        self.spoil_each((UNCHECKED, ('not compared: 1 batches without a message of friction',), None,
+                         alter_what_has_no_friction),
+                        (SOUND, ('IDENTICAL',), None, lambda: lose_by_rosbag(99)),
                         (UNCHECKED, ('101 messages of /afm/deflection',), None, lambda: lose_by_rosbag(101)))
 
     def test_the_last_command_is_lost(self):
@@ -312,10 +334,13 @@ class SpoiledBags(SpoiledBag):
             snapshot, = self.of('snapshot')
             snapshot.stamp += genpy.Duration(0, 1000)
             self.remove(*self.of('impacts')[:2], *self.of('deflection')[-3:])
+        nan = [float('nan')] * len(self.of('deflection')[5].message().vertical)
         for subject, spoil in ((None, lambda: None),
+                               ('samples', lambda: self.of('deflection')[5].edit(vertical=nan)),
+                               ('samples', lambda: self.of('deflection')[5].edit(vertical=[-1e-9] * len(nan))),
                                (None, record_by_rosbag),
                                (None, start_again),
-                               (None, lambda: self.remove(*self.of('friction')[-1:])),  # ends within a batch
+                               (None, self.end_at_the_last_deflection),
                                ('complete', lambda: self.remove(*self.of('deflection')[:5])),
                                ('complete', lambda: self.remove(*self.of('impacts')[-5:])),
                                ('complete', lambda: self.remove(*self.of('friction')[-5:])),

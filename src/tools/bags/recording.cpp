@@ -3,11 +3,13 @@
 #include <afm_emulator/Applied.h>
 #include <afm_emulator/Configuration.h>
 #include <afm_emulator/Deflection.h>
+#include <afm_emulator/EmulatorStatus.h>
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
 #include <afm_emulator/Snapshot.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -21,6 +23,8 @@ namespace {
 
 using File = Recording::File;
 
+constexpr double kMostTold = 1e15;  // batches: more are a damaged time
+
 template <class... Messages>
 std::map<std::string, std::string> md5sums() {
   return {{ros::message_traits::datatype<Messages>(), ros::message_traits::md5sum<Messages>()}...};
@@ -28,8 +32,8 @@ std::map<std::string, std::string> md5sums() {
 
 // The types that are read here, and the definitions that this program has of them.
 const std::map<std::string, std::string> kTypes =
-    md5sums<afm_emulator::Applied, afm_emulator::Configuration, afm_emulator::Deflection, afm_emulator::Friction,
-            afm_emulator::ImpactArray, afm_emulator::Snapshot>();
+    md5sums<afm_emulator::Applied, afm_emulator::Configuration, afm_emulator::Deflection, afm_emulator::EmulatorStatus,
+            afm_emulator::Friction, afm_emulator::ImpactArray, afm_emulator::Snapshot>();
 const auto kBatchTypes = md5sums<afm_emulator::Deflection, afm_emulator::Friction, afm_emulator::ImpactArray>();
 
 // Why it is no bag, or nothing.
@@ -196,11 +200,47 @@ std::optional<Recording::Ends> Recording::ends_of(const std::string& topic) cons
   return Ends{header_of(*all->begin()), header_of(*last)};
 }
 
-// The node alone stamps the command in force a nanosecond before the snapshot with which a recording begins.
+// The node alone writes a configuration and a command two nanoseconds and one before the snapshot with which a
+// recording begins.
 bool Recording::is_by_node() const {
-  const auto applied = view(topic<afm_emulator::Applied>()), snapshots = view(topic<afm_emulator::Snapshot>());
-  return applied->size() > 0 && snapshots->size() > 0 &&
-         applied->begin()->getTime() + ros::Duration(0, 1) == snapshots->begin()->getTime();
+  const auto snapshots = view(topic<afm_emulator::Snapshot>());
+  const auto is_before_it = [&](const std::string& topic, int nanoseconds) {
+    const auto messages = view(topic);
+    return messages->size() > 0 && snapshots->size() > 0 &&
+           messages->getBeginTime() + ros::Duration(0, nanoseconds) == snapshots->getBeginTime();
+  };
+  return is_before_it(topic<afm_emulator::Configuration>(), 2) || is_before_it(topic<afm_emulator::Applied>(), 1);
+}
+
+std::uint64_t Recording::commands_missing_at_beginning() const {
+  const auto applied = view(topic<afm_emulator::Applied>());
+  const bool is_missing = is_by_node() && applied->size() > 0 &&
+                          applied->getBeginTime() > view(topic<afm_emulator::Snapshot>())->getBeginTime();
+  return is_missing ? 1 : 0;
+}
+
+template <class Message>
+boost::shared_ptr<Message> Recording::last() const {
+  boost::shared_ptr<Message> found;
+  const auto all = view(topic<Message>());
+  if (all->size() == 0) return found;
+  const auto end = view(topic<Message>(), all->getEndTime());
+  for (const rosbag::MessageInstance& message : *end) found = message.instantiate<Message>();
+  return found;
+}
+
+// The node publishes its status after the batch up to which it tells: further batches than the last one.
+std::uint64_t Recording::batches_that_status_tells_of() const {
+  const auto batch = last<afm_emulator::Friction>();
+  const auto status = last<afm_emulator::EmulatorStatus>();
+  if (!is_by_node() || !batch || !status || batch->epoch != status->epoch) return 0;
+  if (starts()->of(batch->header.stamp) != starts()->of(status->header.stamp)) return 0;
+  const auto tau = [](const auto& from, const auto& to) {
+    return static_cast<double>(to.tau - from.tau) + (to.phase - from.phase);
+  };
+  const double behind = tau(batch->time, status->time), length = tau(batch->begin, batch->time);
+  if (!(behind > 0.0)) return 0;
+  return length > 0.0 && behind < kMostTold * length ? std::max(1LL, std::llround(behind / length)) : 1;
 }
 
 // The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
@@ -227,10 +267,12 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   const bool exact = is_by_node();
   const auto mine = view(topics_.at(type));
   const ros::Duration tick(0, 1);
+  const std::uint64_t behind_all = batches_that_status_tells_of();
   return {have_one_start(all->first, own->first) ? count(all->first, own->first, exact ? 0 : node::kBatchQueueSize)
                                                  : view(first_of, ros::TIME_MIN, mine->getBeginTime() - tick)->size(),
-          have_one_start(own->second, all->second) ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
-                                                   : view(last_of, mine->getEndTime() + tick)->size()};
+          behind_all + (have_one_start(own->second, all->second)
+                            ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
+                            : view(last_of, mine->getEndTime() + tick)->size())};
 }
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {

@@ -181,10 +181,15 @@ class Recording {
   Missing missing_at_ends() const {
     return missing_at_ends(ros::message_traits::datatype<Message>());
   }
+  // Of what was applied before the recording began, which the node writes before the first snapshot: 0 or 1.
+  std::uint64_t commands_missing_at_beginning() const;
 
  private:
   Missing missing_at_ends(const std::string& type) const;
   bool is_by_node() const;
+  std::uint64_t batches_that_status_tells_of() const;
+  template <class Message>
+  boost::shared_ptr<Message> last() const;
   std::shared_ptr<const Starts> starts() const;
 
   std::string node_;

@@ -15,6 +15,16 @@ namespace {
 using node::from_message;
 using node::to_message;
 
+// Number and stamp are what a run does not know: the second message gets those of the first.
+template <class Message>
+bool is_same(const Message& recorded, Message& simulated) {
+  simulated.header.seq = recorded.header.seq;
+  simulated.header.stamp = recorded.header.stamp;
+  return same_bytes(ros::serialization::serializeMessage(recorded), ros::serialization::serializeMessage(simulated));
+}
+
+constexpr Number kBehindAll{std::numeric_limits<std::uint64_t>::max(), std::numeric_limits<std::uint32_t>::max()};
+
 std::string to_text(const afm_emulator::ModelTime& time, std::uint32_t epoch) {
   char text[96];
   std::snprintf(text, sizeof text, "model time %" PRId64 " + %.17g tau of epoch %" PRIu32, time.tau, time.phase, epoch);
@@ -83,6 +93,7 @@ void RunCheck::read_marks() {
     if (number > expected) known_lost += c.lost_commands = number - expected;
   }
   if (lost > known_lost) lose("commands", lost - known_lost);  // those with which an epoch begins
+  lose("commands", recording_.commands_missing_at_beginning());
 }
 
 // What is applied is counted in each epoch.
@@ -126,14 +137,19 @@ void RunCheck::run() {
     run_.reset();
   }
   if (difference_) return;
+  check_without_friction();
   check_ends(batches_.get());
   check_ends(deflections_.get());
   check_ends(impacts_.get());
 }
 
-// True if it comes before the next batch.
+// True if it comes before the next batch. A batch of an epoch of which nothing else is known comes before all.
 bool RunCheck::is_due(const Mark& c) const {
   const afm_emulator::Friction& batch = *batches_->get();
+  const bool is_known = std::any_of(marks_.begin(), marks_.end(), [&](const Mark& mark) {
+    return mark.number.start == batches_->number().start && mark.epoch() == batch.epoch;
+  });
+  if (!is_known) return false;
   const auto place = [](std::uint64_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {
     return std::make_tuple(start, epoch, time.tau, time.phase, impacts);
   };
@@ -148,7 +164,11 @@ void RunCheck::take(const Mark& mark) {
     take_snapshot(mark);
   } else {
     if (!run_ && begins_epoch(mark)) begin_epoch(mark);
-    if (run_) take_applied(*mark.applied);
+    if (run_) {
+      take_applied(*mark.applied);
+    } else if (!is_in_next_snapshot(mark)) {
+      ++extent_.commands_unknown;
+    }
   }
   lose("commands", mark.lost_commands);
   lose("snapshots", mark.lost_snapshots);
@@ -161,6 +181,14 @@ bool RunCheck::begins_epoch(const Mark& mark) const {
   const Mark& next = marks_[next_mark_];
   return next.snapshot && next.number.start == mark.number.start && next.epoch() == mark.epoch() &&
          from_message(next.snapshot->time) == ModelTime{};
+}
+
+// Then begin_at() compares it.
+bool RunCheck::is_in_next_snapshot(const Mark& mark) const {
+  if (next_mark_ == marks_.size()) return false;
+  const Mark& next = marks_[next_mark_];
+  return next.snapshot && next.number.start == mark.number.start && next.epoch() == mark.epoch() &&
+         next.in_force().number == mark.applied->number;
 }
 
 void RunCheck::begin_epoch(const Mark& mark) {
@@ -253,11 +281,13 @@ void RunCheck::check_batch() {
   const Number number = batches_->number();
   const bool follows = batches_->lost() == 0 && !has_begun_;
   lose("messages of " + recording_.topic<afm_emulator::Friction>(), batches_->lost());
+  check_without_friction();
   const auto deflection = of_batch(deflections_.get());
   const auto impacts = of_batch(impacts_.get());
   batches_->next();
   if (!run_ || number.start != start_ || recorded->epoch != applied_.epoch) {
     ++extent_.batches_unknown;
+    has_begun_ = true;  // the next one does not follow what was compared
     return;
   }
   has_begun_ = false;
@@ -308,19 +338,66 @@ void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) 
   }
 }
 
+// Batches before the next one, or behind the last, of which friction is missing, as at the ends of a bag by
+// `rosbag record`. Where they end is not known: they are compared as whole ones, and what differs then counts as not
+// compared.
+void RunCheck::check_without_friction() {
+  std::optional<Run> ahead;
+  const auto is_before = [this](const auto& messages, const Number& number) {
+    return messages && messages->get() && messages->number() < number;
+  };
+  const auto is_of = [](const auto& messages, const Number& number) {
+    return messages && messages->get() && messages->number() == number;
+  };
+  for (;;) {
+    Number next = batches_->get() ? batches_->number() : kBehindAll;
+    if (is_before(deflections_, next)) next = deflections_->number();
+    if (is_before(impacts_, next)) next = impacts_->number();
+    const bool of_deflection = is_of(deflections_, next), of_impacts = is_of(impacts_, next);
+    if (!(next < (batches_->get() ? batches_->number() : kBehindAll))) return;
+    const auto deflection = of_deflection ? deflections_->get() : nullptr;
+    const auto impacts = of_impacts ? impacts_->get() : nullptr;
+    if (run_ && next.start == start_ && !ahead) ahead = run_;
+    if (!ahead || !is_whole_batch(deflection.get(), impacts.get(), *ahead)) ++extent_.batches_without_friction;
+    if (of_deflection) take_next(deflections_.get());
+    if (of_impacts) take_next(impacts_.get());
+  }
+}
+
+// Whether the run makes these two, of which one may be missing, of a whole batch.
+bool RunCheck::is_whole_batch(const afm_emulator::Deflection* deflection, const afm_emulator::ImpactArray* impacts,
+                              Run& run) {
+  const std::uint64_t budget = run.settings().impact_budget;
+  if (deflection != nullptr) {
+    const ModelTime begin = from_message(deflection->time);
+    if (!is_possible(begin) || begin - run.now() > most_gap_) return false;
+    while (run.now() < begin) run.advance(begin, budget, batch_);
+  } else if (batches_->get()) {
+    const ModelTime next = from_message(batches_->get()->begin);
+    if (!is_possible(next) || next - run.now() > most_gap_) return false;
+    while (run.now() < next && run.impacts() < impacts->first_index) run.advance(batch_);
+  }
+  run.advance(batch_);
+  const Units units(in_force_.si);
+  const node::Label label{{}, applied_.epoch};
+  auto samples = node::to_deflection(batch_, in_force_, units, label);
+  auto events = node::to_impacts(batch_, units, label);
+  return (deflection == nullptr || is_same(*deflection, samples)) && (impacts == nullptr || is_same(*impacts, events));
+}
+
 // The message of the next batch, if it is held.
 template <class Message>
 boost::shared_ptr<Message> RunCheck::of_batch(Cursor<Message>* messages) {
-  if (messages == nullptr) return {};
-  while (messages->get() && messages->number() < batches_->number()) take_next(messages);
-  return messages->get() && messages->number() == batches_->number() ? messages->get() : nullptr;
+  if (messages == nullptr || !messages->get() || !(messages->number() == batches_->number())) return {};
+  const boost::shared_ptr<Message> message = messages->get();
+  take_next(messages);
+  return message;
 }
 
 template <class Message>
 void RunCheck::check_ends(Cursor<Message>* messages) {
   if (messages == nullptr) return;
   const std::string what = "messages of " + recording_.topic<Message>();
-  while (messages->get()) take_next(messages);  // batches without friction
   const Recording::Missing missing = recording_.missing_at_ends<Message>();
   const auto lose_at = [&](const char* end, std::uint64_t count) {
     if (count > 0) missing_.push_back({what + " at the " + end + " of the recording", "", count});
@@ -337,9 +414,7 @@ void RunCheck::take_next(Cursor<Message>* messages) {
 
 template <class Message>
 void RunCheck::compare(const Message& recorded, Message simulated) {
-  simulated.header = recorded.header;
-  using ros::serialization::serializeMessage;
-  if (difference_ || same_bytes(serializeMessage(recorded), serializeMessage(simulated))) return;
+  if (difference_ || is_same(recorded, simulated)) return;
   difference_ = Difference{recording_.topic<Message>(), recorded.header.seq, find_difference(recorded, simulated),
                            run_ ? to_text(to_message(run_->now()), applied_.epoch) : "the beginning",
                            run_ ? to_text(applied_) : "none"};

@@ -36,7 +36,8 @@ struct Difference {
 struct Extent {
   std::uint64_t batches = 0, deflections = 0, samples = 0, impact_arrays = 0, impacts = 0;
   std::uint64_t commands = 0, snapshots = 0, epochs = 0;
-  std::uint64_t batches_unknown = 0;  // not compared, as the state before them is not known
+  // not compared, as the state before them is not known, or where they end
+  std::uint64_t batches_unknown = 0, commands_unknown = 0, batches_without_friction = 0;
   double model_seconds = 0.0;
 };
 
@@ -78,6 +79,7 @@ class RunCheck {
   bool is_due(const Mark& mark) const;
   void take(const Mark& mark);
   bool begins_epoch(const Mark& mark) const;
+  bool is_in_next_snapshot(const Mark& mark) const;
   void begin_epoch(const Mark& mark);
   void begin_at(const Mark& mark);
   void note_beginning(const Mark& mark);
@@ -85,6 +87,8 @@ class RunCheck {
   void take_snapshot(const Mark& mark);
   void settle();
   void check_batch();
+  void check_without_friction();
+  bool is_whole_batch(const afm_emulator::Deflection* deflection, const afm_emulator::ImpactArray* impacts, Run& run);
   void advance(const afm_emulator::Friction& recorded);
   void run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts);
   template <class Message>
