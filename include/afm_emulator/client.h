@@ -141,6 +141,10 @@ class Client {
     check_finite("rest_height", rest_height);
     queue_.callAvailable();  // what came until here is older than the command
     if (!drag_velocity && !rest_height) return *applied_;
+    const double most = configuration_->max_drag_velocity;
+    if (drag_velocity && std::abs(*drag_velocity) > most) {  // in real time nothing would come back
+      throw EmulatorError("drag_velocity = " + text(*drag_velocity) + " m/s: max_drag_velocity is " + text(most));
+    }
     Applied::ConstPtr mine;
     if (is_lockstep()) {
       recently_applied_.clear();

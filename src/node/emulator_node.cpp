@@ -54,6 +54,12 @@ std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
   return static_cast<std::size_t>(std::max(kMinBatches, std::min(wanted, kMaxQueueBytes / bytes)));
 }
 
+Recorder::Settings recorder_settings(const Parameters& p) {
+  const auto bytes = [](double megabytes) { return static_cast<std::uint64_t>(megabytes * 1e6); };
+  return {p.bag_directory, bytes(p.disk_reserve_mb), bytes(p.split_size_mb), p.split_duration_s,
+          p.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed};
+}
+
 std::string find_step_fault(double tau, std::uint32_t impacts) {
   std::ostringstream text;
   if (!std::isfinite(tau) || tau < 0.0 || tau > kMaxStepTau) {
@@ -108,7 +114,7 @@ class EmulatorNode {
       : parameters_(parameters),
         queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
         runner_(parameters, queue_),
-        recorder_(parameters, [this] { return runner_.submit(Request(Kind::snapshot)); }) {
+        recorder_(recorder_settings(parameters), [this] { return runner_.submit(Request(Kind::snapshot)); }) {
     if (parameters.publish_clock) {
       const std::string other = find_clock_publisher();
       if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
@@ -296,8 +302,10 @@ class EmulatorNode {
     }
     answer = future.get();
     const std::string fault = answer.fault;
-    if (fault != kTimeRanOut) return fault;
-    return fault + " after " + std::to_string(answer.impacts) + " impacts, at the time given";
+    if (fault != kWallTimeRanOut && fault != kModelTimeRanOut) return fault;
+    const double tau = static_cast<double>(answer.time.tau) + answer.time.phase;
+    return fault + " after " + std::to_string(answer.impacts) + " impacts, at model time " + number_text(tau) +
+           " tau; a command of the same call holds";
   }
 
   std::string ask(Kind kind) {

@@ -80,6 +80,14 @@ class Claims:
             tip.clean_up()
             self.emulator.stop()
 
+    def test_a_speed_beyond_the_limit_is_refused_at_once(self):
+        for pace in ('lockstep', 'real_time'):
+            tip = self.start_both(pace)
+            self.assertIn('max_drag_velocity', tip.call('control 0.01 2e-4'))
+            self.assertIn('max_drag_velocity', tip.call('command_and_wait -2e-4'))
+            tip.clean_up()
+            self.emulator.stop()
+
     def test_a_stopped_emulator(self):
         tip = self.start_both('lockstep')
         self.numbers(tip.call('control 0.01'))

@@ -38,12 +38,8 @@ class RecorderTest : public testing::Test {
   }
   ~RecorderTest() override { fs::remove_all(directory_); }
 
-  Parameters settings(double split_size_mb = 0.0, double disk_reserve_mb = 0.0) const {
-    Parameters parameters;
-    parameters.bag_directory = directory_;
-    parameters.split_size_mb = split_size_mb;
-    parameters.disk_reserve_mb = disk_reserve_mb;
-    return parameters;
+  Recorder::Settings settings(std::uint64_t split_bytes = 0, std::uint64_t reserve_bytes = 0) const {
+    return {directory_, reserve_bytes, split_bytes, 0.0, rosbag::compression::Uncompressed};
   }
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
   void write_file(const std::string& name) const { std::ofstream(file(name)) << "mine"; }
@@ -139,8 +135,8 @@ TEST_F(RecorderTest, AStopEndsTheRecordingThatItFinds) {
 
 TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {
   for (const char* directory : {"/sys/kernel", "/dev/null/bags"}) {  // where not even root can make a file
-    Parameters elsewhere = settings();
-    elsewhere.bag_directory = directory;
+    Recorder::Settings elsewhere = settings();
+    elsewhere.directory = directory;
     const Recorder::Reply reply = Recorder(elsewhere, can_be_asked).start("run");
     EXPECT_FALSE(reply.success);
     EXPECT_NE(reply.message.find(directory), std::string::npos) << reply.message;
@@ -148,7 +144,7 @@ TEST_F(RecorderTest, DoesNotStartWhereItCannotWrite) {
 }
 
 TEST_F(RecorderTest, DoesNotStartWithoutRoom) {
-  const Recorder::Reply reply = Recorder(settings(0.0, 1e12), can_be_asked).start("run");
+  const Recorder::Reply reply = Recorder(settings(0, std::uint64_t{1} << 60), can_be_asked).start("run");
   EXPECT_FALSE(reply.success);
   EXPECT_NE(reply.message.find("disk_reserve_mb"), std::string::npos) << reply.message;
   EXPECT_TRUE(fs::is_empty(directory_));
@@ -169,7 +165,7 @@ TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
 TEST_F(RecorderTest, EveryBagOfASplitRecordingHasAWholeBatch) {
   for (const bool whole : {false, true}) {
     std::promise<void> asked;
-    Recorder recorder(settings(1e-6), [&, calls = 0]() mutable {
+    Recorder recorder(settings(1), [&, calls = 0]() mutable {
       if (calls++ == 0) asked.set_value();
       return true;
     });
@@ -192,7 +188,7 @@ TEST_F(RecorderTest, EveryBagOfASplitRecordingHasAWholeBatch) {
 // As in a pause, in which only the status is published.
 TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
   std::promise<void> asked[2];
-  Recorder recorder(settings(1e-6), [&, calls = 0]() mutable {
+  Recorder recorder(settings(1), [&, calls = 0]() mutable {
     if (calls < 2) asked[calls++].set_value();
     return true;
   });
@@ -214,7 +210,7 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
 
 TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
   std::promise<void> asked;
-  Recorder recorder(settings(1e-6), [&, calls = 0]() mutable {
+  Recorder recorder(settings(1), [&, calls = 0]() mutable {
     if (++calls == 3) asked.set_value();
     return calls > 2;
   });
@@ -234,7 +230,7 @@ TEST_F(RecorderTest, LeavesNoBagWhereNothingCame) {
 TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
   write_file("run_001.bag");
   Recorder* self = nullptr;
-  Recorder recorder(settings(5.0), [&] {
+  Recorder recorder(settings(5'000'000), [&] {
     self->record(topic_, bytes_, Role::snapshot, false);
     return true;
   });

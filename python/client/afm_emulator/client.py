@@ -153,6 +153,9 @@ class Client:
         rest_height = finite_or_none('rest_height', rest_height)
         if drag_velocity is None and rest_height is None:
             return self.applied
+        most = self.configuration.max_drag_velocity
+        if drag_velocity is not None and abs(drag_velocity) > most:  # in real time nothing would come back
+            raise EmulatorError('drag_velocity = %g m/s: max_drag_velocity is %g' % (drag_velocity, most))
         with self._turn:
             if self.is_lockstep:
                 self._forget_commanded()

@@ -42,10 +42,8 @@ bool rename_without_overwriting(const std::string& from, const std::string& to) 
 
 }  // namespace
 
-BagFile::BagFile(const std::string& path, const Parameters& parameters)
-    : path_(path),
-      active_path_(path + ".active"),
-      reserve_bytes_(static_cast<std::uint64_t>(parameters.disk_reserve_mb * 1e6)) {
+BagFile::BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::CompressionType compression)
+    : path_(path), active_path_(path + ".active"), reserve_bytes_(reserve_bytes) {
   if (exists(path_)) throw std::runtime_error(path_ + ": there is such a bag already");
   create_exclusively(active_path_);
   const std::string trouble = ask_disk(kLeastRecording);
@@ -60,7 +58,7 @@ BagFile::BagFile(const std::string& path, const Parameters& parameters)
     unlink(active_path_.c_str());
     throw;
   }
-  bag->setCompression(parameters.compression == "lz4" ? rosbag::compression::LZ4 : rosbag::compression::Uncompressed);
+  bag->setCompression(compression);
   bag_ = std::move(bag);
 }
 

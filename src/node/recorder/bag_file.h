@@ -9,8 +9,6 @@
 #include <memory>
 #include <string>
 
-#include "node/params/parameters.h"
-
 namespace afm::node {
 
 // A topic as a bag describes it, for readers such as rosbag play.
@@ -22,7 +20,7 @@ struct BagTopic {
 class BagFile {
  public:
   // Throws std::runtime_error with the reason.
-  BagFile(const std::string& path, const Parameters& parameters);
+  BagFile(const std::string& path, std::uint64_t reserve_bytes, rosbag::CompressionType compression);
   ~BagFile();  // closes, whatever happens
   BagFile(const BagFile&) = delete;
   BagFile& operator=(const BagFile&) = delete;

@@ -58,8 +58,8 @@ std::string bag_base(const std::string& directory, const std::string& name) {
 
 }  // namespace
 
-Recorder::Recorder(const Parameters& parameters, std::function<bool()> ask_for_snapshot)
-    : parameters_(parameters), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
+Recorder::Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot)
+    : settings_(settings), ask_for_snapshot_(std::move(ask_for_snapshot)), thread_([this] { write_loop(); }) {}
 
 Recorder::~Recorder() {
   {
@@ -86,9 +86,9 @@ Recorder::Reply Recorder::start(const std::string& name) {
   const std::string fault = name.empty() ? "" : find_name_fault(name);
   if (!fault.empty()) return {false, "name = \"" + name + "\": " + fault, ""};
   try {
-    std::filesystem::create_directories(std::filesystem::absolute(parameters_.bag_directory));
-    base_ = bag_base(parameters_.bag_directory, name);
-    auto bag = std::make_unique<BagFile>(part_path(0), parameters_);
+    std::filesystem::create_directories(std::filesystem::absolute(settings_.directory));
+    base_ = bag_base(settings_.directory, name);
+    auto bag = std::make_unique<BagFile>(part_path(0), settings_.reserve_bytes, settings_.compression);
     const std::lock_guard<std::mutex> lock(mutex_);
     bag_ = std::move(bag);
     path_ = bag_->path();
@@ -229,13 +229,12 @@ void Recorder::write_held() {
 }
 
 bool Recorder::is_full(const ros::Time& stamp) const {
-  const double megabytes = parameters_.split_size_mb, seconds = parameters_.split_duration_s;
-  const bool is_large = megabytes > 0.0 && static_cast<double>(bag_->bytes()) >= megabytes * 1e6;
-  return is_large || (seconds > 0.0 && (stamp - begin_stamp_).toSec() >= seconds);
+  const bool is_large = settings_.split_bytes > 0 && bag_->bytes() >= settings_.split_bytes;
+  return is_large || (settings_.split_seconds > 0.0 && (stamp - begin_stamp_).toSec() >= settings_.split_seconds);
 }
 
 void Recorder::begin_next_bag() {
-  auto next = std::make_unique<BagFile>(part_path(part_ + 1), parameters_);
+  auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
   ++part_;  // only now, as that may fail: then this bag is the last
   const std::string error = bag_->close();
   {

@@ -22,6 +22,13 @@ enum class Role { ordinary, batch_end, configuration, applied, snapshot };
 
 class Recorder {
  public:
+  struct Settings {
+    std::string directory;
+    std::uint64_t reserve_bytes;
+    std::uint64_t split_bytes;  // a new bag after so much; 0: never
+    double split_seconds;       // of stamps; 0: never
+    rosbag::CompressionType compression;
+  };
   struct Reply {
     bool success = false;
     std::string message, path;
@@ -35,7 +42,7 @@ class Recorder {
 
   // ask_for_snapshot: called by the recorder's thread when the bag is full; the next one begins with that snapshot.
   // False: it could not be asked for, and is asked for again.
-  Recorder(const Parameters& parameters, std::function<bool()> ask_for_snapshot);
+  Recorder(const Settings& settings, std::function<bool()> ask_for_snapshot);
   ~Recorder();  // writes what waits and closes
 
   Reply start(const std::string& name);  // empty: that of the node, and the time. It begins with the next snapshot
@@ -71,7 +78,7 @@ class Recorder {
   std::string part_path(std::uint32_t part) const;
   std::string summary() const;  // of a recording that has ended
 
-  const Parameters parameters_;
+  const Settings settings_;
   const std::function<bool()> ask_for_snapshot_;
   mutable std::mutex mutex_;
   std::mutex orders_;  // one start or stop at a time: both take their time

@@ -224,11 +224,11 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
     run_batch_to(limit, std::min(impacts - taken, parameters_.impact_budget));
     taken += last_batch_impacts_;
     if (run_.now() + half_a_sample() < limit) play_commands();  // at the end they are of what follows
-    if (monotonic_now() > give_up) fault = kTimeRanOut;
+    if (monotonic_now() > give_up) fault = kWallTimeRanOut;
     if (stopping_) fault = "the emulator is shutting down";
   }
   const bool is_done = impacts == kNoLimit ? !(run_.now() < limit) : taken >= impacts;
-  Answer reached = answer(is_done ? "" : fault[0] != '\0' ? fault : kTimeRanOut);
+  Answer reached = answer(is_done ? "" : fault[0] != '\0' ? fault : kModelTimeRanOut);
   reached.impacts = taken;
   return reached;
 }

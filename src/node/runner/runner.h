@@ -20,7 +20,8 @@ namespace afm::node {
 
 constexpr double kMaxStepTau = 1e4;  // of one step: 1.6 s of model time at the paper's frequency
 constexpr std::uint64_t kMaxStepImpacts = 100000;
-constexpr char kTimeRanOut[] = "time ran out";  // a fault of an answer: the step went as far as it says
+// Faults of an answer: the step went as far as it says.
+constexpr char kWallTimeRanOut[] = "8 s of wall time ran out", kModelTimeRanOut[] = "10000 tau ran out";
 
 class Runner {
  public:
