@@ -118,6 +118,9 @@ class Recording:
         for kind in ('Deflection', 'ImpactArray'):  # where the node is killed, a bag ends within a batch
             if max(read[kind], default=0) > last + (1 if by_node else _MOST_WAITING):
                 raise ValueError('messages of Friction are missing at the end')
+            if max(read[kind], default=0) > last:
+                warnings.warn('the run ends with its last message of Friction: %d batches of %s are behind it' %
+                              (max(read[kind]) - last, kind), RuntimeWarning, stacklevel=3)
         status = list(read['EmulatorStatus'].values())[-1:] if by_node else []  # it comes after what it tells of
         if any(s.epoch == read['Friction'][last].epoch and
                _model_time(s.time) > _model_time(read['Friction'][last].time) for s in status):

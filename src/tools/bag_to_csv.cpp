@@ -77,6 +77,10 @@ std::uint64_t for_each_message(const Recording& recording, const Take& take) {
     take(*messages->get());
   }
   const Recording::Missing ends = recording.missing_at_ends<Message>();
+  if (ends.tolerated > 0) {
+    std::cerr << "bag_to_csv: note: " << ends.tolerated << " batches at the ends have no message of "
+              << recording.topic<Message>() << "\n";
+  }
   return lost + ends.at_beginning + ends.at_end;
 }
 

@@ -3,11 +3,12 @@ rounding; what is missing it names, and writes what there is."""
 import csv
 import subprocess
 
+import genpy
 import roslib.packages
 from afm_emulator.msg import Friction
 
 import bags
-from checks import UNCHECKED, USAGE
+from checks import SOUND, UNCHECKED, USAGE
 from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, NodeTest
 from spoiled_bag import SpoiledBag
 from topics import PATIENCE, Topic
@@ -137,6 +138,14 @@ class Incomplete(SpoiledBag):
             self.assertEqual((code, complaint),
                              (UNCHECKED, 'bag_to_csv: warning: %d messages of %s are missing\n' % (lost, topic)))
             self.assertTrue(rows)
+
+    def test_rosbag_record_may_lack_messages_at_the_ends(self):
+        self.of('snapshot')[0].stamp += genpy.Duration(0, 1)  # it stamps what comes in by itself
+        self.remove(*self.of('impacts')[:3])
+        code, rows, complaint = call(self.write(), '--topic', 'impacts')
+        self.assertEqual((code, complaint),
+                         (SOUND, 'bag_to_csv: note: 3 batches at the ends have no message of /afm/impacts\n'))
+        self.assertTrue(rows)
 
     def test_a_bag_without_a_topic(self):
         self.remove(*self.of('deflection'), *self.of('snapshot'))

@@ -258,8 +258,12 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
     if (key(ends->second) > key(all->second)) all->second = ends->second, last_of = topic;
   }
   if (!own) return {};
-  const auto count = [](const std_msgs::Header& from, const std_msgs::Header& to, std::uint32_t allowed) {
-    return to.seq > from.seq && to.seq - from.seq > allowed ? to.seq - from.seq : 0;
+  Missing missing;
+  const auto count = [&](const std_msgs::Header& from, const std_msgs::Header& to, std::uint32_t allowed) {
+    const std::uint32_t lacking = to.seq > from.seq ? to.seq - from.seq : 0;
+    if (lacking > allowed) return lacking;
+    missing.tolerated += lacking;
+    return 0U;
   };
   const auto have_one_start = [&](const std_msgs::Header& a, const std_msgs::Header& b) {
     return starts()->of(a.stamp) == starts()->of(b.stamp);
@@ -267,12 +271,14 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   const bool exact = is_by_node();
   const auto mine = view(topics_.at(type));
   const ros::Duration tick(0, 1);
-  const std::uint64_t behind_all = batches_that_status_tells_of();
-  return {have_one_start(all->first, own->first) ? count(all->first, own->first, exact ? 0 : node::kBatchQueueSize)
-                                                 : view(first_of, ros::TIME_MIN, mine->getBeginTime() - tick)->size(),
-          behind_all + (have_one_start(own->second, all->second)
-                            ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
-                            : view(last_of, mine->getEndTime() + tick)->size())};
+  missing.at_beginning = have_one_start(all->first, own->first)
+                             ? count(all->first, own->first, exact ? 0 : node::kBatchQueueSize)
+                             : view(first_of, ros::TIME_MIN, mine->getBeginTime() - tick)->size();
+  missing.at_end = have_one_start(own->second, all->second)
+                       ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
+                       : view(last_of, mine->getEndTime() + tick)->size();
+  missing.at_end += batches_that_status_tells_of();
+  return missing;
 }
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {

@@ -175,6 +175,7 @@ class Recording {
 
   struct Missing {
     std::uint64_t at_beginning = 0, at_end = 0;
+    std::uint64_t tolerated = 0;  // fewer, which a bag by `rosbag record` or of a killed node may lack
   };
   // Batches at the ends of the recording of which it should hold a message of this type, but does not.
   template <class Message>
