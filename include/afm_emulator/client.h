@@ -19,14 +19,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <deque>
-#include <future>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -49,6 +51,51 @@ inline std_msgs::Float64 to_message(double value) {
   message.data = value;
   return message;
 }
+
+// ros::ServiceClient has no time-out: this drops its connection when the time of a call is over, and the call fails.
+class Watchdog {
+ public:
+  ~Watchdog() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ending_ = true;
+    }
+    news_.notify_one();
+    thread_.join();
+  }
+
+  void begin(ros::ServiceClient& client, double seconds) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    client_ = &client;
+    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+  // True if the time was over: then the client is of no use any more.
+  bool end() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(client_, nullptr) == nullptr;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void watch() {
+    constexpr std::chrono::milliseconds kPoll{50};  // so that a call need not wake this thread
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!ending_) {
+      news_.wait_for(lock, kPoll);
+      if (client_ == nullptr || Clock::now() < deadline_) continue;
+      client_->shutdown();
+      client_ = nullptr;
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable news_;
+  ros::ServiceClient* client_ = nullptr;  // of the call under way
+  Clock::time_point deadline_;
+  bool ending_ = false;
+  std::thread thread_{[this] { watch(); }};  // the last to begin
+};
 
 class Client {
  public:
@@ -112,16 +159,9 @@ class Client {
     call.request.rest_height = rest_height.value_or(kNaN);
     call.request.duration = duration;
     if (control_ == ros::ServiceClient()) connect();
-    // ros::ServiceClient has no time-out: when the time is over, its connection is dropped, and the call fails
-    std::promise<void> answered;
-    std::future<bool> is_late = std::async(std::launch::async, [this, answer = answered.get_future()] {
-      const bool late = answer.wait_for(std::chrono::duration<double>(timeout_)) == std::future_status::timeout;
-      if (late) control_.shutdown();
-      return late;
-    });
+    watchdog_.begin(control_, timeout_);
     const bool success = control_.call(call);
-    answered.set_value();
-    const bool late = is_late.get();
+    const bool late = watchdog_.end();
     if (late || !success) control_ = {};
     if (late) throw EmulatorError(name_ + "/control: did not answer within " + timeout());
     if (!success) {
@@ -358,6 +398,7 @@ class Client {
   std::map<std::string, Connection> connections_;  // by topic: the latest one, and how many there were
   int starts_ = 1, starts_told_ = 1;  // of the emulator, since this client was made; those that a call has told
   ros::ServiceClient control_;        // in lockstep
+  Watchdog watchdog_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
   std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
