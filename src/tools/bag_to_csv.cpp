@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -67,21 +68,35 @@ struct Target {
   }
 };
 
-// take(message) for each that is held. Returns how many are lost.
+// take(message) for each that is held. Returns how many are lost. starts: of the node that they are of.
 template <class Message, class Take>
-std::uint64_t for_each_message(const Recording& recording, const Take& take) {
+std::uint64_t for_each_message(const Recording& recording, const Take& take,
+                               std::set<std::uint64_t>* starts = nullptr) {
   std::uint64_t lost = 0;
   if (!recording.holds<Message>()) throw Problem(recording.name() + ": holds no messages of this topic");
   for (const auto messages = recording.read<Message>(); messages->get(); messages->next()) {
     lost += messages->lost();
+    if (starts != nullptr) starts->insert(messages->number().start);
     take(*messages->get());
   }
   const Recording::Missing ends = recording.missing_at_ends<Message>();
-  if (ends.tolerated > 0) {
-    std::cerr << "bag_to_csv: note: " << ends.tolerated << " batches at the ends have no message of "
-              << recording.topic<Message>() << "\n";
-  }
   return lost + ends.at_beginning + ends.at_end;
+}
+
+// The same for the messages of a table, and what its user should know.
+template <class Message, class Take>
+std::uint64_t write_each(const Recording& recording, const Take& take) {
+  std::set<std::uint64_t> starts;
+  const std::uint64_t lost = for_each_message<Message>(recording, take, &starts);
+  const auto note = [](std::uint64_t count, const std::string& what) {
+    std::cout.flush();
+    std::cerr << "bag_to_csv: note: " << count << what << "\n";
+  };
+  const std::string& topic = recording.topic<Message>();
+  const std::uint64_t tolerated = recording.missing_at_ends<Message>().tolerated;
+  if (tolerated > 0) note(tolerated, " batches at the ends have no message of " + topic);
+  if (starts.size() > 1) note(starts.size(), " starts of the node: at each, epochs and the index begin again");
+  return lost;
 }
 
 std::uint64_t write_impacts(const Recording& recording, const Target& to) {
@@ -92,7 +107,7 @@ std::uint64_t write_impacts(const Recording& recording, const Target& to) {
                                 {"energy_loss", Q::energy},
                                 {"kind"},
                                 {"count"}});
-  return for_each_message<afm_emulator::ImpactArray>(recording, [&](const auto& batch) {
+  return write_each<afm_emulator::ImpactArray>(recording, [&](const auto& batch) {
     std::uint64_t index = batch.first_index;
     for (const afm_emulator::Impact& i : batch.impacts) {
       to.begin_row(table, batch.epoch, i.time);
@@ -105,7 +120,7 @@ std::uint64_t write_impacts(const Recording& recording, const Target& to) {
 
 std::uint64_t write_deflection(const Recording& recording, const Target& to) {
   TableWriter table = to.begin({{"index"}, {"time", Q::time}, {"vertical", Q::length}, {"lateral", Q::length}}, false);
-  return for_each_message<afm_emulator::Deflection>(recording, [&](const auto& batch) {
+  return write_each<afm_emulator::Deflection>(recording, [&](const auto& batch) {
     const double begin = to.seconds(batch.time);
     for (std::size_t i = 0; i < batch.vertical.size() && i < batch.lateral.size(); ++i) {
       table << batch.epoch << batch.first_sample + i << begin + static_cast<double>(i) * batch.sample_period
@@ -145,7 +160,7 @@ std::uint64_t write_friction(const Recording& recording, const Target& to) {
   std::vector<Column> columns{{"impact_count"}};
   for (const FrictionField& field : kFrictionFields) columns.push_back(field.column);
   TableWriter table = to.begin(columns);
-  return for_each_message<afm_emulator::Friction>(recording, [&](const auto& friction) {
+  return write_each<afm_emulator::Friction>(recording, [&](const auto& friction) {
     to.begin_row(table, friction.epoch, friction.time);
     table << friction.impact_count;
     for (const FrictionField& field : kFrictionFields) table << friction.*field.value;
@@ -177,7 +192,7 @@ std::uint64_t write_commands(const Recording& recording, const Target& to) {
   afm::node::Live unused;
   afm_emulator::Applied last;
   std::uint64_t lost = recording.commands_missing_at_beginning();
-  lost += for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) {
+  lost += write_each<afm_emulator::Applied>(recording, [&](const auto& applied) {
     last = applied;
     to.begin_row(table, applied.epoch, applied.time);
     table << applied.drag_velocity;

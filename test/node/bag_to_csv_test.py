@@ -1,5 +1,6 @@
 """bag_to_csv writes every number of a recording as rosbag's reader finds it, in SI to the bit and in natural units to
 rounding; what is missing it names, and writes what there is."""
+import copy
 import csv
 import subprocess
 
@@ -146,6 +147,17 @@ class Incomplete(SpoiledBag):
         self.assertEqual((code, complaint),
                          (SOUND, 'bag_to_csv: note: 3 batches at the ends have no message of /afm/impacts\n'))
         self.assertTrue(rows)
+
+    def test_two_starts_are_noted(self):
+        for entry in [copy.copy(entry) for entry in self.entries]:
+            header = entry.message().header
+            header.stamp += genpy.Duration(100)
+            entry.edit(header=header)
+            entry.stamp += genpy.Duration(100)
+            self.entries.append(entry)
+        code, rows, complaint = call(self.write(), '--topic', 'friction')
+        self.assertEqual((code, len(rows)), (SOUND, len(self.of('friction'))))
+        self.assertIn('note: 2 starts of the node', complaint)
 
     def test_a_bag_without_a_topic(self):
         self.remove(*self.of('deflection'), *self.of('snapshot'))
