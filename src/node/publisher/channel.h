@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <ros/this_node.h>
 #include <ros/topic_manager.h>
+#include <topic_tools/shape_shifter.h>
 
 #include <boost/make_shared.hpp>
 #include <cstdint>
@@ -75,7 +76,10 @@ class Channel {
         role_(role),
         publisher_(advertise(node, name, queue_size, latched_)),
         bag_topic_(make_bag_topic(publisher_.getTopic(), latched_)),
-        recorder_(recorder) {}
+        recorder_(recorder) {
+    namespace traits = ros::message_traits;
+    raw_.morph(traits::md5sum<Message>(), traits::datatype<Message>(), traits::definition<Message>(), "1");
+  }
 
   // unhurried: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all, and
   // for room in the recording.
@@ -83,7 +87,8 @@ class Channel {
     message.header.seq = sequence_++;
     const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
     if (latched_) {
-      publisher_.publish(message);  // seldom: that it is serialized again does not matter
+      copy(bytes, raw_);
+      publisher_.publish(raw_);
     } else {
       if (unhurried) wait_for_subscribers();
       ros::SerializedMessage unused;
@@ -143,6 +148,7 @@ class Channel {
   ros::Publisher publisher_;
   const std::shared_ptr<const BagTopic> bag_topic_;
   Recorder& recorder_;
+  topic_tools::ShapeShifter raw_;  // of a latched topic, which roscpp sends by itself to whoever comes later
   std::uint32_t sequence_ = 0;
   std::uint64_t lost_ = 0;
   std::uint32_t subscribers_ = 0;
