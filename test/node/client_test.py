@@ -16,7 +16,7 @@ from afm_emulator.msg import Applied, Deflection, ModelTime
 from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
 from topics import DEADLINE_S, PATIENCE, Topic
 
-TIMEOUT_S = 2.0 * PATIENCE
+TIMEOUT_S, LONG_S = 2.0 * PATIENCE, 15.0 * PATIENCE  # to see how it ends; to wait for a start on a busy machine
 FAULTY = (('duration', 'control nan'), ('duration', 'control inf'), ('duration', 'control -0.01'),
           ('drag_velocity', 'control 0.01 nan'), ('rest_height', 'control 0.01 - nan'),
           ('drag_velocity', 'command_and_wait inf'), ('rest_height', 'command_and_wait - nan'),
@@ -31,8 +31,8 @@ def at(time):
 class Calls:
     """A controller that calls what it is told."""
 
-    def __init__(self, program):
-        self.child = subprocess.Popen(program + ['%g' % TIMEOUT_S], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    def __init__(self, program, timeout_s=TIMEOUT_S):
+        self.child = subprocess.Popen(program + ['%g' % timeout_s], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                       universal_newlines=True)
         self.answers = queue.Queue()
         threading.Thread(target=self._read, daemon=True).start()
@@ -62,9 +62,9 @@ class Calls:
 
 class Claims:
     """Of both clients."""
-    def start_both(self, pace, **parameters):
+    def start_both(self, pace, timeout_s=TIMEOUT_S, **parameters):
         self.emulator = self.start(Emulator(dict(parameters, pace=pace)))
-        return self.start(Calls(self.program()))
+        return self.start(Calls(self.program(), timeout_s))
 
     def numbers(self, answer):
         self.assertNotIn('EmulatorError', answer)
@@ -101,7 +101,7 @@ class Claims:
         self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # not that of a call before it
 
     def test_a_restarted_emulator(self):
-        tip = self.start_both('lockstep')
+        tip = self.start_both('lockstep', LONG_S)
         self.emulator.halt()  # the call gets no answer before the end
         tip.begin('control 0.01')
         self.emulator.child.kill()
@@ -115,7 +115,7 @@ class Claims:
 
     def test_a_restarted_emulator_in_real_time(self):
         """Once a period was joined from both runs, with the impacts of neither."""
-        tip = self.start_both('real_time')
+        tip = self.start_both('real_time', LONG_S)
         self.numbers(tip.call('control 0.01'))
         tip.begin('control 5')
         batches = Topic('deflection')
