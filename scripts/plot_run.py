@@ -131,9 +131,9 @@ def read(paths, node):
                 number, said = (m.kind, int.from_bytes(m.data[:4], 'little')), hash(m.data)
                 if known.get(number, said) != said:
                     raise ValueError('%s was started again: this is another run' % (m.node or 'the emulator'))
-                if number not in known:
-                    run.count_lost(*number)
                 is_new = number not in known  # the bags of a split recording repeat what was before
+                if is_new:
+                    run.count_lost(*number)
                 known[number] = said
                 if is_new and (m.kind == 'Configuration' or run.configuration is not None):
                     add[m.kind](m.data if m.kind == 'ImpactArray' else m.of_type().deserialize(m.data))

@@ -18,8 +18,8 @@ REFERENCE_KICKS = 122.99
 # omega_h/omega_v of the levers in config/levers with their rate of kicks; and 22, of which 11.09 is half
 LEVER_KICKS = {2: 11.09, 14: 8.652, 17: 10.507, 21: 12.979, 30: 18.541, 22: 11.09}
 MORE_KICKS = (29.034, REFERENCE_KICKS)
-# where a rate of kicks locks to the lateral spring: 11.09 at omega_h/omega_v = 11.1, and 29.034 at 14; at 12.5 only with
-# a low Q
+# where a rate of kicks locks to the lateral spring: 11.09 at omega_h/omega_v = 11.1, and 29.034 at 14; at 12.5 only
+# with a low Q
 LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS = (11.1, 12.5, 14), (20, 100), (8.652, 11.09, 29.034, 46.979, REFERENCE_KICKS)
 # coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
 HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),

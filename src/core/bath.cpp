@@ -18,8 +18,8 @@ bool is_slow(const Bath& bath) {
   return slow(bath.quality_factor) && slow(bath.lateral_quality_factor);
 }
 
-// Where the spring turns less than few_turns from kick to kick, the kicks follow its swing. Measured (docs/levers.md): at
-// Q = 10 K_f is 2 to 7 % off up to 0.1 of a turn from a lock, at Q = 100 up to 0.02.
+// Where the spring turns less than few_turns from kick to kick, the kicks follow its swing. Measured: at Q = 10 and 20
+// K_f is up to 7 % off within 0.1 of a turn of a lock, at Q = 100 up to 2 % within 0.02 (docs/levers.md).
 bool locks(const Model& model, const Bath& bath, double kicks_per_tau) {
   const double few_turns = is_slow(bath) ? 0.4 : 0.39, near = is_slow(bath) ? 0.05 : 0.11;
   const double turns = lateral_ratio(model) / kicks_per_tau;

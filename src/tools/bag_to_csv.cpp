@@ -68,35 +68,43 @@ struct Target {
   }
 };
 
-// take(message) for each that is held. Returns how many are lost. starts: of the node that they are of.
+// What a table does not show.
+struct Unseen {
+  std::uint64_t lost = 0, tolerated = 0;  // Recording::Missing
+  std::set<std::uint64_t> starts;         // of the node that the messages are of
+};
+
+// take(message) for each that is held.
 template <class Message, class Take>
-std::uint64_t for_each_message(const Recording& recording, const Take& take,
-                               std::set<std::uint64_t>* starts = nullptr) {
-  std::uint64_t lost = 0;
+Unseen for_each_message(const Recording& recording, const Take& take) {
+  Unseen unseen;
   if (!recording.holds<Message>()) throw Problem(recording.name() + ": holds no messages of this topic");
   for (const auto messages = recording.read<Message>(); messages->get(); messages->next()) {
-    lost += messages->lost();
-    if (starts != nullptr) starts->insert(messages->number().start);
+    unseen.lost += messages->lost();
+    unseen.starts.insert(messages->number().start);
     take(*messages->get());
   }
   const Recording::Missing ends = recording.missing_at_ends<Message>();
-  return lost + ends.at_beginning + ends.at_end;
+  unseen.lost += ends.at_beginning + ends.at_end;
+  unseen.tolerated = ends.tolerated;
+  return unseen;
 }
 
-// The same for the messages of a table, and what its user should know.
+// The same for the rows of a table. Returns how many messages are lost; says what else its user should know.
 template <class Message, class Take>
 std::uint64_t write_each(const Recording& recording, const Take& take) {
-  std::set<std::uint64_t> starts;
-  const std::uint64_t lost = for_each_message<Message>(recording, take, &starts);
+  const Unseen unseen = for_each_message<Message>(recording, take);
   const auto note = [](std::uint64_t count, const std::string& what) {
     std::cout.flush();
     std::cerr << "bag_to_csv: note: " << count << what << "\n";
   };
-  const std::string& topic = recording.topic<Message>();
-  const std::uint64_t tolerated = recording.missing_at_ends<Message>().tolerated;
-  if (tolerated > 0) note(tolerated, " batches at the ends have no message of " + topic);
-  if (starts.size() > 1) note(starts.size(), " starts of the node: at each, epochs and the index begin again");
-  return lost;
+  if (unseen.tolerated > 0) {
+    note(unseen.tolerated, " batches at the ends have no message of " + recording.topic<Message>());
+  }
+  if (unseen.starts.size() > 1) {
+    note(unseen.starts.size(), " starts of the node: at each, epochs and the index begin again");
+  }
+  return unseen.lost;
 }
 
 std::uint64_t write_impacts(const Recording& recording, const Target& to) {

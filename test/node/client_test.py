@@ -177,7 +177,8 @@ class Claims:
         for duration in (0.001, 0.013):
             *_, end, begin, force = self.numbers(tip.call('control %g' % duration))
             friction.wait_for(lambda m: at(m.time) > end + 1e-8, 'what follows')
-            of_period = [m.header.seq for m in friction.messages if begin - 1e-8 < at(m.begin) and at(m.time) < end + 1e-8]
+            of_period = [m.header.seq for m in friction.messages
+                         if begin - 1e-8 < at(m.begin) and at(m.time) < end + 1e-8]
             times = [at(m) for f in friction.messages if f.header.seq in of_period for m in (f.begin, f.time)]
             self.assertAlmostEqual(times[0], begin, delta=1e-8)
             self.assertAlmostEqual(times[-1], end, delta=1e-8)

@@ -17,8 +17,8 @@ from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
 from topics import Topic, wait_until
 
 LONG = ('_for_s:=1e6', '_timeout_s:=1e6')
-NODES = {'detector.py': (), 'hold_force.py': (), 'plot_force.py': (), 'seek_peak.py': (), 'live_status': (), 'panel': (),
-         'expect': ('_field:=friction/force', '_least:=-1.0') + LONG, 'expect_sound': LONG}
+NODES = {'detector.py': (), 'hold_force.py': (), 'plot_force.py': (), 'seek_peak.py': (), 'live_status': (),
+         'panel': (), 'expect': ('_field:=friction/force', '_least:=-1.0') + LONG, 'expect_sound': LONG}
 ROUNDS = int(os.environ.get('AFM_STOPS', 1))
 LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0

@@ -84,6 +84,7 @@ void RunCheck::read_marks() {
   const auto key = [](const Mark& c) {
     return std::make_tuple(c.number.start, c.epoch(), c.in_force().number, c.snapshot != nullptr, c.number.seq);
   };
+  for (const Mark& c : marks_) known_epochs_.insert({c.number.start, c.epoch()});
   std::sort(marks_.begin(), marks_.end(), [&](const Mark& a, const Mark& b) { return key(a) < key(b); });
   for (std::size_t i = 1; i < marks_.size(); ++i) {
     const Mark& next = marks_[i];
@@ -146,10 +147,7 @@ void RunCheck::run() {
 // True if it comes before the next batch. A batch of an epoch of which nothing else is known comes before all.
 bool RunCheck::is_due(const Mark& c) const {
   const afm_emulator::Friction& batch = *batches_->get();
-  const bool is_known = std::any_of(marks_.begin(), marks_.end(), [&](const Mark& mark) {
-    return mark.number.start == batches_->number().start && mark.epoch() == batch.epoch;
-  });
-  if (!is_known) return false;
+  if (known_epochs_.count({batches_->number().start, batch.epoch}) == 0) return false;
   const auto place = [](std::uint64_t start, std::uint32_t epoch, const auto& time, std::uint64_t impacts) {
     return std::make_tuple(start, epoch, time.tau, time.phase, impacts);
   };
@@ -349,12 +347,13 @@ void RunCheck::check_without_friction() {
   const auto is_of = [](const auto& messages, const Number& number) {
     return messages && messages->get() && messages->number() == number;
   };
+  const Number end = batches_->get() ? batches_->number() : kBehindAll;
   for (;;) {
-    Number next = batches_->get() ? batches_->number() : kBehindAll;
+    Number next = end;
     if (is_before(deflections_, next)) next = deflections_->number();
     if (is_before(impacts_, next)) next = impacts_->number();
+    if (!(next < end)) return;
     const bool of_deflection = is_of(deflections_, next), of_impacts = is_of(impacts_, next);
-    if (!(next < (batches_->get() ? batches_->number() : kBehindAll))) return;
     const auto deflection = of_deflection ? deflections_->get() : nullptr;
     const auto impacts = of_impacts ? impacts_->get() : nullptr;
     if (run_ && next.start == start_ && !ahead) ahead = run_;

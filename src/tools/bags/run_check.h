@@ -14,7 +14,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "afm/run.h"
@@ -106,6 +108,7 @@ class RunCheck {
   const double most_gap_;
   std::vector<Mark> marks_;
   std::size_t next_mark_ = 0;
+  std::set<std::pair<std::uint64_t, std::uint32_t>> known_epochs_;  // of the marks: start of the node, and epoch
   std::unique_ptr<Cursor<afm_emulator::Friction>> batches_;
   std::unique_ptr<Cursor<afm_emulator::Deflection>> deflections_;  // null: not held
   std::unique_ptr<Cursor<afm_emulator::ImpactArray>> impacts_;     // likewise
