@@ -10,13 +10,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "si_options.h"
+
 namespace afm {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kTwice[][2] = {{"lever", "frequency-ratio"}, {"surface", "amplitude"}, {"load", "rest-height"}};
-constexpr const char* kScaleOptions[] = {"lattice-spacing", "omega-v", "tip-mass"};
 
 // Of an installed tool beside it, else in the sources.
 fs::path config() {

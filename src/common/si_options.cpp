@@ -8,8 +8,6 @@
 namespace afm {
 namespace {
 
-constexpr const char* kScale[] = {"lattice-spacing", "omega-v", "tip-mass"};
-
 // The options of all tools that --si takes in SI. --range and --to are of a drag velocity or a cutoff, or not taken.
 const std::map<std::string, Quantity> kQuantityOf{
     {"amplitude", Quantity::length},   {"cutoff", Quantity::velocity},         {"drag-velocity", Quantity::velocity},
@@ -52,14 +50,14 @@ bool has_drag_velocity(const CommandLine& app, const SiOptions& o) {
 }
 
 Units checked_units(const CommandLine& app, const SiOptions& o) {
-  for (const char* name : kScale) {
+  for (const char* name : kScaleOptions) {
     if (app.is_given(name) && !o.on) throw std::invalid_argument(std::string(name) + ": has a meaning only with --si");
   }
   std::vector<ParameterError> faults;
   for (const ParameterError& fault : find_faults(o.scale)) {
-    if (fault.name == "lattice_spacing_m") faults.emplace_back(kScale[0], fault.value, fault.reason);
-    if (fault.name == "omega_v_rad_per_s") faults.emplace_back(kScale[1], fault.value, fault.reason);
-    if (fault.name == "tip_mass_kg") faults.emplace_back(kScale[2], fault.value, fault.reason);
+    if (fault.name == "lattice_spacing_m") faults.emplace_back(kScaleOptions[0], fault.value, fault.reason);
+    if (fault.name == "omega_v_rad_per_s") faults.emplace_back(kScaleOptions[1], fault.value, fault.reason);
+    if (fault.name == "tip_mass_kg") faults.emplace_back(kScaleOptions[2], fault.value, fault.reason);
   }
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
   return Units(o.scale);

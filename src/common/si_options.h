@@ -14,6 +14,8 @@ struct SiOptions {
   SiModel scale;  // only its lattice spacing, omega_v and tip mass count
 };
 
+constexpr const char* kScaleOptions[] = {"lattice-spacing", "omega-v", "tip-mass"};
+
 // --si and the scale: --lattice-spacing, --omega-v, --tip-mass. The help says what --si does.
 void add_si_options(CommandLine& app, SiOptions& options);
 
