@@ -201,7 +201,8 @@ int main(int argc, char** argv) {
   afm::CommandLine app(
       "real_time",
       "Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units). K_f is that of\n"
-      "the losses in impacts: with a bath it is no friction.");
+      "the losses in impacts: with a bath it is no friction. An option with VALUES takes numbers and ranges\n"
+      "FROM:TO:STEP, with spaces or commas between.");
   app.option("eta", o.etas, "drag speeds [a/tau]; default: 0 to 9 in steps of --step");
   app.option("step", o.step, "of the default drag speeds [a/tau]");
   app.option("cutoff", o.cutoffs, "v_c [a/tau]; default: 0.1, 0.05, 0.01 and 0.001");
@@ -215,7 +216,6 @@ int main(int argc, char** argv) {
   app.option("tau", o.tau, "measured time each", {1.0, kLongest});
   app.option("transient", o.transient, "time before that", {0.0, kLongest});
   afm::add_lever_options(app, o.lever);
-  app.footer("An option with VALUES takes numbers and ranges FROM:TO:STEP, with spaces or commas between.");
   return app.run(argc, argv, [&] {
     take_ranges(o);
     const double of_lever = afm::Units(take_lever(app, o)).time() / afm::Units(afm::SiModel{}).time();

@@ -65,7 +65,6 @@ void add_options(afm::CommandLine& app, Options& o) {
   afm::add_si_options(app, o.dynamics);
   app.option("vary", o.vary, "eta, gamma or cutoff");
   app.option("to", o.to, "value to go to; with --si a drag velocity or cutoff in m/s");
-  app.require("to");
   app.option("length", o.length, "of the orbits followed [impacts]", {1, 32});
   app.option("guesses", o.search.guesses, "of the search, of each kind", {1, 1000000});
   app.option("seed", o.search.seed, "of what is random in the search");
@@ -100,6 +99,7 @@ int run(const afm::CommandLine& app, Options options) {
   if (options.vary != "gamma") afm::take_si(app, options.dynamics.si, "to", options.to);
   const afm::Model model = checked_model(options.dynamics);
   const double eta = options.dynamics.eta;
+  if (!app.is_given("to")) throw std::invalid_argument("to: must be given");
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
   check_target(options);
   options.search.longest = options.length;

@@ -1,5 +1,6 @@
 #include "command_line.h"
 
+#include <algorithm>
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
 #include <cstdint>
@@ -16,12 +17,10 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
+std::string text_of(const std::string& value) { return value; }
 template <class T>
-std::string text_of(const T& value) {
-  if constexpr (std::is_floating_point<T>::value) return number_text(value);
-  std::ostringstream text;
-  text << value;
-  return text.str();
+std::string text_of(T value) {
+  return number_text(static_cast<double>(value));
 }
 
 template <class T>
@@ -48,42 +47,41 @@ std::string parse(const std::string&, const std::string& text, Within) {
   return text;
 }
 
-// One value from the one text, or a list from texts with commas in them.
-template <class T>
-void take(const std::string& name, const Texts& texts, T& value, Within range) {
-  value = parse<T>(name, texts[0], range);
-}
-template <class T>
-void take(const std::string& name, const Texts& texts, std::vector<T>& values, Within range) {
-  values.clear();
-  for (const std::string& text : texts) {
-    std::istringstream rest(text);
-    for (std::string part; std::getline(rest, part, ',');) values.push_back(parse<T>(name, part, range));
-  }
-}
-
-template <class T>
-std::string with_default(const std::string& help, const T& value) {
-  const std::string text = text_of(value);
-  return text.empty() ? help : help + " [default: " + text + "]";
-}
-template <class T>
-std::string with_default(const std::string& help, const std::vector<T>&) {
-  return help;
-}
-
-template <class T>
-constexpr bool kIsList = false;
-template <class T>
-constexpr bool kIsList<std::vector<T>> = true;
-
 }  // namespace
+
+CommandLine::CommandLine(const std::string& tool, const std::string& description)
+    : tool_(tool),
+      usage_("Usage: " + tool + " [OPTION...]"),
+      description_(description),
+      options_(std::make_shared<po::options_description>("Options", 110)) {
+  options_->add_options()("help", "this text");
+}
 
 template <class T>
 void CommandLine::option(const std::string& name, T& value, const std::string& help, Within range) {
-  options_.push_back({name, with_default(help, value), kIsList<T> ? Takes::many : Takes::one,
-                      [name, &value, range](const Texts& texts) { take(name, texts, value, range); }});
+  const auto take = [this, name, &value, range](const std::string& text) {
+    given_.insert(name);
+    value = parse<T>(name, text, range);
+  };
+  const std::string preset = text_of(value);
+  options_->add_options()(name.c_str(), po::value<std::string>()->value_name("VALUE")->notifier(take),
+                          (preset.empty() ? help : help + " [default: " + preset + "]").c_str());
 }
+
+template <class T>
+void CommandLine::option(const std::string& name, std::vector<T>& values, const std::string& help, Within range) {
+  const auto take = [this, name, &values, range](const Texts& texts) {
+    given_.insert(name);
+    values.clear();
+    for (const std::string& text : texts) {
+      std::istringstream rest(text);
+      for (std::string part; std::getline(rest, part, ',');) values.push_back(parse<T>(name, part, range));
+    }
+  };
+  options_->add_options()(name.c_str(), po::value<Texts>()->multitoken()->value_name("VALUES")->notifier(take),
+                          help.c_str());
+}
+
 template void CommandLine::option(const std::string&, double&, const std::string&, Within);
 template void CommandLine::option(const std::string&, int&, const std::string&, Within);
 template void CommandLine::option(const std::string&, unsigned&, const std::string&, Within);
@@ -91,59 +89,37 @@ template void CommandLine::option(const std::string&, std::int64_t&, const std::
 template void CommandLine::option(const std::string&, std::uint64_t&, const std::string&, Within);
 template void CommandLine::option(const std::string&, std::string&, const std::string&, Within);
 template void CommandLine::option(const std::string&, std::vector<double>&, const std::string&, Within);
-template void CommandLine::option(const std::string&, std::vector<std::string>&, const std::string&, Within);
+template void CommandLine::option(const std::string&, Texts&, const std::string&, Within);
 
 void CommandLine::flag(const std::string& name, bool& value, const std::string& help) {
-  options_.push_back({name, help, Takes::nothing, [&value](const Texts&) { value = true; }});
+  options_->add_options()(name.c_str(), po::bool_switch(&value), help.c_str());
 }
 
-void CommandLine::arguments(const std::string& name, std::vector<std::string>& values, const std::string& help) {
-  arguments_ = name;
+void CommandLine::arguments(const std::string& name, Texts& values, const std::string& help) {
+  arguments_ = &values;
+  usage_ += " " + name + "...";
   description_ += "\n\n  " + name + "...  " + help;
-  options_.push_back({name, "", Takes::many, [&values](const Texts& texts) { values = texts; }});
 }
 
 // False where the help was all that was asked for.
 bool CommandLine::read(int argc, char** argv) {
-  po::options_description shown("Options", 110), hidden;
-  shown.add_options()("help", "this text");
-  for (const Option& o : options_) {
-    auto* value = po::value<Texts>()->value_name(o.takes == Takes::many ? "VALUES" : "VALUE");
-    if (o.takes == Takes::nothing) value->zero_tokens();
-    if (o.takes == Takes::many) value->multitoken();
-    (o.name == arguments_ ? hidden : shown).add_options()(o.name.c_str(), value, o.help.c_str());
-  }
-  for (const std::string& argument : Texts(argv + 1, argv + argc)) {
-    if (argument != "-h" && argument != "--help") continue;
-    std::cout << "Usage: " << tool_ << " [OPTION...]" << (arguments_.empty() ? "" : " " + arguments_ + "...") << "\n\n"
-              << description_ << "\n\n"
-              << shown << (footer_.empty() ? "" : "\n" + footer_ + "\n");
+  if (std::any_of(argv + 1, argv + argc, [](const std::string& a) { return a == "-h" || a == "--help"; })) {
+    std::cout << usage_ << "\n\n" << description_ << "\n\n" << *options_;
     return false;
   }
-  const std::string rest = arguments_.empty() ? "rest" : arguments_;
-  if (arguments_.empty()) hidden.add_options()("rest", po::value<Texts>());
-  po::variables_map found;
   // long options only, and none is guessed from its first letters: "-3.4" is a value
   using namespace po::command_line_style;
   const int style = allow_long | long_allow_adjacent | long_allow_next;
-  const auto all = po::options_description().add(shown).add(hidden);
-  const auto positional = po::positional_options_description().add(rest.c_str(), -1);
-  po::store(po::command_line_parser(argc, argv).options(all).positional(positional).style(style).run(), found);
-  if (arguments_.empty() && found.count(rest) > 0) {
-    throw std::invalid_argument(found[rest].as<Texts>()[0] + ": belongs to no option");
+  const auto parsed = po::command_line_parser(argc, argv).options(*options_).style(style).run();
+  const Texts rest = po::collect_unrecognized(parsed.options, po::include_positional);
+  if (arguments_ != nullptr) {
+    *arguments_ = rest;
+  } else if (!rest.empty()) {
+    throw std::invalid_argument(rest[0] + ": belongs to no option");
   }
-  for (const std::string& name : required_) {
-    if (found.count(name) == 0) throw std::invalid_argument(name + ": must be given");
-  }
-  for (const Option& o : options_) {
-    if (found.count(o.name) == 0) continue;
-    const Texts& texts = found[o.name].as<Texts>();
-    if (o.takes == Takes::one && texts.size() > 1) {
-      throw po::error("option '--" + o.name + "' cannot be specified more than once");
-    }
-    given_.insert(o.name);
-    o.take(texts);
-  }
+  po::variables_map found;
+  po::store(parsed, found);
+  po::notify(found);
   return true;
 }
 

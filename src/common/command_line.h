@@ -4,9 +4,16 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
+
+namespace boost {
+namespace program_options {
+class options_description;
+}
+}  // namespace boost
 
 namespace afm {
 
@@ -19,20 +26,17 @@ constexpr Within kPositive{std::numeric_limits<double>::min(), std::numeric_limi
 
 class CommandLine {
  public:
-  CommandLine(std::string tool, std::string description)
-      : tool_(std::move(tool)), description_(std::move(description)) {}
+  CommandLine(const std::string& tool, const std::string& description);
 
-  // --name VALUE: a number, a text, or a list of them with spaces or commas between. The value that it holds now is the
-  // default; the help shows it.
+  // --name VALUE: a number or a text. The value that it holds now is the default; the help shows it.
   template <class T>
   void option(const std::string& name, T& value, const std::string& help, Within range = kAny);
+  // --name VALUES: with spaces or commas between.
+  template <class T>
+  void option(const std::string& name, std::vector<T>& values, const std::string& help, Within range = kAny);
   void flag(const std::string& name, bool& value, const std::string& help);
   // The value that stands without an option.
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
-  // An option, or the arguments, that must be given.
-  void require(const std::string& name) { required_.push_back(name); }
-  // The end of the help.
-  void footer(const std::string& text) { footer_ = text; }
   // True if the option stands on the command line; false before run() has read it.
   bool is_given(const std::string& name) const { return given_.count(name) > 0; }
 
@@ -44,17 +48,11 @@ class CommandLine {
   int run(int argc, char** argv, const std::function<int()>& work, int failure = 1);
 
  private:
-  enum class Takes { nothing, one, many };
-  struct Option {
-    std::string name, help;
-    Takes takes;
-    std::function<void(const std::vector<std::string>&)> take;
-  };
   bool read(int argc, char** argv);
 
-  std::string tool_, description_, footer_, arguments_;
-  std::vector<Option> options_;
-  std::vector<std::string> required_;
+  std::string tool_, usage_, description_;
+  std::shared_ptr<boost::program_options::options_description> options_;
+  std::vector<std::string>* arguments_ = nullptr;
   std::set<std::string> given_;
 };
 

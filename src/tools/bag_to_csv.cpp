@@ -39,11 +39,9 @@ const char kDescription[] =
     "  deflection  epoch, running index, time, vertical, lateral: a row for each sample\n"
     "  friction    the fields of afm_emulator/Friction, a row for each batch\n"
     "  commands    a row for everything that took effect: all that is in force from there on\n"
-    "Lost messages show as gaps in the running index.";
-const char kExitCodes[] =
-    "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag "
-    "cannot\n"
-    "be read: stderr says what, and what there is is written.";
+    "Lost messages show as gaps in the running index.\n"
+    "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag\n"
+    "cannot be read: stderr says what, and what there is is written.";
 
 constexpr int kIncomplete = 3;
 
@@ -273,17 +271,15 @@ int write(const std::vector<std::string>& paths, const std::string& node, const 
 int main(int argc, char** argv) {
   std::ios::sync_with_stdio(false);
   afm::CommandLine app("bag_to_csv", kDescription);
-  app.footer(kExitCodes);
   std::vector<std::string> paths;
   std::string topic, node;
   bool natural = false;
   app.arguments("bags", paths, "a recording; of a split one all bags");
-  app.require("bags");
   app.option("topic", topic, "impacts, deflection, friction or commands");
-  app.require("topic");
   app.flag("natural", natural, "in lattice spacings a, periods tau and tip masses m_tip instead of SI");
   app.option("node", node, "the emulator's name such as /afm, where a bag holds several");
   return app.run(argc, argv, [&] {
+    if (paths.empty()) throw std::invalid_argument("bags: must be given");
     if (kTables.count(topic) == 0) {
       throw std::invalid_argument("topic = " + topic + ": must be impacts, deflection, friction or commands");
     }

@@ -19,8 +19,7 @@ using afm::bags::RunCheck;
 
 const char kDescription[] =
     "Simulates a recorded run again, from its snapshots and what was applied, and compares every message with the\n"
-    "recording, bit for bit. Needs no ROS master. The bags of a split recording are given together, or each by itself.";
-const char kExitCodes[] =
+    "recording, bit for bit. Needs no ROS master. The bags of a split recording are given together, or each by itself.\n"
     "Exit codes: 0 identical; 1 different; 2 wrong arguments; 3 it cannot be checked, or not as a whole.";
 
 constexpr int kIdentical = 0, kDifferent = 1, kCannotBeChecked = 3;
@@ -102,13 +101,12 @@ int check_all(const std::vector<std::string>& paths, const std::string& node) {
 
 int main(int argc, char** argv) {
   afm::CommandLine app("replay_check", kDescription);
-  app.footer(kExitCodes);
   std::vector<std::string> paths;
   std::string node;
   app.arguments("bags", paths, "recordings; of a split one all bags");
-  app.require("bags");
   app.option("node", node, "the emulator's name such as /afm; else all that the bags hold");
   const auto work = [&] {
+    if (paths.empty()) throw std::invalid_argument("bags: must be given");
     try {
       return check_all(paths, node);
     } catch (const std::exception& error) {

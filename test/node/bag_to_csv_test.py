@@ -169,7 +169,7 @@ class Incomplete(SpoiledBag):
         self.assertIn('holds no messages of this topic', complaint)
 
     def test_refuses_by_name(self):
-        for arguments, code, words in (((self.good,), USAGE, 'topic: must be given'),
+        for arguments, code, words in (((self.good,), USAGE, 'topic = : must be impacts'),
                                        (('--topic', 'impacts'), USAGE, 'bags: must be given'),
                                        ((self.good, '--topic', 'samples'), USAGE,
                                         'topic = samples: must be impacts, deflection'),
