@@ -2,6 +2,7 @@
 // tau = 2 pi / omega_v, mass m (tip). The limits below are the preconditions of everything else in the library.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,12 @@ inline double is_free_along_x(const Model& model) { return model.kind == ModelKi
 // Whether its load holds the tip down at rest: the holder is below the valleys.
 inline bool is_held_down(const Model& model) { return model.y0 < -model.H; }
 
+// The extension of the lateral spring at which the load can hold the tip on the steepest flank no longer [a]. The load
+// k a |y0| times the slope 2 pi H over the lateral spring constant; 0 without a load.
+inline double longest_extension(const Model& model) {
+  return std::max(0.0, -model.y0) * kTwoPi * model.H / (model.frequency_ratio * model.frequency_ratio);
+}
+
 // The section of impacts: the hammer has only its phase and gap rate.
 inline int section_dimension(const Model& model) { return model.kind == ModelKind::hammer ? 2 : 4; }
 
@@ -55,9 +62,9 @@ constexpr double kMinFrequencyRatio = 0.01;
 constexpr double kMaxFrequencyRatio = 1000.0;  // the paper's is 6.25; the hammer is the limit of stiff springs
 constexpr double kMinAmplitude = 1e-6;         // [a]
 constexpr double kMaxAmplitude = 1.0;          // [a]: ten times mica
-constexpr double kMinRestHeight = -1e5;  // y0 [a]: 98 nN on graphite at 0.004 N/m; above it a gap keeps 10 digits
-constexpr double kMinCutoff = 1e-9;      // [a/tau], or 0
-constexpr double kMinGapRate = 1e-16;    // [a/tau]: slower bounces are contact; the rounding of a velocity of 1 a/tau
+constexpr double kMinRestHeight = -1e5;        // y0 [a]: 98 nN on graphite at 0.004 N/m; above it a gap keeps 10 digits
+constexpr double kMinCutoff = 1e-9;            // [a/tau], or 0
+constexpr double kMinGapRate = 1e-16;  // [a/tau]: slower bounces are contact; the rounding of a velocity of 1 a/tau
 
 // Every fault of the set, not only the first; empty when the model can be run.
 std::vector<ParameterError> find_faults(const Model& model);

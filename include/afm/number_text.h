@@ -9,4 +9,7 @@ namespace afm {
 // where it is no longer, else powers of ten (1e-06); a decimal point, whatever the locale.
 std::string number_text(double value);
 
+// The same with at most so many digits.
+std::string rounded_text(double value, int digits);
+
 }  // namespace afm

@@ -1,9 +1,10 @@
 #include "si_options.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
+
+#include "afm/number_text.h"
 
 namespace afm {
 namespace {
@@ -17,13 +18,6 @@ const std::map<std::string, Quantity> kQuantityOf{
 
 const std::map<Quantity, const char*> kSiUnit{
     {Quantity::length, "m"}, {Quantity::time, "s"}, {Quantity::velocity, "m/s"}, {Quantity::temperature, "K"}};
-
-// Without the rounding of a conversion there and back.
-std::string rounded(double value, int digits) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
 
 }  // namespace
 
@@ -75,8 +69,8 @@ std::vector<ParameterError> as_given(const CommandLine& app, const SiOptions& o,
       continue;
     }
     const double unit = si_factor(quantity->second, Units(o.scale));
-    given.emplace_back(name, std::strtod(rounded(fault.value * unit, kDigits).c_str(), nullptr),
-                       fault.reason + " (in natural units, where 1 is " + rounded(unit, kFew) + " " +
+    given.emplace_back(name, std::strtod(rounded_text(fault.value * unit, kDigits).c_str(), nullptr),
+                       fault.reason + " (in natural units, where 1 is " + rounded_text(unit, kFew) + " " +
                            kSiUnit.at(quantity->second) + ")");
   }
   return given;

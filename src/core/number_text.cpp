@@ -12,14 +12,6 @@ namespace {
 constexpr int kEnough = std::numeric_limits<double>::max_digits10;
 constexpr double kMostInDecimals = 1e7;
 
-std::string text_of(double value, int digits) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(digits);
-  out << value;
-  return out.str();
-}
-
 bool reads_as(const std::string& text, double value) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());
@@ -30,12 +22,20 @@ bool reads_as(const std::string& text, double value) {
 
 }  // namespace
 
+std::string rounded_text(double value, int digits) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(digits);
+  out << value;
+  return out.str();
+}
+
 std::string number_text(double value) {
   int digits = 1;
-  while (digits < kEnough && !reads_as(text_of(value, digits), value)) ++digits;
+  while (digits < kEnough && !reads_as(rounded_text(value, digits), value)) ++digits;
   const double size = std::abs(value);
   if (size >= 1.0 && size < kMostInDecimals) digits = std::max(digits, 1 + static_cast<int>(std::log10(size)));
-  return text_of(value, digits);
+  return rounded_text(value, digits);
 }
 
 }  // namespace afm

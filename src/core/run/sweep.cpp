@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "afm/number_text.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
 #include "core/run/interruptible_advance.h"
@@ -36,12 +36,6 @@ class Uniform {
 std::string option_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
-}
-
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
 }
 
 }  // namespace
@@ -91,19 +85,19 @@ std::vector<ParameterError> find_traps(const SweepPoint& point, const Bath& bath
 
 std::vector<ParameterError> find_short_drag(const char* name, double duration, double eta, double spacings) {
   if (eta == 0.0 || std::abs(eta) * duration >= spacings) return {};
+  constexpr int kFew = 6;
   return {ParameterError(name, duration,
-                         "at eta = " + rounded(eta) + " the holder passes only " + rounded(std::abs(eta) * duration) +
+                         "at eta = " + number_text(eta) + " the holder passes only " +
+                             rounded_text(std::abs(eta) * duration, kFew) +
                              " lattice spacings in it: the result is that of a place of the surface, whatever its " +
-                             "error; give at least " + rounded(std::ceil(spacings / std::abs(eta))) + " tau")};
+                             "error; give at least " + number_text(std::ceil(spacings / std::abs(eta))) + " tau")};
 }
 
 std::vector<ParameterError> find_traps(const SweepPoint& point, const SweepSettings& settings) {
   constexpr double kSpacings = 10.0;
   std::vector<ParameterError> traps = find_traps(point, settings.bath);
-  const double extension =
-      std::max(0.0, -point.y0) * point.H * kTwoPi / (point.frequency_ratio * point.frequency_ratio);
-  for (const ParameterError& trap :
-       find_short_drag("duration", settings.duration, point.eta, kSpacings * (1.0 + extension))) {
+  const double spacings = kSpacings * (1.0 + longest_extension(model_of(point)));
+  for (const ParameterError& trap : find_short_drag("duration", settings.duration, point.eta, spacings)) {
     traps.push_back(trap);
   }
   return traps;

@@ -28,13 +28,6 @@ double advance_for(double seconds, Run& run, Batch& batch, std::uint64_t impacts
   return (run.now() - start) / (now - begin);
 }
 
-std::string rounded(double value, int digits) {
-  std::ostringstream text;
-  text.precision(digits);
-  text << value;
-  return text.str();
-}
-
 }  // namespace
 
 std::string describe_tip(const Parameters& p) {
@@ -73,8 +66,7 @@ Run trial_run(const Parameters& p) {
   live.level = choose_level(p, settings).level;
   Run run(settings);
   const Model& m = settings.model;
-  // the load along a flank over the lateral spring: its most, as an extension [a], and its steepest rise along x
-  const double extension = is_held_down(m) ? -m.y0 * m.H * kTwoPi / (m.frequency_ratio * m.frequency_ratio) : 0.0;
+  const double extension = longest_extension(m);
   const bool slips = kTwoPi * extension > 1.0 && live.eta != 0.0;
   if (slips && !settings.bath.is_on()) {
     LiveSettings fast = live;
@@ -101,8 +93,9 @@ std::string find_pace_fault(const Parameters& p, double pace) {
   const double digit = std::pow(10.0, std::floor(std::log10(scale)));  // one digit, rounded down
   const bool fewer_suffice = settings.bath.is_on() && p.bath.kicks_per_tau > 1.1 * kicks;
   return "this run will not keep its pace: time_scale = " + number_text(p.time_scale) + ", and a trial run made " +
-         rounded(pace, 2) + " times real time. Give time_scale = " + rounded(std::floor(scale / digit) * digit, 2) +
-         (fewer_suffice ? ", kicks_per_tau = " + rounded(kicks, 5) : "") +
+         rounded_text(pace, 2) +
+         " times real time. Give time_scale = " + rounded_text(std::floor(scale / digit) * digit, 2) +
+         (fewer_suffice ? ", kicks_per_tau = " + rounded_text(kicks, 5) : "") +
          (p.contact_tolerance < kMaxContactTolerance ? ", a contact_tolerance up to 1e-2" : "") +
          (p.model != "hammer" ? ", model = hammer" : "") + ", or a lower sample_rate_hz";
 }
