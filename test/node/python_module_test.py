@@ -145,12 +145,14 @@ class PythonModule(NodeTest):
                 return True
             return alter
         last = max(m.header.seq for m in bags.read(path)['friction'] if m.epoch == 0)
+        batches = 'deflection', 'impacts', 'friction'
         newest = bags.read(path)['friction'][-1].header.seq
         for keeps, words in ((lambda topic, m: topic != 'friction', 'Friction'),
                              (lambda topic, m: topic != 'snapshot', 'Snapshot'),
                              (lambda topic, m: topic != 'applied', 'Applied'),
                              (lambda topic, m: topic != 'friction' or m.header.seq != 20, 'Friction'),
                              (lambda topic, m: topic != 'friction' or m.header.seq < newest - 1, 'missing at the end'),
+                             (lambda topic, m: topic not in batches or m.header.seq < newest - 5, 'the last status tells'),
                              (lambda topic, m: topic != 'snapshot' or m.epoch > 0, 'begins before its first snapshot'),
                              (lambda topic, m: topic != 'applied' or m.number != 2, 'Applied'),
                              (lambda topic, m: topic != 'snapshot' or m.time.tau > 10, 'Snapshot'),

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """plot_run.py draws a bag, and says what is wrong with what is none. usage: plot_run_test.py SCRIPT"""
 import itertools
+import re
 import subprocess
 import sys
 import tempfile
@@ -24,7 +25,7 @@ class PlotRun(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.directory = Path(holder.name)
 
-    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0):
+    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0, lost=()):
         path = self.directory / name
         with rosbag.Bag(str(path), 'w') as bag:
             def write(node, topic, message, seq):
@@ -44,6 +45,8 @@ class PlotRun(unittest.TestCase):
                     impacts = ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k) for k in range(4)])
                     friction = Friction(epoch=epoch, k_f_work=1e-6, k_f_work_natural=0.4)
                     for topic, message in (('/deflection', deflection), ('/impacts', impacts), ('/friction', friction)):
+                        if (topic, batches * epoch + i) in lost:
+                            continue
                         write(node, topic, message, batches * epoch + i)
         return path
 
@@ -58,6 +61,19 @@ class PlotRun(unittest.TestCase):
         for label in ('deflection', 'normal speed', 'drag speed', 'model time'):
             self.assertIn('<!-- ' + label, picture.read_text())
         self.assertEqual(path.with_suffix('.png').read_bytes()[:4], b'\x89PNG')
+
+    def test_a_gap_is_drawn_and_said(self):
+        """The line went across it."""
+        whole, gap = (self.bag(20, name, lost=lost) for name, lost in
+                      (('whole.bag', ()), ('gap.bag', [('/deflection', 30), ('/deflection', 31)])))
+        self.assertEqual(plot(whole, '--output', self.directory / 'whole.svg').returncode, 0)
+        done = plot(gap, '--output', self.directory / 'gap.svg')
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn('warning: 2 messages of Deflection are missing', done.stdout)
+
+        def strokes(name):  # of all lines: each begins by a move
+            return len(re.findall('[ "]M ', (self.directory / name).read_text()))
+        self.assertEqual(strokes('gap.svg'), strokes('whole.svg') + 2)  # vertical and lateral
 
     def test_says_what_is_wrong(self):
         text = self.directory / 'text.bag'
