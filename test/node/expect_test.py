@@ -116,7 +116,7 @@ class Expect(NodeTest):
                                   ('true', 'has recorded no batch'),
                                   (control, 'of the runs differs: /afm/applied: drag_velocity: 5')):
             script = launch.parent / 'script'
-            script.write_text('#!/bin/sh\nsleep 3\n%s\n' % program)
+            script.write_text('#!/bin/sh\nsleep 1\n%s\n' % program)
             script.chmod(0o755)
             node = '<node pkg="%s" type="replay_check" name="controller" required="true" launch-prefix="%s"/>' % (
                 PACKAGE, script)
