@@ -115,13 +115,13 @@ def results_path(name):
     return os.path.abspath(name)
 
 
-def draw(path, title, label, times, values, least, most, window):
-    """A picture of the signal and of what was expected of it."""
+def draw(path, title, label, points, least, most, window):
+    """A picture of the signal, (time, value), and of what was expected of it."""
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
     figure, axes = plt.subplots(figsize=(9, 5), constrained_layout=True)
-    axes.plot(times, values, color='#0072B2', lw=1)
+    axes.plot([time for time, _ in points], [value for _, value in points], color='#0072B2', lw=1)
     axes.axvspan(*window, color='#999999', alpha=0.2, lw=0)
     for bound in (least, most):
         if math.isfinite(bound):
