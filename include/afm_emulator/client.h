@@ -185,6 +185,11 @@ class Client {
     if (drag_velocity && std::abs(*drag_velocity) > most) {  // in real time nothing would come back
       throw EmulatorError("drag_velocity = " + text(*drag_velocity) + " m/s: max_drag_velocity is " + text(most));
     }
+    const double crest = configuration_->surface_amplitude_m;
+    if (rest_height && *rest_height >= crest) {
+      throw EmulatorError("rest_height = " + text(*rest_height) + " m: must be below the crests of the surface, " +
+                          text(crest) + " m");
+    }
     Applied::ConstPtr mine;
     if (is_lockstep()) {
       recently_applied_.clear();
@@ -227,7 +232,8 @@ class Client {
  private:
   static constexpr std::size_t kKeptBatches = 100;   // before a measurement: a second at the default rate
   static constexpr std::size_t kKeptApplied = 1000;  // messages, where nothing is commanded from here
-  static constexpr double kRounding = 1e-9;          // of a sum of batches: ten of 0.01 s are 0.1 s
+  static constexpr const char* kPaused = " (is the emulator paused?)";
+  static constexpr double kRounding = 1e-9;  // of a sum of batches: ten of 0.01 s are 0.1 s
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside
   static constexpr double kAgain = 1.0;  // [s] a command without effect is sent again: the emulator may have restarted
@@ -344,13 +350,13 @@ class Client {
   template <class Message>
   void begin_with(std::deque<Message>& beside, const std::string& topic) {
     while (beside.size() > kKeptBatches) beside.pop_front();
-    wait_for([&] { return !beside.empty(); }, name_ + topic);  // of a new connection, after a restart
+    wait_for([&] { return !beside.empty(); }, name_ + topic + kPaused);  // of a new connection, after a restart
   }
   template <class Message>
   void complete(const std::deque<Message>& beside, const std::string& topic, Measurement& measurement,
                 std::uint32_t (Measurement::*lacking)() const) {
-    if (!measurement.last()) return;
-    wait_for([&] { return !beside.empty() && beside.back()->header.seq >= *measurement.last(); }, name_ + topic);
+    const auto has_come = [&] { return !beside.empty() && beside.back()->header.seq >= *measurement.last(); };
+    if (measurement.last()) wait_for(has_come, name_ + topic);
     for (const Message& batch : beside) measurement.add(*batch);
     const std::uint32_t lost = (measurement.*lacking)();
     if (lost == 0) return;
@@ -366,7 +372,7 @@ class Client {
     Measurement measurement(since);
     std::uint64_t expected = 0;  // running index of the next sample; 0: not known
     while (measurement.seconds() < duration * (1.0 - kRounding)) {
-      wait_for([this] { return !batches_.empty(); }, name_ + "/deflection (is the emulator paused?)",
+      wait_for([this] { return !batches_.empty(); }, name_ + "/deflection" + kPaused,
                duration / configuration_->time_scale);
       const Deflection::ConstPtr batch = batches_.front();
       batches_.pop_front();

@@ -53,6 +53,8 @@ class Measurement {
   }
 
   void add(const Friction& batch) {
+    // a period of no length: now
+    if (!last_ && batch.epoch == since_.epoch && tau_between(end_, batch.time) > 0.0) begin_ = end_ = batch.time;
     if (!is_of_period(batch.header)) return;
     if (++with_friction_ == 1) begin_ = batch.begin;
     end_ = batch.time;

@@ -345,6 +345,7 @@ std::atomic<bool> g_running{false}, g_stop{false};
 // thread waits for both, and all others are spared: a signal would interrupt a call to the master, which would then
 // seem not to answer.
 void await_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further ends a recording, as a full disk does
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
@@ -383,7 +384,12 @@ int main(int argc, char** argv) {
   }
   keep_memory_flat();
   await_signals();
-  ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
+  try {
+    ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
+  } catch (const ros::InvalidNameException& fault) {
+    std::cerr << "emulator_node: the name of the node: " << fault.what() << "\n";
+    return 1;
+  }
   const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle
   Faults faults;
   const auto parameters = load_parameters(handle, faults);

@@ -95,6 +95,8 @@ visualization_msgs::MarkerArray Picture::draw(const RunView& run, ros::Time stam
   if (!run.complete()) {
     Canvas nothing(cells_, 0.0, stamp);
     nothing.add("all", Marker::CUBE, tip_colour()).action = Marker::DELETEALL;  // whatever earlier pictures left
+    // rviz draws no text that is alone
+    nothing.add("path", Marker::LINE_STRIP, text_colour(), 0.02).points = {point(-1.6, 0.0, 0.3), point(1.6, 0.0, 0.3)};
     nothing.add_text("time", "no messages from an emulator yet", point(0.0, 0.0, 0.5), 0.16);
     return nothing.finish();
   }
@@ -112,15 +114,18 @@ visualization_msgs::MarkerArray Picture::draw(const RunView& run, ros::Time stam
   }
   epoch_ = run.configuration().epoch;
   seen_ = now;
+  // a run that has stood still for a second is followed
+  const std::vector<Place> positions = all_of(positions_);
+  const bool is_cloud = too_fast && !positions.empty();
   // more is seen of where the tip came from than of where it goes
   const double eta = run.eta(), ahead = std::floor(0.25 * cells_) * (eta > 0.0 ? 1.0 : eta < 0.0 ? -1.0 : 0.0);
   const Place holder = run.holder();
-  Canvas canvas(cells_, (too_fast ? std::round(holder.x) : holder.x) - ahead, stamp);
-  draw_scenery(canvas, run, too_fast);
+  Canvas canvas(cells_, (is_cloud ? std::round(holder.x) : holder.x) - ahead, stamp);
+  draw_scenery(canvas, run, is_cloud);
   draw_path(canvas, samples, impacts);
   draw_tip(canvas, samples.back(), holder);
-  draw_positions(canvas, all_of(positions_));
-  draw_impacts(canvas, too_fast ? all_of(impacts_) : impacts, run.units().energy(), too_fast);
+  draw_positions(canvas, positions);
+  draw_impacts(canvas, is_cloud ? all_of(impacts_) : impacts, run.units().energy(), is_cloud);
   return canvas.finish();
 }
 

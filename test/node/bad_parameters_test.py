@@ -6,7 +6,9 @@ import xmlrpc.client
 from socketserver import ThreadingMixIn
 from xmlrpc.server import SimpleXMLRPCServer
 
-from emulator_under_test import Emulator, NodeTest
+import roslib.packages
+
+from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
 from topics import NAMESPACE
 
 
@@ -30,6 +32,11 @@ class MasterSpy(ThreadingMixIn, SimpleXMLRPCServer):
 
 
 class BadParameters(NodeTest):
+    def test_a_name_that_cannot_be(self):
+        node = self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=a-b']))
+        self.assertEqual(node.wait(), 1)
+        self.assertIn('a-b', node.output())
+
     def test_all_faults_in_one_error(self):
         spy = MasterSpy()
         self.addCleanup(spy.server_close)

@@ -77,8 +77,9 @@ class Claims:
                 self.assertRegex(tip.call(line), '^EmulatorError: %s = ' % name, line)
             self.numbers(tip.call('mean_force 0.01'))
             self.assertEqual(Topic('status').wait_for().refused_commands, 0)  # none has come so far
-            for line in ('control 0.01 2e-4', 'command_and_wait -2e-4'):  # once sent, and waited for
-                self.assertIn('max_drag_velocity', tip.call(line))
+            for line, name in (('control 0.01 2e-4', 'max_drag_velocity'), ('command_and_wait -2e-4', 'max_drag_velocity'),
+                               ('control 0.01 - 1', 'rest_height'), ('command_and_wait - 1', 'rest_height')):
+                self.assertRegex(tip.call(line), '^EmulatorError: .*' + name)  # once sent, and waited for
             tip.clean_up()
             self.emulator.stop()
 
@@ -179,6 +180,9 @@ class Claims:
             deflection.wait_for(lambda m: m.header.seq >= of_period[-1], 'the batches')
             impulse = sum(m.lateral_impulse for m in deflection.messages if m.header.seq in of_period)
             self.assertAlmostEqual(1e12 * impulse / ((end - begin) * TAU_S) / force, 1.0, delta=1e-6)
+        *_, now, begin, _ = self.numbers(tip.call('control 0'))  # it was the time of the last command
+        self.assertEqual(now, begin)
+        self.assertGreaterEqual(now, end)
 
     def test_whole_batches_are_not_rounded_up(self):
         """The sum of ten times 0.01 s is below 0.1 s."""

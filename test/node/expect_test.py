@@ -6,6 +6,7 @@ from pathlib import Path
 import roslib.packages
 import rospy
 from afm_emulator import Client
+from afm_emulator.msg import EmulatorStatus
 from std_srvs.srv import Trigger
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to
@@ -55,6 +56,17 @@ class Expect(NodeTest):
         self.assertEqual(code, 1, said)
         self.assertRegex(said, r'friction/drag_velocity = \S+ at model time \S+ s: expected \S+ to inf from')
         self.assertTrue(list(self.results.glob('*.png')), said)
+
+    def test_a_status_next_to_the_time_counts(self):
+        """In lockstep none may fall into it: ten come in a second of wall time."""
+        tip = self.start_emulator()
+        node = self.node(field='status/search_failures', most=0, after_s=1.0, for_s=0.01)
+        wait_until(lambda: NAME in connected_to('/afm/status'), 'it listens')
+        for _ in range(3):
+            rospy.wait_for_message('/afm/status', EmulatorStatus, timeout=60 * PATIENCE)
+            tip.control(0.9)
+        code, said = self.end(node)
+        self.assertEqual(code, 0, said)
 
     def test_what_was_applied_holds_until_the_next(self):
         tip = self.start_emulator()
@@ -106,6 +118,8 @@ class Expect(NodeTest):
         for value in (-1.0, 0.0, float('nan'), float('inf')):
             self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
                                 for_s=value)
+        self.assert_refused('parameter after_s = -1.0: must be finite and not negative', 'expect_sound', after_s=-1.0,
+                            for_s=1.0)
 
     def test_repeats_of_a_run_that_died_or_held_nothing_or_does_not_repeat(self):
         launch = Path(self.temporary_directory()) / 'closed_loop.launch'

@@ -2,6 +2,7 @@
 tests what the recorder refuses, and how a recording ends by itself."""
 import itertools
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -107,6 +108,20 @@ class Recording(NodeTest):
         checks.assert_identical(self, path)
         lost = seen - bags.read(str(path))['deflection'][-1].first_sample
         self.assertLess(16 * lost, 2 * CHUNK_BYTES)
+
+    def test_a_file_that_may_grow_no_further(self):
+        """The signal that tells of it ended the emulator."""
+        emulator, status = self.record(sample_rate_hz=1e6), Topic('status')
+        resource.prlimit(emulator.child.pid, resource.RLIMIT_FSIZE, (1 << 22, resource.RLIM_INFINITY))
+        self.assertTrue(emulator.call('start_recording', StartRecording, name='large').success)
+        error = status.wait_for(lambda m: m.recorder_error, 'the recording has ended').recorder_error
+        self.assertIn('large.bag', error)
+        resource.prlimit(emulator.child.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY,) * 2)
+        self.assertTrue(emulator.call('start_recording', StartRecording, name='next').success)
+        Topic('deflection').wait_for_more(50)
+        self.assertTrue(emulator.call('stop_recording', Trigger).success)
+        emulator.stop()
+        checks.assert_identical(self, self.directory / 'next.bag')
 
     def test_asked_to_record_where_it_cannot(self):
         emulator = self.start(Emulator({'record': True, 'bag_directory': '/dev/null/bags'}))

@@ -46,7 +46,7 @@ class ShippedFiles(NodeTest):
         rospy.set_param('/lab/tip', {'restitution_gamma': 0.4, 'no_longer_known': 1})
         directory, asked = self.temporary_directory(), {
             'time_scale': 0.5, 'drag_velocity': 6.6e-6, 'sample_rate_hz': 50000.0, 'batch_rate_hz': 50.0,
-            'temperature_k': 77.0, 'seed': 5}
+            'temperature_k': 77.0, 'seed': 3000000000}
         status, configuration = Topic('/lab/tip/status'), Topic('/lab/tip/configuration')
         play = self.launch('emulator.launch', dict(os.environ, ROS_NAMESPACE='lab'), scene='rest', record='true',
                            bag_directory=directory, name='tip', paused='true', **asked)
@@ -103,6 +103,13 @@ class ShippedFiles(NodeTest):
         """roslaunch starts such a node again; one that is required, too, would end them all."""
         node, = self.loaded(SHARE / 'launch/emulator.launch', 'respawn:=true').nodes
         self.assertEqual((node.respawn, node.required), (True, False))
+
+    def test_each_emulator_has_windows_of_its_own(self):
+        """Of one name, those of the second emulator ended those of the first."""
+        for name, prefix in (('afm', 'afm'), ('left', 'left')):
+            nodes = self.loaded(SHARE / 'launch/emulator.launch', 'name:=' + name, 'view:=true', 'panel:=true').nodes
+            self.assertEqual({node.name for node in nodes},
+                             {name, prefix + '_view', prefix + '_view_rviz', prefix + '_panel'})
 
     def test_launch_files_load(self):
         files = sorted((SHARE / 'launch').glob('*.launch'))

@@ -183,6 +183,12 @@ class RealTime(ViewTest):
             for x, y in picture.places('impacts'):
                 self.assertAlmostEqual(y, surface(x), delta=1e-4)
         self.assertGreater(len(pictures[-1].places('positions')), 20 * 64)
+        # what stands still is followed
+        self.pause(True)
+        self.view.markers.wait_for_next(lambda m: not Picture(m).has('positions'), 'the cloud has faded')
+        self.stepped(9)
+        self.view.markers.wait_for_next(lambda m: not Picture(m).has('positions'), 'it has faded again')
+        self.assert_shows_all()
 
 
 class Launched(NodeTest):

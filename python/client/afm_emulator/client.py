@@ -23,6 +23,7 @@ KEPT_APPLIED = 1000
 KEPT_BATCHES = 100  # before a measurement: a second at the default rate
 MOST_TAU = 9999.0  # of a period of mean_force in lockstep: the emulator takes 10000, rounding aside
 LONGEST_TIMEOUT_S = 1e9
+PAUSED = ' (is the emulator paused?)'
 ROUNDING = 1e-9  # of a sum of batches: ten of 0.01 s are 0.1 s
 
 
@@ -156,6 +157,10 @@ class Client:
         most = self.configuration.max_drag_velocity
         if drag_velocity is not None and abs(drag_velocity) > most:  # in real time nothing would come back
             raise EmulatorError('drag_velocity = %g m/s: max_drag_velocity is %g' % (drag_velocity, most))
+        crest = self.configuration.surface_amplitude_m
+        if rest_height is not None and rest_height >= crest:
+            raise EmulatorError('rest_height = %g m: must be below the crests of the surface, %g m' %
+                                (rest_height, crest))
         with self._turn:
             if self.is_lockstep:
                 self._forget_commanded()
@@ -316,7 +321,7 @@ class Client:
             raise rospy.ROSInterruptException('shut down') from fault
 
     def _next_batch(self, seconds):
-        self._wait_for(lambda: self._batches, self.name + '/deflection (is the emulator paused?)', seconds)
+        self._wait_for(lambda: self._batches, self.name + '/deflection' + PAUSED, seconds)
         with self._news:
             return self._batches.pop(0)
 
@@ -334,7 +339,7 @@ class Client:
                 del kept[:-KEPT_BATCHES]
         try:
             for topic, kept in self._beside.items():  # of a new connection, after a restart
-                self._wait_for(lambda: kept, '%s/%s' % (self.name, topic))
+                self._wait_for(lambda: kept, '%s/%s%s' % (self.name, topic, PAUSED))
             return self._measured(applied, duration)
         finally:
             with self._news:

@@ -52,6 +52,14 @@ def duration(name, default=None):
     return value
 
 
+def time_after(name):
+    """A private parameter that is a time, 0 or later [s]. Without one it is 0."""
+    value = number(name, 0.0)
+    if not 0.0 <= value < math.inf:
+        raise AssertionError('parameter %s = %r: must be finite and not negative' % (name, value))
+    return value
+
+
 def how_long(timeout_s):
     """Why Follower.wait_for() gave up: a required node that dies ends the launch."""
     return 'when the launch ended' if rospy.is_shutdown() else 'after %g s of wall time' % timeout_s

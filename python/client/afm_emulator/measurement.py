@@ -54,6 +54,10 @@ class Measurement:
         if of_period:
             self._begin = Friction().deserialize(of_period[0]).begin
             self._end = Friction().deserialize(of_period[-1]).time
+        elif self.first is None and messages:  # a period of no length: now
+            latest = Friction().deserialize(messages[-1][1])
+            if latest.epoch == self._since.epoch and tau_between(self._begin, latest.time) > 0.0:
+                self._begin = self._end = latest.time
         return self._batches - len(of_period)
 
     @property

@@ -53,6 +53,9 @@ std::vector<std::string> find_traps(const Parameters& p) {
     traps.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
                     " has no effect: quality_factor is 0, so no heat reaches the tip");
   }
+  if (p.tolerance > 0.0 && p.model != kAuto) {
+    traps.push_back("tolerance = " + number_text(p.tolerance) + " has no effect: model is " + p.model + ", not auto");
+  }
   if (p.command_timeout_s > 0.0 && p.pace == kLockstep && p.wait_for != kCommand) {
     traps.push_back("command_timeout_s = " + number_text(p.command_timeout_s) +
                     " has no effect: in lockstep the emulator waits for whoever steers");

@@ -114,11 +114,11 @@ Recorder::Reply Recorder::stop() {
     return {false, path_ + " is still being written to a slow disk", path_};
   }
   if (!error_.empty()) return {false, error_, path_};
-  if (messages_ == 0) return {true, "nothing came to be recorded: there is no bag", ""};
-  return {true, summary(), path_};
+  return {true, summary(), messages_ == 0 ? "" : path_};
 }
 
 std::string Recorder::summary() const {
+  if (messages_ == 0) return "nothing came to be recorded: there is no bag";
   const std::string all = std::to_string(messages_) + " messages";
   return path_ + ": " + (part_ == 0 ? all : "the last of " + std::to_string(part_ + 1) + " bags with " + all);
 }
@@ -263,7 +263,7 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
     if (!error.empty()) error = bag_->path() + ": " + error;
     bag_.reset();
     if (error.empty()) {
-      ROS_INFO_STREAM("recorded " << summary());
+      ROS_INFO_STREAM(summary());
     } else {
       ROS_ERROR_STREAM("recording ended early: " << error);
     }
