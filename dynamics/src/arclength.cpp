@@ -84,7 +84,6 @@ bool Arclength::advance(const Place& from, const Eigen::VectorXd& direction, dou
          same_branch(to, from, step);
 }
 
-// Newton's method must not converge to another orbit.
 bool Arclength::same_branch(const Place& to, const Place& from, double step) const {
   return difference(to, from).norm() < 2.0 * step + 1e-12;
 }

@@ -38,12 +38,14 @@ class Arclength {
   // Newton's method for the orbit at the distance `step` from `from` along `direction`. False if it does not converge.
   bool advance(const Place& from, const Eigen::VectorXd& direction, double step, Place& to) const;
 
+  // False if Newton's method has converged to another orbit.
+  bool same_branch(const Place& to, const Place& from, double step) const;
+
  private:
   static Eigen::Index size(const Place& p) { return static_cast<Eigen::Index>(4 * p.points.size()); }
   bool residual(const Place& p, Eigen::VectorXd& error, std::vector<MapStep>* steps) const;
   Model model_at(double parameter) const;
   bool valid(double parameter) const;
-  bool same_branch(const Place& to, const Place& from, double step) const;
   bool derivative(const Place& at, const std::vector<MapStep>& steps, const Eigen::VectorXd& direction,
                   Eigen::MatrixXd& A) const;
 

@@ -75,17 +75,24 @@ class Observer {
   double in_contact_ = 0.0;
 };
 
+constexpr double kMostEventsPerTau = 2000.0;  // a choice: a hundred times what a tip in chatter has
+
 // Counts of one period; zero if the orbit does not return.
 struct Period {
   int marks = 0, impacts = 0, cells = 0;
 };
 
+// Cells that the holder passes up to the nth mark. A bounce without speed returns within none.
+int cells_until(const std::vector<Mark>& marks, int n, double eta) {
+  return static_cast<int>(std::lround(std::abs(eta) * (marks[static_cast<std::size_t>(n)].time - marks[0].time)));
+}
+
 // While the tip still converges, a multiple of the period may be the first return within the tolerance.
-int smallest_period(const std::vector<Mark>& marks, int n, double tolerance) {
+int smallest_period(const std::vector<Mark>& marks, int n, double eta, double tolerance) {
   constexpr double kConverging = 100.0;  // a choice: distance of a shorter return, over the tolerance
   for (int d = 1; d < n; ++d) {
-    if (n % d == 0 && distance(marks[static_cast<std::size_t>(d)].state, marks[0].state) < kConverging * tolerance)
-      return d;
+    const bool is_near = distance(marks[static_cast<std::size_t>(d)].state, marks[0].state) < kConverging * tolerance;
+    if (n % d == 0 && is_near && cells_until(marks, d, eta) > 0) return d;
   }
   return n;
 }
@@ -98,13 +105,12 @@ Period find_period(Observer& observer, double eta, const ModelTime& limit, const
   while (static_cast<int>(marks.size()) <= 2 * settings.longest && observer.next(limit)) {
     marks.push_back(observer.mark());
     const int n = static_cast<int>(marks.size()) - 1;
-    if (distance(marks.back().state, marks[0].state) > settings.tolerance) continue;
+    if (distance(marks.back().state, marks[0].state) > settings.tolerance || cells_until(marks, n, eta) == 0) continue;
     if (found == 0) found = n;
     if (n < 2 * found) continue;
-    const int period = smallest_period(marks, found, settings.tolerance);
-    const Mark& end = marks[static_cast<std::size_t>(period)];
-    const double cells = std::abs(eta) * (end.time - marks[0].time);
-    return {period, end.impacts - marks[0].impacts, static_cast<int>(std::lround(cells))};
+    const int period = smallest_period(marks, found, eta, settings.tolerance);
+    const int impacts = marks[static_cast<std::size_t>(period)].impacts - marks[0].impacts;
+    return {period, impacts, cells_until(marks, period, eta)};
   }
   return {};
 }
@@ -211,7 +217,19 @@ constexpr double kNoGrowth = 0.01, kStandardErrors = 4.0;
 AttractorKind kind_of(const LyapunovSpectrum& s) {
   if (s.outcome != LyapunovOutcome::measured) return AttractorKind::undecided;
   if (s.exponents[0] > std::max(kNoGrowth, kStandardErrors * s.std_errors[0])) return AttractorKind::chaotic;
-  return s.exponents[0] > -kNoGrowth ? AttractorKind::quasi_periodic : AttractorKind::undecided;
+  return std::abs(s.exponents[0]) <= kNoGrowth ? AttractorKind::quasi_periodic : AttractorKind::undecided;
+}
+
+// A largest exponent above zero by less than its error is measured again over longer times, on a copy.
+void measure_longer(const Model& model, const Observer& observer, const Tip& tip, double duration, Attractor& found) {
+  constexpr int kMost = 3;  // a choice: 64 times as long, and an eighth of the error
+  constexpr double kLonger = 4.0;
+  for (int i = 0; i < kMost && found.kind == AttractorKind::undecided && found.lyapunov.exponents[0] > kNoGrowth; ++i) {
+    duration *= kLonger;
+    Tip copy = tip;
+    found.lyapunov = lyapunov(model, copy, {0.0, duration, observer.left(), 0.0});
+    found.kind = kind_of(found.lyapunov);
+  }
 }
 
 Period search_period(Observer& observer, const Tip& tip, const AttractorSettings& settings) {
@@ -238,12 +256,13 @@ void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const
   found.kind = kind_of(found.lyapunov);
   if (found.lyapunov.outcome != LyapunovOutcome::measured || found.kind == AttractorKind::chaotic) return;
   if (find_slow_period(model, observer, tip, tip.now() + settings.duration, found)) return;
+  measure_longer(model, observer, tip, settings.duration, found);
   if (found.kind == AttractorKind::quasi_periodic) {
     found.rotation_number = rotation_number(model, observer, tip.now() + settings.duration);
     return;
   }
   constexpr double kConvergence = 25.0;  // e^-25 = 1.4e-11: a displacement of 0.1 a is then below the tolerance
-  if (!std::isfinite(found.lyapunov.exponents[0])) return;
+  if (!(found.lyapunov.exponents[0] < 0.0) || std::isinf(found.lyapunov.exponents[0])) return;
   observer.run_until(tip.now() + kConvergence / -found.lyapunov.exponents[0]);
   const Period period = search_period(observer, tip, settings);
   if (period.marks > 0) describe(model, tip, period, found);
@@ -259,13 +278,14 @@ std::string Attractor::name() const {
 
 Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& settings) {
   Attractor found;
+  const double most_events = kMostEventsPerTau * (settings.transient + settings.duration);
+  Observer observer(tip, settings.most_events > 0 ? settings.most_events : static_cast<std::uint64_t>(most_events));
+  observer.run_until(tip.now() + settings.transient);
   if (tip.eta() == 0.0) {
-    found.kind = AttractorKind::rest;
+    if (model.gamma < 1.0 && !observer.stopped()) found.kind = AttractorKind::rest;
     found.contact_share = kNaN;
     return found;
   }
-  Observer observer(tip, settings.most_events);
-  observer.run_until(tip.now() + settings.transient);
   observer.take_contact_time();
   const ModelTime begin = tip.now();
   const int impacts_before = observer.mark().impacts;

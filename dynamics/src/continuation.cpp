@@ -51,9 +51,8 @@ int bifurcation_sign(BifurcationKind kind, const PeriodicOrbit& orbit, double v_
       return characteristic(m, 1.0) < 0.0 ? -1 : 1;
     case BifurcationKind::period_doubling:
       return characteristic(m, -1.0) < 0.0 ? -1 : 1;
-    default:
-      return static_cast<int>(
-          std::count_if(m.begin(), m.end(), [](const auto& z) { return z.imag() != 0.0 && std::abs(z) > 1.0; }));
+    default:  // of any kind: a pair that leaves the circle may be real before the next point
+      return static_cast<int>(std::count_if(m.begin(), m.end(), [](const auto& z) { return std::abs(z) > 1.0; }));
   }
 }
 
@@ -89,6 +88,7 @@ class Continuation {
     for (int i = 0; i < kMostSteps; ++i) {
       Place now;
       while (!line_.advance(before, direction, step, now)) {
+        if (ends_at_target(before, direction, step)) return branch_;
         step *= 0.5;
         if (step < kSmallestStep) return end_at_loss();
       }
@@ -128,6 +128,16 @@ class Continuation {
     }
     branch_.points.push_back(to);
     return true;
+  }
+
+  // Where a step that leads past the target fails, as there may be no orbit, or no such parameter, behind it.
+  bool ends_at_target(const Place& before, const Eigen::VectorXd& direction, double step) {
+    const double share = (target_ - before.parameter) / direction[direction.size() - 1];
+    if (!(share > 0.0 && share <= step)) return false;
+    const OrbitResult last = find_orbit(line_.map(target_), line_.displaced(before, share * direction).points);
+    if (last.outcome != OrbitOutcome::found) return false;
+    const Place at{last.orbit.points, target_};
+    return line_.same_branch(at, before, share) && !take(before, direction, share, at);
   }
 
   int sign(BifurcationKind kind, const BranchPoint& at) const {

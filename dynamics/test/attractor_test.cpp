@@ -81,6 +81,53 @@ TEST(Attractor, WithoutDragThereIsRest) {
   EXPECT_TRUE(std::isnan(rest.lyapunov.exponents[0]) && std::isnan(rest.contact_share));  // they are not measured
 }
 
+// Without losses it bounces for ever.
+TEST(Attractor, WithoutDragAndLossesThereIsNoRest) {
+  const Attractor bouncing = find_attractor(model_with(1.0, 0.05), 0.0, {0.5, 0.0, 0.0, 0.1, 1.0});
+  EXPECT_EQ(bouncing.name(), "undecided");
+}
+
+// Its exponent of 500 tau may be within four standard errors of zero: it was a torus then.
+TEST(Attractor, ChaosIsNoTorus) {
+  BasinSettings settings;
+  settings.starts = 100;
+  settings.friction_duration = 200.0;
+  for (const Basin& basin : find_basins({3.75, 0.7, 0.375}, settings)) {
+    const Attractor& a = basin.first.attractor;
+    EXPECT_TRUE(a.kind != AttractorKind::quasi_periodic || std::abs(a.lyapunov.exponents[0]) <= 0.01);
+  }
+  AttractorSettings brief;
+  brief.duration = 5.0;
+  const Model model = model_with_cutoff(0.34);
+  EXPECT_NE(find_attractor(model, 3.4, to_tip_state(model.H, start_at(3.4)), brief).kind, AttractorKind::quasi_periodic);
+}
+
+// A bounce without speed comes back within no cell: it was a period, and one attractor stood in the list twice.
+TEST(Attractor, TheHammersContactIsOne) {
+  BasinSettings settings;
+  settings.starts = 100;
+  settings.friction_duration = 200.0;
+  const SweepPoint point{3.0, 0.7, 0.05, ModelKind::hammer};
+  int contacts = 0;
+  for (const Basin& basin : find_basins(point, settings)) {
+    const Attractor& a = basin.first.attractor;
+    contacts += a.kind == AttractorKind::contact ? 1 : 0;
+    EXPECT_TRUE(a.impacts == 0 || a.cells > 0) << a.name();
+  }
+  EXPECT_EQ(contacts, 1);
+}
+
+// The budget was that of 1000 tau, whatever time was asked for.
+TEST(Attractor, ALongTransientIsObeyed) {
+  AttractorSettings settings;
+  settings.transient = 300000.0;
+  settings.duration = 100.0;
+  const Model model = model_with_cutoff(0.34);
+  Tip tip(model, 3.4, to_tip_state(model.H, start_at(3.4)));
+  EXPECT_EQ(find_attractor(model, tip, settings).name(), "chaotic");
+  EXPECT_GT(tip.now().tau, 300000);
+}
+
 TEST(Attractor, WithTooSmallABudgetIsUndecided) {
   AttractorSettings settings;
   settings.most_events = 100;

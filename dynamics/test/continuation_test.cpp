@@ -68,6 +68,25 @@ TEST(Continuation, EventsLieOnTheUnitCircle) {
   EXPECT_LE(std::abs(doubling->at.orbit.multipliers[0] + 1.0), 1e-7);
 }
 
+// The pair that leaves the circle is real before the next point of the branch.
+TEST(Continuation, ATorusThatSoonSplitsIsFound) {
+  const Branch up = continue_orbit(Model(), 2.4, orbit_at(2.4, 0.7, 1), Parameter::eta, 3.2);
+  const auto torus = std::find_if(up.events.begin(), up.events.end(), [](const BranchEvent& event) {
+    return event.kind == BifurcationKind::torus && std::abs(event.at.parameter - 3.12354) < 2e-5;
+  });
+  ASSERT_NE(torus, up.events.end());
+  EXPECT_NEAR(std::abs(torus->at.orbit.multipliers[0]), 1.0, 1e-5);
+}
+
+// Behind it there is no such parameter.
+TEST(Continuation, ATargetMayBeTheEndOfTheRange) {
+  const Branch stiff = continue_orbit(Model(), 2.0, even_orbit(2.0), Parameter::cutoff, 0.0);
+  EXPECT_EQ(stiff.end, BranchEnd::target);
+  EXPECT_EQ(stiff.points.back().parameter, 0.0);
+  const Branch lossless = continue_orbit(Model(), 2.3, orbit_at(2.3, 0.7, 1), Parameter::gamma, 1.0);
+  EXPECT_EQ(lossless.end, BranchEnd::target);
+}
+
 // An orbit of three impacts and one of four meet where the fourth has no speed, and neither goes on.
 TEST(Continuation, TwoOrbitsDieInOneGraze) {
   const Branch three = continue_orbit(Model(), 3.4, orbit_at(3.4, 0.7, 3), Parameter::eta, 5.0);

@@ -30,6 +30,7 @@ REFUSED = {
                     ('frequency_ratio = -1', '--frequency-ratio -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
     'periodic_orbits': [('gamma = 1.5', '--gamma 1.5'), ('cutoff = -1', '--cutoff -1'), ('eta = ', '--eta inf'),
                         ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'), ('model = anvil', '--model anvil')],
+    'return_scan': [('eta = 0', '--eta 0')],
     'symbolic_dynamics': [('gamma = 7', '--gamma 7'), ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'),
                           ('model = oscillator', '--model oscillator')]}
 
@@ -46,6 +47,12 @@ class Refusals(unittest.TestCase):
                     code, rows, complaint = run(tool, *arguments.split())
                     self.assertEqual((code, rows), (2, []))
                     self.assertIn(words, complaint)
+
+    def test_a_point_has_no_box(self):
+        """Its rounding was scanned."""
+        code, rows, complaint = run('return_scan', '--eta', '2.25', '--points', '3', '--depth', '3')
+        self.assertEqual((code, rows), (1, []))
+        self.assertIn('a point has no box', complaint)
 
     def test_a_table_that_cannot_be_written(self):
         self.assertEqual(run('symbolic_dynamics', '--impacts', '2000', '--section', '/no/such/place')[0], 1)

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "afm/dynamics/poincare_map.h"
+#include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"
-#include "common/point_options.h"
 
 namespace {
 
@@ -38,6 +38,7 @@ std::array<double, 4> coordinates(const afm::TipState& s) { return {s.phase, s.X
 // The box of a long run. Where the attractor lies across the crest it is the whole cell.
 Box find_box(const afm::PoincareMap& map) {
   constexpr int kTransient = 1000, kRun = 100000;
+  constexpr double kLeastSide = 1e-6;  // a choice: above the rounding of a point
   Box box;
   box.fill({kNoReturn, -kNoReturn});
   afm::TipState now{0.5, 0.0, map.eta(), 0.0, 0.5 * (1.0 + std::abs(map.eta()))};
@@ -50,6 +51,9 @@ Box find_box(const afm::PoincareMap& map) {
     for (std::size_t k = 0; k < 4 && i >= kTransient; ++k) {
       box[k] = {std::min(box[k][0], q[k]), std::max(box[k][1], q[k])};
     }
+  }
+  if (box[0][1] - box[0][0] < kLeastSide && box[3][1] - box[3][0] < kLeastSide) {
+    throw std::runtime_error("the tip has ended on an orbit of one impact: a point has no box to scan");
   }
   return box;
 }
@@ -91,6 +95,7 @@ void scan_column(const afm::PoincareMap& map, const Box& box, const Options& o, 
       }
     }
   }
+  if (nearest == kNoReturn) best.X = best.u = std::numeric_limits<double>::quiet_NaN();
   const afm::FreeState lab = to_free_state(map.model().H, best);
   to << lab.phase << best.g1 << lab.X << lab.u << lab.w << nearest;
   to.end_row();
@@ -98,6 +103,7 @@ void scan_column(const afm::PoincareMap& map, const Box& box, const Options& o, 
 
 int run(const afm::CommandLine& app, Options o) {
   take_si(app, o.dynamics);
+  if (o.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
   const afm::PoincareMap map(checked_model(o.dynamics), o.dynamics.eta);
   if (section_dimension(map.model()) == 2) o.depth = 1;
   const Box box = find_box(map);

@@ -73,6 +73,7 @@ struct GapJet {
 
 enum class ImpactKind : std::uint8_t { impact = 0, burst = 1, contact_begun = 2, contact_ended = 3 };
 
+// Below the surface by no more than the rounding of H cos(2 pi phase) is on it.
 TipState to_tip_state(double H, const FreeState& state);
 FreeState to_free_state(double H, const TipState& state);
 

@@ -1,5 +1,6 @@
 """Arguments of a wrong type: an error that names the argument, in place of pybind11's list of C++ signatures."""
 import functools
+import math
 import operator
 import re
 from typing import Any, Callable
@@ -15,6 +16,8 @@ def number(name: str, value: Any) -> float:
         return float(value) if not isinstance(value, (str, bytes)) else value + 0.0
     except (TypeError, ValueError):
         raise ArgumentTypeError(name, value, 'must be a number') from None
+    except OverflowError:  # a whole number beyond all floats: whoever asks has bounds
+        return math.inf if value > 0 else -math.inf
 
 
 def array(name: str, values: Any, reason: str = 'must be numbers') -> np.ndarray:

@@ -1,5 +1,9 @@
 #include "afm/state.h"
 
+#include <cmath>
+#include <limits>
+
+#include "afm/model.h"
 #include "afm/surface.h"
 
 namespace afm {
@@ -13,8 +17,11 @@ ModelTime multiply(std::uint64_t n, double period) {
 }
 
 TipState to_tip_state(double H, const FreeState& s) {
+  constexpr double kRoundings = 8.0;
   const SurfaceJet<double> surface = surface_jet(H, s.phase);
-  return {wrap_phase(s.phase), s.X, s.u, s.y - surface.h, s.w - surface.h1 * s.u};
+  const double gap = s.y - surface.h;
+  const double rounding = kRoundings * std::numeric_limits<double>::epsilon() * H * (1.0 + kTwoPi * std::abs(s.phase));
+  return {wrap_phase(s.phase), s.X, s.u, -rounding <= gap && gap < 0.0 ? 0.0 : gap, s.w - surface.h1 * s.u};
 }
 
 FreeState to_free_state(double H, const TipState& s) {

@@ -101,7 +101,7 @@ bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, s
   const std::string header = impact_input_header(units);
   if (!lines.next(line)) return complain("no header: expected '" + header + "', found nothing");
   if (split_fields(line) != split_fields(header)) {
-    return complain("no header: expected '" + header + "', found '" + line + "'");
+    return complain("expected '" + header + "' as the header, found '" + line + "'");
   }
   bool good = true;
   while (lines.next(line)) {

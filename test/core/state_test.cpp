@@ -94,5 +94,18 @@ TEST(TipState, CarriesTheGapAndItsRate) {
   EXPECT_NEAR(tip.g1, 1.0 + 3.0 * kTwoPi * H, 1e-15);
 }
 
+// Also as others compute its height: by rounding alone two of five such starts were refused.
+TEST(State, OnTheSurfaceIsNotBelowIt) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> phase(0.0, 1.0), far(-1e5, 1e5);
+  for (const double H : {1e-6, Model().H, 1.0}) {
+    for (int i = 0; i < 10000; ++i) {
+      const double p = i % 2 == 0 ? phase(random) : far(random);
+      ASSERT_GE(to_tip_state(H, {p, 0.0, H * std::cos(kTwoPi * p), 0.0, 0.0}).g, 0.0) << p;
+      ASSERT_LT(to_tip_state(H, {p, 0.0, H * std::cos(kTwoPi * p) - 1e-8 * H, 0.0, 0.0}).g, 0.0) << p;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace afm

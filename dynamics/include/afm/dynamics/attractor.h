@@ -15,8 +15,8 @@ enum class AttractorKind : std::uint8_t {
   quasi_periodic,
   chaotic,
   contact,   // in contact, in chatter or in bounces below 0.01 a/tau for more than half of the time
-  rest,      // no drag: the motion ends without losses
-  undecided  // the budget ran out, or a search for an impact failed
+  rest,      // no drag, and impacts that take energy: the motion ends without losses
+  undecided  // the budget ran out, a search failed, or the exponent is above zero by less than its error
 };
 
 struct AttractorSettings {
@@ -24,7 +24,7 @@ struct AttractorSettings {
   double duration = 500.0;   // of the measurement of exponents, if the orbit is not periodic [tau]
   int longest = 128;         // longest period [impacts]
   double tolerance = 1e-9;   // distance at which a return counts as a period [a, a/tau]
-  std::uint64_t most_events = 2000000;
+  std::uint64_t most_events = 0;  // 0: 2000 a tau
 };
 
 struct Attractor {
