@@ -54,6 +54,11 @@ class Refusals(unittest.TestCase):
         self.assertEqual((code, rows), (1, []))
         self.assertIn('a point has no box', complaint)
 
+    def test_without_chaos_there_are_no_words(self):
+        code, rows, complaint = run('symbolic_dynamics', '--eta', '2', '--max-length', '3', '--impacts', '20000')
+        self.assertEqual((code, rows), (1, []))
+        self.assertIn('without chaos', complaint)
+
     def test_a_table_that_cannot_be_written(self):
         self.assertEqual(run('symbolic_dynamics', '--impacts', '2000', '--section', '/no/such/place')[0], 1)
 

@@ -1,5 +1,6 @@
 // The symbolic dynamics of the hammer: a partition of its section, the words that occur, and those of its orbits.
 #include "afm/dynamics/symbolic_dynamics.h"
+#include "afm/number_text.h"
 
 #include <cmath>
 #include <fstream>
@@ -116,6 +117,10 @@ int run(const Options& o) {
   const afm::PoincareMap map(model, o.dynamics.eta);
   const afm::SymbolicRun run = run_on_section(map, static_cast<std::size_t>(o.impacts), o.search.seed);
   if (!run.on_section) throw std::runtime_error("the hammer has ended in contact: there is no section");
+  if (!(run.exponent > 0.0)) {
+    throw std::runtime_error("the exponent of an impact is " + afm::number_text(run.exponent) +
+                             ": without chaos there are no words to count");
+  }
   const afm::Partition partition = find_partition(run.points);
   const std::string letters = word_of(partition, run.points);
   const auto counts = afm::count_words(letters, partition.letters(), o.longest);
