@@ -51,9 +51,15 @@ int bifurcation_sign(BifurcationKind kind, const PeriodicOrbit& orbit, double v_
       return characteristic(m, 1.0) < 0.0 ? -1 : 1;
     case BifurcationKind::period_doubling:
       return characteristic(m, -1.0) < 0.0 ? -1 : 1;
-    default:  // of any kind: a pair that leaves the circle may be real before the next point
-      return static_cast<int>(std::count_if(m.begin(), m.end(), [](const auto& z) { return std::abs(z) > 1.0; }));
+    default:
+      return static_cast<int>(
+          std::count_if(m.begin(), m.end(), [](const auto& z) { return z.imag() != 0.0 && std::abs(z) > 1.0; }));
   }
+}
+
+int unstable_multipliers(const BranchPoint& at) {
+  const Multipliers& m = at.orbit.multipliers;
+  return static_cast<int>(std::count_if(m.begin(), m.end(), [](const auto& z) { return std::abs(z) > 1.0; }));
 }
 
 // True: the orbit at a change of sign is at a bifurcation of that kind. Multipliers may also jump past the unit circle
@@ -113,10 +119,15 @@ class Continuation {
       branch_.end = BranchEnd::lost;
       return false;
     }
+    const std::size_t known = branch_.events.size();
     for (const BifurcationKind kind : {BifurcationKind::corner, BifurcationKind::saddle_node,
                                        BifurcationKind::period_doubling, BifurcationKind::torus}) {
-      if (sign(kind, from) != sign(kind, to)) locate(kind, before, direction, step);
+      const auto sign_of_kind = [&](const BranchPoint& at) { return sign(kind, at); };
+      if (sign(kind, from) != sign(kind, to)) locate(kind, sign_of_kind, before, direction, step);
     }
+    // a pair that leaves the circle may be real before the next point
+    const bool is_explained = branch_.events.size() > known || unstable_multipliers(from) == unstable_multipliers(to);
+    if (!is_explained) locate(BifurcationKind::torus, unstable_multipliers, before, direction, step);
     if ((to.parameter - target_) * (branch_.points.front().parameter - target_) <= 0.0) {
       branch_.end = BranchEnd::target;
       const double share = (target_ - from.parameter) / (to.parameter - from.parameter);
@@ -144,10 +155,12 @@ class Continuation {
     return bifurcation_sign(kind, at.orbit, vary_ == Parameter::cutoff ? at.parameter : model_.v_c);
   }
 
-  // By bisection of the step.
-  void locate(BifurcationKind kind, const Place& before, const Eigen::VectorXd& direction, double step) {
+  // By bisection of the step, to where the integer changes.
+  template <class Sign>
+  void locate(BifurcationKind kind, const Sign& sign, const Place& before, const Eigen::VectorXd& direction,
+              double step) {
     double low = 0.0, high = step;
-    const int first = sign(kind, branch_.points.back());
+    const int first = sign(branch_.points.back());
     BranchPoint at = branch_.points.back();
     for (int i = 0; i < kMaxBisections && high - low > kEventTolerance * 0.1; ++i) {
       const double middle = 0.5 * (low + high);
@@ -155,7 +168,7 @@ class Continuation {
       if (!line_.advance(before, direction, middle, there)) break;
       const BranchPoint point = describe(there);
       if (point.orbit.points.empty()) break;
-      if (sign(kind, point) == first) {
+      if (sign(point) == first) {
         low = middle;
         at = point;
       } else {
