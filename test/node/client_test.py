@@ -8,15 +8,12 @@ import threading
 import time
 from pathlib import Path
 from types import SimpleNamespace
-from unittest import mock
 
 import roslib.packages
-from afm_emulator import Client, EmulatorError
 from afm_emulator.measurement import Measurement
 from afm_emulator.msg import Applied, Deflection, ModelTime
-from std_srvs.srv import Trigger
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest, call_service
+from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
 from topics import DEADLINE_S, PATIENCE, Topic
 
 TIMEOUT_S, LONG_S = 2.0 * PATIENCE, 15.0 * PATIENCE  # to see how it ends; to wait for a start on a busy machine
@@ -257,16 +254,8 @@ class Python(Claims, NodeTest):
 
     def test_a_reset_between_two_commands(self):
         """The first no longer holds."""
-        self.start(Emulator({'pace': 'real_time'}))
-        client = Client('/afm')
-        publish = client._publish
-
-        def reset_first(topic, value):
-            if topic == 'rest_height':
-                self.assertTrue(call_service('/afm/reset', Trigger).success)
-            publish(topic, value)
-        with mock.patch.object(client, '_publish', reset_first):
-            self.assertRaisesRegex(EmulatorError, 'reset between two commands', client.command_and_wait, 3e-6, -1e-11)
+        tip = self.start_both('real_time')
+        self.assertIn('reset between two commands', tip.call('command_with_a_reset 3e-6 -1e-11'))
 
     def test_calls_from_several_threads_take_turns(self):
         """As from callbacks of rospy."""
