@@ -32,7 +32,8 @@ SUBSTITUTIONS = [
     (r'--gamma 0\.8 --cutoff 0\.02', '--eta 2 --gamma 0.7 --cutoff 0.1'),
     (r'--eta 0\.25:8\.95:0\.3', '--eta 2.05 --gamma 0.7 --cutoff 0.1'),
     (r'--eta 0\.05:9:0\.05', '--eta 2:2.5:0.5'),
-    (r'(model_error --scene.*)', r'\1 --duration 500'),
+    (r'(model_error --scene.*)', r'\1 --duration 100'),
+    (r'2e-6:2e-5:2e-6', '2e-6:2e-5:9e-6'),
     (r'(record_throughput\.py \S+) 600', r'\1 3'),
     (r'--benchmark_min_time=0\.5', '--benchmark_min_time=0.001'),
     (r'(--benchmark_filter=\S+)', r'\1 --benchmark_min_time=0.001'),
@@ -41,7 +42,7 @@ SUBSTITUTIONS = [
     (r'(many_machines\.py \S+)', r'\1 --points 3 --duration 100'),
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
     (r'(durations\.py)(?! --)', r'\1 --only import'),
-    (r'--tau (400000|300000|5000)\b', '--tau 200'),
+    (r'--tau (400000|300000|5000)\b', '--tau 50'),
     (r'--mutated 1000000', '--mutated 100'),
 ]
 
