@@ -62,6 +62,15 @@ int unstable_multipliers(const BranchPoint& at) {
   return static_cast<int>(std::count_if(m.begin(), m.end(), [](const auto& z) { return std::abs(z) > 1.0; }));
 }
 
+// Where an orbit is born in the period doubling of one half as long, its halves change places: the branch beyond is the
+// same orbit, from its other half on.
+bool swaps_halves(const Place& a, const Place& b) {
+  const std::size_t n = a.points.size();
+  if (n % 2 != 0) return false;
+  const auto apart = [n](const Place& p) { return section_difference(p.points[n / 2], p.points[0]); };
+  return apart(a).dot(apart(b)) < 0.0;
+}
+
 // True: the orbit at a change of sign is at a bifurcation of that kind. Multipliers may also jump past the unit circle
 // at a corner, or a pair may split on the real axis.
 bool confirms(BifurcationKind kind, const PeriodicOrbit& orbit) {
@@ -119,15 +128,19 @@ class Continuation {
       branch_.end = BranchEnd::lost;
       return false;
     }
+    if (swaps_halves(before, now)) {  // bisection would find the orbit half as long, which is next to it
+      branch_.end = BranchEnd::period_doubling;
+      return false;
+    }
     const std::size_t known = branch_.events.size();
     for (const BifurcationKind kind : {BifurcationKind::corner, BifurcationKind::saddle_node,
                                        BifurcationKind::period_doubling, BifurcationKind::torus}) {
       const auto sign_of_kind = [&](const BranchPoint& at) { return sign(kind, at); };
-      if (sign(kind, from) != sign(kind, to)) locate(kind, sign_of_kind, before, direction, step);
+      if (sign(kind, from) != sign(kind, to)) record(kind, change_of(sign_of_kind, before, direction, step));
     }
     // a pair that leaves the circle may be real before the next point
     const bool is_explained = branch_.events.size() > known || unstable_multipliers(from) == unstable_multipliers(to);
-    if (!is_explained) locate(BifurcationKind::torus, unstable_multipliers, before, direction, step);
+    if (!is_explained) record(BifurcationKind::torus, change_of(unstable_multipliers, before, direction, step));
     if ((to.parameter - target_) * (branch_.points.front().parameter - target_) <= 0.0) {
       branch_.end = BranchEnd::target;
       const double share = (target_ - from.parameter) / (to.parameter - from.parameter);
@@ -155,13 +168,12 @@ class Continuation {
     return bifurcation_sign(kind, at.orbit, vary_ == Parameter::cutoff ? at.parameter : model_.v_c);
   }
 
-  // By bisection of the step, to where the integer changes.
+  // The orbit where the integer changes, by bisection of the step.
   template <class Sign>
-  void locate(BifurcationKind kind, const Sign& sign, const Place& before, const Eigen::VectorXd& direction,
-              double step) {
+  BranchPoint change_of(const Sign& sign, const Place& before, const Eigen::VectorXd& direction, double step) const {
     double low = 0.0, high = step;
-    const int first = sign(branch_.points.back());
     BranchPoint at = branch_.points.back();
+    const int first = sign(at);
     for (int i = 0; i < kMaxBisections && high - low > kEventTolerance * 0.1; ++i) {
       const double middle = 0.5 * (low + high);
       Place there;
@@ -175,14 +187,19 @@ class Continuation {
         high = middle;
       }
     }
-    if (confirms(kind, at.orbit))
-      branch_.events.push_back({kind, at, kind == BifurcationKind::torus ? turns_on_circle(at.orbit) : 0.0});
+    return at;
+  }
+
+  void record(BifurcationKind kind, const BranchPoint& at) {
+    if (!confirms(kind, at.orbit)) return;
+    branch_.events.push_back({kind, at, kind == BifurcationKind::torus ? turns_on_circle(at.orbit) : 0.0});
   }
 
   Branch end_at_loss() {
     const BranchPoint& last = branch_.points.back();
+    const double eta = vary_ == Parameter::eta ? last.parameter : eta_;
     branch_.end = resonates(last) ? BranchEnd::resonance : BranchEnd::lost;
-    if (last.orbit.clearance < kGrazingGap || last.orbit.slowest_impact < kGrazingSpeed * (1.0 + std::abs(eta_))) {
+    if (last.orbit.clearance < kGrazingGap || last.orbit.slowest_impact < kGrazingSpeed * (1.0 + std::abs(eta))) {
       branch_.end = BranchEnd::grazing;
       branch_.events.push_back({BifurcationKind::grazing, last, 0.0});
     }

@@ -109,6 +109,10 @@ TEST(Continuation, TheOrbitOfTwoImpactsEndsShortOfThePapersDrag) {
   const Branch up = continue_orbit(Model(), 3.3, two, Parameter::eta, 3.4);
   ASSERT_EQ(up.end, BranchEnd::grazing);
   EXPECT_NEAR(up.points.back().parameter, 3.3359068, 1e-6);
+  // towards its birth it went round and back on itself, to the graze
+  const Branch down = continue_orbit(Model(), 3.3, two, Parameter::eta, 3.0);
+  EXPECT_EQ(down.end, BranchEnd::period_doubling);
+  EXPECT_NEAR(down.points.back().parameter, 3.2937849, 1e-3);
   const Branch one = continue_orbit(Model(), 3.4, orbit_at(3.4, 0.7, 1), Parameter::eta, 3.2);
   const BranchEvent* doubling = find(one, BifurcationKind::period_doubling);
   ASSERT_NE(doubling, nullptr);

@@ -46,6 +46,7 @@ const std::map<std::string, afm::Parameter> kParameters{
 const std::map<afm::BranchEnd, std::string> kEnds{
     {afm::BranchEnd::target, "end: target"},
     {afm::BranchEnd::grazing, "end: grazing"},
+    {afm::BranchEnd::period_doubling, "end: period doubling"},
     {afm::BranchEnd::resonance, "end: resonance of the horizontal spring"},
     {afm::BranchEnd::lost, "end: lost"},
     {afm::BranchEnd::steps_spent, "end: steps spent"}};

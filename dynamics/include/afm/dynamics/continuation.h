@@ -34,11 +34,12 @@ struct BranchEvent {
 };
 
 enum class BranchEnd : std::uint8_t {
-  target,      // the target is reached
-  grazing,     // the orbit ends in a grazing
-  resonance,   // the horizontal spring turns a whole number of times in a period: the extension diverges
-  lost,        // no step leads on, however small
-  steps_spent  // the step limit came first
+  target,           // the target is reached
+  grazing,          // the orbit ends in a grazing
+  period_doubling,  // a step further it is born from an orbit half as long
+  resonance,        // the horizontal spring turns a whole number of times in a period: the extension diverges
+  lost,             // no step leads on, however small
+  steps_spent       // the step limit came first
 };
 
 struct Branch {
