@@ -75,7 +75,7 @@ class Observer {
   double in_contact_ = 0.0;
 };
 
-constexpr double kMostEventsPerTau = 2000.0;  // a choice: a hundred times what a tip in chatter has
+constexpr double kMostEventsPerTau = 2000.0;  // a choice: a tip that bounces has some tens
 
 // Counts of one period; zero if the orbit does not return.
 struct Period {
