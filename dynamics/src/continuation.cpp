@@ -102,10 +102,12 @@ class Continuation {
     double step = kFirstStep;
     for (int i = 0; i < kMostSteps; ++i) {
       Place now;
-      while (!line_.advance(before, direction, step, now)) {
+      if (!line_.advance(before, direction, step, now)) {
         if (ends_at_target(before, direction, step)) return branch_;
-        step *= 0.5;
-        if (step < kSmallestStep) return end_at_loss();
+        do {
+          step *= 0.5;
+          if (step < kSmallestStep) return end_at_loss();
+        } while (!line_.advance(before, direction, step, now));
       }
       if (!take(before, direction, step, now)) return branch_;
       direction = line_.difference(now, before).normalized();

@@ -99,7 +99,8 @@ TEST(Attractor, ChaosIsNoTorus) {
   AttractorSettings brief;
   brief.duration = 5.0;
   const Model model = model_with_cutoff(0.34);
-  EXPECT_NE(find_attractor(model, 3.4, to_tip_state(model.H, start_at(3.4)), brief).kind, AttractorKind::quasi_periodic);
+  const Attractor unclear = find_attractor(model, 3.4, to_tip_state(model.H, start_at(3.4)), brief);
+  EXPECT_NE(unclear.kind, AttractorKind::quasi_periodic);
 }
 
 // A bounce without speed comes back within no cell: it was a period, and one attractor stood in the list twice.

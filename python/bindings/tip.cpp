@@ -101,7 +101,8 @@ class Sampler {
 py::object samples(Tip& self, double period, std::size_t count) {
   constexpr std::size_t kMost = 100000000;  // a choice: 1.6 GB, which are there within a second
   require(period >= 1e-9 && period <= 1e6, "period", period, "must be between 1e-9 and 1e6 tau");
-  require(count <= kMost, "count", static_cast<double>(count), "must be at most 100 million: ask for the rest after it");
+  require(count <= kMost, "count", static_cast<double>(count),
+          "must be at most 100 million: ask for the rest after it");
   Sampler sampler(self, period, count);
   repeat(kStepsAtATime, [&] { return sampler.step(); });
   return sampler.result();

@@ -2,10 +2,11 @@
 cannot judge."""
 import subprocess
 from pathlib import Path
+from unittest import mock
 
 import roslib.packages
 import rospy
-from afm_emulator import Client
+from afm_emulator import Client, expectations
 from afm_emulator.msg import EmulatorStatus
 from std_srvs.srv import Trigger
 
@@ -98,7 +99,7 @@ class Expect(NodeTest):
         self.assertEqual(code, 0, said)
 
     def test_without_an_expectation(self):
-        for given in ({'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
+        for given in ({}, {'within': 1.0}, {'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
             self.assert_refused('there is no expectation', field='friction/eta', for_s=0.1, **given)
         self.assert_refused("least = 'x': must be a number", field='friction/eta', for_s=0.1, least='x')
 
@@ -108,15 +109,20 @@ class Expect(NodeTest):
         self.assert_refused('parameter arguments_ is unknown', 'expect_repeats', launch='x', arguments_='x')
 
     def test_fields_that_cannot_be_judged(self):
-        for field, reason in (('impacts/impacts.energy_loss', 'topic must be one of'), ('friction/no_such', 'no field no_such'),
-                              ('friction', 'it must be TOPIC/FIELD'), ('friction/header.stamp', 'a time is no number')):
+        for field, reason in (('impacts/impacts.energy_loss', 'topic must be one of'), ('status/model', 'a string'),
+                              ('friction/no_such', 'no field no_such'), ('friction', 'it must be TOPIC/FIELD'),
+                              ('friction/header.stamp', 'a time is no number')):
             self.assert_refused('field = %s cannot be tested: .*%s' % (field, reason), field=field, for_s=0.1,
                                 least=0.0)
 
     def test_times_that_make_no_sense(self):
-        for value in (0.0, float('inf')):
-            self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
-                                for_s=value)
+        self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
+                            for_s=0.0)
+        for read, words, values in ((expectations.duration, 'above 0', (-1.0, 0.0, float('nan'), float('inf'))),
+                                    (expectations.time_after, 'not negative', (-1.0, float('nan'), float('inf')))):
+            for value in values:
+                with mock.patch('rospy.get_param', return_value=value):
+                    self.assertRaisesRegex(AssertionError, 'parameter t = .*: must be finite and ' + words, read, 't')
         self.assert_refused('parameter after_s = -1.0: must be finite and not negative', 'expect_sound', after_s=-1.0,
                             for_s=1.0)
 
