@@ -11,24 +11,21 @@
 #include <afm_emulator/Deflection.h>
 #include <afm_emulator/Friction.h>
 #include <afm_emulator/ImpactArray.h>
+#include <afm_emulator/connection.h>
 #include <afm_emulator/measurement.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_msgs/Float64.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <deque>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -51,51 +48,6 @@ inline std_msgs::Float64 to_message(double value) {
   message.data = value;
   return message;
 }
-
-// ros::ServiceClient has no time-out: this drops its connection when the time of a call is over, and the call fails.
-class Watchdog {
- public:
-  ~Watchdog() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ending_ = true;
-    }
-    news_.notify_one();
-    thread_.join();
-  }
-
-  void begin(ros::ServiceClient& client, double seconds) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    client_ = &client;
-    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
-  // True if the time was over: then the client is of no use any more.
-  bool end() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return std::exchange(client_, nullptr) == nullptr;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  void watch() {
-    constexpr std::chrono::milliseconds kPoll{50};  // so that a call need not wake this thread
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (!ending_) {
-      news_.wait_for(lock, kPoll);
-      if (client_ == nullptr || Clock::now() < deadline_) continue;
-      client_->shutdown();
-      client_ = nullptr;
-    }
-  }
-
-  std::mutex mutex_;
-  std::condition_variable news_;
-  ros::ServiceClient* client_ = nullptr;  // of the call under way
-  Clock::time_point deadline_;
-  bool ending_ = false;
-  std::thread thread_{[this] { watch(); }};  // the last to begin
-};
 
 class Client {
  public:
@@ -158,16 +110,16 @@ class Client {
     call.request.drag_velocity = drag_velocity.value_or(kNaN);
     call.request.rest_height = rest_height.value_or(kNaN);
     call.request.duration = duration;
-    if (control_ == ros::ServiceClient()) connect();
-    watchdog_.begin(control_, timeout_);
-    const bool success = control_.call(call);
-    const bool late = watchdog_.end();
-    if (late || !success) control_ = {};
-    if (late) throw EmulatorError(name_ + "/control: did not answer within " + timeout());
-    if (!success) {
-      end_with_the_launch();
-      throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
-                          "The next call connects again");
+    if (!control_.is_open()) connect();
+    switch (control_.call(call, timeout_)) {
+      case Ending::answered:
+        break;
+      case Ending::late:
+        throw EmulatorError(name_ + "/control: did not answer within " + timeout());
+      case Ending::broken:
+        end_with_the_launch();
+        throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
+                            "The next call connects again");
     }
     if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
     queue_.callAvailable();  // configuration() and applied() are the latest that have come
@@ -264,7 +216,7 @@ class Client {
   void connect() {
     const std::string service = name_ + "/control";
     wait_for([&] { return ros::service::exists(service, false); }, service);
-    control_ = node_.serviceClient<Control>(service, true);
+    control_.open(node_, service);
   }
 
   // Control periods of equal length. The first commands what is given.
@@ -279,7 +231,7 @@ class Client {
 
   // A new connection is to a new start of the emulator. Each topic meets it at its own time.
   void note_connection(const std::string& topic, const boost::shared_ptr<ros::M_string>& header) {
-    Connection& latest = connections_[topic];
+    Peer& latest = peers_[topic];
     if (latest.header == header) return;
     latest = {header, latest.count + 1};
     if (latest.count > starts_ || topic == "impacts") impacts_.clear();
@@ -397,14 +349,13 @@ class Client {
   const double timeout_;
   ros::Publisher drag_publisher_, height_publisher_;
   std::vector<ros::Subscriber> subscribers_;
-  struct Connection {
+  struct Peer {
     boost::shared_ptr<ros::M_string> header;
     int count = 0;
   };
-  std::map<std::string, Connection> connections_;  // by topic: the latest one, and how many there were
-  int starts_ = 1, starts_told_ = 1;  // of the emulator, since this client was made; those that a call has told
-  ros::ServiceClient control_;        // in lockstep
-  Watchdog watchdog_;
+  std::map<std::string, Peer> peers_;  // by topic: the latest one, and how many there were
+  int starts_ = 1, starts_told_ = 1;   // of the emulator, since this client was made; those that a call has told
+  Connection<Control> control_;        // in lockstep
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
   std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
