@@ -23,7 +23,8 @@ def hears_deflection():
 class ViewTest(EmulatorTest):
     @classmethod
     def setUpClass(cls):
-        cls.view = View()  # before there is an emulator
+        cls.view = View()
+        cls.view.markers.wait_for(cls.says_that_nothing_comes, 'a picture without an emulator')
         super().setUpClass()
 
     @classmethod
@@ -39,6 +40,12 @@ class ViewTest(EmulatorTest):
     def tearDown(self):
         super().tearDown()
         self.assertIsNone(self.view.child.poll(), 'the view has ended')
+
+    @staticmethod
+    def says_that_nothing_comes(message):
+        """With a line beside it: rviz draws no text that is alone."""
+        picture = Picture(message)
+        return picture.has('path') and picture.text('time') == 'no messages from an emulator yet'
 
     def wait_for_tip(self):
         return self.view.markers.wait_for(lambda m: Picture(m).has('tip'), 'a picture with the tip')
