@@ -166,6 +166,10 @@ TEST(Parameters, TheLimitOfTheDragGivesWayToASlowLever) {
   Given fast = slow;
   fast["max_drag_velocity"] = 1.1e-4;
   EXPECT_TRUE(is_blamed("max_drag_velocity", refusal(fast)));
+  fast = slow;
+  fast["drag_velocity"] = 1.1e-4;  // the limit, which nobody gave, was blamed
+  EXPECT_TRUE(is_blamed("drag_velocity", refusal(fast)));
+  EXPECT_FALSE(is_blamed("max_drag_velocity", refusal(fast)));
 }
 
 // A lever of omega_h/omega_v = 22 in a bath, with so many kicks.
