@@ -26,6 +26,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -160,20 +161,19 @@ class Client {
   }
 
   // Mean force of the holder on the tip along +x [N] over `duration` [s of model time], which begins `settle` [s] after
-  // what is commanded holds. Longer times than a control period can have in lockstep take several periods.
+  // what is commanded holds. Longer times than a control period can have in lockstep take several periods. Throws
+  // EmulatorError if anything else is commanded or changed on the way, also by others.
   double mean_force(double duration, double settle = 0.0, Command drag_velocity = kAsItIs,
                     Command rest_height = kAsItIs) {
     check_not_negative("duration", duration);
     check_not_negative("settle", settle);
-    const auto ignore = [](const Control::Response&) {};
-    if (settle > 0.0) {
-      for_periods(settle, drag_velocity, rest_height, ignore);
-      drag_velocity = rest_height = kAsItIs;
-    }
+    std::vector<double> lengths = periods(settle);
+    const std::size_t settling = lengths.size();
+    for (const double length : periods(duration)) lengths.push_back(length);
     double time = 0.0, mean = 0.0;
-    for_periods(duration, drag_velocity, rest_height, [&](const Control::Response& answer) {
+    undisturbed(lengths, drag_velocity, rest_height, [&](std::size_t number, const Control::Response& answer) {
       const double more = tau_between(answer.begin, answer.end);
-      if (!(more > 0.0)) return;
+      if (number < settling || !(more > 0.0)) return;
       time += more;
       mean += more / time * (answer.mean_lateral_force - mean);
     });
@@ -219,14 +219,45 @@ class Client {
     control_.open(node_, service);
   }
 
-  // Control periods of equal length. The first commands what is given.
-  template <class Take>
-  void for_periods(double duration, Command drag_velocity, Command rest_height, Take take) {
+  // Control periods of equal length [s].
+  std::vector<double> periods(double duration) const {
     const double count = is_lockstep() ? std::max(1.0, std::ceil(duration / (kMostTau * tau()))) : 1.0;
-    for (double i = 0.0; i < count; ++i) {
-      take(control(duration / count, drag_velocity, rest_height));
-      drag_velocity = rest_height = kAsItIs;
+    return std::vector<double>(duration > 0.0 ? static_cast<std::size_t>(count) : 0, duration / count);
+  }
+
+  // Hands over the answers of control periods that follow each other, in which what is commanded holds.
+  template <class Take>
+  void undisturbed(const std::vector<double>& lengths, Command drag_velocity, Command rest_height, Take take) {
+    Applied command;
+    std::optional<ModelTime> end;  // in real time the clock goes on between two periods
+    if (is_lockstep()) {
+      const Control::Response answer = control(0.0, drag_velocity, rest_height);
+      std::tie(command.epoch, command.number, end) = std::tie(answer.epoch, answer.applied, answer.end);
+    } else {
+      command = command_and_wait(drag_velocity, rest_height);
     }
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      const Control::Response answer = control(lengths[i]);
+      if (answer.epoch != command.epoch) throw EmulatorError(name_ + ": reset while it was measured");
+      if (answer.applied != command.number && (is_lockstep() || !was_sent_again(command, answer.applied))) {
+        throw EmulatorError(name_ + ": another command or change took effect while it was measured");
+      }
+      if (end && tau_between(*end, answer.begin) != 0.0) {
+        throw EmulatorError(name_ + ": another controller advanced it while it was measured");
+      }
+      if (end) end = answer.end;
+      take(i, answer);
+    }
+  }
+
+  // Whether what took effect since then is the same command: it is sent again to an emulator that is slow.
+  bool was_sent_again(const Applied& command, std::uint64_t number) const {
+    return recently_applied([&](const Applied& m) {
+             const bool is_same = m.drag_velocity == command.drag_velocity &&
+                                  m.rest_height_m == command.rest_height_m &&
+                                  (m.cause == "drag_velocity" || m.cause == "rest_height");
+             return command.number < m.number && m.number <= number && !is_same;
+           }) == nullptr;
   }
 
   // A new connection is to a new start of the emulator. Each topic meets it at its own time.

@@ -12,6 +12,7 @@ from types import SimpleNamespace
 import roslib.packages
 from afm_emulator.measurement import Measurement
 from afm_emulator.msg import Applied, Deflection, ModelTime
+from std_srvs.srv import Trigger
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
 from topics import DEADLINE_S, PATIENCE, Topic
@@ -217,6 +218,23 @@ class Claims:
         friction.wait_for_connection()
         self.numbers(tip.call('mean_force 3 1.6'))
         friction.wait_for(lambda m: abs((m.time.tau + m.time.phase) * TAU_S - 4.6) < 1e-9, '4.6 s of model time')
+
+    def test_a_mean_force_is_of_what_was_commanded(self):
+        """Once it went over a reset, and over commands of others."""
+        tip, other = self.start_both('lockstep', LONG_S), self.start(Calls(self.program(), LONG_S))
+        batches, mean = Topic('deflection'), 'mean_force 60 0 3e-6'
+        batches.wait_for_connection()
+        for disturb, what in ((lambda: self.emulator.call('reset', Trigger), 'reset'),
+                              (lambda: other.call('control 1e-3 2e-6'), 'another command or change took effect'),
+                              (lambda: other.call('control 1e-3'), 'another controller advanced it')):
+            tip.begin(mean)
+            batches.wait_for_more(10)
+            disturb()
+            self.assertRegex(tip.answer(), 'EmulatorError: /afm: %s' % what)
+        self.emulator.stop()
+        tip = self.start_both('real_time', LONG_S, command_timeout_s=0.2)
+        self.assertRegex(tip.call('mean_force 0.5 0 3e-6'), 'EmulatorError: /afm: another command or change')
+        self.numbers(tip.call('mean_force 0.5'))
 
     def test_a_mean_force_is_not_of_samples(self):
         """The hammer's are zero along x. On its periodic orbit at eta = 2 every period has the same force."""

@@ -5,6 +5,7 @@ controller gives the same bits each time. In real time the same calls measure wh
 need not know which it is.
 """
 import collections
+import itertools
 import math
 import threading
 import time
@@ -186,29 +187,53 @@ class Client:
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
 
-        Longer times than a control period can have in lockstep take several periods.
+        Longer times than a control period can have in lockstep take several periods. An EmulatorError if anything else
+        is commanded or changed on the way, also by others.
         """
         duration, settle = not_negative('duration', duration), not_negative('settle', settle)
-        if settle > 0.0:
-            for _ in self._periods(settle, drag_velocity, rest_height):
-                pass
-            drag_velocity = rest_height = None
         tau, mean = 0.0, 0.0
-        for answer in self._periods(duration, drag_velocity, rest_height):
-            more = tau_between(answer.begin, answer.end)
-            if more > 0.0:
-                tau += more
-                mean += more / tau * (answer.mean_lateral_force - mean)
+        with self._turn:
+            settling = self._periods(settle)
+            answers = self._undisturbed(settling + self._periods(duration), drag_velocity, rest_height)
+            for answer in itertools.islice(answers, len(settling), None):
+                more = tau_between(answer.begin, answer.end)
+                if more > 0.0:
+                    tau += more
+                    mean += more / tau * (answer.mean_lateral_force - mean)
         if tau == 0.0:
             raise EmulatorError('duration = %g s: too short, no time passes in it' % duration)
         return mean
 
-    def _periods(self, duration, drag_velocity, rest_height):
-        """Control periods of equal length. The first commands what is given."""
+    def _periods(self, duration):
+        """Control periods of equal length [s]."""
         count = max(1, math.ceil(duration / (MOST_TAU * self.tau_s))) if self.is_lockstep else 1
-        for _ in range(count):
-            yield self.control(duration / count, drag_velocity, rest_height)
-            drag_velocity = rest_height = None
+        return [duration / count] * count if duration > 0.0 else []
+
+    def _undisturbed(self, periods, drag_velocity, rest_height):
+        """The answers of control periods that follow each other, in which what is commanded holds."""
+        if self.is_lockstep:
+            command = self.control(0.0, drag_velocity, rest_height)
+            number, end = command.applied, command.end
+        else:
+            command = self.command_and_wait(drag_velocity, rest_height)
+            number, end = command.number, None
+        for period in periods:
+            answer = self.control(period)
+            if answer.epoch != command.epoch:
+                raise EmulatorError('%s: reset while it was measured' % self.name)
+            if answer.applied != number and (self.is_lockstep or not self._was_sent_again(command, answer.applied)):
+                raise EmulatorError('%s: another command or change took effect while it was measured' % self.name)
+            if end and tau_between(end, answer.begin) != 0.0:
+                raise EmulatorError('%s: another controller advanced it while it was measured' % self.name)
+            end = end and answer.end
+            yield answer
+
+    def _was_sent_again(self, command, number):
+        """Whether what took effect since then is the same command: it is sent again to an emulator that is slow."""
+        with self._news:
+            return all(m.cause in self._publishers and (m.drag_velocity, m.rest_height_m) ==
+                       (command.drag_velocity, command.rest_height_m)
+                       for m in self._commanded if command.number < m.number <= number)
 
     def _call_control(self, request=None):
         """The answer of ~control. Connects to it if need be; without a request, it only connects."""
