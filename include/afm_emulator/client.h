@@ -116,7 +116,7 @@ class Client {
       case Ending::answered:
         break;
       case Ending::late:
-        throw EmulatorError(name_ + "/control: did not answer within " + timeout());
+        throw EmulatorError(name_ + "/control: did not answer within " + timeout() + "; it may still come to it");
       case Ending::broken:
         end_with_the_launch();
         throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
@@ -138,10 +138,10 @@ class Client {
     if (drag_velocity && std::abs(*drag_velocity) > most) {  // in real time nothing would come back
       throw EmulatorError("drag_velocity = " + text(*drag_velocity) + " m/s: max_drag_velocity is " + text(most));
     }
-    const double crest = configuration_->surface_amplitude_m;
-    if (rest_height && *rest_height >= crest) {
+    const double crest = configuration_->surface_amplitude_m, deepest = -kMostDown * configuration_->lattice_spacing_m;
+    if (rest_height && !(deepest <= *rest_height && *rest_height < crest)) {
       throw EmulatorError("rest_height = " + text(*rest_height) + " m: must be below the crests of the surface, " +
-                          text(crest) + " m");
+                          text(crest) + " m, and at most " + text(kMostDown) + " lattice spacings down");
     }
     Applied::ConstPtr mine;
     if (is_lockstep()) {
@@ -184,7 +184,8 @@ class Client {
  private:
   static constexpr std::size_t kKeptBatches = 100;   // before a measurement: a second at the default rate
   static constexpr std::size_t kKeptApplied = 1000;  // messages, where nothing is commanded from here
-  static constexpr const char* kPaused = " (is the emulator paused?)";
+  static constexpr const char* kPaused = " (is the emulator paused? What was commanded may hold)";
+  static constexpr double kMostDown = 1e5;   // lattice spacings: kMinRestHeight of the core
   static constexpr double kRounding = 1e-9;  // of a sum of batches: ten of 0.01 s are 0.1 s
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside

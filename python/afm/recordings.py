@@ -58,6 +58,7 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dic
     found: Any = defaultdict(lambda: defaultdict(dict))
     known: Dict[Tuple[str, str, int], Tuple[str, int]] = {}
     stamps: Any = defaultdict(dict)  # of the first messages
+    clashes: Dict[str, str] = {}
     for path in paths:
         nothing = True
         for topic, node, kind, data, message, stamp in _messages(path):
@@ -65,7 +66,7 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dic
             stamps[node].setdefault(kind, stamp)
             seq, said = int.from_bytes(data[:4], 'little'), (topic, hash(data))  # latched ones are repeated
             if known.setdefault((node, kind, seq), said) != said:
-                raise ValueError('%s: of two emulators, or of one started twice, under the name "%s"' % (path, node))
+                clashes[node] = '%s: of two emulators, or of one started twice, under the name "%s"' % (path, node)
             found[node][kind][seq] = message
         if nothing and len(paths) > 1:  # such as of rosbag record before the emulator began
             warnings.warn('%s: the bag holds no message of an emulator' % path, RuntimeWarning, stacklevel=4)
@@ -74,6 +75,8 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dic
     if namespace not in found:
         raise ValueError('namespace = %s: the bag holds recordings of %s' %
                          (namespace, ', '.join(sorted(found)) or 'nothing'))
+    if namespace in clashes:
+        raise ValueError(clashes[namespace])
     first = stamps[namespace]
     by_node = 'Snapshot' in first and any(kind in first and (first['Snapshot'] - first[kind]).to_nsec() == behind
                                           for kind, behind in (('Configuration', 2), ('Applied', 1)))

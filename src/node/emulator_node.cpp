@@ -72,17 +72,20 @@ std::string find_step_fault(double tau, std::uint32_t impacts) {
   return text.str();
 }
 
-// The name of the node that publishes /clock already, or nothing.
-std::string find_clock_publisher() {
+// Throws if another node publishes /clock.
+void check_clock() {
+  const std::string name = ros::this_node::getName();
   XmlRpc::XmlRpcValue request, response, state;
-  request[0] = ros::this_node::getName();
-  if (!ros::master::execute("getSystemState", request, response, state, false)) return {};
+  request[0] = name;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return;
   XmlRpc::XmlRpcValue& publishers = state[0];
   for (int i = 0; i < publishers.size(); ++i) {
     const std::string topic = publishers[i][0];
-    if (topic == "/clock" && publishers[i][1].size() > 0) return publishers[i][1][0];
+    for (int j = 0; topic == "/clock" && j < publishers[i][1].size(); ++j) {
+      const std::string other = publishers[i][1][j];
+      if (other != name) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
+    }
   }
-  return {};
 }
 
 // A run that cannot keep real time says so before it falls behind.
@@ -115,10 +118,7 @@ class EmulatorNode {
         queue_(batches_in_queue(parameters, preallocated_batch(parameters)), preallocated_batch(parameters)),
         runner_(parameters, queue_),
         recorder_(recorder_settings(parameters), [this] { return runner_.submit(Request(Kind::snapshot)); }) {
-    if (parameters.publish_clock) {
-      const std::string other = find_clock_publisher();
-      if (!other.empty()) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
-    }
+    if (parameters.publish_clock) check_clock();
     if (parameters.record) {
       const Recorder::Reply reply = recorder_.start("");
       if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
@@ -135,6 +135,7 @@ class EmulatorNode {
     publisher_.emplace(node, parameters, Publisher::Sources{queue_, recorder_, refusals_, [this](const Live& live) {
                                                               live_server_->applied(live);
                                                             }});
+    if (parameters.publish_clock) check_clock();  // of one that began at the same time
     runner_.start();
     report_run(parameters, runner_.scheduler());
     advertise(node);

@@ -78,9 +78,10 @@ class Claims:
                 self.assertRegex(tip.call(line), '^EmulatorError: %s = ' % name, line)
             self.numbers(tip.call('mean_force 0.01'))
             self.assertEqual(Topic('status').wait_for().refused_commands, 0)  # none has come so far
-            for line, name in (('control 0.01 2e-4', 'max_drag_velocity'), ('control 0.01 - 1', 'rest_height'),
+            for line, name in (('control 0.01 2e-4', 'max_drag_velocity'), ('control 0.01 - 1', 'rest_height = '),
                                ('command_and_wait -2e-4', 'max_drag_velocity'),
-                               ('command_and_wait - 1', 'rest_height')):
+                               ('command_and_wait - 1', 'rest_height = '),
+                               ('control 0.01 - -1e-3', 'rest_height = ')):
                 self.assertRegex(tip.call(line), '^EmulatorError: .*' + name)  # once sent, and waited for
             tip.clean_up()
             self.emulator.stop()

@@ -58,6 +58,13 @@ class Expect(NodeTest):
         self.assertRegex(said, r'friction/drag_velocity = \S+ at model time \S+ s: expected \S+ to inf from')
         self.assertTrue(list(self.results.glob('*.png')), said)
 
+    def test_a_run_that_is_further_is_judged_where_it_is_and_that_is_said(self):
+        tip = self.start_emulator()
+        tip.control(0.5)
+        code, said = self.judged(tip, field='friction/drag_velocity', least=0.0, after_s=0.2, for_s=0.1)
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r'judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = 0\.2 on')
+
     def test_a_status_next_to_the_time_counts(self):
         """In lockstep none may fall into it: ten come in a second of wall time."""
         tip = self.start_emulator()
@@ -143,6 +150,8 @@ class Expect(NodeTest):
             code, said = self.end(self.node('expect_repeats', launch=str(launch)))
             self.assertEqual(code, 1, said)
             self.assertRegex(said, 'AssertionError: .*' + sentence)
+        self.assert_refused('arguments = bags:=x: unknown to .*, which has bag_directory', 'expect_repeats',
+                            launch=str(launch), arguments='bags:=x')
 
     def test_help_may_be_cut_short(self):
         for kind in ('expect', 'expect_sound', 'expect_repeats'):

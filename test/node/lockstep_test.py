@@ -4,6 +4,7 @@ import math
 import threading
 import time
 
+import roslib.packages
 import rospy
 from afm_emulator import Client, EmulatorError
 from afm_emulator.msg import Applied, Configuration
@@ -11,7 +12,7 @@ from afm_emulator.srv import Control, ControlResponse
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
-from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process
+from emulator_under_test import ENERGY_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process
 from topics import Topic, key, tau_between, wait_until
 
 NAN = float('nan')
@@ -92,6 +93,14 @@ class Lockstep(EmulatorTest):
         times = [m.clock.to_nsec() for m in clock.messages]
         self.assertGreater(times[0], 0)
         self.assertEqual(times, sorted(set(times)))
+
+    def test_a_rate_that_begins_while_time_stands_still_is_over_with_its_batches(self):
+        """A new subscriber was told a nanosecond more, which the batches did not reach."""
+        self.advance(0.05)
+        clock = Topic('/clock', Clock)
+        begin = clock.wait_for().clock
+        self.advance(0.05)
+        clock.wait_for(lambda m: (m.clock - begin).to_nsec() >= 50000000, 'the end of five batches')
 
     def test_a_second_clock_is_refused(self):
         rospy.set_param('/second', {'publish_clock': True})
@@ -178,6 +187,18 @@ class RealTime(NodeTest):
         # a busy machine may be late, and then catch up; never early
         self.assertGreater(passed, 0.5 * 4.0 * (end - begin))
         self.assertLess(passed, 4.0 * (end - started))
+
+
+class TwoClocks(NodeTest):
+    def test_of_two_that_begin_together_one_has_the_clock_at_most(self):
+        """Each asked before the other had it."""
+        parameters = {'publish_clock': True, 'pace': 'lockstep'}
+        binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
+        for name in ('left', 'right'):
+            rospy.set_param('/' + name, parameters)
+        both = [self.start(Process([binary, '__name:=' + name])) for name in ('left', 'right')]
+        wait_until(lambda: any(process.child.poll() == 1 for process in both), 'one refuses')
+        self.assertRegex(''.join(process.output() for process in both), '/(left|right) publishes /clock already')
 
 
 class Starting(NodeTest):

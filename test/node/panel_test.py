@@ -156,6 +156,8 @@ class Knobs(EmulatorTest):
         stiffness = 408e-12 * 40e3 ** 2
         self.panel.type_in('load_pn', '10')
         self.applied(lambda m: abs(m.rest_height_m * stiffness + 10e-12) < 1e-18, '10 pN')
+        self.panel.type_in('load_pn', '1.2e1')  # once 1.21 pN
+        self.applied(lambda m: abs(m.rest_height_m * stiffness + 12e-12) < 1e-18, '12 pN')
         self.panel.type_in('height_pm', '-20')
         self.applied(lambda m: abs(m.rest_height_m + 20e-12) < 1e-18, '-20 pm')
         self.panel.type_in('gamma', '0.5')
@@ -163,6 +165,9 @@ class Knobs(EmulatorTest):
         self.panel.type_in('quality', '100')
         self.panel.type_in('temperature', '300')
         self.applied(lambda m: (m.quality_factor, m.temperature_k) == (100.0, 300.0), 'a bath')
+        self.emulator.set(quality_factor=2e4, temperature_k=1000.0)  # once shown as 1000 and 400 K
+        until(lambda: [self.panel.part(name).value() for name in ('quality', 'temperature')] == [2e4, 1000.0],
+              'the boxes show what holds')
 
     def test_what_is_refused_is_said(self):
         self.panel.type_in('height_pm', '70')  # above the crest: it would hover

@@ -131,6 +131,8 @@ class PythonModule(NodeTest):
             paths += self.end(self.emulator)
             Topic.close_all()
         self.assertRaisesRegex(ValueError, 'started twice', afm.from_bag, paths)
+        unnamed = self.filtered(paths[0], lambda *_: True)
+        self.assertEqual(afm.from_bag(paths + [unnamed], namespace='').eta, afm.from_bag(unnamed).eta)
         undone = self.filtered(paths[1], lambda topic, m: topic != 'applied' or m.number < 2)
         self.assertRaisesRegex(ValueError, 'does not end as recorded', afm.from_bag(undone).simulate)
 

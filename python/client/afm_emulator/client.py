@@ -24,7 +24,8 @@ KEPT_APPLIED = 1000
 KEPT_BATCHES = 100  # before a measurement: a second at the default rate
 MOST_TAU = 9999.0  # of a period of mean_force in lockstep: the emulator takes 10000, rounding aside
 LONGEST_TIMEOUT_S = 1e9
-PAUSED = ' (is the emulator paused?)'
+MOST_DOWN = 1e5  # lattice spacings: kMinRestHeight of the core
+PAUSED = ' (is the emulator paused? What was commanded may hold)'
 ROUNDING = 1e-9  # of a sum of batches: ten of 0.01 s are 0.1 s
 
 
@@ -158,10 +159,10 @@ class Client:
         most = self.configuration.max_drag_velocity
         if drag_velocity is not None and abs(drag_velocity) > most:  # in real time nothing would come back
             raise EmulatorError('drag_velocity = %g m/s: max_drag_velocity is %g' % (drag_velocity, most))
-        crest = self.configuration.surface_amplitude_m
-        if rest_height is not None and rest_height >= crest:
-            raise EmulatorError('rest_height = %g m: must be below the crests of the surface, %g m' %
-                                (rest_height, crest))
+        crest, deepest = (self.configuration.surface_amplitude_m, -MOST_DOWN * self.configuration.lattice_spacing_m)
+        if rest_height is not None and not deepest <= rest_height < crest:
+            raise EmulatorError('rest_height = %g m: must be below the crests of the surface, %g m, and at most %g '
+                                'lattice spacings down' % (rest_height, crest, MOST_DOWN))
         with self._turn:
             if self.is_lockstep:
                 self._forget_commanded()
@@ -246,7 +247,8 @@ class Client:
             what = 'was not there' if self._connection is None else 'did not answer'
             self._drop_connection()  # half a request or half an answer may be on it
             if isinstance(fault, TimeoutError):
-                raise EmulatorError('%s: %s within %g s (%s)' % (service, what, self.timeout, fault)) from fault
+                raise EmulatorError('%s: %s within %g s (%s); it may still come to it' %
+                                    (service, what, self.timeout, fault)) from fault
             if isinstance(fault, OSError):
                 self._end_with_the_launch()
                 raise EmulatorError('%s: %s: was the emulator restarted? The next call connects again'

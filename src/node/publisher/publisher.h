@@ -133,11 +133,16 @@ class Publisher {
     clock_.publish(message);
   }
 
-  // While time stands still, whoever is new gets the time too. Not latched: roscpp sends what is latched at once, and
-  // then what it published before, so that the clock of a new subscriber could go back.
+  // While time stands still, whoever is new gets the time too, a nanosecond on. All that follows is as much later: a
+  // rospy.Rate that began then is over when its batch is. Not latched: roscpp sends what is latched at once, and then
+  // what it published before, so that the clock of a new subscriber could go back.
   void publish_clock_to_new_subscribers() {
     const std::uint32_t subscribers = clock_ ? clock_.getNumSubscribers() : 0;
-    if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) publish_clock(latest_clock_ + ros::Duration(0, 1));
+    if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) {
+      const ros::Duration step(0, 1);
+      epoch_begin_ += step;
+      publish_clock(latest_clock_ + step);
+    }
     clock_subscribers_ = subscribers;
   }
 

@@ -117,6 +117,10 @@ class Cursor {
                       std::to_string(number_.seq) + ": it is there twice, or the messages are out of order, or of " +
                       "another start of the node on simulated time");
       }
+      if (next.start != number_.start && header.seq == number_.seq + 1) {
+        throw Problem(at_->getTopic() + ": number " + std::to_string(header.seq) +
+                      " is of a start that was still running when another node took its name");
+      }
     }
     const bool same = !last_ || next.start == number_.start;
     lost_ = !last_ ? 0 : same ? header.seq - number_.seq - 1 : starts_->between(number_.start, next.start);

@@ -2,15 +2,16 @@
 import math
 import time
 
-from PyQt5 import QtCore, QtWidgets
+from PyQt5 import QtCore, QtGui, QtWidgets
 
 OWN_S = 1.0     # for so long after a turn a knob shows what was asked for, and not yet what holds
 SLIDER_STEPS = 1000
+MANY = 1e4       # from here on without decimals, for which there is no room
 LAMP = 'border-radius: 5px; border: 1px solid #777; background: %s;'
 
 
 class Spin(QtWidgets.QDoubleSpinBox):
-    """A number with its unit. It speaks when it is entered, not while it is typed."""
+    """A number with its unit, also as 1e3. It speaks when it is entered, not while it is typed."""
 
     def __init__(self, name, suffix, decimals, step, low, high):
         super().__init__(objectName=name, keyboardTracking=False, decimals=decimals, singleStep=step, minimum=low,
@@ -19,6 +20,19 @@ class Spin(QtWidgets.QDoubleSpinBox):
         self.setLocale(QtCore.QLocale.c())  # a decimal point everywhere
         self.setAlignment(QtCore.Qt.AlignRight)
         self.setMinimumWidth(40)
+
+    def valueFromText(self, text):
+        return float(text[:len(text) - len(self.suffix())] if text.endswith(self.suffix()) else text)
+
+    def textFromValue(self, value):
+        return '%.0f' % value if abs(value) >= MANY else super().textFromValue(value)
+
+    def validate(self, text, at):
+        try:
+            fits = self.minimum() <= self.valueFromText(text) <= self.maximum()
+        except ValueError:
+            fits = False
+        return QtGui.QValidator.Acceptable if fits else QtGui.QValidator.Intermediate, text, at
 
     def is_in_use(self):
         return self.hasFocus() and self.lineEdit().isModified()

@@ -49,7 +49,7 @@ class Plot(pg.PlotWidget):
         self.hideButtons()
         self.setMouseEnabled(False, False)
         self.showGrid(True, True, 0.15)
-        self.getPlotItem().getAxis('left').setWidth(58)  # one place for all, so that axes stand under each other
+        self.getPlotItem().getAxis('left').setWidth(70)  # one place for all, so that axes stand under each other
         for side in ('left', 'bottom'):
             axis = self.getPlotItem().getAxis(side)
             axis.enableAutoSIPrefix(False)

@@ -82,16 +82,17 @@ class Window(QtWidgets.QWidget):
         whole.setColumnStretch(1, 1)
 
     def _knobs(self):
-        """Units in SI; those that depend on the lever and on the surface come with them."""
-        self.drag = Knob('Drag', [Spin('drag_um_s', ' µm/s', 3, 0.1, -1000.0, 1000.0),
-                                  Spin('eta', ' η', 3, 0.01, -99.0, 99.0)],
+        """Units in SI; those that depend on the lever and on the surface come with them. Wide ranges: a knob shows
+        whatever holds, and the emulator says what it refuses."""
+        self.drag = Knob('Drag', [Spin('drag_um_s', ' µm/s', 3, 0.1, -1e6, 1e6),
+                                  Spin('eta', ' η', 3, 0.01, -1e3, 1e3)],
                          (1e-6, 3.3104e-6), (-10.0, 10.0))
-        self.load = Knob('Load', [Spin('load_pn', ' pN', 1, 1.0, -1e5, 1e6),
-                                  Spin('height_pm', ' pm', 1, 1.0, -1e6, 1e3)],
+        self.load = Knob('Load', [Spin('load_pn', ' pN', 1, 1.0, -1e9, 1e9),
+                                  Spin('height_pm', ' pm', 1, 1.0, -1e9, 1e9)],
                          (-1.5e-12, 1e-12))
         self.gamma = Knob('Restitution γ', [Spin('gamma', '', 3, 0.01, 0.0, 1.0)], (1.0,), (0.0, 1.0))
-        self.temperature = Knob('Temperature', [Spin('temperature', ' K', 1, 10.0, 0.0, 400.0)], (1.0,))
-        self.quality = Knob('Q of the lever', [Spin('quality', '', 1, 10.0, 0.0, 1000.0)], (1.0,))
+        self.temperature = Knob('Temperature', [Spin('temperature', ' K', 1, 10.0, 0.0, 1e9)], (1.0,))
+        self.quality = Knob('Q of the lever', [Spin('quality', '', 1, 10.0, 0.0, 1e9)], (1.0,))
         self.drag.turned.connect(lambda value: self.link.command('drag_velocity', value))
         self.load.turned.connect(lambda value: self.link.command('rest_height', value))
         for knob, name in ((self.gamma, 'restitution_gamma'), (self.temperature, 'temperature_k'),
@@ -157,6 +158,7 @@ class Window(QtWidgets.QWidget):
         controls = ready and self.link.takes_commands()
         for plot in self.plots:
             plot.show_live(ready)
+        begins = controls and not self.load.isEnabled()
         for part in self.controls:
             part.setEnabled(controls)
         self.desk.setEnabled(ready)
@@ -164,7 +166,7 @@ class Window(QtWidgets.QWidget):
             self._take(settings)
             if not self.hold.isChecked():
                 self._draw(settings, applied)
-        if self._frame % SLOW_FRAMES == 0:
+        if begins or self._frame % SLOW_FRAMES == 0:  # a knob needs the units of the lever from the first
             self._show_state(ready, controls)
 
     def _take(self, settings):
