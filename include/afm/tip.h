@@ -86,22 +86,22 @@ class Tip {
   void drag(double eta);
 
   // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay. Lifting the holder
-  // does work on the spring. A chatter sequence ends with the bounce under way. Contact goes on if the surface still
-  // presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
+  // does work on the spring. A chatter sequence ends at once, a part of a bounce early. Contact goes on if the surface
+  // still presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
   void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change
   // to the hammer moves the holder above the tip: extension and relative horizontal velocity are dropped, and their
   // energy is returned [m a^2/tau^2] (0 otherwise). A change to the oscillator starts with a relaxed spring and the
-  // velocity of the holder. A chatter sequence ends with the bounce under way. Contact ends if the gap rate changes.
-  // Both are reported as events at now().
+  // velocity of the holder. A chatter sequence ends at once, a part of a bounce early. Contact ends if the gap rate
+  // changes. Both are reported as events at now().
   double set_model(ModelKind kind, double contact_tolerance);
 
   // Another heat bath from now() on; a new tip has none. It splits the flight or the record under way. Every advance
   // includes its kicks (docs/temperature.md). A kick splits the phase under way at its time. In contact, a kick into
   // the surface is an impact at once, and a kick away from it starts a flight. Where the bounces after a kick, or with
   // a temperature after an impact, hardly move the tip, they are one event, and the tip is in contact. A chatter
-  // sequence ends with the bounce under way. Precondition: a bath without faults.
+  // sequence ends at once, a part of a bounce early. Precondition: a bath without faults.
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 
