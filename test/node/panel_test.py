@@ -156,8 +156,10 @@ class Knobs(EmulatorTest):
         stiffness = 408e-12 * 40e3 ** 2
         self.panel.type_in('load_pn', '10')
         self.applied(lambda m: abs(m.rest_height_m * stiffness + 10e-12) < 1e-18, '10 pN')
+        self.panel.type_in('load_pn', '1,5')  # once 15 pN
         self.panel.type_in('load_pn', '1.2e1')  # once 1.21 pN
         self.applied(lambda m: abs(m.rest_height_m * stiffness + 12e-12) < 1e-18, '12 pN')
+        self.assertNotIn(-15e-12, [round(m.rest_height_m * stiffness, 15) for m in self.topics['applied'].messages])
         self.panel.type_in('height_pm', '-20')
         self.applied(lambda m: abs(m.rest_height_m + 20e-12) < 1e-18, '-20 pm')
         self.panel.type_in('gamma', '0.5')

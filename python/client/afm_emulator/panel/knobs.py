@@ -34,6 +34,9 @@ class Spin(QtWidgets.QDoubleSpinBox):
             fits = False
         return QtGui.QValidator.Acceptable if fits else QtGui.QValidator.Intermediate, text, at
 
+    def fixup(self, text):
+        return text  # Qt makes 15 of 1,5; so the value stays
+
     def is_in_use(self):
         return self.hasFocus() and self.lineEdit().isModified()
 
