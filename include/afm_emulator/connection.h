@@ -15,7 +15,8 @@ namespace afm_emulator {
 
 enum class Ending { answered, late, broken };
 
-// ros::ServiceClient has no time-out: a thread drops its connection when the time of a call is over, and the call fails.
+// ros::ServiceClient has no time-out: a thread drops its connection when the time of a call is over, and the call
+// fails.
 template <class Service>
 class Connection {
  public:

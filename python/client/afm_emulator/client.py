@@ -159,7 +159,7 @@ class Client:
         most = self.configuration.max_drag_velocity
         if drag_velocity is not None and abs(drag_velocity) > most:  # in real time nothing would come back
             raise EmulatorError('drag_velocity = %g m/s: max_drag_velocity is %g' % (drag_velocity, most))
-        crest, deepest = (self.configuration.surface_amplitude_m, -MOST_DOWN * self.configuration.lattice_spacing_m)
+        crest, deepest = self.configuration.surface_amplitude_m, -MOST_DOWN * self.configuration.lattice_spacing_m
         if rest_height is not None and not deepest <= rest_height < crest:
             raise EmulatorError('rest_height = %g m: must be below the crests of the surface, %g m, and at most %g '
                                 'lattice spacings down' % (rest_height, crest, MOST_DOWN))
@@ -244,11 +244,10 @@ class Client:
                 self._connection = Connection(service, Control, end)
             return self._connection.call(request, end) if request else None
         except BaseException as fault:
-            what = 'was not there' if self._connection is None else 'did not answer'
+            what = 'was not there' if self._connection is None else 'may still come to it, but did not answer'
             self._drop_connection()  # half a request or half an answer may be on it
             if isinstance(fault, TimeoutError):
-                raise EmulatorError('%s: %s within %g s (%s); it may still come to it' %
-                                    (service, what, self.timeout, fault)) from fault
+                raise EmulatorError('%s: %s within %g s (%s)' % (service, what, self.timeout, fault)) from fault
             if isinstance(fault, OSError):
                 self._end_with_the_launch()
                 raise EmulatorError('%s: %s: was the emulator restarted? The next call connects again'
