@@ -223,6 +223,20 @@ TEST(HardStart, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
 }
 
 // It would land a quarter of a turn later. Until then the gap has only its fourth derivative, so the steps are short.
+// On a crest, at this speed, the gap's acceleration is zero and its third derivative is not. Once rounding made a root,
+// before the start even.
+TEST(HardStart, ALaunchInBalanceFliesHoweverSlowItIs) {
+  for (const double X : {0.5, 9.0}) {
+    for (double g1 = 1e-12; g1 > 1e-48; g1 *= 0.01) {
+      const Flight<double> flight(kSpringConstants, 1.3, TipState{0.0, X, -1.0, 0.0, g1});
+      const Landing<double> landing = find_landing(kMica, flight, kHorizon);
+      ASSERT_EQ(landing.outcome, SearchOutcome::impact) << g1;
+      ASSERT_GT(landing.s, 0.01) << g1;
+      ASSERT_LT(landing.jet.g1, 0.0) << g1;
+    }
+  }
+}
+
 TEST(HardStart, OnTheGlideAGapHoweverSmallExhaustsNoSearch) {
   Model model;
   model.kind = ModelKind::hammer;
