@@ -2,6 +2,7 @@
 // Parameters: ~emulator, its name (default: afm, beside this node); ~cells, how much of the surface is seen.
 #include <ros/ros.h>
 
+#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,9 +43,7 @@ class Looking {
   std::vector<ros::Subscriber> subscribers_;
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   ros::init(argc, argv, "afm_view");
   ros::NodeHandle handle("~");
   const double cells = handle.param("cells", 6.0);
@@ -64,4 +63,15 @@ int main(int argc, char** argv) {
   const ros::WallTimer timer = handle.createWallTimer(ros::WallDuration(1.0 / view::kPictureRate), draw);
   ros::spin();  // one thread: messages and pictures take turns
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const ros::InvalidNameException& fault) {  // of the node, or of the emulator
+    std::cerr << "view_node: " << fault.what() << "\n";
+    return 1;
+  }
 }

@@ -33,9 +33,10 @@ class MasterSpy(ThreadingMixIn, SimpleXMLRPCServer):
 
 class BadParameters(NodeTest):
     def test_a_name_that_cannot_be(self):
-        node = self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=a-b']))
-        self.assertEqual(node.wait(), 1)
-        self.assertIn('a-b', node.output())
+        for kind, argument in (('emulator_node', '__name:=a-b'), ('view_node', '_emulator:=a-b')):
+            node = self.start(Process([roslib.packages.find_node(PACKAGE, kind)[0], argument]))
+            self.assertEqual(node.wait(), 1)
+            self.assertIn('a-b', node.output())
 
     def test_all_faults_in_one_error(self):
         spy = MasterSpy()
