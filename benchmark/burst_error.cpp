@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/command_line.h"
+#include "common/point_options.h"
 #include "trials/burst_trials.h"
 
 namespace {
 
 struct Options {
-  std::vector<double> eta{0.05, 0.2, 0.5, 3.0, 5.0, 7.0, 9.0}, cutoff{0.0, 0.01, 0.05, 0.1}, gamma{0.7};
+  std::vector<std::string> eta{"0.05", "0.2", "0.5", "3", "5", "7", "9"}, cutoff{"0", "0.01", "0.05", "0.1"};
+  std::vector<std::string> gamma{"0.7"};
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
 };
@@ -54,10 +57,13 @@ int main(int argc, char** argv) {
   app.option("bursts", o.bursts, "how many of each");
   app.option("most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
   return app.run(argc, argv, [&] {
+    const std::vector<double> gammas = afm::ranges_option("gamma", o.gamma);
+    const std::vector<double> cutoffs = afm::ranges_option("cutoff", o.cutoff);
+    const std::vector<double> etas = afm::ranges_option("eta", o.eta);
     std::printf("gamma,v_c,eta,bursts,bounces,skipped,median,99_percent,max\n");
-    for (const double gamma : o.gamma) {
-      for (const double cutoff : o.cutoff) {
-        for (const double eta : o.eta) print_row(gamma, cutoff, eta, o);
+    for (const double gamma : gammas) {
+      for (const double cutoff : cutoffs) {
+        for (const double eta : etas) print_row(gamma, cutoff, eta, o);
       }
     }
     return 0;

@@ -145,11 +145,7 @@ std::vector<Point> points_of(const Options& o) {
 }
 
 void take_ranges(const std::string& name, const Texts& texts, std::vector<double>& values) {
-  if (texts.empty()) return;
-  values.clear();
-  for (const std::string& text : texts) {
-    for (const double value : afm::range_option(name, text)) values.push_back(value);
-  }
+  if (!texts.empty()) values = afm::ranges_option(name, texts);
 }
 
 void take_ranges(Options& o) {

@@ -1,15 +1,15 @@
 #include "command_line.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
-#include <cstdint>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 
 #include "afm/number_text.h"
+#include "csv.h"
 
 namespace afm {
 namespace po = boost::program_options;
@@ -17,34 +17,27 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-std::string text_of(const std::string& value) { return value; }
-template <class T>
-std::string text_of(T value) {
-  return number_text(static_cast<double>(value));
-}
-
 template <class T>
 T parse(const std::string& name, const std::string& text, Within range) {
-  const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument("--" + name + " = " + text + ": " + why);
+  const auto require = [&](bool is_so, const std::string& what) {
+    if (!is_so) throw std::invalid_argument("--" + name + " = " + text + ": must be " + what);
   };
-  const std::string kind = std::is_integral<T>::value ? "must be a whole number" : "must be a number";
-  T value;
-  // an unsigned number would take a minus, and be huge
-  const bool minus = std::is_unsigned<T>::value && !text.empty() && text[0] == '-';
-  if (minus || !boost::conversion::try_lexical_convert(text, value)) {
-    refuse(std::is_unsigned<T>::value ? kind + ", not below 0" : kind);
-  }
+  const std::string kind = std::is_integral<T>::value ? "a whole number" : "a number";
+  T value{};
+  require(boost::conversion::try_lexical_convert(text, value), kind);
+  // it takes a minus for an unsigned number, which is huge then
+  if (std::is_unsigned<T>::value) require(text[0] != '-', kind + ", not below 0");
   const double size = static_cast<double>(value);
-  if (range.least == kPositive.least && !(size > 0.0)) refuse("must be above 0");
-  if ((range.least > kAny.least || range.most < kAny.most) && !(size >= range.least && size <= range.most)) {
-    refuse("must be between " + text_of(range.least) + " and " + text_of(range.most));
+  if (range.least == kPositive.least) require(size > 0.0, "above 0");
+  if (range.least > kAny.least || range.most < kAny.most) {
+    require(size >= range.least && size <= range.most,
+            "between " + number_text(range.least) + " and " + number_text(range.most));
   }
   return value;
 }
-template <>
-std::string parse(const std::string&, const std::string& text, Within) {
-  return text;
+
+std::string with_default(const std::string& help, const std::string& value) {
+  return value.empty() ? help : help + " [default: " + value + "]";
 }
 
 }  // namespace
@@ -59,37 +52,25 @@ CommandLine::CommandLine(const std::string& tool, const std::string& description
 
 template <class T>
 void CommandLine::option(const std::string& name, T& value, const std::string& help, Within range) {
-  const auto take = [this, name, &value, range](const std::string& text) {
-    given_.insert(name);
-    value = parse<T>(name, text, range);
-  };
-  const std::string preset = text_of(value);
+  const auto take = [=, &value](const std::string& text) { value = parse<T>(name, text, range); };
   options_->add_options()(name.c_str(), po::value<std::string>()->value_name("VALUE")->notifier(take),
-                          (preset.empty() ? help : help + " [default: " + preset + "]").c_str());
+                          with_default(help, number_text(static_cast<double>(value))).c_str());
 }
-
-template <class T>
-void CommandLine::option(const std::string& name, std::vector<T>& values, const std::string& help, Within range) {
-  const auto take = [this, name, &values, range](const Texts& texts) {
-    given_.insert(name);
-    values.clear();
-    for (const std::string& text : texts) {
-      std::istringstream rest(text);
-      for (std::string part; std::getline(rest, part, ',');) values.push_back(parse<T>(name, part, range));
-    }
-  };
-  options_->add_options()(name.c_str(), po::value<Texts>()->multitoken()->value_name("VALUES")->notifier(take),
-                          help.c_str());
-}
-
 template void CommandLine::option(const std::string&, double&, const std::string&, Within);
 template void CommandLine::option(const std::string&, int&, const std::string&, Within);
 template void CommandLine::option(const std::string&, unsigned&, const std::string&, Within);
 template void CommandLine::option(const std::string&, std::int64_t&, const std::string&, Within);
 template void CommandLine::option(const std::string&, std::uint64_t&, const std::string&, Within);
-template void CommandLine::option(const std::string&, std::string&, const std::string&, Within);
-template void CommandLine::option(const std::string&, std::vector<double>&, const std::string&, Within);
-template void CommandLine::option(const std::string&, Texts&, const std::string&, Within);
+
+void CommandLine::option(const std::string& name, std::string& value, const std::string& help) {
+  options_->add_options()(name.c_str(), po::value(&value)->value_name("VALUE"), with_default(help, value).c_str());
+}
+
+void CommandLine::option(const std::string& name, Texts& values, const std::string& help) {
+  const auto take = [&values](const Texts& texts) { values = split_fields(boost::algorithm::join(texts, ",")); };
+  options_->add_options()(name.c_str(), po::value<Texts>()->multitoken()->value_name("VALUES")->notifier(take),
+                          help.c_str());
+}
 
 void CommandLine::flag(const std::string& name, bool& value, const std::string& help) {
   options_->add_options()(name.c_str(), po::bool_switch(&value), help.c_str());
@@ -111,12 +92,10 @@ bool CommandLine::read(int argc, char** argv) {
   using namespace po::command_line_style;
   const int style = allow_long | long_allow_adjacent | long_allow_next;
   const auto parsed = po::command_line_parser(argc, argv).options(*options_).style(style).run();
+  for (const po::option& option : parsed.options) given_.insert(option.string_key);
   const Texts rest = po::collect_unrecognized(parsed.options, po::include_positional);
-  if (arguments_ != nullptr) {
-    *arguments_ = rest;
-  } else if (!rest.empty()) {
-    throw std::invalid_argument(rest[0] + ": belongs to no option");
-  }
+  if (arguments_ == nullptr && !rest.empty()) throw std::invalid_argument(rest[0] + ": belongs to no option");
+  if (arguments_ != nullptr) *arguments_ = rest;
   po::variables_map found;
   po::store(parsed, found);
   po::notify(found);

@@ -31,13 +31,13 @@ class CommandLine {
   // --name VALUE: a number or a text. The value that it holds now is the default; the help shows it.
   template <class T>
   void option(const std::string& name, T& value, const std::string& help, Within range = kAny);
-  // --name VALUES: with spaces or commas between.
-  template <class T>
-  void option(const std::string& name, std::vector<T>& values, const std::string& help, Within range = kAny);
+  void option(const std::string& name, std::string& value, const std::string& help);
+  // --name VALUES: texts, with spaces or commas between.
+  void option(const std::string& name, std::vector<std::string>& values, const std::string& help);
   void flag(const std::string& name, bool& value, const std::string& help);
   // The value that stands without an option.
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);
-  // True if the option stands on the command line; false before run() has read it.
+  // True if the option or flag stands on the command line; false before run() has read it.
   bool is_given(const std::string& name) const { return given_.count(name) > 0; }
 
   // What the user should know of, on standard error; the work goes on.

@@ -51,6 +51,14 @@ std::vector<double> ranges_option(const std::string& name, const std::string& te
   return values_of(name, text, split_fields(text));
 }
 
+std::vector<double> ranges_option(const std::string& name, const std::vector<std::string>& texts) {
+  std::vector<double> values;
+  for (const std::string& text : texts) {
+    for (const double value : range_option(name, text)) values.push_back(value);
+  }
+  return values;
+}
+
 std::vector<PointOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
                                       const std::string& frequency_ratio) {
   std::vector<PointOptions> grid;

@@ -40,6 +40,8 @@ double& varied(PointOptions& options, const std::string& vary);
 // std::invalid_argument with name and text of the option, and the reason.
 std::vector<double> range_option(const std::string& name, const std::string& text);
 std::vector<double> ranges_option(const std::string& name, const std::string& text);
+// The same of an option with VALUES.
+std::vector<double> ranges_option(const std::string& name, const std::vector<std::string>& texts);
 
 // Every combination of four such options, drag velocities changing fastest; of the oscillator.
 std::vector<PointOptions> grid_option(const std::string& eta, const std::string& gamma, const std::string& cutoff,
