@@ -1,6 +1,8 @@
 """The test nodes expect, expect_sound and expect_repeats judge what they say, and refuse with a sentence what they
 cannot judge."""
+import runpy
 import subprocess
+import unittest
 from pathlib import Path
 from unittest import mock
 
@@ -17,24 +19,41 @@ NAME = '/expect_under_test'
 SPEED = 2.0 * SPEED_UNIT
 
 
+def find(kind):
+    return roslib.packages.find_node(PACKAGE, kind)[0]
+
+
+def set_parameters(node, parameters):
+    """Private ones, these and no others."""
+    if rospy.has_param(node):
+        rospy.delete_param(node)
+    rospy.set_param(node, parameters)
+
+
 class Expect(NodeTest):
-    def node(self, kind='expect', **parameters):
+    def node(self, kind='expect', name=NAME, **parameters):
         """Under way, as rostest starts it."""
-        if rospy.has_param(NAME):
-            rospy.delete_param(NAME)
-        rospy.set_param(NAME, parameters)
+        set_parameters(name, parameters)
         self.results = Path(self.temporary_directory())
-        return self.start(Process([roslib.packages.find_node(PACKAGE, kind)[0], '__name:=' + NAME[1:], '--text',
+        return self.start(Process([find(kind), '__name:=' + name[1:], '--text',
                                    '--gtest_output=xml:%s/results.xml' % self.results]))
 
     def end(self, node):
         return node.wait(60.0), node.output()
 
-    def assert_refused(self, sentence, kind='expect', **parameters):
-        """At once: there is no emulator that could be waited for."""
-        code, said = self.end(self.node(kind, timeout_s=1000.0, **parameters))
+    def assert_fails(self, node, sentence):
+        code, said = self.end(node)
         self.assertEqual(code, 1, said)
         self.assertRegex(said, 'AssertionError: .*' + sentence)
+
+    def assert_refused(self, sentence, kind='expect', **parameters):
+        """By the test case of the node, run here. There is no emulator: it must not get as far as to wait for one."""
+        set_parameters(rospy.get_name(), dict(parameters, timeout_s=0.1))
+        with mock.patch('afm_emulator.ending', create=True), mock.patch('afm_emulator.expectations.run') as run:
+            runpy.run_path(find(kind))
+        (_, case), _ = run.call_args
+        name, = unittest.defaultTestLoader.getTestCaseNames(case)
+        self.assertRaisesRegex(AssertionError, sentence, case(name).debug)
 
     def start_emulator(self):
         self.start(Emulator({'pace': 'lockstep', 'drag_velocity': SPEED}))
@@ -111,9 +130,12 @@ class Expect(NodeTest):
         self.assert_refused("least = 'x': must be a number", field='friction/eta', for_s=0.1, least='x')
 
     def test_unknown_parameters(self):
-        self.assert_refused('parameter witin is unknown', field='friction/eta', for_s=0.1, value=1.0, witin=1.0)
-        self.assert_refused('parameter keep_realtime is unknown', 'expect_sound', for_s=0.1, keep_realtime=False)
-        self.assert_refused('parameter arguments_ is unknown', 'expect_repeats', launch='x', arguments_='x')
+        """Each node ends at once: there is no emulator that could be waited for."""
+        nodes = [(self.node(kind, '/%s_under_test' % kind, timeout_s=1000.0, **{wrong: 1.0}), wrong)
+                 for kind, wrong in (('expect', 'witin'), ('expect_sound', 'keep_realtime'),
+                                     ('expect_repeats', 'arguments_'))]
+        for node, wrong in nodes:
+            self.assert_fails(node, 'parameter %s is unknown' % wrong)
 
     def test_fields_that_cannot_be_judged(self):
         for field, reason in (('impacts/impacts.energy_loss', 'topic must be one of'), ('status/model', 'a string'),
@@ -133,29 +155,38 @@ class Expect(NodeTest):
         self.assert_refused('parameter after_s = -1.0: must be finite and not negative', 'expect_sound', after_s=-1.0,
                             for_s=1.0)
 
+    def repeats(self, number, program):
+        """expect_repeats under way, with a program of the shell as the controller."""
+        script, launch = (Path(self.temporary_directory()) / name for name in ('script', 'closed_loop.launch'))
+        script.write_text('#!/bin/sh\n%s\n' % program)
+        script.chmod(0o755)
+        launch.write_text('''<launch>
+          <arg name="bag_directory"/>
+          <include file="$(find {0})/launch/test_fixture.launch">
+            <arg name="bag_directory" value="$(arg bag_directory)"/>
+          </include>
+          <node pkg="{0}" type="replay_check" name="controller" required="true" launch-prefix="{1}"/>
+        </launch>'''.format(PACKAGE, script))
+        return self.node('expect_repeats', '/repeats_%d' % number, launch=str(launch))
+
     def test_repeats_of_a_run_that_died_or_held_nothing_or_does_not_repeat(self):
+        """All at once: each run has a master of its own."""
+        advance = '{drag_velocity: 5.$(date +%N)e-06, rest_height: .nan, duration: 0.01}'
+        runs = (('false', 'a node has died'), ('kill -SEGV $$', 'a node has died'), ('true', 'has recorded no batch'),
+                ('rosservice call --wait /afm/control "%s"' % advance,
+                 'of the runs differs: /afm/applied: drag_velocity: 5'))
+        nodes = [self.repeats(number, program) for number, (program, _) in enumerate(runs)]
+        for node, (_, sentence) in zip(nodes, runs):
+            self.assert_fails(node, sentence)
+
+    def test_arguments_that_the_launch_file_does_not_have(self):
         launch = Path(self.temporary_directory()) / 'closed_loop.launch'
-        emulator = '<include file="$(find %s)/launch/test_fixture.launch">%s</include>' % (
-            PACKAGE, '<arg name="bag_directory" value="$(arg bag_directory)"/>')
-        control = 'rosservice call /afm/control "{drag_velocity: 5.$(date +%N)e-06, rest_height: .nan, duration: 0.01}"'
-        for program, sentence in (('false', 'a node has died'), ('kill -SEGV $$', 'a node has died'),
-                                  ('true', 'has recorded no batch'),
-                                  (control, 'of the runs differs: /afm/applied: drag_velocity: 5')):
-            script = launch.parent / 'script'
-            script.write_text('#!/bin/sh\nsleep 1\n%s\n' % program)
-            script.chmod(0o755)
-            node = '<node pkg="%s" type="replay_check" name="controller" required="true" launch-prefix="%s"/>' % (
-                PACKAGE, script)
-            launch.write_text('<launch><arg name="bag_directory"/>%s%s</launch>' % (emulator, node))
-            code, said = self.end(self.node('expect_repeats', launch=str(launch)))
-            self.assertEqual(code, 1, said)
-            self.assertRegex(said, 'AssertionError: .*' + sentence)
+        launch.write_text('<launch><arg name="bag_directory"/></launch>')
         self.assert_refused('arguments = bags:=x: unknown to .*, which has bag_directory', 'expect_repeats',
                             launch=str(launch), arguments='bags:=x')
 
     def test_help_may_be_cut_short(self):
-        for kind in ('expect', 'expect_sound', 'expect_repeats'):
-            node = roslib.packages.find_node(PACKAGE, kind)[0]
-            done = subprocess.run('"%s" --help | true' % node, shell=True, stderr=subprocess.PIPE,
-                                  universal_newlines=True, timeout=60 * PATIENCE)
-            self.assertEqual(done.stderr, '')
+        said = [subprocess.Popen('"%s" --help | true' % find(kind), shell=True, stderr=subprocess.PIPE,
+                                 universal_newlines=True) for kind in ('expect', 'expect_sound', 'expect_repeats')]
+        for done in said:
+            self.assertEqual(done.communicate(timeout=60 * PATIENCE)[1], '')
