@@ -97,8 +97,10 @@ class Reported:
         """Of the last 8 tau and in the picture, as (place in it, event)."""
         middle, seen = self.middle(time), []
         for event in self.events:
+            if not 0 <= tau_between(event.time, time) <= 8:
+                continue
             cells = round(self.centre(event.time) - event.surface_phase)  # the extension is far below half a cell
             x = cells + event.surface_phase - middle
-            if abs(x) <= CELLS / 2 and 0 <= tau_between(event.time, time) <= 8:
+            if abs(x) <= CELLS / 2:
                 seen.append((x, event))
         return seen

@@ -105,8 +105,14 @@ class Topic:
             _news.notify_all()
 
     def wait_for(self, wanted=lambda message: True, what='a message', begin=0, deadline_s=DEADLINE_S):
-        """The first message from the `begin`-th on that is wanted."""
-        return self._wait_until(lambda: next((m for m in self.messages[begin:] if wanted(m)), None), what, deadline_s)
+        """The first message from the `begin`-th on that is wanted. Each is judged once, when it has come."""
+        unseen = begin
+
+        def found():
+            nonlocal unseen
+            begin, unseen = unseen, len(self.messages)
+            return next((m for m in self.messages[begin:unseen] if wanted(m)), None)
+        return self._wait_until(found, what, deadline_s)
 
     def wait_for_next(self, wanted=lambda message: True, what='a message'):
         return self.wait_for(wanted, what, begin=len(self.messages))
