@@ -43,6 +43,10 @@ class Tables:
                 if pattern not in self.used]
 
 
+def blocks_of_commands(path):
+    return path.read_text().count('```bash')
+
+
 def main(root, build, prefix):
     root, build, prefix = (Path(path).resolve() for path in (root, build, prefix))
     if not (prefix / 'lib/afm_emulator/friction_curve').exists():
@@ -52,8 +56,9 @@ def main(root, build, prefix):
         print('%s is not where scripts/build builds: its commands would build once more' % prefix)
         return SKIPPED
     reader = Reader(root, build, prefix, Tables())
+    documents = sorted([root / 'README.md', *(root / 'docs').glob('*.md')], key=blocks_of_commands, reverse=True)
     with ThreadPoolExecutor(DOCUMENTS_AT_A_TIME) as pool:
-        list(pool.map(reader.read, [root / 'README.md'] + sorted((root / 'docs').glob('*.md'))))
+        list(pool.map(reader.read, documents))  # the longest first: at the end none goes on alone
     faults = reader.faults + reader.tables.unused()
     print('%d faults' % len(faults))  # first, as what follows is long
     for fault in faults:
