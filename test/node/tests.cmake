@@ -4,19 +4,15 @@
 set(node_tests
   "client"
   "steering reset_pause_step"
-  "ending shutdown"
-  "examples"
+  "ending shutdown examples"
   "expect"
-  "faults"
-  "lever"
+  "faults replay"
   "load"
   "lockstep levels diagnostics"
   "panel"
-  "recording full_disk"
-  "repeats"
-  "replay"
+  "recording full_disk repeats"
   "scenes"
-  "shipped_files bad_parameters loopback"
+  "shipped_files bad_parameters loopback lever"
   "spoiled_bags bag_to_csv"
   "view interface")
 set(needed afm_emulator_node afm_view_node afm_examples_ros afm_replay_check afm_bag_to_csv)
