@@ -23,9 +23,10 @@ endif()
 foreach(suite IN LISTS node_tests)
   string(REGEX MATCH "^[a-z_]+" name ${suite})
   configure_file(node/suite.test.in node/${name}.test @ONLY)
+  get_property(before DIRECTORY PROPERTY TESTS)
   add_rostest(${CMAKE_CURRENT_BINARY_DIR}/node/${name}.test DEPENDENCIES ${needed})
-  get_property(tests DIRECTORY PROPERTY TESTS)
-  list(GET tests -1 test)  # the one just added: its name depends on where the build directory is
+  get_property(test DIRECTORY PROPERTY TESTS)  # sorted; the name of the new one depends on where the build directory is
+  list(REMOVE_ITEM test ${before})
   set_tests_properties(${test} PROPERTIES TIMEOUT 180)
   if(name STREQUAL load)  # keeps every core busy: what ran beside it would starve
     set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
