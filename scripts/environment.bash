@@ -26,10 +26,12 @@ print_help() {
   awk 'NR > 1 && !/^#/ { exit } NR > 1 { sub(/^# ?/, ""); print }' "$0"
 }
 
-# from here on, unless the user has said otherwise: roscpp binds every node's slave API to all interfaces
+# from here on, unless the user has said otherwise: roscpp binds every node's slave API to all interfaces. By its name
+# alone: LD_PRELOAD ends a path at a space
 listen_on_loopback_only() {
   if [[ -z ${ROS_IP:-} && $ROS_HOSTNAME == localhost ]]; then
-    export LD_PRELOAD=$afm_devel/lib/libafm_loopback.so${LD_PRELOAD:+:$LD_PRELOAD}
+    export LD_PRELOAD=libafm_loopback.so${LD_PRELOAD:+:$LD_PRELOAD}
+    export LD_LIBRARY_PATH=$afm_devel/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
   fi
 }
 

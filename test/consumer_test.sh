@@ -14,7 +14,9 @@ mkdir "$work/expected"
 
 [[ $# -eq $(find "$examples" -name '*.cpp' | wc -l) ]] || { echo "not every example is tested"; exit 1; }
 cp -r "$examples" "$work/source"
-cmake --install "$build" --prefix "$work/prefix" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+# as a workspace without a build type installs it
+cmake -DCMAKE_INSTALL_CONFIG_NAME= -DCMAKE_INSTALL_PREFIX="$work/prefix" -P "$build/cmake_install.cmake" >"$work/log" \
+  2>&1 || { cat "$work/log"; exit 1; }
 if grep -v "^$work/prefix/" "$build/install_manifest.txt"; then
   echo "these were installed outside the prefix"
   exit 1
@@ -85,6 +87,10 @@ END
   build_in neighbour "$work/package" "$devel" one_tip
   compare neighbour one_tip
 fi
+# an installed tool knows the levers beside it, not those of the sources
+cp "$work/prefix/share/afm_emulator/config/levers/"{ppp_cont,mine}.yaml
+"$(find "$work/prefix" -name friction_curve -type f)" --si --lever nobody >"$work/log" 2>&1 || true
+grep -q " mine" "$work/log" || { cat "$work/log"; exit 1; }
 # the module of Python is installed too, where it was built
 if [[ -d $work/prefix/lib/python3/dist-packages/afm ]]; then
   PYTHONPATH=$work/prefix/lib/python3/dist-packages /usr/bin/python3 -c "

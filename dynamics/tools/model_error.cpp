@@ -15,6 +15,7 @@
 #include "afm/dynamics/sweep.h"
 #include "afm/units.h"
 #include "common/csv.h"
+#include "common/lever_options.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "level_errors.h"
@@ -114,7 +115,7 @@ void compare(const Options& o, const Point& point, int start) {
 
 // Parameters of the emulator by their names: those of a scene, and where it is silent those of config/emulator.yaml.
 YAML::Node parameters_of(const std::string& scene) {
-  const std::string folder = AFM_CONFIG;
+  const std::string folder = afm::config_folder().string();
   const bool is_name = scene.find('/') == std::string::npos;
   YAML::Node all = YAML::LoadFile(folder + "/emulator.yaml");
   for (const auto& entry : YAML::LoadFile(is_name ? folder + "/scenes/" + scene + ".yaml" : scene)) {

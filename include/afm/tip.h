@@ -82,12 +82,13 @@ class Tip {
   double stored_energy() const { return account().energy; }  // in springs and motion, in the lab [m a^2/tau^2]
 
   // A new drag velocity from now() on. It splits the flight, chatter sequence or contact under way. Setting the current
-  // drag velocity again has no effect.
+  // drag velocity again has no effect. A hammer in contact has the new velocity from the next advance on.
   void drag(double eta);
 
-  // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay. Lifting the holder
-  // does work on the spring. A chatter sequence ends at once, a part of a bounce early. Contact goes on if the surface
-  // still presses. Precondition: a model without faults that differs in gamma, v_c and y0 at most.
+  // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay, in a chatter
+  // sequence to the contact tolerance, as it ends at once, a part of a bounce early. Lifting the holder does work on the
+  // spring. Contact goes on if the surface still presses. Precondition: a model without faults that differs in gamma,
+  // v_c and y0 at most.
   void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change

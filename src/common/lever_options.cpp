@@ -19,13 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTwice[][2] = {{"lever", "frequency-ratio"}, {"surface", "amplitude"}, {"load", "rest-height"}};
 
-// Of an installed tool beside it, else in the sources.
-fs::path config() {
-  const fs::path installed =
-      fs::read_symlink("/proc/self/exe").parent_path().parent_path().parent_path() / "share/afm_emulator/config";
-  return fs::exists(installed) ? installed : fs::path(AFM_CONFIG);
-}
-
 std::string names_in(const fs::path& folder) {
   std::string names;
   for (const auto& entry : fs::directory_iterator(folder)) names += " " + entry.path().stem().string();
@@ -34,7 +27,7 @@ std::string names_in(const fs::path& folder) {
 
 // option: lever or surface; name: of one that is shipped, or a path that ends in .yaml.
 fs::path path_of(const std::string& option, const std::string& name) {
-  const fs::path folder = config() / (option + "s");
+  const fs::path folder = config_folder() / (option + "s");
   const fs::path path = fs::path(name).extension() == ".yaml" ? fs::path(name) : folder / (name + ".yaml");
   if (!fs::exists(path)) throw std::invalid_argument("there is no such file, nor one of" + names_in(folder));
   if (fs::is_directory(path)) throw std::invalid_argument("it is a folder, not a file");
@@ -116,6 +109,14 @@ std::string fault_of(const Read& read_file) try {
 }
 
 }  // namespace
+
+fs::path config_folder() {
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();  // PREFIX/bin, or PREFIX/lib/afm_emulator
+  for (const fs::path& prefix : {folder.parent_path(), folder.parent_path().parent_path()}) {
+    if (fs::exists(prefix / "share/afm_emulator/config")) return prefix / "share/afm_emulator/config";
+  }
+  return AFM_CONFIG;
+}
 
 std::string find_lever_file_fault(const std::string& path) {
   Lever lever;

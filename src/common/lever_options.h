@@ -2,6 +2,7 @@
 // too, or files of one's own.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct LeverOptions {
 
   bool are_given() const { return !lever.empty() || !surface.empty() || load_n != 0.0; }
 };
+
+// The scenes, levers and surfaces that are known by name: of an installed tool those beside it, else the sources'.
+std::filesystem::path config_folder();
 
 // What is wrong with the file of a lever or of a surface, or nothing.
 std::string find_lever_file_fault(const std::string& path);

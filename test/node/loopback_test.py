@@ -30,11 +30,14 @@ def addresses_by_process(marker):
 
 class Loopback(NodeTest):
     def test_run_listens_on_loopback_only(self):
+        """In a path with a space too."""
         package = Path(roslib.packages.get_pkg_dir(PACKAGE))
         devel = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[2]
         environment = {name: value for name, value in os.environ.items() if name not in ('ROS_IP', 'ROS_HOSTNAME')}
         master = 'http://localhost:%d' % free_port()
-        environment.update(AFM_BUILD_DIR=str(devel.parent), ROS_MASTER_URI=master)
+        spaced = Path(self.temporary_directory()) / 'a b'
+        spaced.symlink_to(devel.parent)
+        environment.update(AFM_BUILD_DIR=str(spaced), ROS_MASTER_URI=master)
         command = ('source "$0/scripts/environment.bash"; listen_on_loopback_only; '
                    'exec roslaunch afm_emulator emulator.launch')
         launch = self.start(Process(['bash', '-c', command, str(package)], env=environment, start_new_session=True))
