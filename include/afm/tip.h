@@ -86,9 +86,9 @@ class Tip {
   void drag(double eta);
 
   // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay, in a chatter
-  // sequence to the contact tolerance, as it ends at once, a part of a bounce early. Lifting the holder does work on the
-  // spring. Contact goes on if the surface still presses. Precondition: a model without faults that differs in gamma,
-  // v_c and y0 at most.
+  // sequence to the contact tolerance, as it ends at once, a part of a bounce early. Lifting the holder does work on
+  // the spring. Contact goes on if the surface still presses. Precondition: a model without faults that differs in
+  // gamma, v_c and y0 at most.
   void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change
