@@ -51,7 +51,10 @@ int run(int argc, char** argv) {
     ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", cells);
     return 1;
   }
-  ros::NodeHandle emulator(handle.param<std::string>("emulator", "afm"));
+  const auto name = handle.param<std::string>("emulator", "afm");
+  std::string fault;
+  if (!ros::names::validate(name, fault)) throw ros::InvalidNameException(fault);  // a handle would leak memory
+  ros::NodeHandle emulator(name);
   const auto publisher = handle.advertise<visualization_msgs::MarkerArray>("markers", 2);
   std::optional<Looking> looking;  // while somebody looks: otherwise nothing is listened to, and nothing is kept
   const auto draw = [&](const ros::WallTimerEvent&) {
