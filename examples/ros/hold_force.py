@@ -34,5 +34,5 @@ def main():
 if __name__ == '__main__':
     try:
         main()
-    except rospy.ROSInterruptException:
+    except rospy.ROSException:  # the node is shut down, and its topics are closed
         pass
