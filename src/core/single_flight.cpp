@@ -64,7 +64,6 @@ TipState start_of(const FlightInput& input) {
 // A search that fails on a long flight is restarted from where it is certified free of impacts.
 Landing<double> land(const Model& model, double eta, TipState start) {
   constexpr int kAttempts = 100;
-  constexpr double kNoFlight = 1e-14;  // [tau] a search that ends so early, and not with a fall, could not decide
   const SpringConstants<double> springs(model);
   double flown = 0.0;
   for (int attempt = 0; attempt < kAttempts && flown < kLongestFlight; ++attempt) {
@@ -73,7 +72,7 @@ Landing<double> land(const Model& model, double eta, TipState start) {
     const double s = landing.s;
     landing.s = flown += s;
     if (landing.outcome == SearchOutcome::impact) {
-      if (landing.jet.g1 < 0.0 || flown > kNoFlight) return landing;
+      if (landing.jet.g1 < 0.0 || !(flown < kEarlyLanding)) return landing;  // else double-double could not decide
       throw std::runtime_error("the tip rests on the surface, to within rounding");
     }
     start = flight.tip_state(s);

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "common/point_options.h"
+
 namespace afm {
 namespace {
 
@@ -79,6 +81,14 @@ TEST(CommandLine, RefusesWithNameValueAndReason) {
   expect_refused({"--starts", "2.5"}, "--starts = 2.5: must be a whole number");
   expect_refused({"--starts", "11"}, "--starts = 11: must be between 1 and 10");
   expect_refused({"--seed", "-1"}, "--seed = -1: must be a whole number, not below 0");
+}
+
+// Numbers in a list, of which the command line knows the texts alone.
+TEST(CommandLine, RangesAreRefusedWithNameValueAndReason) {
+  const std::vector<std::string> texts{"0.1", "x"};
+  const Answer answer = run({}, [&] { return static_cast<int>(ranges_option("cutoff", texts).size()); });
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.err, "tool: cutoff = x: 'x' is not a number\n");
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {

@@ -16,9 +16,6 @@ constexpr double kMinProgress = 0.1;
 // only its fourth derivative, below 1e4 a/tau^4, so that each step is at least 1e-5 tau.
 constexpr double kNoGap = 1e-17;
 
-// [tau] A root so early may be one of the rounding of the gap's acceleration, 1e-15 a/tau^2 and more.
-constexpr double kEarly = 1e-14;
-
 SearchOutcome without_end(const Landing<double>& landing) {
   if (!(landing.jet.g > kNoGap)) return SearchOutcome::impact;
   return landing.s >= kMinProgress ? SearchOutcome::clear : SearchOutcome::cap;
@@ -28,7 +25,7 @@ SearchOutcome without_end(const Landing<double>& landing) {
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_impact(flight, horizon);
-  const bool early = landing.outcome == SearchOutcome::impact && landing.s < kEarly && flight.start().g1 > 0.0;
+  const bool early = landing.outcome == SearchOutcome::impact && landing.s < kEarlyLanding && flight.start().g1 > 0.0;
   if (early || landing.outcome == SearchOutcome::undecided) {
     landing = find_finer_landing(model, flight, horizon, early ? 0.0 : landing.s);
   }

@@ -222,7 +222,6 @@ TEST(HardStart, OnTheGlideALaunchHoweverSlowLandsHalfATurnLater) {
   }
 }
 
-// It would land a quarter of a turn later. Until then the gap has only its fourth derivative, so the steps are short.
 // On a crest, at this speed, the gap's acceleration is zero and its third derivative is not. Once rounding made a root,
 // before the start even.
 TEST(HardStart, ALaunchInBalanceFliesHoweverSlowItIs) {
@@ -237,6 +236,7 @@ TEST(HardStart, ALaunchInBalanceFliesHoweverSlowItIs) {
   }
 }
 
+// It would land a quarter of a turn later. Until then the gap has only its fourth derivative, so the steps are short.
 TEST(HardStart, OnTheGlideAGapHoweverSmallExhaustsNoSearch) {
   Model model;
   model.kind = ModelKind::hammer;
