@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """Which way the arrows point: reads every include and fails on one that the plan of the tree forbids. The core and its
-tests include nothing of ROS; the compiler would not notice, as some systems keep ROS headers where it always looks.
+tests include nothing of ROS; the compiler would not notice, as some systems keep ROS headers where it always looks. Nor
+does the core call a function of the math library that another version of it rounds otherwise: bits would depend on the
+system.
 
 Usage: arrows_test.py ROOT [--list]     --list prints all arrows between rooms, with how many includes each stands for
 """
@@ -32,6 +34,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 OF_ROS = re.compile(r'^\s*#\s*include\s*[<"]((?:ros|rosbag|std_msgs|std_srvs|diagnostic_\w+|dynamic_reconfigure)/|'
                     r'afm_emulator/[A-Z])', re.M)
 WITHOUT_ROS = ('include/afm/', 'src/core/', 'dynamics/', 'test/core/', 'test/support/')
+OF_CORE = ('include/afm/', 'src/core/')
+INEXACT = re.compile(r'\bstd::(hypot|cbrt|pow|exp\w*|log\w*|a?(?:sin|cos|tan)h?|atan2|erfc?|[tl]gamma)\(')
 INSTALLED = ('include/afm/', 'dynamics/include/afm/')
 
 
@@ -80,6 +84,13 @@ def uses_of_ros(root):
     return [path.as_posix() for path, text in sources(root) if OF_ROS.search(text)]
 
 
+def inexact_functions(root):
+    for path, text in sources(root):
+        if path.as_posix().startswith(OF_CORE):
+            for name in INEXACT.findall(text):
+                yield '%s calls std::%s, of which other systems have other bits' % (path, name)
+
+
 def main(root, listing=False):
     root, faults, seen = Path(root), [], Counter()
     for path, to, a, b in arrows(root):
@@ -92,6 +103,7 @@ def main(root, listing=False):
         for (a, b), n in sorted(seen.items(), key=str):
             print('%-10s -> %-10s %4d' % (a, b, n))
     faults += faults_of_installed(root)
+    faults += inexact_functions(root)
     of_ros = uses_of_ros(root)
     faults += ['%s includes ROS' % path for path in of_ros if path.startswith(WITHOUT_ROS)]
     assert len(seen) > 10 and len(of_ros) > 10, 'hardly any include was found in %s' % root

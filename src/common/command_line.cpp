@@ -4,6 +4,7 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
+#include <cstdint>
 #include <iostream>
 #include <stdexcept>
 #include <type_traits>

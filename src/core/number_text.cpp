@@ -34,8 +34,9 @@ std::string number_text(double value) {
   int digits = 1;
   while (digits < kEnough && !reads_as(rounded_text(value, digits), value)) ++digits;
   const double size = std::abs(value);
-  if (size >= 1.0 && size < kMostInDecimals) digits = std::max(digits, 1 + static_cast<int>(std::log10(size)));
-  return rounded_text(value, digits);
+  int before_point = 0;
+  for (double power = 1.0; size >= power && size < kMostInDecimals; power *= 10.0) ++before_point;
+  return rounded_text(value, std::max(digits, before_point));
 }
 
 }  // namespace afm
