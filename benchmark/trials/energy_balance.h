@@ -63,7 +63,7 @@ class EnergyBalance {
     const double moved = std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
     const double stored = std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
     double rounding = kOfPlaces + (kRounding + slope_rounding(tip.model(), stored)) * stored;
-    if (segment.kind == SegmentKind::contact) rounding += rest_error(tip);
+    if (segment.kind == SegmentKind::contact) rounding += rest_error(tip, segment.eta);
     const double excess = std::abs(segment.imbalance()) - rounding;
     const double turned = moved + std::abs(segment.stored) + 0.5 * segment.eta * segment.eta;
     if (excess > 0.0) worst_segment_ = std::max(worst_segment_, excess / turned);
@@ -83,10 +83,10 @@ class EnergyBalance {
 
   // A tip that slides more slowly than a swing of ten tolerances of a step is at rest as far as the step can tell.
   // Where the drag is as slow, nothing takes an error of its energy (docs/algorithm.md, "Contact").
-  static double rest_error(const Tip& tip) {
+  static double rest_error(const Tip& tip, double eta) {
     constexpr double kTenSteps = 2e-3;  // the tolerance of a step is a 5000th of the contact tolerance
     const double swing = kTwoPi * tip.model().frequency_ratio * kTenSteps * tip.contact_tolerance();
-    return std::max(std::abs(tip.tip_state().u), std::abs(tip.eta())) < swing ? swing * swing : 0.0;
+    return std::max(std::abs(tip.tip_state().u), std::abs(eta)) < swing ? swing * swing : 0.0;
   }
 
   double stored_;  // by the records

@@ -11,7 +11,7 @@ using afm::fuzz::Bytes;
 using afm::fuzz::require;
 using Value = XmlRpc::XmlRpcValue;
 
-// All that there are, and one that only diagnostic_updater reads. The inputs that are kept mean them by their order.
+// All that there are, and one that there is not. The inputs that are kept mean them by their order.
 const std::vector<std::string>& names() {
   static const auto all = [] {
     std::vector<std::string> found;
