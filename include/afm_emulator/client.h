@@ -132,7 +132,7 @@ class Client {
   Applied command_and_wait(Command drag_velocity = kAsItIs, Command rest_height = kAsItIs) {
     check_finite("drag_velocity", drag_velocity);
     check_finite("rest_height", rest_height);
-    queue_.callAvailable();  // what came until here is older than the command
+    catch_up();  // what came until here is older than the command
     if (!drag_velocity && !rest_height) return *applied_;
     const double most = configuration_->max_drag_velocity;
     if (drag_velocity && std::abs(*drag_velocity) > most) {  // in real time nothing would come back
@@ -330,11 +330,13 @@ class Client {
     return mine;
   }
 
-  // What comes beside Deflection, on a connection of its own: that of a batch may come before it.
-  template <class Message>
-  void begin_with(std::deque<Message>& beside, const std::string& topic) {
-    while (beside.size() > kKeptBatches) beside.pop_front();
-    wait_for([&] { return !beside.empty(); }, name_ + topic + kPaused);  // of a new connection, after a restart
+  // What came while nobody measured is of the past. But what comes beside Deflection has a connection of its own: that
+  // of a batch may come before it.
+  void catch_up() {
+    queue_.callAvailable();
+    batches_.clear();
+    while (impacts_.size() > kKeptBatches) impacts_.pop_front();
+    while (frictions_.size() > kKeptBatches) frictions_.pop_front();
   }
   template <class Message>
   void complete(const std::deque<Message>& beside, const std::string& topic, Measurement& measurement,
@@ -349,10 +351,10 @@ class Client {
 
   // As the emulator measures in lockstep, from the batches that it publishes.
   Control::Response measure(const Applied& since, double duration) {
-    queue_.callAvailable();  // what came while nobody measured is of the past
-    batches_.clear();
-    begin_with(impacts_, "/impacts");
-    begin_with(frictions_, "/friction");
+    catch_up();
+    // after a restart: of a new connection
+    wait_for([&] { return !impacts_.empty(); }, name_ + "/impacts" + kPaused);
+    wait_for([&] { return !frictions_.empty(); }, name_ + "/friction" + kPaused);
     Measurement measurement(since);
     std::uint64_t expected = 0;  // running index of the next sample; 0: not known
     while (measurement.seconds() < duration * (1.0 - kRounding)) {

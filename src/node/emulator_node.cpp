@@ -278,10 +278,11 @@ class EmulatorNode {
 
   // All that was emulated until now belongs to it.
   bool on_stop_recording(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    ask(Kind::flush);
+    const std::string late = ask(Kind::flush);
     const Recorder::Reply reply = recorder_.stop();
-    response.success = reply.success;
-    response.message = reply.message;
+    const std::string lacking = reply.success && !late.empty() ? "; what was emulated last is missing: " + late : "";
+    response.success = reply.success && late.empty();
+    response.message = reply.message + lacking;
     return true;
   }
 

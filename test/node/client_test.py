@@ -2,6 +2,7 @@
 one works again."""
 import math
 import queue
+import re
 import signal
 import subprocess
 import threading
@@ -70,6 +71,19 @@ class Claims:
     def numbers(self, answer):
         self.assertNotIn('EmulatorError', answer)
         return [float(word) for word in answer.split()]
+
+    def test_commands_alone_keep_no_batches(self):
+        """Of which 16 MB come in a second."""
+        tip = self.start_both('real_time', sample_rate_hz=1e6)
+
+        def asked_mb_after(seconds):
+            end = time.monotonic() + seconds
+            while time.monotonic() < end:
+                tip.call('command_and_wait 1e-6')
+            status = Path('/proc/%d/status' % tip.child.pid).read_text()
+            return int(re.search(r'VmData:\s+(\d+)', status).group(1)) / 1024.0
+        begin = asked_mb_after(1.0)
+        self.assertLess(asked_mb_after(3.0), begin + 10.0)
 
     def test_faulty_arguments_are_named_at_every_pace(self):
         for pace in ('lockstep', 'real_time'):

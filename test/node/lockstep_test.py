@@ -162,6 +162,20 @@ class Waiting(NodeTest):
                          [(2.0 + 0.01 * i) * SPEED_UNIT for i in range(1, 20)])
         emulator.assert_alive()
 
+    def test_a_pause_is_not_part_of_the_wait(self):
+        wait_s = 1.0
+        emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': wait_s}))
+        friction = Topic('friction')
+        friction.wait_for_connection()
+        emulator.call('pause', SetBool, data=True)
+        end = time.monotonic() + wait_s
+        wait_until(lambda: time.monotonic() > end, 'a pause as long as the wait')
+        begin = time.monotonic()
+        emulator.call('pause', SetBool, data=False)
+        friction.wait_for_more(1)
+        self.assertGreater(time.monotonic(), begin + wait_s)
+        emulator.assert_alive()
+
     def test_but_not_for_ever(self):
         emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 0.05}))
         Topic('friction').wait_for_more(5)

@@ -272,7 +272,7 @@ class Coming(NodeTest):
         bag, = self.end(emulator)
         panel = Panel()
         self.addCleanup(panel.close)
-        self.start(Process(['rosbag', 'play', '--quiet', '--loop', bag]))
+        self.start(Process([roslib.packages.find_node('rosbag', 'play')[0], '--quiet', '--loop', bag]))
         banner = panel.part('banner')
         until(lambda: banner.isVisible() and 'recording' in banner.text(), 'it knows a recording')
         until(lambda: 'η = 3.400' in panel.window.readouts['eta'].text(), 'its drag speed')

@@ -7,6 +7,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <pthread.h>
+#include <semaphore.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -52,6 +53,13 @@ void restrict_system_calls() {
   if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) _exit(77);
 }
 
+// Where the running thread waits.
+void restrict_if_asked() {
+  if (!t_watched || !g_restrict || t_restricted) return;
+  t_restricted = true;
+  restrict_system_calls();
+}
+
 }  // namespace
 
 // These stand before the C library's for the whole program, and for its libraries: operator new comes through here too.
@@ -87,11 +95,13 @@ int pthread_setname_np(pthread_t thread, const char* name) {
 }
 int clock_nanosleep(clockid_t clock, int flags, const timespec* until, timespec* rest) {
   static const auto sleep = real<int (*)(clockid_t, int, const timespec*, timespec*)>("clock_nanosleep");
-  if (t_watched && g_restrict && !t_restricted) {
-    t_restricted = true;
-    restrict_system_calls();
-  }
+  restrict_if_asked();
   return sleep(clock, flags, until, rest);
+}
+int sem_clockwait(sem_t* semaphore, clockid_t clock, const timespec* until) {
+  static const auto wait = real<int (*)(sem_t*, clockid_t, const timespec*)>("sem_clockwait");
+  restrict_if_asked();
+  return wait(semaphore, clock, until);
 }
 }
 
@@ -101,14 +111,15 @@ namespace {
 using Kind = Request::Kind;
 
 std::vector<Parameters> runs() {
-  Parameters cold, every_bounce, hammer, warm;
+  Parameters cold, every_bounce, hammer, warm, lockstep;
   cold.commands_eta = {3.4, 0.0, 1.0, -3.4, 2.0, 3.0, 1e-4, 0.34, -30.0, 5.0};  // a scene's
   cold.commands_hold_s = 0.01;
   every_bounce.si.cutoff_speed = 0.0;
   hammer.model = "hammer";
   warm.bath.temperature_k = 300.0;
   warm.bath.quality_factor = 100.0;
-  std::vector<Parameters> all{cold, every_bounce, hammer, warm};
+  lockstep.pace = kLockstep;
+  std::vector<Parameters> all{cold, every_bounce, hammer, warm, lockstep};
   for (Parameters& p : all) p.batch_rate_hz = 1000.0;
   return all;
 }
@@ -129,7 +140,7 @@ class Reader {
     live.bath.temperature_k = 77.0;
     std::vector<Request> requests;
     for (const Kind kind : {Kind::command, Kind::command, Kind::change, Kind::snapshot, Kind::pause, Kind::step,
-                            Kind::step, Kind::resume, Kind::reset, Kind::flush}) {
+                            Kind::step, Kind::resume, Kind::reset, Kind::flush, Kind::control}) {
       requests.emplace_back(kind);
     }
     requests[0].drag_velocity = -2.0 * Units(p_.si).velocity();
@@ -137,8 +148,12 @@ class Reader {
     requests[2].live = live;
     requests[5].tau = 20.0;
     requests[6].impacts = 10;
+    requests[10].cause = "drag_velocity";
+    requests[10].drag_velocity = 3.4 * Units(p_.si).velocity();
+    requests[10].tau = 500.0;  // in real time it is refused
     for (int round = 0; round < 3; ++round) {
-      for (const Request& request : requests) {
+      for (Request& request : requests) {
+        request.reply = std::make_shared<std::promise<Answer>>();
         runner_.submit(request);
         read_for(10);
       }

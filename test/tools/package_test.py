@@ -18,7 +18,7 @@ IMPORT = r'^\s*(?:import|from) (\w+)'
 # where packages are used, by what pattern they are found, and how they are declared, if not by <depend>
 USES = ((('src', 'include', 'examples/ros'), ('.h', '.cpp'), r'(?:^#include <(?=\w+/)|\b(?=\w+_msgs::))(\w+)',
          ('build_depend',)),
-        (('scripts', 'examples/ros'), ('', '.py'), IMPORT, ('exec_depend',)),
+        (('scripts', 'examples/ros', 'python/client'), ('', '.py'), IMPORT, ('exec_depend',)),
         (('test',), ('.py',), IMPORT, ('exec_depend', 'test_depend')))
 
 

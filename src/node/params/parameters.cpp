@@ -17,9 +17,6 @@
 namespace afm::node {
 namespace {
 
-// diagnostic_updater reads these in our namespace
-constexpr const char* kForeignNames[] = {"diagnostic_period", "diagnostic_updater_use_fqn"};
-
 using Value = XmlRpc::XmlRpcValue;
 
 std::string text_of(Value& value) {
@@ -134,7 +131,7 @@ void check_files(const Parameters& p, Faults& faults) {
 Parameters read_parameters(Value tree, Faults& faults) {
   Parameters parameters;
   const bool has_values = tree.getType() == Value::TypeStruct;
-  std::set<std::string> known(std::begin(kForeignNames), std::end(kForeignNames));
+  std::set<std::string> known;
   std::string names;
   for_each_parameter(parameters, [&](const char* name, auto& value) {
     known.insert(name);

@@ -22,14 +22,12 @@ constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
 constexpr std::size_t kMostHeld = 100;  // messages: a batch has three, and ten seconds of a pause have as many as this
 
-// The fault of a name that a user asks for, or nothing. A good one stays in its directory, and cannot be taken
-// for another kind of file.
+// The fault of a name that a user asks for, or nothing. A good one stays in its directory.
 std::string find_name_fault(const std::string& name) {
   constexpr std::size_t kMaxLength = 200;  // file systems take 255 bytes, and endings are added
-  static const std::regex good("[A-Za-z0-9]([A-Za-z0-9_.+-]*[A-Za-z0-9])?"), active(".*\\.active");
+  static const std::regex good("[A-Za-z0-9]([A-Za-z0-9_.+-]*[A-Za-z0-9])?");
   if (name.find('/') != std::string::npos) return "must not contain a path: bags are written to bag_directory";
   if (name.size() > kMaxLength) return "must have at most " + std::to_string(kMaxLength) + " characters";
-  if (std::regex_match(name, active)) return "must not end with .active: such a bag is being written";
   if (std::regex_match(name, good)) return {};
   return "must be of letters, digits and _ . + - only, and begin and end with a letter or digit";
 }
@@ -236,13 +234,13 @@ bool Recorder::is_full(const ros::Time& stamp) const {
 void Recorder::begin_next_bag() {
   auto next = std::make_unique<BagFile>(part_path(part_ + 1), settings_.reserve_bytes, settings_.compression);
   ++part_;  // only now, as that may fail: then this bag is the last
-  const std::string error = bag_->close();
+  const std::string path = bag_->path(), error = bag_->close();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     bag_ = std::move(next);
   }
   full_ = false;
-  if (!error.empty()) throw std::runtime_error(error);
+  if (!error.empty()) throw std::runtime_error("the part before, " + path + ": " + error);
 }
 
 void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {

@@ -76,12 +76,14 @@ void Runner::wait_for_work() {
   }
 }
 
+Runner::Time Runner::command_wait() const { return Time(std::llround(parameters_.command_wait_s * 1e9)); }
+
 // In lockstep: a batch for every command, or after the time in which none came.
 bool Runner::may_advance() {
   const Time now = monotonic_now();
   if (parameters_.wait_for != kCommand || (!command_came_ && now < command_deadline_)) return false;
   command_came_ = false;
-  command_deadline_ = now + Time(std::llround(parameters_.command_wait_s * 1e9));
+  command_deadline_ = now + command_wait();
   return true;
 }
 
@@ -209,6 +211,7 @@ void Runner::take_snapshot() {
 void Runner::pause(bool paused) {
   if (state_.paused && !paused) {
     last_command_ = monotonic_now();
+    command_deadline_ = last_command_ + command_wait();
     pacer_.resume(last_command_);
   }
   state_.paused = paused;

@@ -41,6 +41,7 @@ class Runner {
 
   void loop();
   void wait_for_work();
+  Time command_wait() const;
   bool may_advance();
   void stop_drag_without_commands();
   void play_commands();

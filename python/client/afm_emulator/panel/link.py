@@ -1,6 +1,7 @@
 """The emulator on its topics and services, live or replayed. Callbacks only put aside what comes; the window takes it
 30 times a second."""
 import collections
+import contextlib
 import math
 import queue
 import threading
@@ -16,11 +17,12 @@ from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
+from ..connection import Connection
 from ..impacts import read_impacts
 
 ASK_AGAIN_S = 2.0     # rospy may miss a publisher that comes back, and a master that comes back knows nobody
 PAIRING_S = 0.1       # that a batch waits for its impacts, which come on another topic
-SERVICE_S = 5.0       # that a service is waited for
+SERVICE_S = 5.0       # that a service is waited for, and then its answer
 WAITING_BATCHES = 200
 LATEST = {'configuration': Configuration, 'applied': Applied, 'friction': Friction, 'status': EmulatorStatus}
 NumpyDeflection = numpy_msg(Deflection)
@@ -176,8 +178,12 @@ class Link:
 
     def _call(self, service, kind, **request):
         name = '%s/%s' % (self.name, service)
-        rospy.wait_for_service(name, timeout=SERVICE_S)
-        answer = rospy.ServiceProxy(name, kind)(**request)
+        try:
+            connection = Connection(name, kind, time.monotonic() + SERVICE_S)
+            with contextlib.closing(connection):
+                answer = connection.call(kind._request_class(**request), time.monotonic() + SERVICE_S)
+        except OSError as fault:
+            raise OSError('%s: %s' % (service, fault)) from fault
         if not getattr(answer, 'success', True):
             self.notes.append('%s: %s' % (service, answer.message))
         return answer
@@ -189,5 +195,5 @@ class Link:
                 if job is None:
                     return
                 job()
-            except (rospy.ROSException, rospy.ServiceException, OSError) as fault:
+            except (rospy.ROSException, OSError) as fault:
                 self.notes.append(str(fault))
