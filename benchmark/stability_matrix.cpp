@@ -17,9 +17,10 @@ using afm::rivals::MethodSpec;
 const char kDescription[] =
     "Runs every method on scenes on which methods fail and writes a CSV table:\n"
     "scene,about,method,setting,verdict,number,meaning,ns_per_tau,right_below. right: every impact found and\n"
-    "every error below 1e-6 (K_f: 1e-3, chaotic 5 %). stalls: time freezes, the method gives up, or less than\n"
-    "half of the scene is done when --seconds are over; on `hour`, slower than the tip itself. exact_one_by_one\n"
-    "is ours without bursts and contact (contact tolerance 0). Exit code 1 if one of ours (exact) is not right.";
+    "every error below 1e-6 (K_f: 1e-3, chaotic 5 %). stalls: time freezes, the method gives up, or when\n"
+    "--seconds are over less than half of a run or not all flights are done; on `hour`, slower than the tip.\n"
+    "exact_one_by_one is ours without bursts and contact (contact tolerance 0). Exit code 1 if one of ours (exact) is "
+    "not right.";
 
 struct Options {
   afm::Effort effort;

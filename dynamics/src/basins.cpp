@@ -23,7 +23,6 @@ Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& s
                                        : average_over_time(tip, settings.friction_duration);
   v.K_f = friction.K_f;
   v.K_f_std_error = friction.K_f_std_error;
-  v.end = tip.tip_state();
   return v;
 }
 

@@ -6,6 +6,7 @@ Usage: studies_test.py DIRECTORY_OF_THE_TOOLS
 import csv
 import math
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -27,7 +28,8 @@ REFUSED = {
                         ('to: eta = nan', '--to nan'), ('to: eta = 2000', '--to 2000'),
                         ('to: gamma = 1.5', '--vary gamma --to 1.5')],
     'model_error': [('eta = 0', '--eta 0'), ('eta = 1:2', '--eta 1:2'), ('gamma = 2', '--gamma 2'),
-                    ('frequency_ratio = -1', '--frequency-ratio -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
+                    ('frequency_ratio = -1', '--frequency-ratio -1'), ('--starts', '--starts 0'),
+                    ('model = anvil', '--model anvil'), ('gamma: not with --scene', '--scene glide --gamma 0.5')],
     'periodic_orbits': [('gamma = 1.5', '--gamma 1.5'), ('cutoff = -1', '--cutoff -1'), ('eta = ', '--eta inf'),
                         ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'), ('model = anvil', '--model anvil')],
     'return_scan': [('eta = 0', '--eta 0')],
@@ -138,6 +140,15 @@ class Orbits(unittest.TestCase):
 
 
 class ModelErrors(unittest.TestCase):
+    def test_a_scene_is_a_file_by_its_ending_and_has_no_bath(self):
+        with tempfile.TemporaryDirectory() as directory, open(os.path.join(directory, 'mine.yaml'), 'w') as scene:
+            scene.write('lateral_quality_factor: 20.0\n')
+            scene.flush()
+            done = subprocess.run([os.path.abspath(os.path.join(TOOLS, 'model_error')), '--scene', 'mine.yaml'],
+                                  cwd=directory, stderr=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn('scene = mine.yaml: it has a bath', done.stderr)
+
     def errors(self, *arguments):
         code, rows, _ = run('model_error', *arguments, *SHORT)
         self.assertEqual(code, 0)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <set>
 #include <stdexcept>
@@ -55,7 +56,7 @@ struct Options {
 
 void add_options(afm::CommandLine& app, Options& o) {
   const afm::Within tolerance{0.0, afm::kMaxContactTolerance};
-  app.option("scene", o.scenes, "names or files");
+  app.option("scene", o.scenes, "names, or files that end in .yaml");
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
@@ -116,7 +117,7 @@ void compare(const Options& o, const Point& point, int start) {
 // Parameters of the emulator by their names: those of a scene, and where it is silent those of config/emulator.yaml.
 YAML::Node parameters_of(const std::string& scene) {
   const std::string folder = afm::config_folder().string();
-  const bool is_name = scene.find('/') == std::string::npos;
+  const bool is_name = std::filesystem::path(scene).extension() != ".yaml";
   YAML::Node all = YAML::LoadFile(folder + "/emulator.yaml");
   for (const auto& entry : YAML::LoadFile(is_name ? folder + "/scenes/" + scene + ".yaml" : scene)) {
     all[entry.first.as<std::string>()] = entry.second;
@@ -173,7 +174,7 @@ struct Scene {
   }
 
   void read(const YAML::Node& p) {
-    if (number(p, "quality_factor") > 0.0)
+    if (number(p, "quality_factor") > 0.0 || number(p, "lateral_quality_factor") > 0.0)
       throw std::invalid_argument("it has a bath, and levels are compared without one");
     const afm::SiModel si = si_model(p);
     const afm::Units units(si);
@@ -200,10 +201,14 @@ void compare_levels(const Scene& scene, double eta, const afm::LevelErrorSetting
   }
 }
 
-int run_scenes(const Options& o, bool duration_given) {
+int run_scenes(const afm::CommandLine& app, const Options& o) {
+  for (const char* other : {"eta", "gamma", "cutoff", "relative-cutoff", "frequency-ratio", "model", "contact-tolerance",
+                            "reference-tolerance", "starts", "seed", "transient"}) {
+    if (app.is_given(other)) throw std::invalid_argument(std::string(other) + ": not with --scene, which says all");
+  }
   const std::vector<Scene> scenes(o.scenes.begin(), o.scenes.end());
   afm::LevelErrorSettings settings;
-  if (duration_given) settings.run.duration = o.settings.duration;
+  if (app.is_given("duration")) settings.run.duration = o.settings.duration;
   std::size_t points = 0, done = 0;
   for (const Scene& scene : scenes) points += scene.etas.size();
   afm::ProgressBar bar(points, 0);
@@ -236,6 +241,5 @@ int main(int argc, char** argv) {
   afm::CommandLine app("model_error", kDescription);
   Options options;
   add_options(app, options);
-  return app.run(argc, argv,
-                 [&] { return options.scenes.empty() ? run(options) : run_scenes(options, app.is_given("duration")); });
+  return app.run(argc, argv, [&] { return options.scenes.empty() ? run(options) : run_scenes(app, options); });
 }

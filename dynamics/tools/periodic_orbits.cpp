@@ -46,7 +46,7 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option(
       "averages", o.averages,
       "file for K_f from these orbits by periodic orbit theory: method, order of truncation, terms, K_f, and by how\n"
-      "much the expansion misses the conservation of flow");
+      "much the expansion misses the conservation of flow; without orbits that the long run stays away from");
   app.flag("quiet", o.quiet, "no report of the search on stderr");
 }
 

@@ -35,7 +35,7 @@ constexpr double kMaxKickRate = 1000.0;     // [1/tau]
 std::vector<ParameterError> find_faults(const Bath& bath);
 
 // Whether the kicks lock to the swing of the lateral spring, because from kick to kick it makes nearly a whole or half
-// number of turns. K_f may then be wrong by up to 14 % (docs/levers.md). False without a bath, and for the hammer,
+// number of turns. K_f may then be wrong by a fifth (docs/levers.md). False without a bath, and for the hammer,
 // which has no such spring. Precondition of this and of the next two: a model and a bath without faults.
 bool kicks_lock(const Model& model, const Bath& bath);
 
@@ -43,7 +43,7 @@ bool kicks_lock(const Model& model, const Bath& bath);
 // Guarantee: it does not lock, and is one at which K_f was measured, or the golden section of omega_h/omega_v.
 double suitable_kicks(const Model& model, const Bath& bath);
 
-// What can be run, but is seldom meant, with the remedy: kicks that lock. Named as in Bath.
+// What can be run, but is seldom meant, with the remedy: kicks that lock or are too few. Named as in Bath.
 std::vector<ParameterError> find_traps(const Model& model, const Bath& bath);
 
 }  // namespace afm

@@ -59,11 +59,14 @@ void refuse(const std::vector<ParameterError>& faults) {
   throw Faults(renamed);
 }
 
-void warn(const std::vector<ParameterError>& traps) {
+void warn(const std::string& text) {
   constexpr int kCallOfOurs = 2;  // the level of the line that calls a function in Python
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), kCallOfOurs) != 0) throw py::error_already_set();
+}
+
+void warn(const std::vector<ParameterError>& traps) {
   for (const ParameterError& trap : traps) {
-    const std::string text = ParameterError(argument_name(trap.name), trap.value, trap.reason).what();
-    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), kCallOfOurs) != 0) throw py::error_already_set();
+    warn(ParameterError(argument_name(trap.name), trap.value, trap.reason).what());
   }
 }
 

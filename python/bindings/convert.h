@@ -27,6 +27,7 @@ struct Faults : std::exception {
 // Throws Faults unless there are none. The names become those of Python's arguments.
 void refuse(const std::vector<ParameterError>& faults);
 // The same as warnings (RuntimeWarning), at the line of the user: each function of ours is called by one in Python.
+void warn(const std::string& text);
 void warn(const std::vector<ParameterError>& traps);
 void require(bool holds, const char* name, double value, const char* reason);
 void check_eta(double eta);

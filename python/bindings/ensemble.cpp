@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -67,7 +68,10 @@ class PyEnsemble {
       more = false;
       for (std::size_t i = 0; i < size(); ++i) {
         events[i] += ensemble_.events(i);
-        more = more || ensemble_.events(i) == kAtATime;
+        const bool goes_on = ensemble_.events(i) == kAtATime;
+        if (!goes_on && ensemble_.tip(i).now() < stop)
+          throw std::runtime_error("the search of an impact of tip " + std::to_string(i) + " cannot go on");
+        more = more || goes_on;
       }
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     }

@@ -171,7 +171,7 @@ An object cannot be changed. Throws ParameterError.)");
   add_bath(m);
   add_units(m);
   m.def("kicks_lock", &kicks_lock, "model"_a, "bath"_a,
-        "Whether the kicks of the bath lock to the swing of the lateral spring: K_f is then wrong by up to 14 %.");
+        "Whether the kicks of the bath lock to the swing of the lateral spring: K_f may then be wrong by a fifth.");
   m.def("suitable_kicks", &suitable_kicks, "model"_a, "bath"_a,
         "A rate of kicks [1/tau] that does not lock, for the model and the quality factors of the bath.");
 }

@@ -61,9 +61,14 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   run_on_threads(threads, work, watch);
   TableRows rows;
   std::size_t row = 0;
+  std::uint64_t failures = 0;
   for (const std::vector<SweepResult>& chain : chains) {
-    for (const SweepResult& result : chain) write_row(grid.at(row++), result, rows);
+    for (const SweepResult& result : chain) {
+      write_row(grid.at(row++), result, rows);
+      failures += result.friction.search_failures;
+    }
   }
+  if (failures > 0) warn("the search of an impact failed " + std::to_string(failures) + " times");
   return rows.result(kCurveColumns);
 }
 

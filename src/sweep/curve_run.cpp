@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -47,6 +48,7 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
   std::signal(SIGTERM, interrupt);
   const std::size_t length = grid.chain_length(), first = table->rows() / length;
   std::atomic<std::size_t> done{table->rows()};
+  std::uint64_t failures = 0;
   ProgressBar bar(grid.size(), done);
   const auto watch = [&] {
     bar.show(done);
@@ -55,7 +57,10 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
   const auto compute = [&](std::size_t i) { return compute_chain(grid, settings, (first + i) * length, done); };
   const auto take = [&](std::size_t, const std::vector<SweepResult>& chain) {
     try {
-      for (const SweepResult& result : chain) table->add(result);
+      for (const SweepResult& result : chain) {
+        table->add(result);
+        failures += result.friction.search_failures;
+      }
       table->flush();
     } catch (const std::exception& fault) {
       std::cerr << "\nfriction_curve: " << fault.what() << std::endl;
@@ -64,6 +69,7 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
     watch();
   };
   in_order(grid.size() / length - first, static_cast<std::size_t>(threads), compute, take, watch);
+  if (failures > 0) std::cerr << "friction_curve: warning: " << failures << " searches of an impact failed" << std::endl;
   return 0;
 }
 

@@ -12,10 +12,11 @@ const char* name_of(SweepDirection direction) {
   return direction == SweepDirection::fresh ? "fresh" : direction == SweepDirection::up ? "up" : "down";
 }
 
-// One of the faults of a point with this axis's value and defaults otherwise.
+// The faults of a point with this axis's value and defaults otherwise.
 void add_faults(std::vector<ParameterError>& all, const SweepPoint& point) {
+  constexpr std::size_t kMost = 10;  // a long range outside the limits has as many faults as points
   for (const ParameterError& fault : find_faults(point)) {
-    if (all.size() < 10) all.push_back(fault);
+    if (all.size() < kMost) all.push_back(fault);
   }
 }
 

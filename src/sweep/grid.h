@@ -24,7 +24,7 @@ struct CurveSettings {
   SweepMethod method = sweep_point;
 };
 
-// Every fault, under the names of the command line.
+// Every fault of the settings, and the first ten of the points; under the names of the command line.
 std::vector<ParameterError> find_faults(const CurveSettings& settings);
 
 // What can be run, but is seldom meant, once for each frequency ratio; under the names of the command line.

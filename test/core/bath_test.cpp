@@ -26,6 +26,7 @@ TEST(Bath, KicksLockWhereKfWasWrong) {
   EXPECT_TRUE(kicks_lock(with_ratio(14.0), with(20.0, 29.034)));
   EXPECT_TRUE(kicks_lock(with_ratio(22.0), with(100.0, 11.09)));
   EXPECT_TRUE(kicks_lock(with_ratio(11.1), with(100.0, 11.09)));
+  EXPECT_TRUE(kicks_lock(with_ratio(12.5), with(100.0, 8.652)));
   for (const double kicks : {8.652, 11.09, 46.979, 122.99}) {
     EXPECT_FALSE(kicks_lock(with_ratio(14.0), with(20.0, kicks))) << kicks;
   }
@@ -78,7 +79,7 @@ TEST(Bath, ATrapNamesTheRateAndTheRemedy) {
   EXPECT_TRUE(find_traps(with_ratio(14.0), with(100.0, 8.652)).empty());
   ASSERT_EQ(find_traps(with_ratio(14.0), with(2.0, 8.652)).size(), 1u);  // the rate of a lever's file, with a lower Q
   EXPECT_EQ(find_traps(with_ratio(14.0), with(2.0, 8.652))[0].reason,
-            "is too low for this quality factor: K_f may be wrong by ten per cent; give 46.979");
+            "is too low for this quality factor: K_f may be wrong by up to a fifth; give 46.979");
   const std::vector<ParameterError> traps = find_traps(with_ratio(14.0), with(20.0));
   ASSERT_EQ(traps.size(), 1u);
   EXPECT_EQ(traps[0].name, "kicks_per_tau");

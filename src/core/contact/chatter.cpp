@@ -44,14 +44,13 @@ bool stays_above(double least, double S, const SpringConstants<double>& springs,
 }  // namespace
 
 double chatter_threshold(double contact_tolerance) {
-  // the flight to the next impact may enlarge an error by this factor (measured: docs/stability.md,
-  // benchmark/burst_error)
+  // the flight to the next impact enlarges an error; with this the one there stays below the tolerance
+  // (docs/stability.md)
   constexpr double kErrorGrowth = 100.0;
   return contact_tolerance / kErrorGrowth;
 }
 
-// The first bounce causes most of a sequence's error; the factor is measured (benchmark/burst_error). Square roots give
-// the same bits on every machine.
+// Chosen with the limits of the ratio and the loss (docs/stability.md). Square roots give the same bits on every machine.
 double chatter_entry_speed(double contact_tolerance) {
   return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }

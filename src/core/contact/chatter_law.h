@@ -8,7 +8,7 @@
 
 #include "afm/detail/chatter.h"
 #include "lobatto.h"
-#include "portable_exp.h"
+#include "core/portable_exp.h"
 #include "reference_forces.h"
 
 namespace afm::detail {

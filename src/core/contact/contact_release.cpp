@@ -3,7 +3,7 @@
 
 #include "bernstein_fall.h"
 #include "gauss.h"
-#include "release_noise.h"
+#include "core/release_noise.h"
 
 namespace afm::detail {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "afm/detail/slide_segment.h"
-#include "release_noise.h"
+#include "core/release_noise.h"
 
 namespace afm::detail {
 

@@ -19,4 +19,12 @@ inline Outcome advance_interruptibly(Tip& tip, const ModelTime& limit) {
   }
 }
 
+// Through all events, to `end` or to where a search cannot go on.
+inline void bring_to(Tip& tip, const ModelTime& end) {
+  for (;;) {
+    const Outcome outcome = advance_interruptibly(tip, end);
+    if (outcome == Outcome::time_limit || outcome == Outcome::search_failed) return;
+  }
+}
+
 }  // namespace afm::detail

@@ -130,8 +130,7 @@ SweepResult sweep_point(const SweepPoint& point, const SweepSettings& settings, 
     result.attractor = "thermal";
   }
   const ModelTime end = tip.now() + settings.transient;
-  while (detail::advance_interruptibly(tip, end) != Outcome::time_limit) {
-  }
+  detail::bring_to(tip, end);  // a tip that cannot go on has no average either
   result.friction = average_over_time(tip, settings.duration);
   result.end = tip.tip_state();
   return result;

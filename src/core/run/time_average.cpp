@@ -41,31 +41,38 @@ ModelTime quiet_time(Tip tip, double span) {
   return quiet;
 }
 
-void bring_to(Tip& tip, const ModelTime& end) {
-  while (advance_interruptibly(tip, end) != Outcome::time_limit) {
-  }
-}
-
 // Sums over an interval of time.
 struct Totals {
   CompensatedSum energy, impulse;  // energy lost in impacts; impulse of the holder
   double impacts = 0.0, contact_time = 0.0;
   bool has_bath = false;
   std::uint64_t search_failures = 0;
+
+  void spoil() {
+    energy.add(kNaN);
+    impulse.add(kNaN);
+    impacts = kNaN;
+  }
 };
 
-// Brings the tip to `end`.
+// Brings the tip to `end`. Where a search cannot go on no sum is a number any more.
 void follow(Tip& tip, const ModelTime& end, Totals& totals) {
   ModelTime touched = tip.now();
   totals.impulse.add(-tip.segment().impulse);  // the part before the interval
   Segments ended;
-  for (Outcome outcome; (outcome = tip.advance_segment(end, &ended)) != Outcome::time_limit;) {
+  for (;;) {
+    const ModelTime begin = tip.now();
+    const Outcome outcome = tip.advance_segment(end, &ended);
+    if (outcome == Outcome::time_limit) break;
     interruption_point();
     for (const Segment& segment : ended) {
       totals.impulse.add(segment.impulse);
       if (segment.kind == SegmentKind::kick) totals.has_bath = true;
     }
-    if (outcome == Outcome::search_failed) ++totals.search_failures;
+    if (outcome == Outcome::search_failed) {
+      ++totals.search_failures;
+      if (!(begin < tip.now())) return totals.spoil();
+    }
     if (outcome == Outcome::flying || outcome == Outcome::search_failed) continue;
     const Impact& event = tip.last_impact();
     totals.energy.add(event.energy_loss);

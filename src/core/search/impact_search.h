@@ -12,8 +12,7 @@
 
 namespace afm::detail {
 
-// Evaluations in one search: a guard against an endless loop. The outcome `cap` is counted, and the tests demand that
-// it never occurs.
+// Evaluations in one search: a guard against an endless loop. find_landing() says what becomes of the outcome `cap`.
 constexpr int kMaxSearchSteps = 20000;
 // A root that may be further away is not finished: the horizon comes first [tau]. A tip that falls without a force may
 // land beyond all time that can be counted. Any number between the horizon and 1e18 will do.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "afm/flight.h"
-#include "core/contact/release_noise.h"
+#include "core/release_noise.h"
 
 namespace afm::detail {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "afm/detail/turns.h"
-#include "core/contact/portable_exp.h"
+#include "core/portable_exp.h"
 #include "philox.h"
 
 namespace afm::detail {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/contact/portable_exp.h"
+#include "core/portable_exp.h"
 #include "core/tip/normal_pair.h"
 
 namespace afm {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <new>
 
-#include "core/contact/release_noise.h"
+#include "core/release_noise.h"
 #include "core/contact/slide_release.h"
 #include "tip_motion.h"
 

@@ -5,7 +5,7 @@
 
 #include "afm/reflection.h"
 #include "afm/tip.h"
-#include "core/contact/release_noise.h"
+#include "core/release_noise.h"
 #include "tip_motion.h"
 
 namespace afm {

@@ -20,11 +20,11 @@ enum class AttractorKind : std::uint8_t {
 };
 
 struct AttractorSettings {
-  double transient = 500.0;  // before the measurement [tau]
-  double duration = 500.0;   // of the measurement of exponents, if the orbit is not periodic [tau]
-  int longest = 128;         // longest period [impacts]
-  double tolerance = 1e-9;   // distance at which a return counts as a period [a, a/tau]
-  std::uint64_t most_events = 0;  // 0: 2000 a tau
+  double transient = 500.0;       // before the measurement [tau]
+  double duration = 500.0;        // of the measurement of exponents, if the orbit is not periodic [tau]
+  int longest = 128;              // longest period [impacts]
+  double tolerance = 1e-9;        // distance at which a return counts as a period [a, a/tau]
+  std::uint64_t most_events = 0;  // the budget; 0: 2000 a tau
 };
 
 struct Attractor {
@@ -43,8 +43,8 @@ struct Attractor {
   std::string name() const;
 };
 
-// Follows the tip until the kind is known and leaves it on the attractor. Guarantee: no exception, no more events than
-// the budget.
+// Follows the tip until the kind is known and leaves it on the attractor. Guarantee: no exception. The search makes no
+// more events than the budget, nor does any of the at most four measurements of exponents.
 Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& settings = {});
 Attractor find_attractor(const Model& model, double eta, const TipState& start, const AttractorSettings& settings = {});
 

@@ -23,7 +23,6 @@ struct Visit {
   Attractor attractor;
   double K_f = 0.0, K_f_std_error = 0.0;  // [m_tip/tau]
   TipState start;
-  TipState end;  // on the attractor
 };
 
 struct Basin {
