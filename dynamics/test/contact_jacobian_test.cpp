@@ -68,7 +68,7 @@ class QuadContact {
     Quad time = slide_;
     for (Quad error = 1; abs(error) > 1e-28;) {
       const std::array<Quad, 3> q = slide(from, time);
-      const auto p = SlideSegment<Quad>(springs_, eta_, {q[0], q[1], q[2]}).pressure_jet(0);
+      const auto p = SlideSegment<Quad>(springs_, eta_, {q[0], q[1], q[2]}).reaction();
       error = p[0] / p[1];
       time -= error;
     }

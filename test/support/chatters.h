@@ -20,7 +20,7 @@ struct RandomChatter {
   double shortness(double s) const {
     const double a = reference.pressure(s);
     return 2.0 * v / a *
-           std::max({std::abs(reference.pressure_jet(s)[1]) / a, std::abs(reference.at(s).u), model.frequency_ratio});
+           std::max({std::abs(pressure_slope(reference, s)) / a, std::abs(reference.at(s).u), model.frequency_ratio});
   }
 };
 

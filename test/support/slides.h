@@ -26,6 +26,15 @@ inline double energy_of(const SpringConstants<double>& m, const detail::SlideSta
   return 0.5 * (s.u * s.u * (1.0 + h.h1 * h.h1) + X * X + Y * Y);
 }
 
+// Of the reaction over time.
+inline double pressure_slope(const SlidePart& part, double s) {
+  double slope = 0.0;
+  for (std::size_t k = detail::kSlideOrder; k >= 1; --k) {
+    slope = slope * s + static_cast<double>(k) * part.reaction()[k];
+  }
+  return slope;
+}
+
 inline double end_of(const SlidePart& part) {
   const double release = detail::find_release(part);
   return release < 0.0 ? part.length() : release;

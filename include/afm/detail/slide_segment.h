@@ -27,7 +27,6 @@ class SlideSegment {
 
   SlideState<T> at(const T& s) const;
   T pressure(const T& s) const { return horner(series_.lambda, s); }  // the reaction along y [a/tau^2]
-  std::array<T, 4> pressure_jet(const T& s) const;                    // and its first three time derivatives
   T displacement_integral(const T& s) const;                          // of x - x(start) over time [a tau]
 
   T length() const { return length_; }  // [tau]
@@ -81,19 +80,6 @@ T SlideSegment<T>::displacement_integral(const T& s) const {
 #pragma GCC unroll 32
   for (std::size_t k = 1; k <= kSlideOrder; ++k) mean[k] = series_.d[k] * T(1.0 / static_cast<double>(k + 1));
   return s * horner(mean, s);
-}
-
-template <class T>
-std::array<T, 4> SlideSegment<T>::pressure_jet(const T& s) const {
-  using std::fma;
-  std::array<T, 4> c{};  // Horner's scheme for the function and for its derivatives over k!
-  for (std::size_t k = kSlideOrder + 1; k-- > 0;) {
-#pragma GCC unroll 4
-    for (std::size_t i = 3; i >= 1; --i) c[i] = fma(c[i], s, c[i - 1]);
-    c[0] = fma(c[0], s, series_.lambda[k]);
-  }
-  c[2] *= T(2.0), c[3] *= T(6.0);
-  return c;
 }
 
 }  // namespace afm::detail

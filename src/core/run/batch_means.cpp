@@ -63,11 +63,11 @@ MeanError mean_error(std::vector<double> batches) {
     length *= 2.0;
     spread = spread_of(batches);
   }
-  if (batches.size() < kMinBatches) return {kNaN, 0.0, batches.size()};
+  if (batches.size() < kMinBatches) return {kNaN, batches.size()};
   const double n = static_cast<double>(batches.size());
-  const double degrees = n / 3.0;  // 2 over 6/n, the relative variance of variance (1 + 2 correlation)
+  const double degrees = n / 3.0;  // of freedom: 2 over 6/n, the relative variance of variance (1 + 2 correlation)
   const double of_sum = spread.variance * std::fmax(kMinVariance, 1.0 + 2.0 * spread.correlation);
-  return {student_widening(degrees) * std::sqrt(of_sum / n) / length, degrees, batches.size()};
+  return {student_widening(degrees) * std::sqrt(of_sum / n) / length, batches.size()};
 }
 
 }  // namespace afm::detail

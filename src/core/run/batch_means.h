@@ -7,11 +7,9 @@
 
 namespace afm::detail {
 
-// mean +- 1.96 std_error holds the true mean 95 times in 100. std_error includes the factor of Student's t for
-// `degrees` of freedom.
+// mean +- 1.96 std_error holds the true mean 95 times in 100: std_error includes the factor of Student's t.
 struct MeanError {
   double std_error;     // of the mean of the batches; NaN with fewer than kMinBatches or sums that are not finite
-  double degrees;       // of freedom, effective
   std::size_t batches;  // used, after neighbours were merged until they are uncorrelated
 };
 
