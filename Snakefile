@@ -26,6 +26,8 @@ TOOLS = Path(os.environ.get("AFM_TOOLS", DEVEL / "lib/afm_emulator"))
 OUT = str(BUILD / "laboratory" / MODE)
 COMMANDS = commands(QUICK)
 MADE = {name: table for name, table in TABLES.items() if not (QUICK and table.full_only)}
+BUILT = [str(path) for path in [TOOLS / "real_time", TOOLS / "emulator_node", *DEVEL.glob("lib/python3*/*/afm/_afm*.so")]
+         if path.exists()]
 EXAMPLES = ("friction_peaks", "bifurcations", "thermal_histogram", "friction_of_lever")  # in Python, with a picture
 SHELL = ('source scripts/environment.bash; ! [[ -f "%s/setup.bash" ]] || source_setup "%s/setup.bash"; '
          'export PATH="%s:$PATH"; ')
@@ -49,10 +51,10 @@ def image(name):
 
 
 def program(words):
-    """The file of the program that a command runs, where it was built."""
+    """The file of the program that a command runs, where it was built. A script runs the tip by others."""
     name = next(word for word in words.split() if "=" not in word)
     path = ROOT / name if "/" in name else TOOLS / name
-    return [str(path)] if path.exists() else []
+    return [str(path)] * path.exists() + (BUILT if "/" in name else [])
 
 
 def words(name):
@@ -116,18 +118,19 @@ rule table:
 
 rule picture:
     output: OUT + "/images/{name}.png"
-    input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)]
+    input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)] or BUILT
     wildcard_constraints: name=any_of(PICTURES)
     shell: "workflow/make.py {MODE} picture {wildcards.name} {OUT}/tables {OUT}/data {output}"
 
 rule example_picture:
     output: OUT + "/images/{name}.png"
-    input: "examples/python/{name}.py"
+    input: "examples/python/{name}.py", *BUILT
     wildcard_constraints: name=any_of(EXAMPLES)
-    shell: "cd {OUT}/images && {ROOT}/{input}"
+    shell: "cd {OUT}/images && {ROOT}/{input[0]}"
 
 rule view_picture:
     output: image("view")
+    input: *BUILT
     threads: workflow.cores
     shell: "workflow/view_picture {output}"
 

@@ -1,4 +1,4 @@
-// How many control periods a second the C++ client makes in lockstep. Prints "periods_per_s".
+// How many control periods a second the C++ client makes in lockstep. Prints the number.
 // usage: control_rate _duration:=0.01 _periods:=2000
 #include <afm_emulator/client.h>
 

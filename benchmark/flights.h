@@ -31,7 +31,7 @@ struct FlightScene {
   std::vector<Flight113> flights;
 };
 
-// `count` flights spread at random over 100 tau of the attractor, or over `most_impacts` of it where that is less.
+// `count` flights spread at random over 100 tau of the attractor, or fewer where it has fewer impacts.
 FlightScene sample_attractor(const std::string& name, const Model& model, double eta, std::size_t count, unsigned seed);
 
 // False where the start has no impact within the horizon, or leads to none.

@@ -102,7 +102,7 @@ def open_bag(path):
 
 
 def count_samples(paths):
-    """From the first and the last batch of every bag, about."""
+    """From the first batch of every bag, about."""
     count = 0
     for path in paths:
         with open_bag(path) as bag:

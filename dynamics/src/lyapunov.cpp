@@ -46,13 +46,17 @@ bool has_numbers(const LyapunovSpectrum& s) {
   return std::none_of(s.exponents.begin(), s.exponents.end(), [](double x) { return std::isnan(x); });
 }
 
-// Advances by `time`, up to the first event after it.
+// Advances by `time`. False if the budget or a failed search came first.
 bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s) {
   const ModelTime end = tip.now() + time;
   while (tip.now() < end && s.events < most_events) {
-    detail::advance_interruptibly(tip, end);
+    if (detail::advance_interruptibly(tip, end) == Outcome::search_failed) {
+      s.outcome = LyapunovOutcome::search_failed;
+      return false;
+    }
     ++s.events;
   }
+  if (s.events >= most_events) s.outcome = LyapunovOutcome::budget_spent;
   return s.events < most_events;
 }
 
@@ -60,10 +64,7 @@ bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s)
 
 LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& settings) {
   LyapunovSpectrum s;
-  if (!skip(tip, settings.transient, settings.most_events, s)) {
-    s.outcome = LyapunovOutcome::budget_spent;
-    return s;
-  }
+  if (!skip(tip, settings.transient, settings.most_events, s)) return s;
   Tangents tangents(model, tip);
   if (!tangents.start(settings.duration)) return s;
   const ModelTime begin = tip.now(), end = begin + settings.duration;

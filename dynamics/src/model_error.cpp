@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/run/interruptible_advance.h"
+
 namespace afm {
 namespace {
 
@@ -10,7 +12,7 @@ constexpr double kSamplingInterval = 0.6180339887498949;  // [tau] the golden se
 
 // The deflection at `t`, after all events until then. Precondition: t is not before now.
 Deflection deflection_at(Tip& tip, const ModelTime& t) {
-  while (tip.segment_end() <= t) tip.advance_segment(t);
+  detail::bring_to(tip, t);
   return tip.deflection(t);
 }
 

@@ -22,7 +22,7 @@ SHORT = ['--starts', '1', '--duration', '200', '--transient', '200']
 REFUSED = {
     'attractors': [('gamma = 1.5', '--gamma 1.5'), ('eta = 1:2', '--eta 1:2'), ('eta = 2000', '--eta 2000'),
                    ('cutoff = -1', '--cutoff -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
-    'bifurcations': [('1:2', '--range 1:2'), ('mass', '--vary mass'), ('left', '--sweep left'),
+    'bifurcations': [('1:2', '--range 1:2'), ('mass', '--vary mass'), ('left', '--sweep left'), ('eta: varies', '--vary eta --range 2:2:1 --eta 5'),
                      ('anvil', '--model anvil')],
     'continue_orbits': [('mass', '--vary mass --to 1'), ('eta = 0', '--eta 0 --to 1'), ('to', ''),
                         ('to: eta = nan', '--to nan'), ('to: eta = 2000', '--to 2000'),
@@ -49,6 +49,13 @@ class Refusals(unittest.TestCase):
                     code, rows, complaint = run(tool, *arguments.split())
                     self.assertEqual((code, rows), (2, []))
                     self.assertIn(words, complaint)
+
+    def test_an_output_that_cannot_be_written_is_told_before_the_search(self):
+        for tool, option in (('symbolic_dynamics', '--orbits'), ('symbolic_dynamics', '--section'),
+                             ('symbolic_dynamics', '--forbidden'), ('periodic_orbits', '--averages')):
+            code, rows, complaint = run(tool, option, '/there/is/no/such/folder', '--max-length', '8')
+            self.assertEqual((code, rows), (1, []), tool)
+            self.assertIn('cannot write /there/is/no/such/folder', complaint)
 
     def test_a_point_has_no_box(self):
         """Its rounding was scanned."""
@@ -154,6 +161,15 @@ class ModelErrors(unittest.TestCase):
         self.assertEqual(code, 0)
         return [{key: text if key in ('model', 'attractor', 'reference_attractor') else float(text)
                  for key, text in row.items()} for row in rows]
+
+    def test_a_long_path_of_a_scene_cuts_no_row(self):
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, 'a' * 150 + '.yaml')
+            with open(path, 'w') as scene:
+                scene.write('drag_velocity: 6.6208456e-06\n')
+            code, rows, _ = run('model_error', '--scene', path, '--duration', '10')
+        self.assertEqual((code, {row['scene'] for row in rows}), (0, {path}))
+        self.assertEqual({row['in_use'] for row in rows} - {'0', '1'}, set())
 
     def test_of_the_reference_itself_there_is_none(self):
         rows = self.errors('--model', 'oscillator', '--contact-tolerance', '1e-5', '--eta', '2:3.4:1.4')

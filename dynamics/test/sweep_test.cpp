@@ -3,13 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "afm/surface.h"
-#include "common/decimal_range.h"
 #include "support/models.h"
 
 namespace afm {
@@ -57,43 +53,6 @@ TEST(Sweep, TheAttractorOfThePaperHasItsFriction) {
   }
 }
 
-// How many of the 95 % intervals of short runs hold the mean of a run of 1e7 tau, by both estimators.
-struct Chaotic {
-  double eta, K_f;  // v_c = 0.1 eta
-};
-
-class Coverage : public testing::TestWithParam<Chaotic> {};
-
-TEST_P(Coverage, IsNineteenInTwenty) {
-  constexpr int kSeeds = 3000;
-  const Chaotic& known = GetParam();
-  const SweepPoint point{known.eta, 0.7, 0.1 * known.eta};
-  int covered = 0, covered_by_work = 0;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    Tip tip(model_of(point), point.eta, random_start(point, seed, 0));
-    average_over_time(tip, 100.0);
-    const FrictionAverage average = average_over_time(tip, 1000.0);
-    covered += std::abs(average.K_f - known.K_f) < 1.96 * average.K_f_std_error ? 1 : 0;
-    covered_by_work += std::abs(average.K_f_work - known.K_f) < 1.96 * average.K_f_work_std_error ? 1 : 0;
-  }
-  std::printf("eta = %g: %.1f %% and %.1f %%\n", known.eta, 100.0 * covered / kSeeds, 100.0 * covered_by_work / kSeeds);
-  EXPECT_GE(covered, kSeeds * 93 / 100);
-  EXPECT_LE(covered, kSeeds * 97 / 100);
-  EXPECT_GE(covered_by_work, kSeeds * 93 / 100);
-  EXPECT_LE(covered_by_work, kSeeds * 97 / 100);
-}
-
-INSTANTIATE_TEST_SUITE_P(Chaos, Coverage,
-                         testing::Values(Chaotic{2.75, 0.28925}, Chaotic{3.4, 0.25305}, Chaotic{5.0, 0.18813}));
-
-// The energy stored at the ends of the batches is many times the work between them.
-TEST(Sweep, ASlowDragHasItsFrictionByTheWorkToo) {
-  const SweepPoint point{0.02, 0.7, 0.05};
-  const FrictionAverage a = sweep_point(point, settings_of(1000.0, 200.0), plain_start(point.eta)).friction;
-  EXPECT_NEAR(a.K_f_work, 0.019, 3.0 * a.K_f_work_std_error);
-  EXPECT_LT(a.K_f_work_std_error, 0.005);
-}
-
 // Without the laboratory there is the average over time alone.
 TEST(Sweep, AnAverageOverTimeAgreesWithTheOneOverPeriods) {
   const SweepPoint point{4.5, 0.7, 0.45};
@@ -110,37 +69,6 @@ TEST(Sweep, AtRestThereIsNoCoefficient) {
   const SweepResult r = sweep_attractor({0.0, 0.7, 0.05}, settings_of(100.0, 100.0), plain_start(0.0));
   EXPECT_TRUE(std::isnan(r.friction.K_f));
   EXPECT_TRUE(std::isnan(r.friction.K_f_std_error));
-}
-
-TEST(Sweep, StartsAreAboveTheSurfaceAndTheirOwn) {
-  const SweepPoint point{3.4, 0.7, 0.05};
-  for (std::uint64_t i = 0; i < 1000; ++i) {
-    const TipState start = random_start(point, 7, i);
-    ASSERT_GE(start.g, 0.0);
-    ASSERT_EQ(random_start(point, 7, i).phase, start.phase);
-    ASSERT_NE(random_start(point, 8, i).phase, start.phase);
-    ASSERT_NE(random_start(point, 7, i + 1).phase, start.phase);
-  }
-}
-
-TEST(DecimalRange, EveryValueIsTheNumberMeant) {
-  const std::vector<double> values = parse_range("0:9:0.01");
-  ASSERT_EQ(values.size(), 901u);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    ASSERT_EQ(values[i], std::strtod((std::to_string(i) + "e-2").c_str(), nullptr)) << i;
-  }
-  EXPECT_EQ(parse_range("1:2:0.3"), (std::vector<double>{1.0, 1.3, 1.6, 1.9}));
-  EXPECT_EQ(parse_range("-0.2:.1:1e-1"), (std::vector<double>{-0.2, -0.1, 0.0, 0.1}));
-  EXPECT_EQ(parse_range("3.4"), std::vector<double>{3.4});
-  EXPECT_EQ(parse_range("1:1:1"), std::vector<double>{1.0});
-  EXPECT_EQ(parse_range("3.4000000000000004"), std::vector<double>{3.4000000000000004});
-}
-
-TEST(DecimalRange, WhatIsNoRangeIsRefused) {
-  for (const char* text : {"", "a", "1:2", "1:2:3:4", "1:2:0", "1:2:-1", "2:1:1", "1:2:x", "nan", "inf", "1e", "--1",
-                           "1 ", "0:1:1e-9", "1:2:1e-30", "0x10", "1..2", ":", "1::2"}) {
-    EXPECT_THROW(parse_range(text), std::invalid_argument) << text;
-  }
 }
 
 }  // namespace

@@ -10,7 +10,6 @@ foreach(file IN LISTS dynamics_tests)
   target_link_libraries(afm_${name} afm_emulator_dynamics afm_quad)
   set_tests_properties(${gtest_prefix}${name} PROPERTIES TIMEOUT 120)
 endforeach()
-target_link_libraries(afm_sweep_test afm_emulator_sweep)
 
 # afm_add_study_test(NAME ARGUMENT...): NAME_test.py with these arguments
 function(afm_add_study_test name)

@@ -89,7 +89,8 @@ int run(const afm::CommandLine& app, Options& options) {
   const std::vector<afm::SweepPoint> points = grid(app, options);
   for (const afm::SweepPoint& point : points) {
     const double transient = options.basins.attractor.transient;
-    for (const auto& trap : afm::find_short_drag("transient", transient, point.eta, 1.0)) app.warn(trap.what());
+    const auto traps = afm::find_short_drag("transient", transient, point.eta, 1.0);
+    for (const auto& trap : afm::as_given(app, options.dynamics.si, traps)) app.warn(trap.what());
   }
   afm::TableWriter table(std::cout, afm::kBasinColumns, afm::table_units(options.dynamics.si));
   table.write_header();
@@ -99,6 +100,7 @@ int run(const afm::CommandLine& app, Options& options) {
       points.size(), options.threads, compute,
       [&](std::size_t i, const std::vector<afm::Basin>& basins) {
         for (const afm::Basin& basin : basins) write_row(points[i], basin, table);
+        table.flush();
         bar.show(i + 1);
       },
       [] {});

@@ -42,6 +42,7 @@ bool varies_speed(const Options& o) { return o.vary == "eta" || (o.vary == "cuto
 // With --si a range of speeds is in m/s, also where eta varies.
 std::vector<double> checked_values(const afm::CommandLine& app, const Options& o) {
   if (o.sweep != "up" && o.sweep != "down") throw std::invalid_argument("sweep = " + o.sweep + ": must be up or down");
+  if (app.is_given(o.vary)) throw std::invalid_argument(o.vary + ": varies over the range, so it has no value");
   std::vector<double> values = afm::range_option("range", o.range);
   if (varies_speed(o)) afm::take_si(app, o.dynamics.si, "range", values);
   for (const double value : values) checked_model(parameters_at(o, value));
@@ -89,6 +90,7 @@ int run(const afm::CommandLine& app, Options& o) {
     settings.transient = o.transient;
     const afm::Attractor attractor = find_attractor(model, tip, settings);
     print_impacts(tip, value, o.impacts, attractor.name(), table);
+    table.flush();
     state = tip.tip_state();
     bar.show(++done);
   }

@@ -111,6 +111,7 @@ int run(const afm::CommandLine& app, Options options) {
   for (const afm::FoundOrbit& f : found.orbits) {
     if (f.orbit.length() != static_cast<std::size_t>(options.length)) continue;
     print(++number, continue_orbit(model, eta, f.orbit, kParameters.at(options.vary), options.to), table);
+    table.flush();
   }
   if (number == 0) std::cerr << "continue_orbits: no orbit of length " << options.length << " found\n";
   return number > 0 ? 0 : 1;

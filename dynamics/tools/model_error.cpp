@@ -111,7 +111,7 @@ void compare(const Options& o, const Point& point, int start) {
             << afm::join_numbers({ratio - 1.0, share, afm::quantile_distance(level.vertical, reference.vertical),
                                   reference.vertical_noise, reference.vertical_rms, tracking, reference.stretch_rms,
                                   reference.stretch_largest, times[0], times[1], times[1] / times[0]})
-            << "\n";
+            << std::endl;
 }
 
 // Parameters of the emulator by their names: those of a scene, and where it is silent those of config/emulator.yaml.
@@ -149,8 +149,9 @@ afm::SiModel si_model(const YAML::Node& p) {
   return si;
 }
 
-// At most five of the drag velocities that a scene sends; else its own.
+// Some of the drag velocities that a scene sends; else its own.
 std::vector<double> drag_velocities(const YAML::Node& p, const afm::Units& units) {
+  constexpr std::size_t kMost = 5;
   std::set<double> sent;
   for (const double eta : p["commands_eta"].as<std::vector<double>>()) {
     if (!std::isfinite(eta)) throw std::invalid_argument("commands_eta must be finite");
@@ -160,7 +161,7 @@ std::vector<double> drag_velocities(const YAML::Node& p, const afm::Units& units
   sent.erase(0.0);
   const std::vector<double> all(sent.begin(), sent.end());
   std::vector<double> etas;
-  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / 4)) etas.push_back(all[i]);
+  for (std::size_t i = 0; i < all.size(); i += (all.size() + kMost - 1) / kMost) etas.push_back(all[i]);
   return etas;
 }
 
@@ -194,16 +195,16 @@ struct Scene {
 void compare_levels(const Scene& scene, double eta, const afm::LevelErrorSettings& settings) {
   for (const afm::MeasuredLevel& m : measure_levels(scene.model, eta, settings)) {
     char text[160];
-    std::snprintf(text, sizeof text, "%s,%.6g,%s,%g,%.3g,%.3g,%.3g,%d\n", scene.name.c_str(), eta, name(m.level.kind),
+    std::snprintf(text, sizeof text, ",%.6g,%s,%g,%.3g,%.3g,%.3g,%d\n", eta, name(m.level.kind),
                   m.level.contact_tolerance, m.error.friction, m.error.deflection, m.error.cost,
                   scene.is_stated && m.level == scene.in_use);
-    std::cout << text << std::flush;
+    std::cout << scene.name << text << std::flush;
   }
 }
 
 int run_scenes(const afm::CommandLine& app, const Options& o) {
-  for (const char* other : {"eta", "gamma", "cutoff", "relative-cutoff", "frequency-ratio", "model", "contact-tolerance",
-                            "reference-tolerance", "starts", "seed", "transient"}) {
+  for (const char* other : {"eta", "gamma", "cutoff", "relative-cutoff", "frequency-ratio", "model",
+                            "contact-tolerance", "reference-tolerance", "starts", "seed", "transient"}) {
     if (app.is_given(other)) throw std::invalid_argument(std::string(other) + ": not with --scene, which says all");
   }
   const std::vector<Scene> scenes(o.scenes.begin(), o.scenes.end());

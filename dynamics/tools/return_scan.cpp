@@ -112,6 +112,7 @@ int run(const afm::CommandLine& app, Options o) {
   table.write_header();
   for (int i = 0; i < o.points; ++i) {
     for (int j = 0; j < o.points; ++j) scan_column(map, box, o, i, j, table);
+    table.flush();
     bar.show(static_cast<std::size_t>(i) + 1);
   }
   return 0;

@@ -1,6 +1,5 @@
 // The symbolic dynamics of the hammer: a partition of its section, the words that occur, and those of its orbits.
 #include "afm/dynamics/symbolic_dynamics.h"
-#include "afm/number_text.h"
 
 #include <cmath>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "afm/dynamics/orbit_search.h"
+#include "afm/number_text.h"
 #include "common/csv.h"
 #include "common/point_options.h"
 
@@ -48,8 +48,11 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("forbidden", o.forbidden, "file for the shortest words that do not occur: length, word");
 }
 
+// Before a search of hours, whose result could not be written. Without a path nothing is.
 std::ofstream open(const std::string& path) {
-  std::ofstream out(path);
+  std::ofstream out;
+  if (path.empty()) return out;
+  out.open(path);
   if (!out) throw std::runtime_error("cannot write " + path);
   return out;
 }
@@ -59,9 +62,9 @@ void close(std::ofstream& out, const std::string& path) {
   if (!out) throw std::runtime_error("cannot write " + path);
 }
 
-void write_section(const Options& o, const afm::Partition& partition, const std::vector<afm::TipState>& points) {
+void write_section(const Options& o, std::ofstream& out, const afm::Partition& partition,
+                   const std::vector<afm::TipState>& points) {
   constexpr std::size_t kMostPoints = 20000;  // enough for a picture
-  std::ofstream out = open(o.section);
   out << "phase,gap_rate,phase_next,gap_rate_next,letter\n";
   for (std::size_t i = 0; i + 1 < points.size() && i < kMostPoints; ++i) {
     const afm::TipState &p = points[i], &q = points[i + 1];
@@ -70,13 +73,12 @@ void write_section(const Options& o, const afm::Partition& partition, const std:
   close(out, o.section);
 }
 
-void write_orbits(const Options& o, const afm::PoincareMap& map, const afm::Partition& partition) {
+void write_orbits(const Options& o, std::ofstream& out, const afm::PoincareMap& map, const afm::Partition& partition) {
   afm::OrbitSearchSettings search = o.search;
   search.longest = o.longest;
   const auto found = search_orbits(map, search);
   std::map<std::string, int> times;
   for (const afm::FoundOrbit& f : found.orbits) ++times[cyclic_word(partition, f.orbit.points)];
-  std::ofstream out = open(o.orbits);
   out << "length,word,orbits_with_it,cells,k_f,phase,gap_rate,multiplier_1,multiplier_2,approach\n";
   for (const afm::FoundOrbit& f : found.orbits) {
     const std::string word = cyclic_word(partition, f.orbit.points);
@@ -89,8 +91,7 @@ void write_orbits(const Options& o, const afm::PoincareMap& map, const afm::Part
   close(out, o.orbits);
 }
 
-void write_forbidden(const Options& o, const std::vector<afm::WordCount>& counts) {
-  std::ofstream out = open(o.forbidden);
+void write_forbidden(const Options& o, std::ofstream& out, const std::vector<afm::WordCount>& counts) {
   out << "length,word\n";
   for (const afm::WordCount& row : counts) {
     for (const std::string& word : row.forbidden) out << row.length << "," << word << "\n";
@@ -114,6 +115,7 @@ int run(const Options& o) {
         "model = oscillator: its section has four dimensions; the partition is for the hammer's two");
   }
   if (o.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is nothing but rest");
+  std::ofstream section = open(o.section), forbidden = open(o.forbidden), orbits = open(o.orbits);
   const afm::PoincareMap map(model, o.dynamics.eta);
   const afm::SymbolicRun run = run_on_section(map, static_cast<std::size_t>(o.impacts), o.search.seed);
   if (!run.on_section) throw std::runtime_error("the hammer has ended in contact: there is no section");
@@ -122,6 +124,7 @@ int run(const Options& o) {
                              ": without chaos there are no words to count");
   }
   const afm::Partition partition = find_partition(run.points);
+  if (partition.letters() > 26) throw std::runtime_error("the section has more bands than there are letters for");
   const std::string letters = word_of(partition, run.points);
   const auto counts = afm::count_words(letters, partition.letters(), o.longest);
   report(partition, run);
@@ -133,9 +136,9 @@ int run(const Options& o) {
                                     run.exponent_std_error, spread.mean, spread.largest})
               << "\n";
   }
-  if (!o.section.empty()) write_section(o, partition, run.points);
-  if (!o.forbidden.empty()) write_forbidden(o, counts);
-  if (!o.orbits.empty()) write_orbits(o, map, partition);
+  if (!o.section.empty()) write_section(o, section, partition, run.points);
+  if (!o.forbidden.empty()) write_forbidden(o, forbidden, counts);
+  if (!o.orbits.empty()) write_orbits(o, orbits, map, partition);
   return 0;
 }
 

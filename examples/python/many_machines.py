@@ -36,12 +36,12 @@ def main():
     parser.add_argument('--points', type=int, default=300, help='drag speeds, for each of thirty restitutions')
     parser.add_argument('--duration', type=float, default=1000.0, help='of each measurement [tau]')
     options = parser.parse_args()
-    first = '# gamma,eta,k_f_work,k_f_work_std_error: %d drag speeds, %.17g tau each\n' % (options.points,
-                                                                                        options.duration)
+    first = '# gamma,eta,k_f_work,k_f_work_std_error: %d drag speeds, %.17g tau each, afm %s\n' % (
+        options.points, options.duration, afm.__version__)
     lines = options.table.read_text().splitlines(True) if options.table.exists() else []
     whole = [line for line in lines if line.endswith('\n')]  # a kill may have cut the last one
-    if whole and whole[0] != first:
-        parser.error('%s holds other points, or was measured for another duration' % options.table)
+    if lines and lines[0] != first:
+        parser.error('%s holds something else, or other points, another duration or version' % options.table)
     done = len(whole[1:]) // len(GAMMAS)
     options.table.write_text(''.join([first] + whole[1:1 + done * len(GAMMAS)]))
     dask.config.set({'distributed.worker.profile.enabled': False})  # it looks at the stack of a worker each 10 ms

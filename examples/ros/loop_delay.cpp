@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <random>
+#include <stdexcept>
+#include <string>
 
 int main(int argc, char** argv) try {
   ros::init(argc, argv, "loop_delay");
   ros::NodeHandle own("~");
-  const auto count = static_cast<std::size_t>(own.param("commands", 1000));
+  const int commands = own.param("commands", 1000);
+  if (commands < 1) throw std::invalid_argument("commands = " + std::to_string(commands) + ": must be at least 1");
+  const auto count = static_cast<std::size_t>(commands);
   afm_emulator::Client tip(own.param<std::string>("emulator", "/afm"));
   const double batch_rate = tip.configuration().batch_rate_hz;
   tip.command_and_wait(0.0);  // until all are connected

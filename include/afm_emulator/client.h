@@ -338,6 +338,14 @@ class Client {
     while (impacts_.size() > kKeptBatches) impacts_.pop_front();
     while (frictions_.size() > kKeptBatches) frictions_.pop_front();
   }
+  // What came beside its batches, but for the latest: a long period would fill the memory.
+  template <class Message>
+  static void hand_over(std::deque<Message>& beside, Measurement& measurement) {
+    while (beside.size() > 1 && beside.front()->header.seq <= *measurement.last()) {
+      measurement.add(*beside.front());
+      beside.pop_front();
+    }
+  }
   template <class Message>
   void complete(const std::deque<Message>& beside, const std::string& topic, Measurement& measurement,
                 std::uint32_t (Measurement::*lacking)() const) {
@@ -369,8 +377,12 @@ class Client {
         throw EmulatorError(name_ + "/deflection: messages were lost while it was measured");
       }
       expected = batch->first_sample + batch->vertical.size();
-      const std::uint32_t whole_from = std::max(impacts_.front()->header.seq, frictions_.front()->header.seq);
-      if (tau_between(since.time, batch->time) >= 0.0 && batch->header.seq >= whole_from) measurement.add(*batch);
+      const bool is_whole = measurement.last() ||
+                            batch->header.seq >= std::max(impacts_.front()->header.seq, frictions_.front()->header.seq);
+      if (!is_whole || tau_between(since.time, batch->time) < 0.0) continue;
+      measurement.add(*batch);
+      hand_over(impacts_, measurement);
+      hand_over(frictions_, measurement);
     }
     complete(impacts_, "/impacts", measurement, &Measurement::without_impacts);
     complete(frictions_, "/friction", measurement, &Measurement::without_friction);

@@ -45,7 +45,7 @@ class Measurement {
     seconds_ += static_cast<double>(batch.vertical.size()) * batch.sample_period;
   }
 
-  // Both after all batches: those of other batches do not count.
+  // Both after the batch they belong to, in order: those of other batches do not count.
   void add(const ImpactArray& batch) {
     if (!is_of_period(batch.header)) return;
     ++with_impacts_;

@@ -70,6 +70,8 @@ void warn(const std::vector<ParameterError>& traps) {
   }
 }
 
+void throw_stuck() { throw std::runtime_error("the search of an impact cannot go on"); }
+
 void require(bool holds, const char* name, double value, const char* reason) {
   if (!holds) refuse({ParameterError(name, value, reason)});
 }

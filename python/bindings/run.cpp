@@ -103,8 +103,11 @@ void advance_to(Run& run, Until until, const ModelTime& time, std::uint64_t impa
   constexpr std::uint64_t kImpactsAtATime = 10000;
   repeat(1, [&] {
     Batch batch;
+    const ModelTime before = run.now();
     const Outcome outcome =
         run.advance(time, std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
+    const bool is_stuck = outcome == Outcome::budget_spent && batch.impacts.empty() && !(before < run.now());
+    if (is_stuck && impacts > 0) throw_stuck();
     impacts -= std::min<std::uint64_t>(impacts, batch.impacts.size());
     joined.add(batch);
     const bool ended = until == Until::end_of_batch || !(run.now() < time);

@@ -50,7 +50,7 @@ py::array advance_tip(Tip& self, const py::object& time, const py::object& most_
       const ModelTime stop = next_stop(self, end);
       const Outcome outcome = self.advance(stop);
       if (outcome == Outcome::time_limit) return stop == end;
-      if (outcome == Outcome::search_failed) throw std::runtime_error("the search of an impact cannot go on");
+      if (outcome == Outcome::search_failed) throw_stuck();
       events.push_back(self.last_impact());
       return events.size() == most;
     });
@@ -67,7 +67,9 @@ class Sampler {
   bool step() {
     const ModelTime stop = next_stop(tip_, end_), segment_end = tip_.segment_end();
     take(segment_end < stop ? segment_end : stop);
+    const ModelTime before = tip_.now();
     const Outcome outcome = tip_.advance_segment(stop);
+    if (outcome == Outcome::search_failed && !(before < tip_.now())) throw_stuck();
     if (outcome == Outcome::time_limit) return stop == end_;
     if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) {
       events_.push_back(tip_.last_impact());

@@ -61,7 +61,7 @@ class ManyMachines(unittest.TestCase):
         curve = afm.friction_curve(eta, gamma=gamma, duration=DURATION, transient=0.1 * DURATION)
         self.assertEqual(curve['k_f_work'][0], friction)
         other = self.start('one.csv', 1, points + 1)
-        self.assertIn(b'holds other points', other.communicate(timeout=DEADLINE)[0])
+        self.assertIn(b'holds something else', other.communicate(timeout=DEADLINE)[0])
         self.assertEqual((other.returncode, (self.folder / 'one.csv').read_bytes()), (2, one))
 
 

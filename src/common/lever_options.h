@@ -15,7 +15,9 @@ struct LeverOptions {
   std::string lever, surface;  // names, or paths that end in .yaml
   double load_n = 0.0;         // [N]
 
-  bool are_given() const { return !lever.empty() || !surface.empty() || load_n != 0.0; }
+  static bool are_given(const CommandLine& app) {
+    return app.is_given("lever") || app.is_given("surface") || app.is_given("load");
+  }
 };
 
 // The scenes, levers and surfaces that are known by name: of an installed tool those beside it, else the sources'.

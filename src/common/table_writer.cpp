@@ -30,4 +30,8 @@ void TableWriter::end_row() {
   cells_ = 0;
 }
 
+void TableWriter::flush() {
+  if (!out_.flush()) throw std::runtime_error("cannot write the output");
+}
+
 }  // namespace afm

@@ -26,6 +26,7 @@ class TableWriter {
     return *this << std::to_string(value);
   }
   void end_row();  // throws std::logic_error where the row has not a cell for every column
+  void flush();    // throws std::runtime_error where what was written does not arrive
 
  private:
   std::ostream& out_;

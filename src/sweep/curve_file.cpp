@@ -62,7 +62,7 @@ CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, con
     keep_whole_chains(units);
   }
   if (path != "-") file_.open(path, std::ios::binary | std::ios::app);
-  if (!has_content(path)) writer_.write_header();
+  if (path == "-" || !has_content(path)) writer_.write_header();
   flush();
 }
 

@@ -70,7 +70,7 @@ void parse(afm::CommandLine& app, Options& o) {
 }
 
 void take_lever(const afm::CommandLine& app, Options& o) {
-  if (!o.lever.are_given()) return;
+  if (!afm::LeverOptions::are_given(app)) return;
   if (!o.si.on) refuse("lever, surface, load: have a meaning only with --si");
   afm::CurveSettings& s = o.settings;
   const afm::LeverScene scene(app, o.lever);

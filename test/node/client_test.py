@@ -56,6 +56,10 @@ class Calls:
         self.begin(line)
         return self.answer()
 
+    def asked_mb(self):
+        status = Path('/proc/%d/status' % self.child.pid).read_text()
+        return int(re.search(r'VmData:\s+(\d+)', status).group(1)) / 1024.0
+
     def clean_up(self):
         self.child.kill()
         self.child.wait()
@@ -80,10 +84,21 @@ class Claims:
             end = time.monotonic() + seconds
             while time.monotonic() < end:
                 tip.call('command_and_wait 1e-6')
-            status = Path('/proc/%d/status' % tip.child.pid).read_text()
-            return int(re.search(r'VmData:\s+(\d+)', status).group(1)) / 1024.0
+            return tip.asked_mb()
         begin = asked_mb_after(1.0)
         self.assertLess(asked_mb_after(3.0), begin + 10.0)
+
+    def test_a_long_period_does_not_keep_its_impacts(self):
+        """Of which 15 MB come in a second."""
+        tip = self.start_both('real_time', timeout_s=LONG_S, contact_tolerance=1e-5)
+        tip.call('command_and_wait 1e-6')
+        tip.begin('control 6')
+        asked_mb = []
+        for seconds in (2.0, 3.0):
+            time.sleep(seconds)
+            asked_mb.append(tip.asked_mb())
+        self.assertGreater(self.numbers(tip.answer())[0], 1e6)
+        self.assertLess(asked_mb[1], asked_mb[0] + 15.0)
 
     def test_faulty_arguments_are_named_at_every_pace(self):
         for pace in ('lockstep', 'real_time'):

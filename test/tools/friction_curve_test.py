@@ -51,6 +51,9 @@ class SameBytes(Case):
         self.assertEqual(len(one.splitlines()), 1 + 8 * 2 * 2)
         self.assertEqual(self.table([*MAP, '--threads', '2'], 'two.csv'), one)
         self.assertEqual(self.run_tool(MAP).stdout, one)
+        (self.directory / '-').write_text('no table')  # it was taken for the output
+        done = subprocess.run([os.path.abspath(TOOL), *MAP], cwd=str(self.directory), stdout=subprocess.PIPE)
+        self.assertEqual(done.stdout, one)
 
     def interrupted(self, arguments, number):
         """Stopped with some rows there and some not, then finished."""

@@ -260,6 +260,7 @@ class Refused(unittest.TestCase):
             for scene in (('--lever', 'soft'), ('--surface', 'nacl'), ('--load', 1e-9)):
                 self.refuse(scale + ': is that of --lever', 'friction_curve', '--si', *scene, '--' + scale, 1e-10)
         self.refuse('rest-height: is given beside --load', 'real_time', '--load', 1e-9, '--rest-height', 0)
+        self.refuse('rest-height: is given beside --load', 'real_time', '--load', 0, '--rest-height', -0.5)
         self.refuse('load_n = nan: must be finite', 'real_time', '--load', 'nan')
         self.refuse('load_n = 1: ', 'real_time', '--load', 1)
         self.refuse('load_n = -1: ', 'friction_curve', '--si', '--load', -1)

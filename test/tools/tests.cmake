@@ -39,7 +39,7 @@ list(TRANSFORM tools REPLACE "(.+)" "$<TARGET_FILE:afm_\\1>")
 afm_add_test(help 60 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/help_test.py ${tools})
 
 # common/NAME_test.cpp: what tools share
-foreach(name command_line table_writer)
+foreach(name command_line decimal_range table_writer)
   afm_add_gtest(${name}_test common/${name}_test.cpp)
   target_link_libraries(afm_${name}_test afm_common)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)

@@ -371,6 +371,15 @@ class Client:
             with self._news:
                 self._batches = None
 
+    def _hand_over(self, measurement):
+        """What came beside its batches, but for the latest: a long period would fill the memory."""
+        for topic, add in measurement.adders():
+            with self._news:
+                kept = self._beside[topic]
+                count = sum(1 for number, _ in kept[:-1] if number <= measurement.last)
+                of_batches, kept[:count] = kept[:count], []
+            add(of_batches)
+
     def _measured(self, applied, duration):
         measurement, expected = Measurement(applied, self), None
         while measurement.seconds < duration * (1.0 - ROUNDING):
@@ -384,10 +393,13 @@ class Client:
                 raise EmulatorError('%s/deflection: messages were lost while it was measured' % self.name)
             expected = batch.first_sample + len(batch.vertical)
             with self._news:  # nothing: of a restart, which the next batch says
-                whole = all(kept and batch.header.seq >= kept[0][0] for kept in self._beside.values())
+                whole = measurement.last is not None or all(kept and batch.header.seq >= kept[0][0]
+                                                            for kept in self._beside.values())
             if whole and tau_between(applied.time, batch.time) >= 0.0:
                 measurement.add(batch)
-        for topic, add in (('impacts', measurement.add_impacts), ('friction', measurement.add_friction)):
+                if batch.header.seq % KEPT_BATCHES == 0:
+                    self._hand_over(measurement)
+        for topic, add in measurement.adders():
             kept, name = self._beside[topic], '%s/%s' % (self.name, topic)
             if measurement.last is not None:  # it comes on a connection of its own
                 self._wait_for(lambda: kept and kept[-1][0] >= measurement.last, name)

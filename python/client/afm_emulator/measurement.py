@@ -25,7 +25,8 @@ class Measurement:
         self._begin = self._end = self._last_begin = applied.time
         self._samples, self._impulse = 0, 0.0
         self._vertical = self._vertical_squares = self._lateral_squares = 0.0
-        self._impacts = []
+        self._impact_count, self._losses = 0, []  # J of a batch each
+        self._with_impacts = self._with_friction = 0  # batches
         self._same_speed = True
 
     def add(self, batch):
@@ -41,24 +42,34 @@ class Measurement:
         self._impulse += batch.lateral_impulse
         self.seconds += len(batch.vertical) * batch.sample_period
 
+    def adders(self):
+        """What takes the messages of the topics beside that of the batches."""
+        return (('impacts', self.add_impacts), ('friction', self.add_friction))
+
     def add_impacts(self, messages):
-        """(sequence number, bytes) of ImpactArray messages: those of its batches count. Returns how many of these
-        lack."""
-        of_period = [read_impacts(data) for data in self._of_period(messages)]
-        self._impacts = [impacts for epoch, _, impacts in of_period if epoch == self._since.epoch]
-        return self._batches - len(self._impacts)
+        """(sequence number, bytes) of ImpactArray messages, after those added before: those of its batches count. Returns
+        how many of these lack."""
+        for data in self._of_period(messages):
+            epoch, _, impacts = read_impacts(data)
+            if epoch == self._since.epoch:
+                self._with_impacts += 1
+                self._impact_count += int(impacts['count'].sum(dtype='u8'))
+                self._losses.append(math.fsum(impacts['energy_loss'].tolist()))
+        return self._batches - self._with_impacts
 
     def add_friction(self, messages):
         """The same of Friction messages, which have the exact begin and end of each batch."""
         of_period = self._of_period(messages)
         if of_period:
-            self._begin = Friction().deserialize(of_period[0]).begin
+            if self._with_friction == 0:
+                self._begin = Friction().deserialize(of_period[0]).begin
             self._end = Friction().deserialize(of_period[-1]).time
+            self._with_friction += len(of_period)
         elif self.first is None and messages:  # a period of no length: now
             latest = Friction().deserialize(messages[-1][1])
             if latest.epoch == self._since.epoch and tau_between(self._begin, latest.time) > 0.0:
                 self._begin = self._end = latest.time
-        return self._batches - len(of_period)
+        return self._batches - self._with_friction
 
     @property
     def _batches(self):
@@ -80,8 +91,8 @@ class Measurement:
         r.mean_lateral_force = self._impulse / seconds
         r.rms_lateral_force = self._lever.lateral_stiffness * math.sqrt(self._lateral_squares / samples)
         r.mean_normal_force = self._lever.stiffness * r.mean_vertical
-        r.impact_count = sum(int(impacts['count'].sum(dtype='u8')) for impacts in self._impacts)
-        r.energy_loss = math.fsum(loss for impacts in self._impacts for loss in impacts['energy_loss'].tolist())
+        r.impact_count = self._impact_count
+        r.energy_loss = math.fsum(self._losses)
         v0 = (self._since.drag_velocity if self._same_speed else 0.0) or math.nan
         r.k_f = r.energy_loss / (v0 * v0 * seconds)
         r.k_f_work = r.mean_lateral_force / v0

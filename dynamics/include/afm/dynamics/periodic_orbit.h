@@ -20,7 +20,7 @@ struct PeriodicOrbit {
   double period = 0.0;           // [tau]: the sum of the times, which is cells / eta
   double energy_loss = 0.0;      // in a period [m a^2/tau^2]
   double K_f = 0.0;              // [m_tip/tau]; NaN at eta = 0
-  double residual = 0.0;         // largest |map(point) - next point| in any coordinate
+  double residual = 0.0;         // largest |map(point) - next point| in any coordinate, of points that are rounded
   Multipliers multipliers{};
   double slowest_impact = 0.0;  // normal speed [a/tau]; at the cutoff the law has a corner
   double clearance = 0.0;       // smallest gap at a minimum on the way [a]; at 0 the orbit grazes
@@ -29,7 +29,7 @@ struct PeriodicOrbit {
 };
 
 enum class OrbitOutcome : std::uint8_t {
-  found,     // the residual is at most 1e-13
+  found,     // the residual was at most 1e-13 before the last refinement
   contact,   // the orbit has shrunk to bounces without speed
   singular,  // no solution nearby: a multiplier is 1, or all steps leave the section
   slow       // the step limit came first

@@ -195,5 +195,5 @@ class Link:
                 if job is None:
                     return
                 job()
-            except (rospy.ROSException, OSError) as fault:
+            except Exception as fault:  # the knobs are worked on after it, too
                 self.notes.append(str(fault))

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "afm/dynamics/sweep.h"
+#include "afm/sweep.h"
 
 namespace afm {
 namespace {

@@ -1,0 +1,67 @@
+#include "afm/time_average.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "afm/sweep.h"
+#include "support/models.h"
+
+namespace afm {
+namespace {
+
+// How many of the 95 % intervals of short runs hold the mean of a run of 1e7 tau, by both estimators.
+struct Chaotic {
+  double eta, K_f;  // v_c = 0.1 eta
+};
+
+class Coverage : public testing::TestWithParam<Chaotic> {};
+
+TEST_P(Coverage, IsNineteenInTwenty) {
+  constexpr int kSeeds = 3000;
+  const Chaotic& known = GetParam();
+  const SweepPoint point{known.eta, 0.7, 0.1 * known.eta};
+  int covered = 0, covered_by_work = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    Tip tip(model_of(point), point.eta, random_start(point, seed, 0));
+    average_over_time(tip, 100.0);
+    const FrictionAverage average = average_over_time(tip, 1000.0);
+    covered += std::abs(average.K_f - known.K_f) < 1.96 * average.K_f_std_error ? 1 : 0;
+    covered_by_work += std::abs(average.K_f_work - known.K_f) < 1.96 * average.K_f_work_std_error ? 1 : 0;
+  }
+  std::printf("eta = %g: %.1f %% and %.1f %%\n", known.eta, 100.0 * covered / kSeeds, 100.0 * covered_by_work / kSeeds);
+  EXPECT_GE(covered, kSeeds * 93 / 100);
+  EXPECT_LE(covered, kSeeds * 97 / 100);
+  EXPECT_GE(covered_by_work, kSeeds * 93 / 100);
+  EXPECT_LE(covered_by_work, kSeeds * 97 / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Chaos, Coverage,
+                         testing::Values(Chaotic{2.75, 0.28925}, Chaotic{3.4, 0.25305}, Chaotic{5.0, 0.18813}));
+
+// The energy stored at the ends of the batches is many times the work between them.
+TEST(AverageOverTime, ASlowDragHasItsFrictionByTheWorkToo) {
+  const SweepPoint point{0.02, 0.7, 0.05};
+  SweepSettings settings;
+  settings.duration = 1000.0;
+  settings.transient = 200.0;
+  const FrictionAverage a = sweep_point(point, settings, to_tip_state(Model{}.H, start_at(point.eta))).friction;
+  EXPECT_NEAR(a.K_f_work, 0.019, 3.0 * a.K_f_work_std_error);
+  EXPECT_LT(a.K_f_work_std_error, 0.005);
+}
+
+TEST(RandomStart, IsAboveTheSurfaceAndOfItsOwnNumber) {
+  const SweepPoint point{3.4, 0.7, 0.05};
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const TipState start = random_start(point, 7, i);
+    ASSERT_GE(start.g, 0.0);
+    ASSERT_EQ(random_start(point, 7, i).phase, start.phase);
+    ASSERT_NE(random_start(point, 8, i).phase, start.phase);
+    ASSERT_NE(random_start(point, 7, i + 1).phase, start.phase);
+  }
+}
+
+}  // namespace
+}  // namespace afm
