@@ -1,7 +1,7 @@
 # Sourced by the scripts beside it: where things are, and an environment in which ROS's tools work.
 # shellcheck disable=SC2034  # the variables are used where this is sourced
 
-afm_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+afm_root=$(CDPATH='' cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 afm_build=${AFM_BUILD_DIR:-$afm_root/build}
 # what is sourced: rosrun finds no executable below PACKAGE/build, and roslaunch finds files of an install space below
 # the package twice

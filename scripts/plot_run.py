@@ -15,8 +15,8 @@ try:
     from afm_emulator.impacts import read_impacts
     from matplotlib import pyplot
 except ImportError as missing:
-    sys.exit('plot_run.py: %s; scripts/install_dependencies installs it (Debian: python3-rosbag, python3-matplotlib)'
-             % missing)
+    sys.exit('plot_run.py: %s; source devel/setup.bash, or let scripts/install_dependencies install what is missing '
+             '(Debian: python3-rosbag, python3-matplotlib)' % missing)
 except KeyboardInterrupt:
     sys.exit(130)
 

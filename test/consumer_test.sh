@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/expected"
 
 [[ $# -eq $(find "$examples" -name '*.cpp' | wc -l) ]] || { echo "not every example is tested"; exit 1; }
-cp -r "$examples" "$work/source"
+cp -r --no-preserve=mode "$examples" "$work/source"  # the tree may be read-only
 # as a workspace without a build type installs it
 cmake -DCMAKE_INSTALL_CONFIG_NAME= -DCMAKE_INSTALL_PREFIX="$work/prefix" -P "$build/cmake_install.cmake" >"$work/log" \
   2>&1 || { cat "$work/log"; exit 1; }
@@ -76,16 +76,20 @@ if [[ -n $devel ]]; then
   compare devel one_tip
   # another package of catkin
   mkdir "$work/package"
-  cp "$work/source/one_tip.cpp" "$work/package"
+  cp "$work/source/"{one_tip,periodic_orbit}.cpp "$work/package"
   cat >"$work/package/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.16)
 project(neighbour LANGUAGES CXX)
 find_package(catkin REQUIRED COMPONENTS afm_emulator)
 add_executable(one_tip one_tip.cpp)
 target_link_libraries(one_tip PRIVATE afm::core)
+add_executable(periodic_orbit periodic_orbit.cpp)
+target_link_libraries(periodic_orbit PRIVATE ${catkin_LIBRARIES})  # which were files, without the flags for the bits
+target_include_directories(periodic_orbit PRIVATE ${catkin_INCLUDE_DIRS})
 END
-  build_in neighbour "$work/package" "$devel" one_tip
+  build_in neighbour "$work/package" "$devel" all -DCMAKE_CXX_FLAGS="-O3 -march=native"
   compare neighbour one_tip
+  compare neighbour periodic_orbit
 fi
 # an installed tool knows the levers beside it, not those of the sources
 cp "$work/prefix/share/afm_emulator/config/levers/"{ppp_cont,mine}.yaml

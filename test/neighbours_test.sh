@@ -40,7 +40,7 @@ mkdir "$work/project"
   theirs project
   echo "enable_testing()"
   echo "add_custom_target(tests)"
-  echo "add_subdirectory($root afm_emulator)"
+  echo "add_subdirectory(\"$root\" afm_emulator)"
   echo "target_link_libraries(stress PRIVATE afm::core)"
 } >"$work/project/CMakeLists.txt"
 configure "$work/project" -DAFM_ROS=OFF
@@ -76,3 +76,16 @@ for time in first second; do
   grep -q "^CMAKE_BUILD_TYPE:STRING=$" "$work/workspace/build/CMakeCache.txt" || fail "the cache has our kind of build"
 done
 grep '"command".*src/core/tip/tip.cpp' "$work/workspace/build/compile_commands.json" | grep -qe '-O3' || fail "ours is not optimised"
+
+# a package of a workspace that takes the libraries into itself
+mkdir -p "$work/other/taker"
+cp "$toplevel" "$work/other/CMakeLists.txt"
+{
+  theirs taker
+  echo "find_package(catkin REQUIRED)
+catkin_package()
+add_subdirectory(\"$root\" afm_emulator)
+target_link_libraries(stress PRIVATE afm::core)"
+} >"$work/other/taker/CMakeLists.txt"
+sed 's/neighbour/taker/; s/<depend>.*depend>//' "$work/workspace/neighbour/package.xml" >"$work/other/taker/package.xml"
+configure "$work/other"
