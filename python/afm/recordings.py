@@ -101,10 +101,11 @@ def _of_epoch(kind: str, messages: Dict[int, Any], epoch: int) -> List[Any]:
 class Recording:
     """One epoch of a recording.
 
-    units, model: of its configuration; eta: drag velocity at its beginning [a/tau]; configuration: the message;
+    units: of its configuration; model, bath, contact_tolerance, eta: at its beginning, the last in [a/tau], as Tip and
+    Run take them; configuration: the message;
     commands: structured array (n,) of the drag velocity at the beginning and after each command: tau, phase, eta
     [a/tau], drag_velocity [m/s]; begin, end: model times between which the run is simulated; epochs: all that the bag
-    holds. Where something is missing without which the run is not known, it is a ValueError that names it.
+    tells of. Where something is missing without which the run is not known, it is a ValueError that names it.
     """
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:
@@ -128,15 +129,18 @@ class Recording:
         if any(s.epoch == read['Friction'][last].epoch and
                _model_time(s.time) > _model_time(read['Friction'][last].time) for s in status):
             raise ValueError('messages of Friction are missing at the end, as the last status tells')
-        self.epochs: List[int] = sorted({m.epoch for m in read['Snapshot'].values()})
-        if epoch is None and min(m.epoch for m in read['Friction'].values()) < self.epochs[0]:
-            raise ValueError('the bag begins before its first snapshot: the state there is not known; epoch = %d is '
-                             'whole' % self.epochs[0])
+        begun = sorted({m.epoch for m in read['Snapshot'].values()})
         with_batches = {m.epoch for m in read['Friction'].values()}
-        first = next((e for e in self.epochs if e in with_batches), self.epochs[0])
+        self.epochs: List[int] = sorted({*begun, *with_batches})
+        if epoch is None and min(with_batches) < begun[0]:
+            raise ValueError('the bag begins before its first snapshot: the state there is not known; epoch = %d is '
+                             'whole' % begun[0])
+        first = next((e for e in begun if e in with_batches), begun[0])
         self.epoch: int = first if epoch is None else epoch
         if self.epoch not in self.epochs:
             raise ValueError('epoch = %s: the bag holds %s' % (epoch, self.epochs))
+        if self.epoch not in begun:
+            raise ValueError('epoch = %s: the snapshot is missing with which it begins' % epoch)
         self._snapshots, frictions = (_of_epoch(kind, read[kind], self.epoch) for kind in ('Snapshot', 'Friction'))
         start = self._snapshots[0]
         self.configuration: Any = start.configuration
@@ -145,8 +149,11 @@ class Recording:
         if made_by != here:
             raise ValueError('the bag was made by %s; this is %s' % (made_by, here))
         self.units = self._units(start.configuration)
-        self.model: Model = self.units.model
-        self.eta: float = start.applied.drag_velocity / self.units.velocity
+        at_begin = self._settings(start.applied)
+        self.model: Model = self._model_of(at_begin)
+        self.eta: float = at_begin['eta']
+        self.bath: Bath = at_begin['bath']
+        self.contact_tolerance: float = at_begin['contact_tolerance']
         self.begin = _model_time(start.time)
         if not frictions:
             raise ValueError('the bag holds no message of Friction in epoch %d: the end of the run is not known' %
@@ -195,10 +202,16 @@ class Recording:
                     bath=bath, friction_window=applied.friction_window_tau, sample_period=applied.sample_period_tau,
                     samples_per_batch=applied.samples_per_batch)
 
+    def _model_of(self, live: Dict[str, Any]) -> Model:
+        fixed = self.units.model
+        return Model(*(live[name] for name in ('gamma', 'cutoff', 'rest_height')), fixed.amplitude,
+                     fixed.frequency_ratio, live['kind'])
+
     def _run_from(self, snapshot: Any) -> Run:
-        c, live, m = self.configuration, self._settings(snapshot.applied), self.model
-        model = Model(*(live.pop(name) for name in ('gamma', 'cutoff', 'rest_height')), m.amplitude, m.frequency_ratio,
-                      live.pop('kind'))
+        c, live = self.configuration, self._settings(snapshot.applied)
+        model = self._model_of(live)
+        for name in ('gamma', 'cutoff', 'rest_height', 'kind'):
+            del live[name]
         state = {name: getattr(snapshot, name) for name in snapshot.__slots__
                  if name not in ('header', 'epoch', 'configuration', 'applied')}
         state = {name: _model_time(v) if hasattr(v, 'tau') else v for name, v in state.items()}

@@ -77,7 +77,8 @@ std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {
     return trap("locks to the swing of the lateral spring, as omega_h/omega_v = " +
                 number_text(std::round(1e4 * model.frequency_ratio) / 1e4));
   }
-  if (bath.kicks_per_tau < kEnough * suitable) return trap("is too low for this quality factor");
+  const double least = is_slow(bath) ? std::fmin(suitable, Bath{}.kicks_per_tau) : suitable;
+  if (bath.kicks_per_tau < kEnough * least) return trap("is too low for these springs and quality factors");
   return {};
 }
 

@@ -77,9 +77,10 @@ TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {
 TEST(Bath, ATrapNamesTheRateAndTheRemedy) {
   EXPECT_TRUE(find_traps(Model{}, with(20.0)).empty());
   EXPECT_TRUE(find_traps(with_ratio(14.0), with(100.0, 8.652)).empty());
+  EXPECT_TRUE(find_traps(with_ratio(60.0), with(1e5)).empty());  // K_f as with the golden section of 60
   ASSERT_EQ(find_traps(with_ratio(14.0), with(2.0, 8.652)).size(), 1u);  // the rate of a lever's file, with a lower Q
   EXPECT_EQ(find_traps(with_ratio(14.0), with(2.0, 8.652))[0].reason,
-            "is too low for this quality factor: K_f may be wrong by up to a fifth; give 46.979");
+            "is too low for these springs and quality factors: K_f may be wrong by up to a fifth; give 46.979");
   const std::vector<ParameterError> traps = find_traps(with_ratio(14.0), with(20.0));
   ASSERT_EQ(traps.size(), 1u);
   EXPECT_EQ(traps[0].name, "kicks_per_tau");

@@ -122,6 +122,18 @@ TEST(Parameters, OnlyWhatIsFaultyIsBlamed) {
   EXPECT_TRUE(is_blamed("spring_constant_n_per_m", faults) && is_blamed("lateral_spring_constant_n_per_m", faults));
   EXPECT_FALSE(is_blamed("resonance_hz", faults)) << faults;
   EXPECT_EQ(refusal({}), "");
+  // as a live parameter: the tip began in a valley of its own surface
+  Faults none;
+  Parameters loaded = read({{"spring_constant_n_per_m", 0.2},
+                            {"resonance_hz", 13e3},
+                            {"lateral_spring_constant_n_per_m", 88.2},
+                            {"surface_amplitude_m", 0.05e-9},
+                            {"lattice_spacing_m", 0.399e-9},
+                            {"load_n", 0.05e-9}},
+                           none);
+  EXPECT_TRUE(none.empty() && find_faults(loaded).empty()) << describe(none);
+  loaded.si.restitution_gamma = 1.5;
+  ASSERT_EQ(find_faults(loaded).size(), 1u) << describe(find_faults(loaded));
 }
 
 // Largest distance of the lateral spring from rest in 100 tau [a].

@@ -106,6 +106,18 @@ class PythonModule(NodeTest):
         Topic('deflection').wait_for_more(5)
         self.assertGreater(self.assert_repeats(self.end(emulator), 0)[1], 0)
 
+    def test_the_model_and_the_bath_of_a_recording(self):
+        """Of a hammer it was an oscillator."""
+        emulator = self.record(record=True, model='hammer', quality_factor=50.0, temperature_k=300.0,
+                               contact_tolerance=1e-4)
+        Topic('deflection').wait_for_more(3)
+        emulator.set(restitution_gamma=0.5)
+        path, = self.end(emulator)
+        recording = afm.from_bag(path)
+        tip = (recording.model.kind, recording.model.gamma, recording.bath.quality_factor, recording.contact_tolerance)
+        self.assertEqual(tip, ('hammer', 0.7, 50.0, 1e-4))
+        self.assertAlmostEqual(recording.bath.temperature * recording.units.temperature, 300.0)
+
     def test_a_split_recording(self):
         self.run_emulator(split_duration_s=0.4)
         self.command(*[2.0, -3.0, 5.0] * 15)
@@ -169,6 +181,9 @@ class PythonModule(NodeTest):
         spoiled = self.directory / 'spoiled.bag'
         spoiled.write_bytes(Path(path).read_bytes().replace(b'ModelTime time', b'ModelTime tim='))
         self.assertEqual(afm.from_bag(spoiled).end, afm.from_bag(path).end)
+        without = self.filtered(path, lambda topic, m: topic != 'snapshot' or m.epoch == 0)
+        self.assertEqual(afm.from_bag(without).epochs, afm.from_bag(path).epochs)
+        self.assertRaisesRegex(ValueError, 'epoch = 1: the snapshot is missing', afm.from_bag, without, epoch=1)
         without = self.filtered(path, lambda topic, m: topic != 'deflection')
         np.testing.assert_array_equal(afm.from_bag(without).simulate().lateral, afm.from_bag(path).simulate().lateral)
 

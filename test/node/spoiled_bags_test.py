@@ -350,6 +350,8 @@ class SpoiledBags(SpoiledBag):
         for subject, spoil in ((None, lambda: None),
                                ('samples', lambda: self.of('deflection')[5].edit(vertical=nan)),
                                ('samples', lambda: self.of('deflection')[5].edit(vertical=[-1e-9] * len(nan))),
+                               ('complete', lambda: (self.of('deflection')[5].edit(vertical=[-1e-9] * len(nan)),
+                                                     self.remove(*self.of('applied')))),
                                (None, record_by_rosbag),
                                (None, start_again),
                                (None, self.end_at_the_last_deflection),

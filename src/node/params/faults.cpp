@@ -160,7 +160,10 @@ Faults find_faults(const Parameters& parameters) {
   Faults faults, faults_of_rates;
   Check check(faults), rates(faults_of_rates);
   add(find_faults(p.si), faults);
-  if (!faults.empty()) p.si = SiModel{};
+  if (!faults.empty()) {
+    p.si = SiModel{};
+    p.initial.y = std::max(p.initial.y, Parameters{}.initial.y);  // it may be a valley of the other surface
+  }
   check_model(p, check);
   rates.within("time_scale", p.time_scale, 1e-6, 100.0);
   rates.within("batch_rate_hz", p.batch_rate_hz, 1.0, kMaxBatchRate);
