@@ -26,8 +26,8 @@ TOOLS = Path(os.environ.get("AFM_TOOLS", DEVEL / "lib/afm_emulator"))
 OUT = str(BUILD / "laboratory" / MODE)
 COMMANDS = commands(QUICK)
 MADE = {name: table for name, table in TABLES.items() if not (QUICK and table.full_only)}
-BUILT = [str(path) for path in [TOOLS / "real_time", TOOLS / "emulator_node", *DEVEL.glob("lib/python3*/*/afm/_afm*.so")]
-         if path.exists()]
+BUILT = [str(path) for path in (TOOLS / "real_time", TOOLS / "emulator_node",
+                                *DEVEL.glob("lib/python3*/*/afm/_afm*.so")) if path.exists()]
 EXAMPLES = ("friction_peaks", "bifurcations", "thermal_histogram", "friction_of_lever")  # in Python, with a picture
 SHELL = ('source scripts/environment.bash; ! [[ -f "%s/setup.bash" ]] || source_setup "%s/setup.bash"; '
          'export PATH="%s:$PATH"; ')

@@ -1,7 +1,7 @@
 // How much faster than real time one tip is, over drag speeds, cutoffs, levers, loads and baths, and what K_f comes
-// out: CSV. In processor time, but for the slowest tau. times_real_time counts a tau as 157.08 us, the paper's, for every lever;
-// lever_times_real_time as long as it is with the one given. A tau that seems the slowest is made again, as it may have
-// been interrupted.
+// out: CSV. In processor time, but for the slowest tau. times_real_time counts a tau as 157.08 us, the paper's, for
+// every lever; lever_times_real_time as long as it is with the one given. A tau that seems the slowest is made again,
+// as it may have been interrupted.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

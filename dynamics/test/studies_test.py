@@ -22,7 +22,8 @@ SHORT = ['--starts', '1', '--duration', '200', '--transient', '200']
 REFUSED = {
     'attractors': [('gamma = 1.5', '--gamma 1.5'), ('eta = 1:2', '--eta 1:2'), ('eta = 2000', '--eta 2000'),
                    ('cutoff = -1', '--cutoff -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
-    'bifurcations': [('1:2', '--range 1:2'), ('mass', '--vary mass'), ('left', '--sweep left'), ('eta: varies', '--vary eta --range 2:2:1 --eta 5'),
+    'bifurcations': [('1:2', '--range 1:2'), ('mass', '--vary mass'), ('left', '--sweep left'),
+                     ('eta: varies', '--vary eta --range 2:2:1 --eta 5'),
                      ('anvil', '--model anvil')],
     'continue_orbits': [('mass', '--vary mass --to 1'), ('eta = 0', '--eta 0 --to 1'), ('to', ''),
                         ('to: eta = nan', '--to nan'), ('to: eta = 2000', '--to 2000'),

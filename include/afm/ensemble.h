@@ -19,8 +19,8 @@ class Ensemble {
   std::size_t size() const { return members_.size(); }
 
   // Each tip makes up to `events` events until the limit. One whose search cannot go on (Outcome::search_failed) stays
-  // behind: tip(i).now() is then before the limit, with fewer events. A log needs room for size() * events records; those of the
-  // i-th tip start at log + i * events.
+  // behind: tip(i).now() is then before the limit, with fewer events. A log needs room for size() * events records;
+  // those of the i-th tip start at log + i * events.
   void advance(std::uint32_t events, const ModelTime& limit, Impact* log = nullptr);
   void advance(std::uint32_t events, const ModelTime* limits, Impact* log = nullptr);  // to a limit for each
   void advance(const ModelTime& limit);                                                // all events until then

@@ -47,8 +47,8 @@ class Measurement:
         return (('impacts', self.add_impacts), ('friction', self.add_friction))
 
     def add_impacts(self, messages):
-        """(sequence number, bytes) of ImpactArray messages, after those added before: those of its batches count. Returns
-        how many of these lack."""
+        """(sequence number, bytes) of ImpactArray messages, after those added before: those of its batches count.
+        Returns how many of these lack."""
         for data in self._of_period(messages):
             epoch, _, impacts = read_impacts(data)
             if epoch == self._since.epoch:

@@ -50,7 +50,8 @@ double chatter_threshold(double contact_tolerance) {
   return contact_tolerance / kErrorGrowth;
 }
 
-// Chosen with the limits of the ratio and the loss (docs/stability.md). Square roots give the same bits on every machine.
+// Chosen with the limits of the ratio and the loss (docs/stability.md). Square roots give the same bits on every
+// machine.
 double chatter_entry_speed(double contact_tolerance) {
   return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
