@@ -397,7 +397,7 @@ class Client:
                                                             for kept in self._beside.values())
             if whole and tau_between(applied.time, batch.time) >= 0.0:
                 measurement.add(batch)
-                if batch.header.seq % KEPT_BATCHES == 0:
+                if batch.header.seq % 10 == 0:  # a Friction message is slow to unpack
                     self._hand_over(measurement)
         for topic, add in measurement.adders():
             kept, name = self._beside[topic], '%s/%s' % (self.name, topic)
