@@ -340,7 +340,7 @@ class Client {
   }
   // What came beside its batches, but for the latest: a long period would fill the memory.
   template <class Message>
-  static void hand_over(std::deque<Message>& beside, Measurement& measurement) {
+  static void drain(std::deque<Message>& beside, Measurement& measurement) {
     while (beside.size() > 1 && beside.front()->header.seq <= *measurement.last()) {
       measurement.add(*beside.front());
       beside.pop_front();
@@ -381,8 +381,8 @@ class Client {
                             batch->header.seq >= std::max(impacts_.front()->header.seq, frictions_.front()->header.seq);
       if (!is_whole || tau_between(since.time, batch->time) < 0.0) continue;
       measurement.add(*batch);
-      hand_over(impacts_, measurement);
-      hand_over(frictions_, measurement);
+      drain(impacts_, measurement);
+      drain(frictions_, measurement);
     }
     complete(impacts_, "/impacts", measurement, &Measurement::without_impacts);
     complete(frictions_, "/friction", measurement, &Measurement::without_friction);

@@ -371,7 +371,7 @@ class Client:
             with self._news:
                 self._batches = None
 
-    def _hand_over(self, measurement):
+    def _drain(self, measurement):
         """What came beside its batches, but for the latest: a long period would fill the memory."""
         for topic, add in measurement.adders():
             with self._news:
@@ -398,7 +398,7 @@ class Client:
             if whole and tau_between(applied.time, batch.time) >= 0.0:
                 measurement.add(batch)
                 if batch.header.seq % 10 == 0:  # a Friction message is slow to unpack
-                    self._hand_over(measurement)
+                    self._drain(measurement)
         for topic, add in measurement.adders():
             kept, name = self._beside[topic], '%s/%s' % (self.name, topic)
             if measurement.last is not None:  # it comes on a connection of its own
