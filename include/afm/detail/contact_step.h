@@ -70,7 +70,7 @@ class ContactStep {
   friend class ContactSolver;  // contact_step.cpp
 
   SpringConstants<double> m_;
-  double eta_ = 0.0;
+  double eta_ = 0.0, tolerance_ = 0.0;
   SlideState<double> start_{};
   ContactForces first_{};  // at the start
   double length_ = 0.0;

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "bernstein_fall.h"
-#include "gauss.h"
 #include "core/release_noise.h"
+#include "gauss.h"
 
 namespace afm::detail {
 namespace {
@@ -120,7 +120,7 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
   // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
-  constexpr double kMaxShift = 1e-7;   // [a] by so much its mean may change: half the default tolerance of a step
+  constexpr double kMaxShift = 100.0;  // over the tolerance: by so much its mean may change
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
   const SlideState<double> computed{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
   ContactPoint to{computed, integral};
@@ -146,7 +146,7 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
     if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
       if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
       const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
-      if (std::fabs(shift) < kMaxShift * time) {
+      if (std::fabs(shift) < kMaxShift * s.tolerance_ * time) {
         to.extension_integral -= shift;
       } else {
         change_velocity(surplus);
@@ -306,7 +306,7 @@ bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
 
 ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
                          double tolerance, const Hint& hint, Purpose purpose)
-    : m_(springs), eta_(eta), start_(start) {
+    : m_(springs), eta_(eta), tolerance_(tolerance), start_(start) {
   ContactSolver::solve(*this, tolerance, hint, purpose);
 }
 

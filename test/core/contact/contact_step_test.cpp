@@ -115,6 +115,35 @@ TEST(ContactStepAt, ACuspBalancesItsEnergyToo) {
   EXPECT_NEAR(step.point(step.length()).extension_integral, integral, 2e-11 * step.length());
 }
 
+// Such a rest, at zero extension, once left an error of up to 1e-5 of the energy at tolerances above 2e-7.
+TEST(ContactStepAt, RestUnderAMovingHolderBalancesItsEnergyAtAnyTolerance) {
+  RandomLaunches random(7);
+  const auto power = [&](double low, double high) { return std::pow(10.0, random.within(low, high)); };
+  for (int i = 0; i < 4000; ++i) {
+    Model model;
+    model.H = random.within(0.02, 0.2), model.y0 = -power(-2.0, 2.0), model.frequency_ratio = power(0.5, 3.0);
+    const SpringConstants<double> m(model);
+    const double eta = power(-2.0, 3.0), tolerance = power(-9.0, -5.7);
+    // from rest, backwards
+    const double time = random.within(0.05, 0.95) / model.frequency_ratio;
+    SlideState<double> q{random.within(0.0, 1.0), 0.0, 0.0};
+    for (double left = time; left > 0.0;) {
+      const ContactStep back(m, -eta, q, kFinestStep, {});
+      const double s = std::min(left, back.length());
+      q = back.at(s), left -= s;
+    }
+    q.u = -q.u;
+    const ContactStep step(m, eta, q, tolerance, {});
+    const double rest = std::min(time, step.length());
+    for (int k = -10; k <= 10; ++k) {
+      const double s = std::min(step.length(), rest * (1.0 + k / 1000.0));
+      const double work = -m.omega_h * m.omega_h * eta * step.point(s).extension_integral;
+      ASSERT_NEAR(energy_of(m, step.at(s)) - work, energy_of(m, q), 2e-13 * std::max(energy_of(m, q), std::abs(work)))
+          << i << " at " << s / step.length();
+    }
+  }
+}
+
 TEST_P(ContactStepOf, BalancesItsEnergyToRoundingEverywhere) {
   const SpringConstants<double> m(model_of(GetParam()));
   const double eta = GetParam().eta;
