@@ -73,8 +73,8 @@ def _read(paths: Sequence[Any], namespace: Optional[str]) -> Tuple[Dict[str, Dic
     if namespace is None and len(found) == 1:
         namespace = next(iter(found))
     if namespace not in found:
-        raise ValueError('namespace = %s: the bag holds recordings of %s' %
-                         (namespace, ', '.join(sorted(found)) or 'nothing'))
+        raise ValueError('namespace = %s: the bag holds recordings of %s' % (namespace, ', '.join(sorted(found)))
+                         if found else 'the bag holds no message of an emulator')
     if namespace in clashes:
         raise ValueError(clashes[namespace])
     first = stamps[namespace]
@@ -125,10 +125,8 @@ class Recording:
             if max(read[kind], default=0) > last:
                 warnings.warn('the run ends with its last message of Friction: %d batches of %s are behind it' %
                               (max(read[kind]) - last, kind), RuntimeWarning, stacklevel=3)
-        status = list(read['EmulatorStatus'].values())[-1:] if by_node else []  # it comes after what it tells of
-        if any(s.epoch == read['Friction'][last].epoch and
-               _model_time(s.time) > _model_time(read['Friction'][last].time) for s in status):
-            raise ValueError('messages of Friction are missing at the end, as the last status tells')
+        if by_node:
+            self._check_ends(read)
         begun = sorted({m.epoch for m in read['Snapshot'].values()})
         with_batches = {m.epoch for m in read['Friction'].values()}
         self.epochs: List[int] = sorted({*begun, *with_batches})
@@ -171,6 +169,21 @@ class Recording:
         self.commands = np.array([(m.time.tau, m.time.phase, m.drag_velocity / self.units.velocity, m.drag_velocity)
                                   for m in [start.applied] + self._applied],
                                  [('tau', 'i8'), ('phase', 'f8'), ('eta', 'f8'), ('drag_velocity', 'f8')])
+
+    @staticmethod
+    def _check_ends(read: Dict[str, Dict[int, Any]]) -> None:
+        """The node publishes a snapshot before the first batch, and whatever tells a model time after the batch up to
+        which it tells."""
+        frictions, snapshot = list(read['Friction'].values()), next(iter(read['Snapshot'].values()))
+        first, last = frictions[0], frictions[-1]
+        if snapshot.epoch == first.epoch and _model_time(snapshot.time) < _model_time(first.begin):
+            raise ValueError('messages of Friction are missing at the beginning, as the first snapshot tells')
+        for kind in ('EmulatorStatus', 'Applied', 'Snapshot'):
+            for m in list(read[kind].values())[-1:]:
+                behind = _model_time(last.time) if m.epoch == last.epoch else ModelTime(0, 0.0)
+                if m.epoch >= last.epoch and _model_time(m.time) > behind:
+                    raise ValueError('messages of Friction are missing at the end, as the last message of %s tells' %
+                                     kind)
 
     def _check_batches(self, frictions: List[Any]) -> None:
         """That each goes on where the last one ends, no further than it may, with the drag velocity in force."""

@@ -123,6 +123,20 @@ class SpoiledBags(SpoiledBag):
             end = 'messages of /afm/%s at the end' % topic
             self.spoil_each((UNCHECKED, words, None, lambda: self.remove(*self.of(topic)[:3])),
                             (UNCHECKED, (end,), None, lambda: self.remove(*self.of(topic)[-5:])))
+        def lose_batches(batches):
+            self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[batches]))
+        def end_before_the_last_command():
+            time = self.of('applied')[-1].message().time
+            before = sum((m.time.tau, m.time.phase) < (time.tau, time.phase)
+                         for m in (e.message() for e in self.of('friction')))
+            lose_batches(slice(before, None))
+            self.remove(*self.of('status'))
+        def tell_of_a_reset():
+            self.of('status')[-1].edit(epoch=self.of('friction')[-1].message().epoch + 1)
+        self.spoil_each((UNCHECKED, ('3 messages of /afm/friction at the beginning',), False,  # as the snapshot tells
+                         lambda: lose_batches(slice(3))),
+                        (UNCHECKED, ('messages of /afm/friction at the end',), False, end_before_the_last_command),
+                        (UNCHECKED, ('messages of /afm/friction at the end',), False, tell_of_a_reset))
         self.spoil_each((SOUND, ('IDENTICAL',), None, self.end_at_the_last_deflection))
         self.spoil_each((UNCHECKED, ('5 messages of /afm/friction at the end',), False,  # as the status tells
                          lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
@@ -292,7 +306,8 @@ class SpoiledBags(SpoiledBag):
         self.assertEqual((answer.code, answer.text), (130, ''))
 
     def test_a_part_is_forgotten(self):
-        latched = self.entries[:3]
+        latched = [copy.copy(entry) for entry in self.entries[:3]]
+        latched[2].stamp += genpy.Duration(0, 1)  # a part by the node has a snapshot of its own
         ends = [self.entries.index(self.of('friction')[batch]) + 1 for batch in (39, 59)]
         everything = self.entries
         parts = []
@@ -350,8 +365,8 @@ class SpoiledBags(SpoiledBag):
         for subject, spoil in ((None, lambda: None),
                                ('samples', lambda: self.of('deflection')[5].edit(vertical=nan)),
                                ('samples', lambda: self.of('deflection')[5].edit(vertical=[-1e-9] * len(nan))),
-                               ('complete', lambda: (self.of('deflection')[5].edit(vertical=[-1e-9] * len(nan)),
-                                                     self.remove(*self.of('applied')))),
+                               (None, lambda: (self.of('deflection')[5].edit(vertical=[-1e-9] * len(nan)),
+                                               self.remove(*self.of('applied')))),
                                (None, record_by_rosbag),
                                (None, start_again),
                                (None, self.end_at_the_last_deflection),
@@ -368,7 +383,7 @@ class SpoiledBags(SpoiledBag):
                                ('K_f', lambda: scale('friction', 60, energy_loss=1 + 1e-8, k_f=1 + 1e-8)),
                                ('K_f', lambda: scale('friction', 60, k_f=1 + 1e-8)),
                                ('energy', lambda: scale('friction', 60, mean_lateral_force=1.1)),
-                               ('counters', lambda: self.of('status')[-1].edit(search_failures=1))):
+                               ('counters', lambda: self.of('status')[0].edit(search_failures=1))):  # a reset follows
             with self.subTest(subject=subject):
                 self.setUp()
                 spoil()

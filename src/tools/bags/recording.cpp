@@ -133,6 +133,17 @@ std::optional<std::uint32_t> batches_between(const Recording& before, const Reco
   return first - last - 1;
 }
 
+// About how many batches like this one lie between two model times; at least one, unless there is no time between.
+std::uint64_t batches_within(const afm_emulator::ModelTime& from, const afm_emulator::ModelTime& to,
+                             const afm_emulator::Friction& batch) {
+  const auto tau = [](const afm_emulator::ModelTime& a, const afm_emulator::ModelTime& b) {
+    return static_cast<double>(b.tau - a.tau) + (b.phase - a.phase);
+  };
+  const double time = tau(from, to), length = tau(batch.begin, batch.time);
+  if (!(time > 0.0)) return 0;
+  return length > 0.0 && time < kMostTold * length ? std::max(1LL, std::llround(time / length)) : 1;
+}
+
 std::string known_names(const std::map<std::string, std::vector<Recording>>& recordings) {
   std::string names;
   for (const auto& [node, unused] : recordings) names += (names.empty() ? "" : ", ") + node;
@@ -220,6 +231,13 @@ std::uint64_t Recording::commands_missing_at_beginning() const {
 }
 
 template <class Message>
+boost::shared_ptr<Message> Recording::first() const {
+  const auto all = view(topic<Message>());
+  if (all->size() == 0) return {};
+  return all->begin()->template instantiate<Message>();
+}
+
+template <class Message>
 boost::shared_ptr<Message> Recording::last() const {
   boost::shared_ptr<Message> found;
   const auto all = view(topic<Message>());
@@ -229,18 +247,30 @@ boost::shared_ptr<Message> Recording::last() const {
   return found;
 }
 
-// The node publishes its status after the batch up to which it tells: further batches than the last one.
-std::uint64_t Recording::batches_that_status_tells_of() const {
+// A recording by the node begins with the snapshot before its first batch.
+std::uint64_t Recording::batches_told_at_beginning() const {
+  const auto batch = first<afm_emulator::Friction>();
+  const auto snapshot = first<afm_emulator::Snapshot>();
+  if (!is_by_node() || !batch || !snapshot || batch->epoch != snapshot->epoch) return 0;
+  if (starts()->of(batch->header.stamp) != starts()->of(snapshot->header.stamp)) return 0;
+  return batches_within(snapshot->time, batch->begin, *batch);
+}
+
+// The node publishes a status, a command and a snapshot after the batch up to which they tell.
+std::uint64_t Recording::batches_told_at_end() const {
   const auto batch = last<afm_emulator::Friction>();
-  const auto status = last<afm_emulator::EmulatorStatus>();
-  if (!is_by_node() || !batch || !status || batch->epoch != status->epoch) return 0;
-  if (starts()->of(batch->header.stamp) != starts()->of(status->header.stamp)) return 0;
-  const auto tau = [](const auto& from, const auto& to) {
-    return static_cast<double>(to.tau - from.tau) + (to.phase - from.phase);
+  if (!is_by_node() || !batch) return 0;
+  std::uint64_t most = 0;
+  const auto hear = [&](const auto& message) {
+    if (!message || starts()->of(batch->header.stamp) != starts()->of(message->header.stamp)) return;
+    if (message->epoch < batch->epoch) return;
+    const bool is_reset = message->epoch > batch->epoch;
+    most = std::max(most, batches_within(is_reset ? afm_emulator::ModelTime() : batch->time, message->time, *batch));
   };
-  const double behind = tau(batch->time, status->time), length = tau(batch->begin, batch->time);
-  if (!(behind > 0.0)) return 0;
-  return length > 0.0 && behind < kMostTold * length ? std::max(1LL, std::llround(behind / length)) : 1;
+  hear(last<afm_emulator::EmulatorStatus>());
+  hear(last<afm_emulator::Applied>());
+  hear(last<afm_emulator::Snapshot>());
+  return most;
 }
 
 // The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
@@ -277,7 +307,11 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   missing.at_end = have_one_start(own->second, all->second)
                        ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
                        : view(last_of, mine->getEndTime() + tick)->size();
-  missing.at_end += batches_that_status_tells_of();
+  if (const auto told = ends_of(topic<afm_emulator::Friction>())) {  // some of these another topic may hold
+    const std::uint32_t held_before = told->first.seq - all->first.seq, held_after = all->second.seq - told->second.seq;
+    missing.at_beginning += std::max<std::uint64_t>(batches_told_at_beginning(), held_before) - held_before;
+    missing.at_end += std::max<std::uint64_t>(batches_told_at_end(), held_after) - held_after;
+  }
   return missing;
 }
 

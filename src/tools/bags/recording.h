@@ -192,7 +192,11 @@ class Recording {
  private:
   Missing missing_at_ends(const std::string& type) const;
   bool is_by_node() const;
-  std::uint64_t batches_that_status_tells_of() const;
+  // Further batches before the first one, or behind the last one, of which other messages of the node tell.
+  std::uint64_t batches_told_at_beginning() const;
+  std::uint64_t batches_told_at_end() const;
+  template <class Message>
+  boost::shared_ptr<Message> first() const;
   template <class Message>
   boost::shared_ptr<Message> last() const;
   std::shared_ptr<const Starts> starts() const;
