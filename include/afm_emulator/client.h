@@ -50,6 +50,7 @@ inline std_msgs::Float64 to_message(double value) {
   return message;
 }
 
+// For one thread at a time.
 class Client {
  public:
   static constexpr std::nullopt_t kAsItIs = std::nullopt;

@@ -30,6 +30,16 @@ def set_parameters(node, parameters):
     rospy.set_param(node, parameters)
 
 
+def advance_after(set_up, tip):
+    """Once the test node listens."""
+    def of(case):
+        set_up(case)
+        wait_until(lambda: rospy.get_name() in connected_to('/afm/friction'), 'it listens')
+        for _ in range(5):
+            tip.control(0.05)
+    return of
+
+
 class Expect(NodeTest):
     def node(self, kind='expect', name=NAME, **parameters):
         """Under way, as rostest starts it."""
@@ -84,6 +94,44 @@ class Expect(NodeTest):
         self.assertEqual(code, 0, said)
         self.assertRegex(said, r'judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = 0\.2 on')
 
+    def test_a_run_that_is_further_than_the_default_is_said_too(self):
+        tip = self.start_emulator()
+        tip.control(0.5)
+        code, said = self.judged(tip, field='friction/drag_velocity', least=0.0, for_s=0.1)
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r'judged from 0\.5\d* s')
+
+    def test_a_mean_is_one_over_time(self):
+        tip = self.start_emulator()
+        for topic in ('friction', 'deflection'):
+            rospy.ServiceProxy('/afm/reset', Trigger)()
+            node = self.node(field=topic + '/drag_velocity', value=1.5 * SPEED, within=0.01 * SPEED, for_s=0.2,
+                             mean=True)
+            wait_until(lambda: NAME in connected_to('/afm/' + topic), 'it listens')
+            for _ in range(10):
+                tip.control(0.001, 2 * SPEED)
+            for _ in range(20):
+                tip.control(0.01, SPEED)
+                tip.control(0.01, 2 * SPEED)
+            code, said = self.end(node)
+            self.assertEqual(code, 0, said)
+
+    def test_lost_messages_fail_it(self):
+        """What happened in them is not known."""
+        tip = self.start_emulator()
+        follower, take = expectations.Follower, expectations.Follower._take
+        def lose_some(self, message):
+            if message.header.seq % 4 or not hasattr(message, 'k_f'):
+                take(self, message)
+        set_parameters(rospy.get_name(), {'field': 'friction/drag_velocity', 'least': 0.0, 'for_s': 0.1})
+        with mock.patch('afm_emulator.ending', create=True), mock.patch('afm_emulator.expectations.run') as run:
+            runpy.run_path(find('expect'))
+        (_, case), _ = run.call_args
+        with mock.patch.object(follower, '_take', lose_some), \
+                mock.patch('afm_emulator.expectations.draw'), \
+                mock.patch.object(case, 'setUp', advance_after(case.setUp, tip)):
+            self.assertRaisesRegex(AssertionError, 'messages were lost on the way', case('test_field').debug)
+
     def test_a_status_next_to_the_time_counts(self):
         """In lockstep none may fall into it: ten come in a second of wall time."""
         tip = self.start_emulator()
@@ -128,6 +176,8 @@ class Expect(NodeTest):
         for given in ({}, {'within': 1.0}, {'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
             self.assert_refused('there is no expectation', field='friction/eta', for_s=0.1, **given)
         self.assert_refused("least = 'x': must be a number", field='friction/eta', for_s=0.1, least='x')
+        for given in ({'value': 1.0, 'within': float('inf')}, {'least': -float('inf')}):
+            self.assert_refused('which any number is', field='friction/eta', for_s=0.1, **given)
 
     def test_unknown_parameters(self):
         """Each node ends at once: there is no emulator that could be waited for."""
@@ -155,7 +205,7 @@ class Expect(NodeTest):
         self.assert_refused('parameter after_s = -1.0: must be finite and not negative', 'expect_sound', after_s=-1.0,
                             for_s=1.0)
 
-    def repeats(self, number, program):
+    def repeats(self, number, program, other=''):
         """expect_repeats under way, with a program of the shell as the controller."""
         script, launch = (Path(self.temporary_directory()) / name for name in ('script', 'closed_loop.launch'))
         script.write_text('#!/bin/sh\n%s\n' % program)
@@ -165,8 +215,8 @@ class Expect(NodeTest):
           <include file="$(find {0})/launch/test_fixture.launch">
             <arg name="bag_directory" value="$(arg bag_directory)"/>
           </include>
-          <node pkg="{0}" type="replay_check" name="controller" required="true" launch-prefix="{1}"/>
-        </launch>'''.format(PACKAGE, script))
+          <node pkg="{0}" type="replay_check" name="controller" required="true" launch-prefix="{1}"/>{2}
+        </launch>'''.format(PACKAGE, script, other))
         return self.node('expect_repeats', '/repeats_%d' % number, launch=str(launch))
 
     def test_repeats_of_a_run_that_died_or_held_nothing_or_does_not_repeat(self):
@@ -176,7 +226,9 @@ class Expect(NodeTest):
                 ('rosservice call --wait /afm/control "%s"' % advance,
                  'of the runs differs: /afm/applied: drag_velocity: 5'))
         nodes = [self.repeats(number, program) for number, (program, _) in enumerate(runs)]
-        for node, (_, sentence) in zip(nodes, runs):
+        misspelt = '<node pkg="%s" type="misspelt" name="other"/>' % PACKAGE
+        nodes.append(self.repeats(len(runs), runs[-1][0], misspelt))
+        for node, (_, sentence) in zip(nodes, runs + ((None, 'could not be started'),)):
             self.assert_fails(node, sentence)
 
     def test_arguments_that_the_launch_file_does_not_have(self):
