@@ -17,7 +17,7 @@ namespace {
 // tolerance times the normal speed of the kick; with a temperature also, like those after an impact, if by less than
 // kDisplacedByNoise times the tolerance times the noise of a kick. K_f by work then changes by less than a standard
 // error, but for one row of docs/data/collapse_friction.csv (benchmark/tolerance_friction.py collapse).
-constexpr double kDisplacedByKick = 10.0, kDisplacedByNoise = 300.0;
+constexpr double kDisplacedByKick = 10.0, kDisplacedByNoise = 30.0;
 
 }  // namespace
 

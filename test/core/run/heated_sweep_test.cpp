@@ -1,8 +1,10 @@
-// K_f by the work of the drag does not depend on the rate of kicks: the default against four times as many.
+// K_f by the work of the drag does not depend on the rate of kicks, the default against four times as many; nor on the
+// contact tolerance.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "afm/run.h"
 #include "afm/sweep.h"
 
 namespace afm {
@@ -49,6 +51,31 @@ INSTANTIATE_TEST_SUITE_P(Settings, HeatedSweep,
 // Strobing: kicks at a whole rate come always at the same phases of an orbit of even eta. The start decides at which:
 // four starts are 4, 6, 33 and 36 % off.
 TEST(HeatedSweep, AWholeRateIsNot) { EXPECT_GT(bias_beyond_noise(2.0, 100.0, 0.926, 2.0), 4.0 * kBias); }
+
+// Of a light tip under a load, which is mostly down.
+double K_f_of(double contact_tolerance, std::uint64_t seed) {
+  RunSettings settings;
+  settings.model.y0 = -1.0;
+  settings.model.frequency_ratio = 21.0;
+  settings.eta = 3.0;
+  settings.contact_tolerance = contact_tolerance;
+  settings.bath = {0.926, 100.0, 0.0, 12.979, seed};
+  Run run(settings);
+  Batch batch;
+  while (run.now() < ModelTime{1000}) run.advance(batch);
+  return batch.friction.K_f_work;
+}
+
+// At the default tolerance the bounces that a kick starts are one event. It once made K_f 9 % too high here.
+TEST(HeatedRun, HasTheFrictionOfAFinerTolerance) {
+  constexpr int kRuns = 8;
+  double coarse = 0.0, fine = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    coarse += K_f_of(kDefaultContactTolerance, seed) / kRuns;
+    fine += K_f_of(1e-6, seed) / kRuns;
+  }
+  EXPECT_NEAR(coarse, fine, 0.03 * fine);
+}
 
 }  // namespace
 }  // namespace afm
