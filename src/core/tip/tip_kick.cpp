@@ -16,7 +16,8 @@ namespace {
 // The bounces that a kick starts in contact are one event if they move the tip by less than this times the contact
 // tolerance times the normal speed of the kick; with a temperature also, like those after an impact, if by less than
 // kDisplacedByNoise times the tolerance times the noise of a kick. Ten times that noise makes K_f by work up to 9 % too
-// high; with this it is within the errors of docs/data/collapse_friction.csv (benchmark/tolerance_friction.py collapse).
+// high; with this it is within the errors of docs/data/collapse_friction.csv
+// (benchmark/tolerance_friction.py collapse).
 constexpr double kDisplacedByKick = 10.0, kDisplacedByNoise = 30.0;
 
 }  // namespace
