@@ -127,7 +127,12 @@ std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& spri
   const double least = std::sqrt(per_height * cubes / (3.0 * allowed));  // reaction: the displacement goes like 1/P^2
   if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return std::nullopt;
   double n = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
-  if (!constants_.constant_loss) n += (1.0 / constants_.threshold - 1.0 / end) / constants_.dw_dv;
+  if (!constants_.constant_loss) {
+    constexpr double kManyHalvings = 600.0;  // by then v is below every threshold, and portable_exp ends at 700
+    const double rest = std::min(0.5 * constants_.dw_dv * (time * f.P - S), kManyHalvings);
+    const double last = std::max(constants_.threshold, 0.1 * end * portable_exp(-rest));
+    n += (1.0 / last - 1.0 / end) / constants_.dw_dv;
+  }
   const double height = cubes / (3.0 * f.P * f.P);  // its time integral
   return Chatter{0.0, std::max(n, 1.0), 2.0 * f.turn * height, f.c_height * height};
 }

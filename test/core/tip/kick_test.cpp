@@ -147,6 +147,24 @@ TEST(Kick, OneEventDisplacesTheTipAsItsBouncesDo) {
   }
 }
 
+TEST(Kick, OneEventCountsTheBouncesUpToTheNextKick) {
+  constexpr double kEta = 0.3, kSpeed = 0.01;
+  Model model = model_with(0.7, 0.05);
+  model.y0 = -1.0;
+  const SpringConstants<double> m(model);
+  const detail::ChatterLaw law(model, 1e-5);
+  for (const double phase : {0.1, 0.15, 0.3, 0.6, 0.85}) {
+    const detail::SlideState<double> at{phase, 0.0, 0.5};
+    for (const double time : {0.025, 0.03, 0.5}) {
+      const auto bounces = law.collapsed(m, kEta, at, kSpeed, 1.0, time);
+      ASSERT_TRUE(bounces);
+      const detail::ChatterRun made = law.run(detail::SlideSegment<double>(m, kEta, at), time, {kSpeed, 0.0});
+      EXPECT_EQ(made.end, time < 0.1 ? detail::ChatterEnd::time : detail::ChatterEnd::died);
+      EXPECT_NEAR(bounces->n, made.chatter.n, 0.3 * made.chatter.n) << phase << ' ' << time;
+    }
+  }
+}
+
 TEST(Kick, OnAnElasticSurfaceEveryBounceIsMade) {
   Tip tip = tip_of(1.0, 0.05, 0.0, -3.0);
   tip.set_bath(bath_of(0.3, 100.0, 29.034));
