@@ -229,7 +229,7 @@ def commands(quick):
     add("stress_shipped", "stress --shipped --seed 5", choose("--tau 10000 --scenes 10", "--tau 100000 --scenes 100"),
         may_fail=True)
 
-    add("collapse_friction", "benchmark/tolerance_friction.py collapse", choose("--tau 100 --eta 0.3", ""))
+    add("collapse_friction", "benchmark/tolerance_friction.py collapse", choose("--tau 400 --eta 0.3", ""))
     for ratio, own in LEVER_KICKS.items():
         for kicks in (own, *MORE_KICKS):
             curve("lever_kicks_%g_%g" % (ratio, kicks), "--eta 2:6:2 --cutoff 0.05 --rest-height -0.3:0:0.3",
