@@ -47,9 +47,10 @@ double ContactStep::find_release() const {
   // secants, and bisection where they lead out
   double high = s, other = low, other_p = low_p;
   for (int i = 0; i < kMaxTries && std::fabs(p) > zero; ++i) {
-    const double next = s - p * (s - other) / (p - other_p);
+    const double next = s - p * (s - other) / (p - other_p), middle = 0.5 * (low + high);
+    if (!(low < middle && middle < high)) break;  // neighbouring times
     other = s, other_p = p;
-    s = low < next && next < high ? next : 0.5 * (low + high);
+    s = low < next && next < high ? next : middle;
     p = pressed(s);
     (p > 0.0 ? low : high) = s;
   }
