@@ -72,6 +72,8 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
         raise ArgumentTypeError('bath', bath, 'must be a Bath')
     elif (temperature, quality_factor, lateral_quality_factor, kicks_per_tau) != (0.0, 0.0, 0.0, Bath().kicks_per_tau):
         raise ParameterError('bath', bath, 'is given beside temperature, quality factors or kicks_per_tau: give either')
+    elif bath.stream != 0:
+        raise ParameterError('bath.stream', bath.stream, 'must be 0: every point has a stream of its own')
     seed = bath.seed if seed is None else seed_of(seed)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
     if not isinstance(sweep, str):

@@ -67,6 +67,7 @@ class Errors(unittest.TestCase):
         self.refused('gap', -1, afm.Run.from_snapshot, dict(afm.Run().snapshot(), gap=-1))
         self.refused('cutoff', -2, afm.friction_curve, [2.0], cutoff=[0.1, -2])
         self.refused('duration', 0, afm.friction_curve, 2.0, duration=0)
+        self.refused('bath.stream', 3, afm.friction_curve, 2.0, bath=afm.Bath(0.9, 100, stream=3))
         self.refused('threads', -1, afm.friction_curve, 2.0, threads=-1)
         self.refused('starts', 0, afm.attractors, 2.0, starts=0)
         self.refused('eta', 0, afm.periodic_orbits, 0)

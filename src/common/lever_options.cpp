@@ -54,8 +54,8 @@ std::set<std::string> read(const std::string& option, const std::string& name,
       if (number == known.end()) throw std::invalid_argument("it says nothing of a " + option + " by its " + key);
       if (!is_number(entry.second))
         throw std::invalid_argument(key + " must be a number as ROS reads it, such as 13000.0 or 1.3e+4");
+      if (!keys.insert(key).second) throw std::invalid_argument("it has " + key + " twice");
       *number->second = entry.second.as<double>();
-      keys.insert(key);
     }
   } catch (const YAML::Exception& fault) {
     throw std::invalid_argument(fault.what());

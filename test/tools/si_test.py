@@ -189,6 +189,7 @@ class Levers(unittest.TestCase):
                 refused(lever + 'lateral_spring_constant_n_per_m: %s\n' % number, 'as ROS reads it')
             refused(lever + 'stiffness: 3\n', file.name, 'stiffness')
             refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')
+            refused(lever + 'resonance_hz: 3.0e+4\n', file.name, 'has resonance_hz twice')
             refused('', file.name, 'a key and a number')
             refused('- 0.5\n', file.name, 'a key and a number')
             by_model = ('omega_v_rad_per_s: 4.0e+4\nomega_h_rad_per_s: 2.5e+5\ntip_mass_kg: 4.0e-10\n'
