@@ -9,6 +9,7 @@
 #include "afm/dynamics/orbit_search.h"
 #include "common/point_options.h"
 #include "common/table_writer.h"
+#include "study_rows.h"
 
 namespace {
 
@@ -22,22 +23,14 @@ using Q = afm::Quantity;
 
 // The second column holds the parameter that is followed.
 std::vector<afm::Column> columns(const std::string& vary) {
-  return {{"orbit"},
-          {"value", vary == "gamma" ? Q::number : Q::velocity},
-          {"event"},
-          {"length"},
-          {"cells"},
-          {"k_f", Q::friction},
-          {"slowest_impact", Q::velocity},
-          {"clearance", Q::length},
-          {"multiplier_1_re"},
-          {"multiplier_1_im"},
-          {"multiplier_2_re"},
-          {"multiplier_2_im"},
-          {"multiplier_3_re"},
-          {"multiplier_3_im"},
-          {"multiplier_4_re"},
-          {"multiplier_4_im"}};
+  return afm::with_multipliers({{"orbit"},
+                                {"value", vary == "gamma" ? Q::number : Q::velocity},
+                                {"event"},
+                                {"length"},
+                                {"cells"},
+                                {"k_f", Q::friction},
+                                {"slowest_impact", Q::velocity},
+                                {"clearance", Q::length}});
 }
 
 const std::map<std::string, afm::Parameter> kParameters{
@@ -75,7 +68,7 @@ void print_row(int number, const afm::BranchPoint& point, const std::string& eve
   const afm::PeriodicOrbit& orbit = point.orbit;
   to << number << point.parameter << event << orbit.length() << orbit.cells << orbit.K_f << orbit.slowest_impact
      << orbit.clearance;
-  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
+  afm::write_multipliers(orbit, to);
   to.end_row();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <complex>
+#include <string>
 #include <vector>
 
 #include "afm/dynamics/basins.h"
@@ -34,24 +35,30 @@ inline const std::vector<Column> kBasinColumns{{"eta", Quantity::velocity, "drag
                                                {"u", Quantity::velocity},
                                                {"w", Quantity::velocity}};
 
+// These columns and those of the multipliers.
+inline std::vector<Column> with_multipliers(std::vector<Column> columns) {
+  for (const char number : {'1', '2', '3', '4'}) {
+    const std::string name = std::string("multiplier_") + number;
+    columns.insert(columns.end(), {{name + "_re"}, {name + "_im"}});
+  }
+  return columns;
+}
+
+template <class Table>
+void write_multipliers(const PeriodicOrbit& orbit, Table& to) {
+  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
+}
+
 // The residual is in natural units always: the largest of errors of several kinds.
-inline const std::vector<Column> kOrbitColumns{{"length"},
-                                               {"cells"},
-                                               {"period", Quantity::time},
-                                               {"k_f", Quantity::friction},
-                                               {"residual"},
-                                               {"phase"},
-                                               {"extension", Quantity::length},
-                                               {"u", Quantity::velocity},
-                                               {"w", Quantity::velocity},
-                                               {"multiplier_1_re"},
-                                               {"multiplier_1_im"},
-                                               {"multiplier_2_re"},
-                                               {"multiplier_2_im"},
-                                               {"multiplier_3_re"},
-                                               {"multiplier_3_im"},
-                                               {"multiplier_4_re"},
-                                               {"multiplier_4_im"}};
+inline const std::vector<Column> kOrbitColumns = with_multipliers({{"length"},
+                                                                   {"cells"},
+                                                                   {"period", Quantity::time},
+                                                                   {"k_f", Quantity::friction},
+                                                                   {"residual"},
+                                                                   {"phase"},
+                                                                   {"extension", Quantity::length},
+                                                                   {"u", Quantity::velocity},
+                                                                   {"w", Quantity::velocity}});
 
 template <class Table>
 void write_row(const SweepPoint& point, const Basin& basin, Table& to) {
@@ -70,7 +77,7 @@ void write_row(double H, const PeriodicOrbit& orbit, Table& to) {
   const FreeState first = to_free_state(H, orbit.points.front());
   to << orbit.length() << orbit.cells << orbit.period << orbit.K_f << orbit.residual << first.phase << first.X
      << first.u << first.w;
-  for (const std::complex<double>& multiplier : orbit.multipliers) to << multiplier.real() << multiplier.imag();
+  write_multipliers(orbit, to);
   to.end_row();
 }
 

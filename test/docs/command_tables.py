@@ -43,7 +43,6 @@ SUBSTITUTIONS = [
     (r'(thermal_histogram)\.py', r'\1.py 10000'),
     (r'(durations\.py)(?! --)', r'\1 --only import'),
     (r'--tau (400000|300000|5000)\b', '--tau 50'),
-    (r'--mutated 1000000', '--mutated 100'),
 ]
 
 # (pattern, why the command is not run); each must be used. The tools of these commands must know the options used.

@@ -4,8 +4,6 @@ if(NOT AFM_SANITIZE)  # what these run, other tests run under sanitizers
   # three documents at a time, each for the most part waiting
   afm_add_test(documented_commands 800 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/docs/commands_test.py
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
-  afm_add_test(rosrun 120 ${CMAKE_CURRENT_SOURCE_DIR}/docs/rosrun_test.sh ${CATKIN_DEVEL_PREFIX}
-    emulator_node friction_curve next_impact replay_check)
 endif()
 
 afm_add_test(document_tables 30 ${PROJECT_SOURCE_DIR}/workflow/documents.py --check)
