@@ -56,12 +56,12 @@ double suitable_kicks(const Model& model, const Bath& bath) {
   constexpr double kGolden = 0.618034;  // 1.618 turns of the lateral spring from kick to kick: far from every lock
   constexpr double kLeast = 8.6;        // the least golden section that was measured (docs/levers.md)
   const double section = std::round(1000.0 * kGolden * lateral_ratio(model)) / 1000.0;
-  const std::vector<double> few{11.09, 29.034, 46.979}, many{29.034, 46.979, 122.99};  // powers of the golden ratio
+  const std::vector<double> few{11.09, 29.034}, many{29.034, 46.979, 122.99};  // powers of the golden ratio
   if (is_slow(bath) && section >= kLeast) return section;
   for (const double kicks : is_slow(bath) ? few : many) {
     if (!locks(model, bath, kicks)) return kicks;
   }
-  return section;  // all of `many` lock only from omega_h/omega_v = 49 on: this is then 30 or more
+  return section;  // all of `many` lock only from omega_h/omega_v = 69 on: this is then 42 or more
 }
 
 std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {

@@ -143,7 +143,7 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
     const double surplus = (there.N2 * u2 - kinetic + springs + work) / there.N2;
     const double swing = there.force * there.force / s.stiffness_;
     const bool by_velocity = u2 >= 0.25 * swing;
-    if (!(std::fabs(surplus) < std::max(kMaxPart * swing, (by_velocity ? kMaxPartOfVelocity : kMaxPart) * u2))) {
+    if (!(std::fabs(surplus) < std::max(kMaxPart * swing, kMaxPartOfVelocity * u2))) {
       if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
       const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
       if (std::fabs(shift) < kMaxShift * s.tolerance_ * time) {
@@ -153,7 +153,7 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
       }
       return to;
     }
-    if (by_velocity && surplus < u2) {
+    if (by_velocity) {
       change_velocity(surplus);
       return to;
     }
