@@ -45,9 +45,12 @@ class Calls:
         for line in self.child.stdout:
             if line.startswith('answer: '):
                 self.answers.put(line[len('answer: '):].strip())
+        self.answers.put(None)
 
     def answer(self):
-        return self.answers.get(timeout=DEADLINE_S * PATIENCE)
+        answer = self.answers.get(timeout=DEADLINE_S * PATIENCE)
+        assert answer is not None, 'the controller has ended'
+        return answer
 
     def begin(self, line):
         self.child.stdin.write(line + '\n')
