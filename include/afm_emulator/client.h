@@ -88,8 +88,8 @@ class Client {
     }
   }
 
-  const Configuration& configuration() const { return *configuration_; }
-  const Applied& applied() const { return *applied_; }  // what is in force
+  Configuration configuration() const { return *configuration_; }
+  Applied applied() const { return *applied_; }  // what is in force
   bool is_lockstep() const { return configuration_->pace == "lockstep"; }
   double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }              // [s]
   double lateral_stiffness() const { return stiffness(configuration_->omega_h_rad_per_s); }  // [N/m]
@@ -291,11 +291,14 @@ class Client {
     }
   }
 
+  // Of a clock that nobody sets [s].
+  static double steady_seconds() { return ros::SteadyTime::now().toSec(); }
+
   // True if it came true in that time. Checks after every message.
   template <class Condition>
   bool comes_true(Condition is_true, double seconds) {
-    const double end = ros::WallTime::now().toSec() + seconds;
-    while (ros::ok() && !is_true() && ros::WallTime::now().toSec() < end) queue_.callOne(ros::WallDuration(0.05));
+    const double end = steady_seconds() + seconds;
+    while (ros::ok() && !is_true() && steady_seconds() < end) queue_.callOne(ros::WallDuration(0.05));
     if (!ros::ok()) throw Shutdown();
     return is_true();
   }
@@ -317,8 +320,8 @@ class Client {
   Applied::ConstPtr command(const ros::Publisher& publisher, double value, double Applied::*field) {
     const auto is_mine = [&](const Applied& m) { return m.*field == value; };
     Applied::ConstPtr mine;
-    const double end = ros::WallTime::now().toSec() + timeout_;
-    const auto left = [&] { return end - ros::WallTime::now().toSec(); };
+    const double end = steady_seconds() + timeout_;
+    const auto left = [&] { return end - steady_seconds(); };
     comes_true([&] { return publisher.getNumSubscribers() > 0; }, timeout_);
     recently_applied_.clear();
     do {

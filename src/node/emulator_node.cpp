@@ -42,6 +42,8 @@ constexpr double kQueueSeconds = 2.0;               // how far publishing may fa
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
 constexpr double kClientsPeriod = 0.1;  // [s]
+// A master that has died is asked for no longer: roscpp sets a parameter with a lock that diagnostics need.
+constexpr double kMasterRetry = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
 constexpr std::chrono::microseconds kSpin{300};        // an idle processor takes 50 to 100 us to wake a thread
@@ -139,6 +141,7 @@ class EmulatorNode {
     runner_.start();
     report_run(parameters, runner_.scheduler());
     advertise(node);
+    ros::master::setRetryTimeout(ros::WallDuration(kMasterRetry));
     publisher_->start(runner_.scheduler());  // last: whoever has a message finds the services
     spinner_.start();
   }
@@ -273,7 +276,8 @@ class EmulatorNode {
     if (!reply.success) return respond(response, reply.message, "");
     const std::string fault = ask(Kind::snapshot);
     if (!fault.empty()) recorder_.stop();
-    return respond(response, fault, reply.message.c_str());
+    return respond(response, fault.empty() ? "" : "ended again, as no snapshot was taken: " + fault,
+                   reply.message.c_str());
   }
 
   // All that was emulated until now belongs to it.
@@ -299,7 +303,7 @@ class EmulatorNode {
     while (future.wait_for(kClosingPoll) != std::future_status::ready) {
       if (closing_) return "the emulator is shutting down";
       if (std::chrono::steady_clock::now() > give_up) {
-        return "no answer from the running thread in time; it may still come to it";
+        return "not done and published in time; it may still be";
       }
     }
     answer = future.get();

@@ -47,12 +47,20 @@ class Faults(NodeTest):
             emulator = self.start(Process([binary, '__name:=' + NAMESPACE[1:]]))
             wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.getSystemState('test')[2]),
                        'the last of it is registered')
+            heights = [-1e-11, -2e-11]
+            for height in heights:  # one after the other: each changes a live parameter
+                self.start(Process(['rostopic', 'pub', '-r', '3', NAMESPACE + '/rest_height', 'std_msgs/Float64', '--',
+                                    '%.1e' % height]))
+            applied = BareSubscriber('applied', master=master)
+            while heights:
+                height = applied.read_message().rest_height_m
+                heights = [other for other in heights if other != height]
             listener = BareSubscriber('deflection', master=master)
             before = listener.read_message()
         # the master is killed
         self.assertIsNone(emulator.child.poll())
-        while listener.read_message().first_sample < before.first_sample + 100000:
-            pass  # half a second of the run
+        while listener.read_message().first_sample < before.first_sample + 400000:
+            pass  # two seconds of the run
         asked = time.monotonic()
         self.assertEqual(emulator.stop(), 0)
         self.assertLess(time.monotonic() - asked, 5.0 * PATIENCE)

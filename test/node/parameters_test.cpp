@@ -221,6 +221,12 @@ TEST(Advice, InLockstepOnlyAWaitForCommandsHasATimeout) {
   EXPECT_TRUE(find_traps(read(waiting, faults)).empty());
 }
 
+TEST(Advice, InLockstepABagThatIsSplitEndsTheSameBits) {
+  Faults faults;
+  EXPECT_EQ(find_traps(read({{"pace", "lockstep"}, {"split_size_mb", 100.0}}, faults)).size(), 1u);
+  EXPECT_TRUE(find_traps(read({{"split_size_mb", 100.0}}, faults)).empty());
+}
+
 TEST(Advice, ARunThatIsTooSlowIsToldHowSlowlyItCanRun) {
   const std::string fault = find_pace_fault(heated_lever(29.034), 0.5);
   EXPECT_NE(fault.find("Give time_scale = 0.3"), std::string::npos) << fault;  // 0.7 of it, one digit

@@ -60,6 +60,11 @@ std::vector<std::string> find_traps(const Parameters& p) {
     traps.push_back("command_timeout_s = " + number_text(p.command_timeout_s) +
                     " has no effect: in lockstep the emulator waits for whoever steers");
   }
+  if (p.pace == kLockstep && (p.split_size_mb > 0.0 || p.split_duration_s > 0.0)) {
+    traps.emplace_back(
+        "split_size_mb, split_duration_s: a new bag begins with a snapshot, which rounds the motion, at a time that "
+        "depends on the disk: in lockstep two runs differ from there on");
+  }
   return traps;
 }
 

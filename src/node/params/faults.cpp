@@ -107,6 +107,8 @@ void check_drag(const Parameters& p, Check& check) {
 }
 
 void check_scene(const Parameters& p, Check& check) {
+  check.require(p.command_timeout_s == 0.0 || p.commands_eta.empty(), "command_timeout_s", p.command_timeout_s,
+                "must be 0 with commands_eta: what the emulator plays itself is no command");
   const double most = to_eta(p.max_drag_velocity, p.si), batch = batch_of_model_time(p);
   for (const double eta : p.commands_eta) {
     check.require(std::abs(eta) <= most, "commands_eta", eta,

@@ -1,5 +1,7 @@
 #include "parameters.h"
 
+#include <ros/master.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -168,7 +170,9 @@ Parameters read_parameters(Value tree, Faults& faults) {
 
 Parameters load_parameters(const ros::NodeHandle& node, Faults& faults) {
   Value tree;
-  node.getParam(node.getNamespace(), tree);
+  if (!node.getParam(node.getNamespace(), tree) && !ros::master::check()) {
+    faults.push_back({node.getNamespace(), "?", "the parameters cannot be read, as the master does not answer"});
+  }
   return read_parameters(tree, faults);
 }
 

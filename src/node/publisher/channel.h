@@ -81,22 +81,22 @@ class Channel {
     raw_.morph(traits::md5sum<Message>(), traits::datatype<Message>(), traits::definition<Message>(), "1");
   }
 
-  // unhurried: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all, and
-  // for room in the recording.
-  void send(Message message, bool unhurried) {
+  // for_subscribers: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all.
+  // for_recording: waits for room in the recording.
+  void send(Message message, bool for_subscribers, bool for_recording) {
     message.header.seq = sequence_++;
     const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
     if (latched_) {
       copy(bytes, raw_);
       publisher_.publish(raw_);
     } else {
-      if (unhurried) wait_for_subscribers();
+      if (for_subscribers) wait_for_subscribers();
       ros::SerializedMessage unused;
       ros::TopicManager::instance()->publish(
           bag_topic_->name, [tracked = outstanding_.track(bytes)] { return tracked; }, unused);
       lost();
     }
-    recorder_.record(bag_topic_, bytes, role_, unhurried);
+    recorder_.record(bag_topic_, bytes, role_, for_recording);
   }
 
   // Messages that a slow subscriber did not get, as its queue here was full. What waited for one that has left is not

@@ -91,23 +91,28 @@ class Publisher {
     const Label label{stamp_of(report), report.state.epoch};
     status_tracker_.observe(report);
     live_of(parameters_) = report.in_force.live;
+    // nobody who is slow holds up the end; the recording is made whole
+    const bool for_subscribers = report.unhurried && !stopping_;
+    const auto send = [&](auto& channel, auto&& message) {
+      channel.send(std::forward<decltype(message)>(message), for_subscribers, report.unhurried);
+    };
     switch (report.kind) {
       case Report::Kind::epoch:
         latest_configuration_ = to_configuration(parameters_, AFM_EMULATOR_VERSION, fingerprint_, label);
-        configuration_.send(latest_configuration_, report.unhurried);
+        send(configuration_, latest_configuration_);
         break;
       case Report::Kind::applied:
         latest_applied_ = to_applied(report, parameters_, label);
-        applied_.send(latest_applied_, report.unhurried);
+        send(applied_, latest_applied_);
         sources_.on_applied(report.in_force.live);
         break;
       case Report::Kind::snapshot:
-        snapshot_.send(to_snapshot(report.snapshot, latest_configuration_, latest_applied_, label), report.unhurried);
+        send(snapshot_, to_snapshot(report.snapshot, latest_configuration_, latest_applied_, label));
         break;
       case Report::Kind::batch:
-        deflection_.send(to_deflection(*report.batch, report.in_force.live, units_, label), report.unhurried);
-        impacts_.send(to_impacts(*report.batch, units_, label), report.unhurried);
-        friction_.send(to_friction(*report.batch, report.in_force.live, units_, label), report.unhurried);
+        send(deflection_, to_deflection(*report.batch, report.in_force.live, units_, label));
+        send(impacts_, to_impacts(*report.batch, units_, label));
+        send(friction_, to_friction(*report.batch, report.in_force.live, units_, label));
         sources_.queue.release(report.batch);
         break;
       case Report::Kind::answer:
@@ -153,7 +158,7 @@ class Publisher {
           status_tracker_.update_status(sources_.recorder.status(), sources_.refusals.summary(),
                                         deflection_.lost() + impacts_.lost() + friction_.lost());
       if (clock_) status.header.stamp = latest_clock_;
-      status_.send(std::move(status), false);
+      status_.send(std::move(status), false, false);
     }
     if (is_due(diagnostics_due_, kDiagnosticsPeriod)) {
       status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), std::chrono::steady_clock::now());

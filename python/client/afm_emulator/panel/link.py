@@ -22,7 +22,8 @@ from ..impacts import read_impacts
 
 ASK_AGAIN_S = 2.0     # rospy may miss a publisher that comes back, and a master that comes back knows nobody
 PAIRING_S = 0.1       # that a batch waits for its impacts, which come on another topic
-SERVICE_S = 5.0       # that a service is waited for, and then its answer
+SERVICE_S = 5.0       # that a service is waited for
+ANSWER_S = 35.0       # and then its answer: a step may take 8 s, and closing a bag half a minute
 WAITING_BATCHES = 200
 LATEST = {'configuration': Configuration, 'applied': Applied, 'friction': Friction, 'status': EmulatorStatus}
 NumpyDeflection = numpy_msg(Deflection)
@@ -181,7 +182,7 @@ class Link:
         try:
             connection = Connection(name, kind, time.monotonic() + SERVICE_S)
             with contextlib.closing(connection):
-                answer = connection.call(kind._request_class(**request), time.monotonic() + SERVICE_S)
+                answer = connection.call(kind._request_class(**request), time.monotonic() + ANSWER_S)
         except OSError as fault:
             raise OSError('%s: %s' % (service, fault)) from fault
         if not getattr(answer, 'success', True):

@@ -253,7 +253,7 @@ class Window(QtWidgets.QWidget):
             status.real_time_factor, status.lag))}
         if status.paused:
             states['pace'] = (Lamp.GREY, 'paused')
-        for name, diagnosis in self.link.diagnostics.items():
+        for name, diagnosis in list(self.link.diagnostics.items()):
             states[name] = Lamp.BY_LEVEL[min(diagnosis.level, 3)], '%s: %s' % (name, diagnosis.message)
         if self.link.notes:
             states['note'] = (Lamp.GREY, self.link.notes[-1])
