@@ -1,5 +1,6 @@
 """Short tables for the documents, a row a method or a line of text, from the full ones beside them in docs/data."""
 import math
+import statistics
 
 from registry import short_table
 
@@ -102,8 +103,8 @@ def lever_points(tables):
         unloaded = sorted(row[column] for row in rows if row["load_nn"] == 0)
         table.append({"bath": bath, "points": len(times), "below 1 x": sum(t < 1 for t in times),
                       "1 to 3 x": sum(1 <= t < 3 for t in times), "3 to 10 x": sum(3 <= t < 10 for t in times),
-                      "above 10 x": sum(t >= 10 for t in times), "median": "%.2g" % times[len(times) // 2],
-                      "median without load": "%.2g" % unloaded[len(unloaded) // 2]})
+                      "above 10 x": sum(t >= 10 for t in times), "median": "%.2g" % statistics.median(times),
+                      "median without load": "%.2g" % statistics.median(unloaded)})
     return table
 
 
