@@ -19,7 +19,7 @@ from std_srvs.srv import Trigger
 from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
 from topics import DEADLINE_S, PATIENCE, Topic
 
-TIMEOUT_S, LONG_S = 2.0 * PATIENCE, 15.0 * PATIENCE  # to see how it ends; to wait for a start on a busy machine
+TIMEOUT_S, LONG_S = 2.0 * PATIENCE, 15.0 * PATIENCE  # to see how it ends; for a busy machine
 FAULTY = (('duration', 'control nan'), ('duration', 'control inf'), ('duration', 'control -0.01'),
           ('drag_velocity', 'control 0.01 nan'), ('rest_height', 'control 0.01 - nan'),
           ('drag_velocity', 'command_and_wait inf'), ('rest_height', 'command_and_wait - nan'),
@@ -34,7 +34,7 @@ def at(time):
 class Calls:
     """A controller that calls what it is told."""
 
-    def __init__(self, program, timeout_s=TIMEOUT_S):
+    def __init__(self, program, timeout_s=LONG_S):
         self.child = subprocess.Popen(program + ['%g' % timeout_s], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                                       universal_newlines=True)
         self.answers = queue.Queue()
@@ -75,7 +75,7 @@ class Calls:
 
 class Claims:
     """Of both clients."""
-    def start_both(self, pace, timeout_s=TIMEOUT_S, **parameters):
+    def start_both(self, pace, timeout_s=LONG_S, **parameters):
         self.emulator = self.start(Emulator(dict(parameters, pace=pace)))
         return self.start(Calls(self.program(), timeout_s))
 
@@ -97,7 +97,7 @@ class Claims:
 
     def test_a_long_period_does_not_keep_its_impacts(self):
         """Of which 15 MB come in a second."""
-        tip = self.start_both('real_time', timeout_s=LONG_S, contact_tolerance=1e-5)
+        tip = self.start_both('real_time', contact_tolerance=1e-5)
         tip.call('command_and_wait 1e-6')
         tip.begin('control 6')
         asked_mb = []
@@ -123,7 +123,7 @@ class Claims:
             self.emulator.stop()
 
     def test_a_stopped_emulator(self):
-        tip = self.start_both('lockstep')
+        tip = self.start_both('lockstep', TIMEOUT_S)
         self.numbers(tip.call('control 0.01'))
         for fault in ('did not answer', ''):  # then it does not even connect
             self.emulator.halt()
@@ -135,7 +135,7 @@ class Claims:
         self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # not that of a call before it
 
     def test_a_restarted_emulator(self):
-        tip = self.start_both('lockstep', LONG_S)
+        tip = self.start_both('lockstep')
         self.emulator.halt()  # the call gets no answer before the end
         tip.begin('control 0.01')
         self.emulator.child.kill()
@@ -149,7 +149,7 @@ class Claims:
 
     def test_a_restarted_emulator_in_real_time(self):
         """Once a period was joined from both runs, with the impacts of neither."""
-        tip = self.start_both('real_time', LONG_S)
+        tip = self.start_both('real_time')
         self.numbers(tip.call('control 0.01'))
         tip.begin('control 5')
         batches = Topic('deflection')
@@ -258,7 +258,7 @@ class Claims:
 
     def test_a_mean_force_is_of_what_was_commanded(self):
         """Once it went over a reset, and over commands of others."""
-        tip, other = self.start_both('lockstep', LONG_S), self.start(Calls(self.program(), LONG_S))
+        tip, other = self.start_both('lockstep'), self.start(Calls(self.program()))
         batches, mean = Topic('deflection'), 'mean_force 60 0 3e-6'
         batches.wait_for_connection()
         for disturb, what in ((lambda: self.emulator.call('reset', Trigger), 'reset'),
@@ -269,7 +269,7 @@ class Claims:
             disturb()
             self.assertRegex(tip.answer(), 'EmulatorError: /afm: %s' % what)
         self.emulator.stop()
-        tip = self.start_both('real_time', LONG_S, command_timeout_s=0.2)
+        tip = self.start_both('real_time', command_timeout_s=0.2)
         self.assertRegex(tip.call('mean_force 0.5 0 3e-6'), 'EmulatorError: /afm: another command or change')
         self.numbers(tip.call('mean_force 0.5'))
 
