@@ -128,8 +128,8 @@ std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& spri
   if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return std::nullopt;
   double n = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
   if (!constants_.constant_loss) {
-    constexpr double kManyHalvings = 600.0;  // by then v is below every threshold, and portable_exp ends at 700
-    const double rest = std::min(0.5 * constants_.dw_dv * (time * f.P - S), kManyHalvings);
+    constexpr double kLongDecay = 600.0;  // v is below every threshold then, and portable_exp ends at 700
+    const double rest = std::min(0.5 * constants_.dw_dv * (time * f.P - S), kLongDecay);
     const double last = std::max(constants_.threshold, 0.1 * end * portable_exp(-rest));
     n += (1.0 / last - 1.0 / end) / constants_.dw_dv;
   }
