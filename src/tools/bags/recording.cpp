@@ -124,12 +124,13 @@ bool is_part(const std::string& path, const std::string& first) {
 // How many batches are missing between two parts of one recording; nothing if they are not.
 std::optional<std::uint32_t> batches_between(const Recording& before, const Recording& after) {
   const std::string topic = before.topic<afm_emulator::Friction>();
-  if (topic.empty() || topic != after.topic<afm_emulator::Friction>()) return {};
+  if (topic.empty() || topic != after.topic<afm_emulator::Friction>()) return std::nullopt;
   const auto begin = after.ends_of(topic), end = Recording(before.node(), {}, {before.files().back()}).ends_of(topic);
-  if (!begin || !end) return {};
+  if (!begin || !end) return std::nullopt;
   const std::uint32_t first = begin->first.seq, last = end->second.seq;
   const bool follows = first == last + 1;
-  if (!follows && (first <= last || !is_part(after.files().front().path, before.files().front().path))) return {};
+  if (!follows && (first <= last || !is_part(after.files().front().path, before.files().front().path)))
+    return std::nullopt;
   return first - last - 1;
 }
 
