@@ -42,7 +42,7 @@ constexpr double kQueueSeconds = 2.0;               // how far publishing may fa
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
 constexpr double kClientsPeriod = 0.1;  // [s]
-// A master that has died is asked for no longer: roscpp sets a parameter with a lock that diagnostics need.
+// How long a master that does not answer is asked again: while roscpp sets a parameter, diagnostics wait for its lock.
 constexpr double kMasterRetry = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};

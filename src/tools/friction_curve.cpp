@@ -23,9 +23,10 @@ const char kDescription[] =
     "estimator), k_f_work from the work of the drag (the definition; with a heat bath only this is friction). The\n"
     "true mean is within 1.96 k_f_std_error 95 times in 100, and so for k_f_work, whose error is too large\n"
     "where a bath heats a slow tip; docs/friction.md says where one run knows too little of its error. Bounces are\n"
-    "counted down to the threshold of the contact tolerance. The holder must pass ten lattice spacings, or a\n"
-    "warning says so. Beside the table lies OUTPUT.settings: interrupted and started again, the same command\n"
-    "goes on where it was; with --sweep up or down it repeats the sweep of eta that was not finished.\n"
+    "counted down to the threshold of the contact tolerance, or to the next kick of the bath. The holder must pass\n"
+    "ten lattice spacings, or a warning says so. Beside the table lies OUTPUT.settings: interrupted and started\n"
+    "again, the same command goes on where it was; with --sweep up or down it repeats the sweep of eta that was\n"
+    "not finished.\n"
     "The numbers depend on nothing but the options that name them: not on threads or interruptions.";
 
 struct Options {
