@@ -1,4 +1,4 @@
-// Measures how long a controller waits: from publishing a drag velocity until ~applied says that it holds. Prints one
+// Measures how long a controller waits: from commanding a drag velocity until ~applied says that it holds. Prints one
 // row of CSV. Parameters: emulator; commands, how many.
 #include <afm_emulator/client.h>
 
@@ -22,9 +22,9 @@ int main(int argc, char** argv) try {
   std::uniform_real_distribution<double> pause(0.0, 2.0);  // batches: commands fall on every phase of a batch
   while (waits_ms.size() < count) {
     ros::WallDuration(pause(random) / batch_rate).sleep();
-    const ros::WallTime published = ros::WallTime::now();
+    const ros::WallTime commanded = ros::WallTime::now();
     tip.command_and_wait((waits_ms.size() % 2 == 0 ? 2.0 : 2.01) * 3.3104228e-6);
-    waits_ms.push_back(1e3 * (ros::WallTime::now() - published).toSec());
+    waits_ms.push_back(1e3 * (ros::WallTime::now() - commanded).toSec());
   }
   std::sort(waits_ms.begin(), waits_ms.end());
   std::printf("batch rate / Hz,commands,median / ms,p99 / ms\n%g,%zu,%.2f,%.2f\n", batch_rate, count,

@@ -4,6 +4,7 @@
 #include <afm_emulator/StartRecording.h>
 #include <afm_emulator/Step.h>
 #include <malloc.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_msgs/Float64.h>
 #include <std_srvs/SetBool.h>
@@ -36,16 +37,17 @@ namespace {
 
 using Kind = Request::Kind;
 
-// A step may hold one service for seconds: others, and commands, must come through meanwhile.
-constexpr unsigned kSpinnerThreads = 3;
+// A step may hold one service for seconds: others, and commands, must come through meanwhile. Control periods have
+// threads of their own, as in real time each holds one until it is over.
+constexpr unsigned kSpinnerThreads = 3, kControlThreads = kMaxPeriods;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
 constexpr double kClientsPeriod = 0.1;  // [s]
 // How long a master that does not answer is asked again: while roscpp sets a parameter, diagnostics wait for its lock.
 constexpr double kMasterRetry = 0.1;  // [s]
-// A batch takes at most 1.5 s, and a step fails after 8 s.
-constexpr std::chrono::seconds kAnswerDeadline{12};
+// A batch takes at most 1.5 s, and a step fails after 8 s. A control period in real time takes as long as it is.
+constexpr double kAnswerDeadline = 12.0;               // [s]
 constexpr std::chrono::microseconds kSpin{300};        // an idle processor takes 50 to 100 us to wake a thread
 constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
 
@@ -144,6 +146,7 @@ class EmulatorNode {
     ros::master::setRetryTimeout(ros::WallDuration(kMasterRetry));
     publisher_->start(runner_.scheduler());  // last: whoever has a message finds the services
     spinner_.start();
+    control_spinner_.start();
   }
 
   // In order: no more commands, the last batch, all published, the bag closed.
@@ -158,13 +161,14 @@ class EmulatorNode {
 
  private:
   void advertise(ros::NodeHandle& node) {
+    control_node_.setCallbackQueue(&control_queue_);
     const auto hints = ros::TransportHints().tcpNoDelay();
     commands_ = {node.subscribe("drag_velocity", kCommandQueueSize, &EmulatorNode::on_drag_velocity, this, hints),
                  node.subscribe("rest_height", kCommandQueueSize, &EmulatorNode::on_rest_height, this, hints),
                  node.subscribe("load", kCommandQueueSize, &EmulatorNode::on_load, this, hints)};
     services_ = {node.advertiseService("pause", &EmulatorNode::on_pause, this),
                  node.advertiseService("reset", &EmulatorNode::on_reset, this),
-                 node.advertiseService("control", &EmulatorNode::on_control, this),
+                 control_node_.advertiseService("control", &EmulatorNode::on_control, this),
                  node.advertiseService("step", &EmulatorNode::on_step, this),
                  node.advertiseService("start_recording", &EmulatorNode::on_start_recording, this),
                  node.advertiseService("stop_recording", &EmulatorNode::on_stop_recording, this)};
@@ -249,7 +253,7 @@ class EmulatorNode {
       period.drag_velocity = request.drag_velocity;
       period.rest_height = request.rest_height;
       period.tau = request.duration / Units(parameters_.si).time();
-      fault = ask(period, answer);
+      fault = ask(period, answer, is_lockstep() ? 0.0 : request.duration / parameters_.time_scale);
     } else {
       refusals_.add(Refusal::faulty_command, fault);
     }
@@ -259,7 +263,7 @@ class EmulatorNode {
 
   std::string find_control_fault(const afm_emulator::Control::Request& request) const {
     const double v = request.drag_velocity, y = request.rest_height;
-    const double most = kMaxStepTau * Units(parameters_.si).time();
+    const double most = (is_lockstep() ? kMaxStepTau : kMaxPeriodTau) * Units(parameters_.si).time();
     std::string fault = std::isnan(v) ? "" : find_drag_fault(v);
     if (!fault.empty()) return "drag_velocity = " + number_text(v) + " m/s: " + fault;
     fault = std::isnan(y) ? "" : find_height_fault(y);
@@ -290,21 +294,22 @@ class EmulatorNode {
     return true;
   }
 
-  // Waits until it was done and published. Returns why not, or nothing.
-  std::string ask(Request request, Answer& answer) {
+  bool is_lockstep() const { return parameters_.pace == kLockstep; }
+
+  // Waits until it was done and published, which may take so many seconds [s]. Returns why not, or nothing.
+  std::string ask(Request request, Answer& answer, double seconds = 0.0) {
     request.reply = std::make_shared<std::promise<Answer>>();
     std::future<Answer> future = request.reply->get_future();
     if (!runner_.submit(request)) return "too many requests are waiting";
-    const auto begin = std::chrono::steady_clock::now(), give_up = begin + kAnswerDeadline;
+    const auto begin = std::chrono::steady_clock::now();
     while (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
            std::chrono::steady_clock::now() - begin < kSpin) {
       std::this_thread::yield();
     }
     while (future.wait_for(kClosingPoll) != std::future_status::ready) {
       if (closing_) return "the emulator is shutting down";
-      if (std::chrono::steady_clock::now() > give_up) {
-        return "not done and published in time; it may still be";
-      }
+      const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
+      if (waited.count() > kAnswerDeadline + seconds) return "not done and published in time; it may still be";
     }
     answer = future.get();
     const std::string fault = answer.fault;
@@ -330,8 +335,10 @@ class EmulatorNode {
   std::vector<ros::Subscriber> commands_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer clients_timer_;
+  ros::CallbackQueue control_queue_;
+  ros::NodeHandle control_node_{"~"};
   // the last to begin and the first to end: roscpp aborts where a callback publishes on a topic that is withdrawn
-  ros::AsyncSpinner spinner_{kSpinnerThreads};
+  ros::AsyncSpinner spinner_{kSpinnerThreads}, control_spinner_{kControlThreads, &control_queue_};
 };
 
 constexpr char kHelp[] =

@@ -6,8 +6,7 @@ import threading
 from afm_emulator import ending
 import rospy
 from afm_emulator import Client, EmulatorError
-from afm_emulator.measurement import tau_between
-from std_srvs.srv import Trigger
+from afm_emulator.client import tau_between
 
 
 def argument(word):
@@ -30,23 +29,9 @@ def control_in_threads(tip, *durations):
     return ' '.join(str(length) for lengths in found for length in lengths)
 
 
-def command_with_a_reset(tip, *values):
-    """Between the two commands."""
-    publish = tip._publish
-
-    def reset_first(topic, value):
-        if topic == 'rest_height':
-            rospy.ServiceProxy('/afm/reset', Trigger)()
-        publish(topic, value)
-    tip._publish = reset_first
-    return tip.command_and_wait(*values)
-
-
 def answer(tip, name, *words):
     if name == 'control_in_threads':
         return control_in_threads(tip, *map(argument, words))
-    if name == 'command_with_a_reset':
-        return command_with_a_reset(tip, *map(argument, words))
     result = getattr(tip, name)(*map(argument, words))
     if name == 'control':
         end, begin = (time.tau + time.phase for time in (result.end, result.begin))

@@ -186,11 +186,6 @@ class Waiting(NodeTest):
 
 
 class RealTime(NodeTest):
-    def test_control_is_refused(self):
-        answer = self.start(Emulator()).call('control', Control, drag_velocity=NAN, rest_height=NAN, duration=0.01)
-        self.assertFalse(answer.success)
-        self.assertIn('lockstep', answer.message)
-
     def test_the_clock_goes_at_the_rate_of_model_time(self):
         started = time.monotonic()
         self.start(Emulator({'publish_clock': True, 'time_scale': 4.0, 'sample_rate_hz': 50000.0}))

@@ -8,11 +8,6 @@ IMPACT = np.dtype([('tau', '<i8'), ('phase', '<f8'), ('surface_phase', '<f8'), (
                    ('tangential_velocity', '<f8'), ('energy_loss', '<f8'), ('kind', 'u1'), ('count', '<u4')])
 
 
-def sequence_number(data):
-    """Of the bytes of a message with a header."""
-    return struct.unpack_from('<I', data)[0]
-
-
 def read_impacts(data):
     """(epoch, index of the first, table) of the bytes of an ImpactArray, in which the list of impacts is the last
     field."""

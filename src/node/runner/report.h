@@ -18,6 +18,8 @@
 
 namespace afm::node {
 
+// Control periods under way at once, in real time: of as many controllers.
+constexpr std::size_t kMaxPeriods = 8;
 constexpr double kAsItIs = std::numeric_limits<double>::quiet_NaN();
 
 // Sums over a control period, in natural units.
@@ -106,7 +108,7 @@ class BatchQueue {
  public:
   // So many batches like this one, which is empty and has room for the largest.
   BatchQueue(std::size_t batches, const Batch& preallocated)
-      : batches_(batches), free_(batches), reports_(batches + kReportsPerRequest + kWaitingRequests) {
+      : batches_(batches), free_(batches), reports_(batches + kReserved + kWaitingRequests) {
     for (Batch& batch : batches_) {
       batch.vertical.reserve(preallocated.vertical.capacity());
       batch.lateral.reserve(preallocated.lateral.capacity());
@@ -130,8 +132,9 @@ class BatchQueue {
     available_.post();
     return true;
   }
-  // For all that a request can cause. Requests leave room for batches, so a flood of commands drops none.
-  bool has_room_for_request() const { return reports_.write_available() >= batches_.size() + kReportsPerRequest; }
+  // For all that a request can cause. Requests leave room for batches and for the answers of control periods, so a
+  // flood of commands drops none.
+  bool has_room_for_request() const { return reports_.write_available() >= batches_.size() + kReserved; }
 
   // The publishing side.
   void wait_for(std::chrono::milliseconds timeout) { available_.wait_for(timeout); }
@@ -139,7 +142,8 @@ class BatchQueue {
   void release(Batch* batch) { free_.bounded_push(batch); }
 
  private:
-  static constexpr std::size_t kReportsPerRequest = 5;   // a reset: epoch, applied, snapshot, batch, answer
+  static constexpr std::size_t kReportsPerRequest = 5;  // a reset: epoch, applied, snapshot, batch, answer
+  static constexpr std::size_t kReserved = kReportsPerRequest + kMaxPeriods;
   static constexpr std::size_t kWaitingRequests = 1024;  // that may wait for publication
 
   std::vector<Batch> batches_;

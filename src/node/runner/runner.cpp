@@ -118,15 +118,11 @@ void Runner::serve_requests() {
   Request request;
   while (!stopping_ && queue_.has_room_for_request() && requests_.pop(request)) {
     const Answer answer = serve(request);
-    if (!request.reply) continue;
-    Report report = make_report(Report::Kind::answer);
-    report.answer = answer;
-    report.reply = request.reply;
-    queue_.offer(report);
+    if (request.reply) offer_answer(answer, request.reply);
   }
 }
 
-Answer Runner::serve(const Request& request) {
+Answer Runner::serve(Request& request) {
   switch (request.kind) {
     case Kind::command:
       command(request);
@@ -144,6 +140,7 @@ Answer Runner::serve(const Request& request) {
       pause(request.kind == Kind::pause);
       break;
     case Kind::reset:
+      answer_periods([](const Period&) { return true; }, "reset while it was measured");
       ++state_.epoch;
       begin_epoch();
       break;
@@ -193,7 +190,9 @@ void Runner::apply(const Live& live, const char* cause) {
   LiveSettings next = live_settings(settings);
   next.level = choice.level;
   in_force_ = {live, choice.level, choice.expected_error, run_.apply(next), cause, applied_++};
-  if (live.drag_velocity != measured_.drag_velocity) measured_.drag_velocity = kAsItIs;
+  for (Period& period : periods_) {
+    if (live.drag_velocity != period.measured.drag_velocity) period.measured.drag_velocity = kAsItIs;
+  }
   pacer_.set_period(batch_period(parameters_));
   queue_.offer(make_report(Report::Kind::applied));
 }
@@ -236,19 +235,49 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
   return reached;
 }
 
-Answer Runner::control(const Request& request) {
-  if (!lockstep_) return answer("the emulator keeps time by itself: start it with pace = lockstep");
-  if (state_.paused) return answer("the emulator is paused: resume it first");
+// In lockstep the period is over when this returns. In real time it takes the reply with it, and the clock goes on.
+Answer Runner::control(Request& request) {
+  if (state_.paused && request.tau > 0.0) return answer("the emulator is paused: resume it first");
+  if (periods_.size() == periods_.capacity()) return answer("too many control periods are under way");
   if (request.cause[0] != '\0') command(request);
   play_commands();  // what is due now holds over the period
-  measured_ = {};
-  measured_.begin = run_.now();
-  measured_.drag_velocity = parameters_.drag_velocity;
-  Answer reached = step(run_.now() + request.tau, kNoLimit);
-  reached.measured = measured_;
+  Period period;
+  period.measured.begin = run_.now();
+  period.measured.drag_velocity = parameters_.drag_velocity;
+  period.end = run_.now() + request.tau;
+  periods_.push_back(period);
+  if (!lockstep_ && request.tau > 0.0) {
+    periods_.back().reply = std::move(request.reply);
+    return answer();
+  }
+  const Answer reached = step(period.end, kNoLimit);
+  const Answer at_end = answer_of(periods_.back(), reached);
+  periods_.pop_back();
+  return at_end;
+}
+
+Answer Runner::answer_of(const Period& period, Answer reached) const {
+  reached.measured = period.measured;
   reached.epoch = state_.epoch;
   reached.number = in_force_.number;
   return reached;
+}
+
+// Those that are over, in real time.
+template <class Condition>
+void Runner::answer_periods(Condition is_over, const char* fault) {
+  const auto over = std::partition(periods_.begin(), periods_.end(), [&](const Period& p) { return !is_over(p); });
+  for (auto period = over; period != periods_.end(); ++period) {
+    offer_answer(answer_of(*period, answer(fault)), period->reply);
+  }
+  periods_.erase(over, periods_.end());
+}
+
+void Runner::offer_answer(const Answer& answer, const Reply& reply) {
+  Report report = make_report(Report::Kind::answer);
+  report.answer = answer;
+  report.reply = reply;
+  queue_.offer(report);
 }
 
 Answer Runner::answer(const char* fault) const {
@@ -271,10 +300,11 @@ Outcome Runner::run_batch(Advance advance) {
   if (batch == nullptr) return Outcome::time_limit;
   const Outcome outcome = advance(*batch);
   last_batch_impacts_ = batch->impacts.size();
-  if (lockstep_) measured_.add(*batch);
+  for (Period& period : periods_) period.measured.add(*batch);
   Report report = make_report(Report::Kind::batch);
   report.batch = batch;
   queue_.offer(report);  // there is room: requests leave it for all batches
+  if (!lockstep_) answer_periods([this](const Period& p) { return !(run_.now() + half_a_sample() < p.end); }, "");
   return outcome;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <boost/container/static_vector.hpp>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdint>
 #include <future>
@@ -18,7 +19,8 @@
 
 namespace afm::node {
 
-constexpr double kMaxStepTau = 1e4;  // of one step: 1.6 s of model time at the paper's frequency
+constexpr double kMaxStepTau = 1e4;    // of one step: 1.6 s of model time at the paper's frequency
+constexpr double kMaxPeriodTau = 1e9;  // of a control period in real time: 1.8 days
 constexpr std::uint64_t kMaxStepImpacts = 100000;
 // Faults of an answer: the step went as far as it says.
 constexpr char kWallTimeRanOut[] = "8 s of wall time ran out", kModelTimeRanOut[] = "10000 tau ran out";
@@ -39,6 +41,13 @@ class Runner {
  private:
   using Time = std::chrono::nanoseconds;  // on the monotonic clock
 
+  // A control period under way. In real time it is over with the batch that reaches its end, and answered then.
+  struct Period {
+    Measured measured;
+    ModelTime end;
+    Reply reply;  // in real time
+  };
+
   void loop();
   void wait_for_work();
   Time command_wait() const;
@@ -48,15 +57,19 @@ class Runner {
   double half_a_sample() const;  // [tau]
 
   void serve_requests();
-  Answer serve(const Request& request);
+  Answer serve(Request& request);
   void begin_epoch();
   void command(const Request& request);
   void apply(const Live& live, const char* cause);
   void take_snapshot();
   void pause(bool paused);
   Answer step(const ModelTime& limit, std::uint64_t impacts);
-  Answer control(const Request& request);
+  Answer control(Request& request);
+  template <class Condition>
+  void answer_periods(Condition is_over, const char* fault);
+  void offer_answer(const Answer& answer, const Reply& reply);
   Answer answer(const char* fault = "") const;
+  Answer answer_of(const Period& period, Answer reached) const;
 
   // One batch: advanced by what is given, and reported.
   template <class Advance>
@@ -78,8 +91,8 @@ class Runner {
   std::uint64_t applied_ = 0;          // reports of kind `applied` in this epoch
   std::uint64_t commands_played_ = 0;  // of the scene
   Time last_command_{0};               // of a drag velocity
-  Measured measured_;                  // since it was cleared
   std::uint64_t last_batch_impacts_ = 0;
+  boost::container::static_vector<Period, kMaxPeriods> periods_;
   const bool lockstep_;
   // in lockstep that waits for commands
   bool command_came_ = false;
