@@ -69,7 +69,8 @@ def main():
         work = Path(folder)
         for name in ('src/core', 'src/common', 'benchmark'):
             shutil.copytree(str(ROOT / name), str(work / name))
-        sources = [work / 'benchmark' / (study.program + '.cpp'), work / 'src/common/command_line.cpp']
+        sources = [work / 'benchmark' / (study.program + '.cpp')]
+        sources += [work / 'src/common' / (name + '.cpp') for name in ('command_line', 'csv')]
         sources += sorted((work / 'src/core').glob('**/*.cpp'))
         objects = [compile_(work, source) for source in sources]
         includers = [source for source in sources if source.stem in study.includers]

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -18,6 +19,32 @@
 #include "node/publisher/status.h"
 
 namespace afm::node {
+
+// In ROS Noetic roscpp logs that the master does not answer while it holds the lock of all parameters, which logging
+// takes too: a thread that sets a parameter without a master would wait for itself for ever. So roscpp logs nothing
+// meanwhile.
+class SilentRoscpp {
+ public:
+  SilentRoscpp() {
+    std::map<std::string, Level> levels;
+    ros::console::get_loggers(levels);
+    if (const auto found = levels.find(kLogger); found != levels.end()) before_ = found->second;
+    set(Level::Fatal);
+  }
+  ~SilentRoscpp() { set(before_); }
+  SilentRoscpp(const SilentRoscpp&) = delete;
+  SilentRoscpp& operator=(const SilentRoscpp&) = delete;
+
+ private:
+  using Level = ros::console::levels::Level;
+  static constexpr char kLogger[] = "ros.roscpp";
+
+  static void set(Level level) {
+    if (ros::console::set_logger_level(kLogger, level)) ros::console::notifyLoggerLevelsChanged();
+  }
+
+  Level before_ = Level::Info;
+};
 
 class LiveServer {
  public:
@@ -55,6 +82,7 @@ class LiveServer {
     const Config config = to_config(in_force());
     if (values_of(config) == values_of(shown_)) return;
     shown_ = config;
+    const SilentRoscpp silence;
     server_.updateConfig(config);
   }
 
