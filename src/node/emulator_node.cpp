@@ -47,8 +47,9 @@ constexpr double kClientsPeriod = 0.1;  // [s]
 // How long a master that does not answer is asked again: while roscpp sets a parameter, diagnostics wait for its lock.
 constexpr double kMasterRetry = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s. A control period in real time takes as long as it is.
-constexpr double kAnswerDeadline = 12.0;               // [s]
-constexpr std::chrono::microseconds kSpin{300};        // an idle processor takes 50 to 100 us to wake a thread
+constexpr double kAnswerDeadline = 12.0;  // [s]
+// In lockstep an idle processor takes 50 to 100 us to wake a thread; in real time this would hold up the publisher.
+constexpr std::chrono::microseconds kSpin{300};
 constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
 
 std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
@@ -302,7 +303,7 @@ class EmulatorNode {
     std::future<Answer> future = request.reply->get_future();
     if (!runner_.submit(request)) return "too many requests are waiting";
     const auto begin = std::chrono::steady_clock::now();
-    while (future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
+    while (is_lockstep() && future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
            std::chrono::steady_clock::now() - begin < kSpin) {
       std::this_thread::yield();
     }
