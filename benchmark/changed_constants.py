@@ -44,16 +44,17 @@ STUDIES = {
 def compile_(work, source):
     """The object of a source of the copy in `work`."""
     target = source.with_suffix('.o')
-    subprocess.run(['c++', '-std=c++17', '-O2', '-ffp-contract=off', '-I', str(ROOT / 'include'), '-I',
-                    str(work / 'src'), '-I', str(work / 'benchmark'), '-c', str(source), '-o', str(target)], check=True)
+    folders = [ROOT / 'include', work / 'src', work / 'benchmark']
+    options = ['-std=c++17', '-O2', '-ffp-contract=off', '-DAFM_CONFIG=""'] + ['-I%s' % folder for folder in folders]
+    subprocess.run(['c++'] + options + ['-c', str(source), '-o', str(target)], check=True)
     return target
 
 
 def answer(work, study, objects):
     """What the program prints of each of its points: of the search one row of columns, of chatter a row for each."""
     program = work / study.program
-    subprocess.run(['c++', '-pthread'] + [str(o) for o in objects] + ['-lboost_program_options', '-o', str(program)],
-                   check=True)
+    libraries = ['-lboost_program_options', '-lyaml-cpp']
+    subprocess.run(['c++', '-pthread'] + [str(o) for o in objects] + libraries + ['-o', str(program)], check=True)
     rows = list(csv.reader(subprocess.check_output([str(program)] + study.arguments,
                                                    universal_newlines=True).splitlines()))
     return rows[0] if len(rows) == 1 else [row[rows[0].index('99_percent')] for row in rows[1:]]
@@ -70,8 +71,7 @@ def main():
         for name in ('src/core', 'src/common', 'benchmark'):
             shutil.copytree(str(ROOT / name), str(work / name))
         sources = [work / 'benchmark' / (study.program + '.cpp')]
-        sources += [work / 'src/common' / (name + '.cpp') for name in ('command_line', 'csv')]
-        sources += sorted((work / 'src/core').glob('**/*.cpp'))
+        sources += sorted((work / 'src/common').glob('*.cpp')) + sorted((work / 'src/core').glob('**/*.cpp'))
         objects = [compile_(work, source) for source in sources]
         includers = [source for source in sources if source.stem in study.includers]
         for constant, header, values in study.constants:
