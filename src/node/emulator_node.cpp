@@ -44,8 +44,6 @@ constexpr double kQueueSeconds = 2.0;               // how far publishing may fa
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
 constexpr double kClientsPeriod = 0.1;  // [s]
-// How long a master that does not answer is asked again: while roscpp sets a parameter, diagnostics wait for its lock.
-constexpr double kMasterRetry = 0.1;  // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s. A control period in real time takes as long as it is.
 constexpr double kAnswerDeadline = 12.0;  // [s]
 // In lockstep an idle processor takes 50 to 100 us to wake a thread; in real time this would hold up the publisher.
@@ -144,7 +142,6 @@ class EmulatorNode {
     runner_.start();
     report_run(parameters, runner_.scheduler());
     advertise(node);
-    ros::master::setRetryTimeout(ros::WallDuration(kMasterRetry));
     publisher_->start(runner_.scheduler());  // last: whoever has a message finds the services
     spinner_.start();
     control_spinner_.start();

@@ -5,10 +5,11 @@
 #include <afm_emulator/EmulatorConfig.h>
 #include <dynamic_reconfigure/server.h>
 #include <ros/console.h>
+#include <ros/master.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -20,30 +21,25 @@
 
 namespace afm::node {
 
-// In ROS Noetic roscpp logs that the master does not answer while it holds the lock of all parameters, which logging
-// takes too: a thread that sets a parameter without a master would wait for itself for ever. So roscpp logs nothing
-// meanwhile.
-class SilentRoscpp {
- public:
-  SilentRoscpp() {
-    std::map<std::string, Level> levels;
-    ros::console::get_loggers(levels);
-    if (const auto found = levels.find(kLogger); found != levels.end()) before_ = found->second;
-    set(Level::Fatal);
+// The live parameters, all of them numbers. They are written without roscpp's own call, which holds the lock of all
+// parameters meanwhile: without a master it tries for ever, diagnostics wait for it, and on ROS Noetic so does its own
+// complaint.
+struct LiveConfig : afm_emulator::EmulatorConfig {
+  LiveConfig() = default;
+  LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // NOLINT: the server makes it of these
+
+  // In place of that of EmulatorConfig.
+  void __toServer__(const ros::NodeHandle& node) const {
+    dynamic_reconfigure::Config values;
+    __toMessage__(values);
+    for (const dynamic_reconfigure::DoubleParameter& parameter : values.doubles) {
+      XmlRpc::XmlRpcValue request, response, unused;
+      request[0] = ros::this_node::getName();
+      request[1] = node.resolveName(parameter.name);
+      request[2] = parameter.value;
+      ros::master::execute("setParam", request, response, unused, false);
+    }
   }
-  ~SilentRoscpp() { set(before_); }
-  SilentRoscpp(const SilentRoscpp&) = delete;
-  SilentRoscpp& operator=(const SilentRoscpp&) = delete;
-
- private:
-  using Level = ros::console::levels::Level;
-  static constexpr char kLogger[] = "ros.roscpp";
-
-  static void set(Level level) {
-    if (ros::console::set_logger_level(kLogger, level)) ros::console::notifyLoggerLevelsChanged();
-  }
-
-  Level before_ = Level::Info;
 };
 
 class LiveServer {
@@ -82,12 +78,11 @@ class LiveServer {
     const Config config = to_config(in_force());
     if (values_of(config) == values_of(shown_)) return;
     shown_ = config;
-    const SilentRoscpp silence;
     server_.updateConfig(config);
   }
 
  private:
-  using Config = afm_emulator::EmulatorConfig;
+  using Config = LiveConfig;
 
   // Sliders that people can use: the speed and the load are those of the lever. A value beyond may be given.
   void show_ranges() {
