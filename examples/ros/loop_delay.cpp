@@ -16,7 +16,6 @@ int main(int argc, char** argv) try {
   const auto count = static_cast<std::size_t>(commands);
   afm_emulator::Client tip(own.param<std::string>("emulator", "/afm"));
   const double batch_rate = tip.configuration().batch_rate_hz;
-  tip.command_and_wait(0.0);  // until all are connected
   std::vector<double> waits_ms;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> pause(0.0, 2.0);  // batches: commands fall on every phase of a batch

@@ -14,6 +14,7 @@
 #include <ros/ros.h>
 #include <std_msgs/Float64.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -55,11 +56,10 @@ class Client {
   using Command = std::optional<double>;
 
   // name: of the node; timeout: of wall time that everything waits for an answer before it throws [s], in real time
-  // longer by the period. The default is longer than the 12 s after which the emulator itself answers that a control
-  // period takes too long.
+  // longer by three times the period. The default is longer than the 12 s after which the emulator itself answers that
+  // a control period in lockstep takes too long.
   explicit Client(const std::string& name = "afm", double timeout = 15.0)
       : name_(ros::names::resolve(name)), timeout_(timeout) {
-    constexpr double kLongest = 1e9;  // [s]: times of the clocks stay far within their range
     check_not_negative("timeout", timeout);
     if (timeout > kLongest) throw EmulatorError("timeout = " + text(timeout) + ": must be at most 1e9 s");
     node_.setCallbackQueue(&queue_);
@@ -90,18 +90,18 @@ class Client {
     check_not_negative("duration", duration);
     check_finite("drag_velocity", drag_velocity);
     check_finite("rest_height", rest_height);
+    queue_.callAvailable();  // the configuration may be that of a new emulator
+    if (!control_.is_open()) connect();
     Control call;
     call.request.drag_velocity = drag_velocity.value_or(kNaN);
     call.request.rest_height = rest_height.value_or(kNaN);
     call.request.duration = duration;
-    const double begin = steady_seconds(),
-                 seconds = is_lockstep() ? timeout_ : timeout_ + duration / configuration_->time_scale;
-    if (!control_.is_open()) connect();
-    switch (control_.call(call, begin + seconds - steady_seconds())) {
+    switch (control_.call(call, seconds_for(duration))) {
       case Ending::answered:
         break;
       case Ending::late:
-        throw EmulatorError(name_ + "/control: did not answer within " + text(seconds) + " s; it may still come to it");
+        throw EmulatorError(name_ + "/control: did not answer within " + text(seconds_for(duration)) +
+                            " s; it may still come to it");
       case Ending::broken:
         end_with_the_launch();
         throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
@@ -122,14 +122,13 @@ class Client {
     recently_applied_.clear();
     const Control::Response answer = control(0.0, drag_velocity, rest_height);
     Applied::ConstPtr mine;  // others may command, too, and theirs come after it
-    wait_for(
-        [&] {
-          for (const Applied::ConstPtr& m : recently_applied_) {
-            if (m->epoch == answer.epoch && m->number == answer.applied) mine = m;
-          }
-          return mine != nullptr;
-        },
-        name_ + "/applied");
+    const auto has_come = [&] {
+      for (const Applied::ConstPtr& m : recently_applied_) {
+        if (m->epoch == answer.epoch && m->number == answer.applied) mine = m;
+      }
+      return mine != nullptr;
+    };
+    wait_for(has_come, name_ + "/applied");
     return *mine;
   }
 
@@ -155,6 +154,7 @@ class Client {
 
  private:
   static constexpr std::size_t kKeptApplied = 1000;  // messages, where nothing is commanded from here
+  static constexpr double kLongest = 1e9;            // [s]: times of the clocks stay far within their range
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostTau = 9999.0;  // of a period of mean_force: the emulator takes 10000, rounding aside
 
@@ -180,9 +180,17 @@ class Client {
     subscribers_.push_back(node_.subscribe<Message>(name_ + "/" + topic, 1000, take, {}, hints));
   }
 
+  // Of wall time, in which a control period is answered. In real time the emulator may fall behind, or be paused.
+  double seconds_for(double duration) const {
+    constexpr double kPatience = 3.0;
+    if (is_lockstep()) return timeout_;
+    return std::min(timeout_ + kPatience * duration / configuration_->time_scale, kLongest);
+  }
+
   void connect() {
     const std::string service = name_ + "/control";
     wait_for([&] { return ros::service::exists(service, false); }, service);
+    queue_.callAvailable();
     control_.open(node_, service);
   }
 

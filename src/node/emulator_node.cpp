@@ -38,14 +38,14 @@ namespace {
 using Kind = Request::Kind;
 
 // A step may hold one service for seconds: others, and commands, must come through meanwhile. Control periods have
-// threads of their own, as in real time each holds one until it is over.
-constexpr unsigned kSpinnerThreads = 3, kControlThreads = kMaxPeriods;
+// threads of their own, as in real time each holds one until it is over; one more refuses what is too many.
+constexpr unsigned kSpinnerThreads = 3, kControlThreads = kMaxPeriods + 1;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;
 constexpr double kClientsPeriod = 0.1;  // [s]
-// A batch takes at most 1.5 s, and a step fails after 8 s. A control period in real time takes as long as it is.
-constexpr double kAnswerDeadline = 12.0;  // [s]
+// A batch takes at most 1.5 s, and a step fails after 8 s.
+constexpr std::chrono::seconds kAnswerDeadline{12};
 // In lockstep an idle processor takes 50 to 100 us to wake a thread; in real time this would hold up the publisher.
 constexpr std::chrono::microseconds kSpin{300};
 constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
@@ -251,7 +251,7 @@ class EmulatorNode {
       period.drag_velocity = request.drag_velocity;
       period.rest_height = request.rest_height;
       period.tau = request.duration / Units(parameters_.si).time();
-      fault = ask(period, answer, is_lockstep() ? 0.0 : request.duration / parameters_.time_scale);
+      fault = ask(period, answer);
     } else {
       refusals_.add(Refusal::faulty_command, fault);
     }
@@ -294,8 +294,10 @@ class EmulatorNode {
 
   bool is_lockstep() const { return parameters_.pace == kLockstep; }
 
-  // Waits until it was done and published, which may take so many seconds [s]. Returns why not, or nothing.
-  std::string ask(Request request, Answer& answer, double seconds = 0.0) {
+  // Waits until it was done and published. Returns why not, or nothing.
+  std::string ask(Request request, Answer& answer) {
+    // a control period in real time takes its time, and that of a pause
+    const bool has_deadline = request.kind != Kind::control || request.tau == 0.0 || is_lockstep();
     request.reply = std::make_shared<std::promise<Answer>>();
     std::future<Answer> future = request.reply->get_future();
     if (!runner_.submit(request)) return "too many requests are waiting";
@@ -305,9 +307,10 @@ class EmulatorNode {
       std::this_thread::yield();
     }
     while (future.wait_for(kClosingPoll) != std::future_status::ready) {
-      if (closing_) return "the emulator is shutting down";
-      const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
-      if (waited.count() > kAnswerDeadline + seconds) return "not done and published in time; it may still be";
+      if (closing_ || ros::isShuttingDown()) return "the emulator is shutting down";
+      if (has_deadline && std::chrono::steady_clock::now() - begin > kAnswerDeadline) {
+        return "not done and published in time; it may still be";
+      }
     }
     answer = future.get();
     const std::string fault = answer.fault;
@@ -330,11 +333,11 @@ class EmulatorNode {
   std::atomic<bool> closing_{false};
   std::optional<LiveServer> live_server_;  // these advertise, so they are made after all that can fail
   std::optional<Publisher> publisher_;
+  ros::CallbackQueue control_queue_;
+  ros::NodeHandle control_node_{"~"};
   std::vector<ros::Subscriber> commands_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer clients_timer_;
-  ros::CallbackQueue control_queue_;
-  ros::NodeHandle control_node_{"~"};
   // the last to begin and the first to end: roscpp aborts where a callback publishes on a topic that is withdrawn
   ros::AsyncSpinner spinner_{kSpinnerThreads}, control_spinner_{kControlThreads, &control_queue_};
 };

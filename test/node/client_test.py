@@ -246,6 +246,20 @@ class Claims:
         self.emulator.stop()
         self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*(shutting down|restarted)')
 
+    def test_a_node_of_the_same_name_ends_a_period(self):
+        """roscpp ended the services first, and waited for the answer, which waited for the end."""
+        tip, first = self.begin_period(60.0), self.emulator
+        self.emulator = self.start(Emulator())
+        self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*(shutting down|restarted)')
+        self.assertEqual(first.wait(), 0)
+
+    def test_a_period_of_less_than_a_batch_is_not_shorter(self):
+        """Where a batch has two samples one of 2.4 was over with it."""
+        tip = self.start_both('real_time', time_scale=2e-4, sample_rate_hz=1e6)
+        samples, *_, end, begin, _ = self.numbers(tip.call('control 2.4e-6'))
+        self.assertEqual(samples, 4)
+        self.assertAlmostEqual((end - begin) * TAU_S, 4e-6, delta=1e-12)
+
     def test_whole_batches_are_not_rounded_up(self):
         """The sum of ten times 0.01 s is below 0.1 s."""
         tip = self.start_both('real_time')

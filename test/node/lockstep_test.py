@@ -186,6 +186,22 @@ class Waiting(NodeTest):
 
 
 class RealTime(NodeTest):
+    def test_a_ninth_period_is_refused_and_commands_are_not(self):
+        emulator, answers = self.start(Emulator()), []
+
+        def control(duration, drag_velocity=NAN):
+            return emulator.call('control', Control, drag_velocity=drag_velocity, rest_height=NAN, duration=duration)
+        periods = [threading.Thread(target=lambda: answers.append(control(60.0, 3e-6).message)) for _ in range(9)]
+        for period in periods:
+            period.start()
+        wait_until(lambda: answers, 'one is refused')
+        self.assertIn('eight control periods are under way', answers[0])
+        self.assertTrue(control(0.0, 4e-6).success)
+        emulator.call('reset', Trigger)
+        for period in periods:
+            period.join()
+        self.assertEqual(answers[1:], ['reset while it was measured'] * 8)
+
     def test_the_clock_goes_at_the_rate_of_model_time(self):
         started = time.monotonic()
         self.start(Emulator({'publish_clock': True, 'time_scale': 4.0, 'sample_rate_hz': 50000.0}))

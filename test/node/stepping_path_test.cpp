@@ -150,7 +150,7 @@ class Reader {
     requests[6].impacts = 10;
     requests[10].cause = "drag_velocity";
     requests[10].drag_velocity = 3.4 * Units(p_.si).velocity();
-    requests[10].tau = 500.0;  // in real time it is refused
+    requests[10].tau = 500.0;
     for (int round = 0; round < 3; ++round) {
       for (Request& request : requests) {
         request.reply = std::make_shared<std::promise<Answer>>();

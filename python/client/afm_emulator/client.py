@@ -16,7 +16,8 @@ from afm_emulator.srv import Control, ControlRequest
 
 KEPT_APPLIED = 1000
 MOST_TAU = 9999.0  # of a period of mean_force in lockstep: the emulator takes 10000, rounding aside
-LONGEST_TIMEOUT_S = 1e9
+LONGEST_S = 1e9
+PATIENCE = 3.0  # times the period, in real time
 
 
 class EmulatorError(RuntimeError):
@@ -55,8 +56,8 @@ class Client:
 
     name: of the node, such as 'afm'
     timeout: wall time that every call waits for an answer before it raises an EmulatorError [s], in real time longer by
-        the period. The default is longer than the 12 s after which the emulator itself answers that a control period
-        takes too long.
+        three times the period. The default is longer than the 12 s after which the emulator itself answers that a
+        control period in lockstep takes too long.
 
     `configuration` and `applied` are the latest messages of these topics. They are there from the beginning. Every call
     raises a rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file. Calls from several
@@ -66,8 +67,8 @@ class Client:
     def __init__(self, name='afm', timeout=15.0):
         self.name = rospy.resolve_name(name)
         self.timeout = not_negative('timeout', timeout)
-        if self.timeout > LONGEST_TIMEOUT_S:
-            raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_TIMEOUT_S))
+        if self.timeout > LONGEST_S:
+            raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_S))
         self.configuration = None  # the latest message
         self.applied = None        # the latest message: what is in force
         self._turn = threading.RLock()  # of the call under way
@@ -184,13 +185,14 @@ class Client:
     def _call_control(self, request=None):
         """The answer of ~control. Connects to it if need be; without a request, it only connects."""
         service, seconds = self.name + '/control', self.timeout
-        if request and not self.is_lockstep:
-            seconds += request.duration / self.configuration.time_scale
-        end = time.monotonic() + seconds
         try:
             if self._connection is None:
-                self._connection = Connection(service, Control, end)
-            return self._connection.call(request, end) if request else None
+                self._connection = Connection(service, Control, time.monotonic() + seconds)
+            if request is None:
+                return None
+            if not self.is_lockstep:  # it may fall behind, or be paused
+                seconds = min(seconds + PATIENCE * request.duration / self.configuration.time_scale, LONGEST_S)
+            return self._connection.call(request, time.monotonic() + seconds)
         except BaseException as fault:
             what = 'was not there' if self._connection is None else 'may still come to it, but did not answer'
             self._drop_connection()  # half a request or half an answer may be on it

@@ -1,15 +1,19 @@
 """A persistent connection to a service, with a time-out for every call. The ServiceProxy of rospy waits for an answer
 without end, and does not connect again when the service has been restarted."""
+import http.client
 import io
 import socket
 import struct
 import time
+import xmlrpc.client
 
 import rosgraph
 import rospy
 from rosgraph.network import decode_ros_handshake_header, write_ros_handshake_header
 
 POLL_S = 0.05  # how soon a shutdown of this node ends a call
+# of asking the master, and of connecting
+FAULTS = (OSError, rosgraph.MasterException, http.client.HTTPException, xmlrpc.client.Error)
 
 
 class Connection:
@@ -25,7 +29,7 @@ class Connection:
         while self._socket is None:
             try:
                 self._socket = self._connect(end)
-            except (OSError, rosgraph.MasterException) as fault:  # not there yet, or its address is of a dead node
+            except FAULTS as fault:  # not there yet, or its address is of a dead node
                 if time.monotonic() > end:
                     raise TimeoutError(str(fault)) from fault
                 self._check_shutdown()
@@ -33,7 +37,7 @@ class Connection:
 
     def _connect(self, end):
         host, port = rospy.core.parse_rosrpc_uri(rosgraph.Master(rospy.get_name()).lookupService(self._name))
-        connected = socket.create_connection((host, port), max(POLL_S, end - time.monotonic()))
+        connected = socket.create_connection((host, port), min(1.0, max(POLL_S, end - time.monotonic())))
         try:
             connected.settimeout(POLL_S)
             connected.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

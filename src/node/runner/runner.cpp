@@ -18,6 +18,10 @@ constexpr std::chrono::milliseconds kPausedPoll{100}, kLockstepPoll{10}, kRoomPo
 // longer (emulator_node.cpp), and learns how far it came.
 constexpr std::chrono::seconds kStepPatience{8};
 
+// Parts of a sample; rounding of times is less. A command of the scene that is due so soon is due now, however far the
+// run is advanced at once; a control period that lacks so little is over.
+constexpr double kDueNow = 0.5, kRounding = 1e-3;
+
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
 }  // namespace
@@ -98,15 +102,16 @@ void Runner::stop_drag_without_commands() {
   apply(live, "timeout");
 }
 
-// Rounding of times is less: what is due so soon is due now, however far the run is advanced at once.
-double Runner::half_a_sample() const { return 0.5 / (parameters_.sample_rate_hz * Units(parameters_.si).time()); }
+double Runner::samples(double count) const {
+  return count / (parameters_.sample_rate_hz * Units(parameters_.si).time());
+}
 
 // The scene's list of commands, in model time: so a scene repeats to the last bit.
 void Runner::play_commands() {
   const auto& eta = parameters_.commands_eta;
   if (eta.empty() || !queue_.has_room_for_request()) return;
   const Units units(parameters_.si);
-  if (run_.now() + half_a_sample() < multiply(commands_played_, parameters_.commands_hold_s / units.time())) return;
+  if (run_.now() + samples(kDueNow) < multiply(commands_played_, parameters_.commands_hold_s / units.time())) return;
   Live live = parameters_;
   live.drag_velocity = eta[commands_played_ % eta.size()] * units.velocity();
   ++commands_played_;
@@ -225,7 +230,7 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
   while (run_.now() < limit && taken < impacts && fault[0] == '\0') {
     run_batch_to(limit, std::min(impacts - taken, parameters_.impact_budget));
     taken += last_batch_impacts_;
-    if (run_.now() + half_a_sample() < limit) play_commands();  // at the end they are of what follows
+    if (run_.now() + samples(kDueNow) < limit) play_commands();  // at the end they are of what follows
     if (monotonic_now() > give_up) fault = kWallTimeRanOut;
     if (stopping_) fault = "the emulator is shutting down";
   }
@@ -237,16 +242,20 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
 
 // In lockstep the period is over when this returns. In real time it takes the reply with it, and the clock goes on.
 Answer Runner::control(Request& request) {
-  if (state_.paused && request.tau > 0.0) return answer("the emulator is paused: resume it first");
-  if (periods_.size() == periods_.capacity()) return answer("too many control periods are under way");
+  const bool takes_time = request.tau > 0.0;
+  if (state_.paused && takes_time) return answer("the emulator is paused: resume it first");
+  if (periods_.size() == periods_.capacity() && takes_time) {
+    return answer("eight control periods are under way: wait for one, or let ~reset end them");
+  }
+  play_commands();  // what is due now; the caller's comes after it, and holds
   if (request.cause[0] != '\0') command(request);
-  play_commands();  // what is due now holds over the period
   Period period;
   period.measured.begin = run_.now();
   period.measured.drag_velocity = parameters_.drag_velocity;
   period.end = run_.now() + request.tau;
+  if (!takes_time) return answer_of(period, answer());
   periods_.push_back(period);
-  if (!lockstep_ && request.tau > 0.0) {
+  if (!lockstep_) {
     periods_.back().reply = std::move(request.reply);
     return answer();
   }
@@ -304,7 +313,7 @@ Outcome Runner::run_batch(Advance advance) {
   Report report = make_report(Report::Kind::batch);
   report.batch = batch;
   queue_.offer(report);  // there is room: requests leave it for all batches
-  if (!lockstep_) answer_periods([this](const Period& p) { return !(run_.now() + half_a_sample() < p.end); }, "");
+  if (!lockstep_) answer_periods([this](const Period& p) { return !(run_.now() + samples(kRounding) < p.end); }, "");
   return outcome;
 }
 

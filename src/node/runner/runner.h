@@ -54,7 +54,7 @@ class Runner {
   bool may_advance();
   void stop_drag_without_commands();
   void play_commands();
-  double half_a_sample() const;  // [tau]
+  double samples(double count) const;  // the time of so many [tau]
 
   void serve_requests();
   Answer serve(Request& request);
