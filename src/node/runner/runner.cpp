@@ -123,7 +123,7 @@ void Runner::serve_requests() {
   Request request;
   while (!stopping_ && queue_.has_room_for_request() && requests_.pop(request)) {
     const Answer answer = serve(request);
-    if (request.reply) offer_answer(answer, request.reply);
+    if (request.reply) offer_answer(answer, std::move(request.reply));
   }
 }
 
@@ -245,6 +245,7 @@ Answer Runner::control(Request& request) {
   const bool takes_time = request.tau > 0.0;
   if (state_.paused && takes_time) return answer("the emulator is paused: resume it first");
   if (periods_.size() == periods_.capacity() && takes_time) {
+    static_assert(kMaxPeriods == 8, "the text says so");
     return answer("eight control periods are under way: wait for one, or let ~reset end them");
   }
   play_commands();  // what is due now; the caller's comes after it, and holds
@@ -277,15 +278,15 @@ template <class Condition>
 void Runner::answer_periods(Condition is_over, const char* fault) {
   const auto over = std::partition(periods_.begin(), periods_.end(), [&](const Period& p) { return !is_over(p); });
   for (auto period = over; period != periods_.end(); ++period) {
-    offer_answer(answer_of(*period, answer(fault)), period->reply);
+    offer_answer(answer_of(*period, answer(fault)), std::move(period->reply));
   }
   periods_.erase(over, periods_.end());
 }
 
-void Runner::offer_answer(const Answer& answer, const Reply& reply) {
+void Runner::offer_answer(const Answer& answer, Reply reply) {
   Report report = make_report(Report::Kind::answer);
   report.answer = answer;
-  report.reply = reply;
+  report.reply = std::move(reply);  // the publisher keeps it until the next report, and so frees it
   queue_.offer(report);
 }
 

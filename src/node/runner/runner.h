@@ -67,7 +67,7 @@ class Runner {
   Answer control(Request& request);
   template <class Condition>
   void answer_periods(Condition is_over, const char* fault);
-  void offer_answer(const Answer& answer, const Reply& reply);
+  void offer_answer(const Answer& answer, Reply reply);
   Answer answer(const char* fault = "") const;
   Answer answer_of(const Period& period, Answer reached) const;
 
