@@ -1,8 +1,6 @@
 """Whatever is altered, lost, renamed or filtered in a recording: both checks say what, in words and by their exit
 codes. What is intact is never called damaged, and what is altered never identical."""
 import copy
-import os
-import pty
 import re
 import subprocess
 from unittest import mock
@@ -15,7 +13,8 @@ import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
 from emulator_under_test import SPEED_UNIT
 from spoiled_bag import SpoiledBag
-from topics import NAMESPACE, PATIENCE
+from terminal import run_on_a_terminal
+from topics import NAMESPACE
 
 
 class SpoiledBags(SpoiledBag):
@@ -62,14 +61,10 @@ class SpoiledBags(SpoiledBag):
 
     def test_progress_is_shown(self):
         """It stood at 0."""
-        screen, terminal = pty.openpty()
-        done = subprocess.run([checks.find('replay_check'), str(self.write())], stdout=subprocess.PIPE, stderr=terminal,
-                              timeout=60 * PATIENCE)
-        os.close(terminal)
-        self.addCleanup(os.close, screen)
+        code, text = run_on_a_terminal([checks.find('replay_check'), str(self.write())])
         batches = len(self.of('friction'))
-        shown = re.findall(r'(\d+)/%d batches' % batches, os.read(screen, 1 << 16).decode())
-        self.assertEqual((done.returncode, shown[-1]), (SOUND, str(batches)))
+        shown = re.findall(r'(\d+)/%d batches' % batches, text)
+        self.assertEqual((code, shown[-1]), (SOUND, str(batches)))
         self.assertLess(len(shown), batches)
 
     def test_one_altered_epoch(self):

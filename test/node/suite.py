@@ -8,7 +8,8 @@ from pathlib import Path
 import rospy
 import rostest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / 'scripts'))  # for own_master
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'test' / 'support')]  # for own_master and terminal
 NAMES = [argument for argument in sys.argv[1:] if argument.isidentifier()]  # the others are of roslaunch and rostest
 
 
