@@ -7,20 +7,10 @@ from types import SimpleNamespace
 
 sys.path.insert(0, sys.argv.pop(1))
 import numpy as np  # noqa: E402
-from afm_emulator.panel.signals import FrictionLoop, Motion, Recent, Ring, Scale, Trail, envelope, swing  # noqa: E402
+from afm_emulator.panel.signals import FrictionLoop, Motion, Recent, Scale, Trail, envelope, swing  # noqa: E402
 
 TAU_S, SPACING_M, OMEGA_H = 2 * math.pi / 40e3, 0.52e-9, 2 * math.pi * 6.25
 AMPLITUDE = 0.05 / 0.52
-
-
-class Rings(unittest.TestCase):
-    def test_keeps_the_newest_in_order(self):
-        ring, chance, whole = Ring(2, 100), np.random.default_rng(1), np.empty((2, 0))
-        for _ in range(200):
-            rows = chance.normal(size=(2, chance.integers(0, 130)))
-            ring.append(rows)
-            whole = np.concatenate([whole, rows], axis=1)
-            np.testing.assert_array_equal(ring.columns(), whole[:, -100:])
 
 
 class Envelope(unittest.TestCase):
@@ -148,7 +138,7 @@ class Loops(unittest.TestCase):
                                      lateral=np.full(2000, -math.copysign(1e-12, velocity))), 25.5, TAU_S)
             position += velocity * 0.01
         self.assertEqual(loop.direction, 1)
-        trace, retrace = loop.lines[1].columns(), loop.lines[-1].columns()
+        trace, retrace = loop.lines[1], loop.lines[-1]
         np.testing.assert_allclose(trace[1], 25.5e-12)
         np.testing.assert_allclose(retrace[1], -25.5e-12)
         self.assertTrue(0.0 <= trace[0].min() and trace[0].max() <= 6e-8)      # the new trace alone
@@ -161,7 +151,7 @@ class Trails(unittest.TestCase):
         trail = Trail()
         for eta, k_f in ((2.0, 5.0), (2.0, 6.0), (-2.5, 1.0), (3.0, float('nan')), (4.0, 6.0)):
             trail.add(eta, k_f, 0.1)
-        np.testing.assert_array_equal(trail.past.columns(), [[2.0, 2.5], [6.0, 1.0]])
+        np.testing.assert_array_equal(trail.past, [[2.0, 2.5], [6.0, 1.0]])
         self.assertEqual(trail.now, (4.0, 6.0, 0.1))
 
 

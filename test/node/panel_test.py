@@ -210,7 +210,7 @@ class Knobs(EmulatorTest):
         window = self.panel.window
         until(lambda: 'η = 2.000' in window.readouts['eta'].text() and {'pace', 'numerics'} <= set(window.lamps),
               'read-outs')
-        until(lambda: len(window.trail.past) > 0, 'a trail')
+        until(lambda: window.trail.past.shape[1] > 0, 'a trail')
         for plot, colour, least in ((window.scope.vertical, BLUE, 300), (window.scope.lateral, ORANGE, 300),
                                     (window.path.plot, BLUE, 200), (window.loop_plot.plot, BLUE, 50),
                                     (window.curve.plot, ORANGE, 10)):

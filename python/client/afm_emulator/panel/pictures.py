@@ -154,7 +154,7 @@ class Loop:
         self.plot.addItem(pg.InfiniteLine(0.0, 0, pen=pen('#bbbbbb')))
 
     def draw(self, loop):
-        lines = {way: ring.columns() for way, ring in loop.lines.items()}
+        lines = loop.lines
         now = lines.get(loop.direction)
         if now is None or not now.shape[1]:
             return
@@ -184,7 +184,7 @@ class Curve:
         self.plot.addItem(self._error)
 
     def draw(self, trail):
-        eta, k_f = trail.past.columns()
+        eta, k_f = trail.past
         self._trail.setData(eta, k_f)
         reach = [self._curve[-1, 0]]
         tall = [self._curve[:, 1], np.zeros(1)]

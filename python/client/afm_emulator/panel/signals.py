@@ -12,32 +12,11 @@ FINE_SAMPLES = 3000     # up to so many samples a signal is drawn in full
 FINE_STEPS = 3          # points drawn per interval between samples then
 
 
-class Ring:
-    """The newest rows of a table, by columns. Each append copies them once; reading copies nothing."""
+NOTHING = np.empty((2, 0))
 
-    def __init__(self, columns, capacity):
-        self._data, self._begin, self._end = np.empty((columns, 2 * capacity)), 0, 0
-        self.capacity = capacity
 
-    def __len__(self):
-        return self._end - self._begin
-
-    def clear(self):
-        self._begin = self._end = 0
-
-    def append(self, columns):
-        columns = np.atleast_2d(columns)[:, -self.capacity:]
-        count = columns.shape[1]
-        keep = min(len(self), self.capacity - count)
-        if self._end + count > self._data.shape[1]:
-            self._data[:, :keep] = self._data[:, self._end - keep:self._end]
-            self._end = keep
-        self._data[:, self._end:self._end + count] = columns
-        self._end += count
-        self._begin = self._end - keep - count
-
-    def columns(self):
-        return self._data[:, self._begin:self._end]
+def newest(table, columns, capacity):
+    return np.concatenate([table, columns], axis=1)[:, -capacity:]
 
 
 def envelope(t, y, buckets):
@@ -163,12 +142,11 @@ class FrictionLoop:
     PART_TAU = 8.0  # of the means
 
     def __init__(self, capacity=4000):
-        self.lines, self.direction = {1: Ring(2, capacity), -1: Ring(2, capacity)}, 0
+        self.capacity = capacity
+        self.clear()
 
     def clear(self):
-        self.lines[1].clear()
-        self.lines[-1].clear()
-        self.direction = 0
+        self.lines, self.direction = {1: NOTHING, -1: NOTHING}, 0
 
     def add(self, batch, stiffness, tau_s):
         """A Deflection message whose arrays are of numpy; all in SI."""
@@ -177,27 +155,28 @@ class FrictionLoop:
             return
         direction = 1 if velocity > 0.0 else -1
         if direction != self.direction:
-            self.lines[direction].clear()
+            self.lines[direction] = NOTHING
         self.direction = direction
         size = min(max(1, round(self.PART_TAU * tau_s / period)), len(lateral))
         force = -stiffness * lateral[:len(lateral) // size * size].reshape(-1, size).mean(axis=1)
         middle = period * size * (np.arange(len(force)) + 0.5)
-        self.lines[direction].append(np.stack([batch.holder_position + velocity * middle, force]))
+        columns = np.stack([batch.holder_position + velocity * middle, force])
+        self.lines[direction] = newest(self.lines[direction], columns, self.capacity)
 
 
 class Trail:
     """Friction at the drag speeds that were, and at the present one."""
 
     def __init__(self, capacity=3000):
-        self.past, self.now = Ring(2, capacity), None  # (eta, K_f, its error)
+        self.capacity = capacity
+        self.clear()
 
     def clear(self):
-        self.past.clear()
-        self.now = None
+        self.past, self.now = NOTHING, None  # (eta, K_f), and these and its error
 
     def add(self, eta, k_f, error):
         if self.now is not None and self.now[0] != abs(eta):
-            self.past.append(np.array(self.now[:2])[:, None])
+            self.past = newest(self.past, np.array(self.now[:2])[:, None], self.capacity)
         self.now = (abs(eta), k_f, error) if np.isfinite(k_f) else None
 
 
