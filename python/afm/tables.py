@@ -23,12 +23,10 @@ def _structured(columns, rows, names, whole=()):
 
 def _axes(model, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio):
     """Those that are not given are the model's."""
-    given = dict(eta=eta, gamma=model.gamma if gamma is None else gamma,
-                 cutoff=model.cutoff if cutoff is None else cutoff,
-                 rest_height=model.rest_height if rest_height is None else rest_height,
-                 amplitude=model.amplitude if amplitude is None else amplitude,
-                 frequency_ratio=model.frequency_ratio if frequency_ratio is None else frequency_ratio)
-    return [numbers(name, values) for name, values in given.items()]
+    given = dict(gamma=gamma, cutoff=cutoff, rest_height=rest_height, amplitude=amplitude,
+                 frequency_ratio=frequency_ratio)
+    return [numbers('eta', eta)] + [numbers(name, getattr(model, name) if values is None else values)
+                                    for name, values in given.items()]
 
 
 def _model(model: Union[str, Model]) -> Model:

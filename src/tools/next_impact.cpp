@@ -1,12 +1,11 @@
 // A filter: states after an impact in, the next impact out.
 #include <fstream>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "common/command_line.h"
-#include "common/si_options.h"
+#include "common/point_options.h"
 #include "impact_filter.h"
 
 namespace {
@@ -39,8 +38,7 @@ int main(int argc, char** argv) {
   afm::SiOptions si;
   afm::add_si_options(app, si);
   return app.run(argc, argv, [&] {
-    afm::ModelKind kind = afm::ModelKind::oscillator;
-    if (!afm::parse(model, kind)) throw std::invalid_argument("model = " + model + ": must be oscillator or hammer");
+    const afm::ModelKind kind = afm::checked_kind(model);
     if (paths.empty()) paths.emplace_back("-");
     afm::checked_units(app, si);
     const afm::TableUnits units = afm::table_units(si);

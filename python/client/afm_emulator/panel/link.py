@@ -45,7 +45,7 @@ class Link:
         self._subscribers, self._jobs, self._wanted = [], queue.Queue(), {}
         self._lock, self._asking = threading.Lock(), threading.Lock()
         self._commands = {topic: rospy.Publisher('%s/%s' % (name, topic), Float64, queue_size=10, tcp_nodelay=True)
-                          for topic in ('drag_velocity', 'rest_height', 'load')}
+                          for topic in ('drag_velocity', 'rest_height')}
         threading.Thread(target=self._work, daemon=True).start()
 
     # what comes
