@@ -16,12 +16,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <deque>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace afm_emulator {
@@ -63,20 +65,16 @@ class Client {
     check_not_negative("timeout", timeout);
     if (timeout > kLongest) throw EmulatorError("timeout = " + text(timeout) + ": must be at most 1e9 s");
     node_.setCallbackQueue(&queue_);
-    const auto keep = [this](const Applied::ConstPtr& m) {
-      applied_ = m;
-      recently_applied_.push_back(m);
-      if (recently_applied_.size() > kKeptApplied) recently_applied_.pop_front();
-    };
-    subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
-    subscribe<Applied>("applied", keep);
-    wait_for([this] { return configuration_ != nullptr; }, name_ + "/configuration");
-    wait_for([this] { return applied_ != nullptr; }, name_ + "/applied");
     connect();
   }
 
   Configuration configuration() const { return *configuration_; }
-  Applied applied() const { return *applied_; }  // what is in force
+  // What is in force: the latest message, none older than what held at the end of the latest control().
+  Applied applied() const {
+    queue_.callAvailable();
+    wait_for([this] { return told_ <= std::make_pair(applied_->epoch, applied_->number); }, name_ + "/applied");
+    return *applied_;
+  }
   bool is_lockstep() const { return configuration_->pace == "lockstep"; }
   double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }              // [s]
   double lateral_stiffness() const { return stiffness(configuration_->omega_h_rad_per_s); }  // [N/m]
@@ -90,7 +88,6 @@ class Client {
     check_not_negative("duration", duration);
     check_finite("drag_velocity", drag_velocity);
     check_finite("rest_height", rest_height);
-    queue_.callAvailable();  // the configuration may be that of a new emulator
     if (!control_.is_open()) connect();
     Control call;
     call.request.drag_velocity = drag_velocity.value_or(kNaN);
@@ -108,19 +105,20 @@ class Client {
                             "The next call connects again");
     }
     if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
-    queue_.callAvailable();  // configuration() and applied() are the latest that have come
+    told_ = {call.response.epoch, call.response.applied};
+    queue_.callAvailable();  // so that few wait in it
     return call.response;
   }
 
   // Commands what is given and waits until it holds. Returns the message of the command, from which on it does; without
-  // a command the latest one.
+  // a command what is in force.
   Applied command_and_wait(Command drag_velocity = kAsItIs, Command rest_height = kAsItIs) {
     check_finite("drag_velocity", drag_velocity);
     check_finite("rest_height", rest_height);
     queue_.callAvailable();
-    if (!drag_velocity && !rest_height) return *applied_;
     recently_applied_.clear();
     const Control::Response answer = control(0.0, drag_velocity, rest_height);
+    if (!drag_velocity && !rest_height) return applied();
     Applied::ConstPtr mine;  // others may command, too, and theirs come after it
     const auto has_come = [&] {
       for (const Applied::ConstPtr& m : recently_applied_) {
@@ -187,7 +185,20 @@ class Client {
     return std::min(timeout_ + kPatience * duration / configuration_->time_scale, kLongest);
   }
 
+  // With subscriptions made anew: what they tell at once is of the emulator that is there now.
   void connect() {
+    subscribers_.clear();
+    told_ = {};
+    const Configuration::ConstPtr former_configuration = configuration_;
+    const Applied::ConstPtr former_applied = applied_;
+    subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
+    subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) {
+      applied_ = m;
+      recently_applied_.push_back(m);
+      if (recently_applied_.size() > kKeptApplied) recently_applied_.pop_front();
+    });
+    wait_for([&] { return configuration_ != former_configuration; }, name_ + "/configuration");
+    wait_for([&] { return applied_ != former_applied; }, name_ + "/applied");
     const std::string service = name_ + "/control";
     wait_for([&] { return ros::service::exists(service, false); }, service);
     queue_.callAvailable();
@@ -225,7 +236,7 @@ class Client {
 
   // Checks after every message.
   template <class Condition>
-  void wait_for(Condition is_true, const std::string& what) {
+  void wait_for(Condition is_true, const std::string& what) const {
     const double end = steady_seconds() + timeout_;
     while (ros::ok() && !is_true()) {
       if (steady_seconds() > end) throw EmulatorError(what + ": nothing came within " + text(timeout_) + " s");
@@ -235,13 +246,14 @@ class Client {
   }
 
   ros::NodeHandle node_;
-  ros::CallbackQueue queue_;
+  mutable ros::CallbackQueue queue_;  // it is read where something is asked for
   const std::string name_;
   const double timeout_;
   std::vector<ros::Subscriber> subscribers_;
   Connection<Control> control_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
+  std::pair<std::uint32_t, std::uint64_t> told_;  // epoch and number of what the latest answer says is in force
   std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
 };
 

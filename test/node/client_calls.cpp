@@ -1,5 +1,6 @@
 // Calls the client as it reads from its input, a call a line: control, command_and_wait or mean_force with their
-// arguments, "-" for what is not given. Prints an answer for each. client_calls.py is the same in Python.
+// arguments, "-" for what is not given; tau; stale_reads of so many commands. Prints an answer for each.
+// client_calls.py is the same in Python.
 // usage: client_calls TIMEOUT
 #include <afm_emulator/client.h>
 
@@ -10,6 +11,17 @@
 using afm_emulator::Client;
 
 namespace {
+
+// Of what is in force, right after a command.
+int stale_reads(Client& tip, int commands) {
+  int stale = 0;
+  for (int i = 0; i < commands; ++i) {
+    const double drag_velocity = 1e-6 * (1 + i % 2);
+    tip.control(0.0, drag_velocity);
+    if (tip.applied().drag_velocity != drag_velocity) ++stale;
+  }
+  return stale;
+}
 
 std::string answer(Client& tip, std::istream& line) {
   std::string name, word;
@@ -26,6 +38,10 @@ std::string answer(Client& tip, std::istream& line) {
   } else if (name == "command_and_wait") {
     const afm_emulator::Applied m = tip.command_and_wait(given[0], given[1]);
     text << m.number << ' ' << m.drag_velocity << ' ' << m.rest_height_m;
+  } else if (name == "tau") {
+    text << tip.tau();
+  } else if (name == "stale_reads") {
+    text << stale_reads(tip, static_cast<int>(*given[0]));
   } else {
     text << tip.mean_force(*given[0], given[1].value_or(0.0), given[2], given[3]);
   }

@@ -29,9 +29,23 @@ def control_in_threads(tip, *durations):
     return ' '.join(str(length) for lengths in found for length in lengths)
 
 
+def stale_reads(tip, commands):
+    """Of what is in force, right after a command."""
+    stale = 0
+    for i in range(int(commands)):
+        drag_velocity = 1e-6 * (1 + i % 2)
+        tip.control(0.0, drag_velocity)
+        stale += tip.applied.drag_velocity != drag_velocity
+    return stale
+
+
 def answer(tip, name, *words):
     if name == 'control_in_threads':
         return control_in_threads(tip, *map(argument, words))
+    if name == 'tau':
+        return '%g' % tip.tau_s
+    if name == 'stale_reads':
+        return '%d' % stale_reads(tip, *map(argument, words))
     result = getattr(tip, name)(*map(argument, words))
     if name == 'control':
         end, begin = (time.tau + time.phase for time in (result.end, result.begin))

@@ -115,7 +115,7 @@ class Claims:
             begin = time.monotonic()
             answer = tip.call('control 0.01')
             self.assertLess(time.monotonic() - begin, 5.0 * TIMEOUT_S)
-            self.assertRegex(answer, 'EmulatorError: /afm/control: .*%s.* within %g s' % (fault, TIMEOUT_S))
+            self.assertRegex(answer, 'EmulatorError: /afm/.*%s.* within %g s' % (fault, TIMEOUT_S))
         self.emulator.child.send_signal(signal.SIGCONT)
         self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # not that of a call before it
 
@@ -126,8 +126,9 @@ class Claims:
         self.emulator.child.kill()
         self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*restarted')
         tip.begin('control 0.01')  # waits for the emulator
-        self.emulator = self.start(Emulator({'pace': 'lockstep'}))
+        self.emulator = self.start(Emulator({'pace': 'lockstep', 'omega_v_rad_per_s': 3e4}))
         self.assertAlmostEqual(self.numbers(tip.answer())[0], 2000, delta=1)
+        self.assertEqual(tip.call('tau'), '0.00020944')  # the configuration was that of the dead emulator
         number, velocity, _ = self.numbers(tip.call('command_and_wait %r' % (2 * SPEED_UNIT)))
         self.assertEqual(number, 1)
         self.assertAlmostEqual(velocity / SPEED_UNIT, 2.0, delta=1e-4)
@@ -149,6 +150,13 @@ class Claims:
         self.assertRegex(tip.call('command_and_wait 3e-6'), 'EmulatorError: /afm/control: .*restarted')
         for call in ('command_and_wait 4e-6', 'command_and_wait 4e-6'):  # it is told once
             self.assertEqual(self.numbers(tip.call(call))[1], 4e-6)
+
+    def test_what_is_in_force(self):
+        """Right after a command `applied` was the message before it, more often than not."""
+        for pace in ('lockstep', 'real_time'):
+            tip = self.start_both(pace)
+            self.assertEqual(tip.call('stale_reads 100'), '0')
+            self.emulator.stop()
 
     def test_a_command_is_found_among_those_of_others(self):
         """The client in C++ looked at the latest message alone, and waited in vain."""

@@ -59,27 +59,33 @@ class Client:
         three times the period. The default is longer than the 12 s after which the emulator itself answers that a
         control period in lockstep takes too long.
 
-    `configuration` and `applied` are the latest messages of these topics. They are there from the beginning. Every call
-    raises a rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file. Calls from several
-    threads, such as callbacks of rospy, take turns.
+    `configuration` is the latest message of that topic, there from the beginning. Every call raises a
+    rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file. Calls from several threads,
+    such as callbacks of rospy, take turns.
     """
 
     def __init__(self, name='afm', timeout=15.0):
+        if not rospy.core.is_initialized():
+            raise EmulatorError('rospy.init_node comes before a Client')
         self.name = rospy.resolve_name(name)
         self.timeout = not_negative('timeout', timeout)
         if self.timeout > LONGEST_S:
             raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_S))
-        self.configuration = None  # the latest message
-        self.applied = None        # the latest message: what is in force
+        self.configuration = None
+        self._applied = None  # the latest message
+        self._told = (0, 0)   # epoch and number of what was in force at the end of the latest answer
         self._turn = threading.RLock()  # of the call under way
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
+        self._subscribers = []
         self._connection = None    # to ~control
-        for topic, kind in (('configuration', Configuration), ('applied', Applied)):
-            rospy.Subscriber('%s/%s' % (self.name, topic), kind, self._keep, topic, tcp_nodelay=True)
-        for topic in ('configuration', 'applied'):
-            self._wait_for(lambda: getattr(self, topic) is not None, '%s/%s' % (self.name, topic))
-        self._call_control()  # its service is advertised after the topics
+        self._call_control()
+
+    @property
+    def applied(self):
+        """What is in force: the latest message, none older than what held at the end of the latest `control`."""
+        return self._wait_for(lambda: (self._applied.epoch, self._applied.number) >= self._told and self._applied,
+                              self.name + '/applied')
 
     @property
     def is_lockstep(self):
@@ -122,23 +128,24 @@ class Client:
             answer = self._call_control(request)
         if not answer.success:
             raise EmulatorError('%s/control: %s' % (self.name, answer.message))
+        self._told = answer.epoch, answer.applied
         return answer
 
     def command_and_wait(self, drag_velocity=None, rest_height=None):
         """Commands what is given and waits until it holds. Returns the Applied message of the command, from which on it
-        does; without a command the latest one.
+        does; without a command what is in force.
 
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
         """
         drag_velocity = finite_or_none('drag_velocity', drag_velocity)
         rest_height = finite_or_none('rest_height', rest_height)
-        if drag_velocity is None and rest_height is None:
-            return self.applied
         with self._turn:
             with self._news:
                 self._commanded.clear()
             answer = self.control(0.0, drag_velocity, rest_height)
+            if drag_velocity is None and rest_height is None:
+                return self.applied
             return self._wait_for(lambda: next((m for m in self._commanded if (m.epoch, m.number) ==
                                                 (answer.epoch, answer.applied)), None), self.name + '/applied')
 
@@ -184,9 +191,10 @@ class Client:
 
     def _call_control(self, request=None):
         """The answer of ~control. Connects to it if need be; without a request, it only connects."""
-        service, seconds = self.name + '/control', self.timeout
+        service, seconds = rospy.resolve_name(self.name + '/control'), self.timeout
         try:
             if self._connection is None:
+                self._subscribe()
                 self._connection = Connection(service, Control, time.monotonic() + seconds)
             if request is None:
                 return None
@@ -204,6 +212,17 @@ class Client:
                                     % (service, fault)) from fault
             raise
 
+    def _subscribe(self):
+        """Anew for every connection: what is then told at once is of the emulator that is there now."""
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+        former, self._told = (self.configuration, self._applied), (0, 0)
+        topics = [self.name + topic for topic in ('/configuration', '/applied')]
+        self._subscribers = [rospy.Subscriber(topic, kind, keep, tcp_nodelay=True) for topic, kind, keep in zip(
+            topics, (Configuration, Applied), (self._keep_configuration, self._keep_applied))]
+        self._wait_for(lambda: self.configuration is not former[0], topics[0])
+        self._wait_for(lambda: self._applied is not former[1], topics[1])
+
     def _drop_connection(self):
         if self._connection is not None:
             self._connection.close()
@@ -218,11 +237,15 @@ class Client:
                 raise rospy.ROSInterruptException('shut down')
             time.sleep(0.02)
 
-    def _keep(self, message, topic):
+    def _keep_configuration(self, message):
         with self._news:
-            setattr(self, topic, message)
-            if topic == 'applied':
-                self._commanded.append(message)
+            self.configuration = message
+            self._news.notify_all()
+
+    def _keep_applied(self, message):
+        with self._news:
+            self._applied = message
+            self._commanded.append(message)
             self._news.notify_all()
 
     def _wait_for(self, condition, what):
