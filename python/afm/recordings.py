@@ -16,6 +16,7 @@ _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_s
              'rest_height_m', 'restitution_gamma', 'cutoff_speed')
 _BATH = ('temperature_k', 'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
 _KINDS = ('Applied', 'Configuration', 'Deflection', 'EmulatorStatus', 'Friction', 'ImpactArray', 'Snapshot')
+_JUST_AFTER = 1e-15  # [tau] so little behind a time all its impacts are taken, and none is waited for that never comes
 _MOST_WAITING = 100  # batches in the queues of the topics when a recorder is stopped
 Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
@@ -239,7 +240,7 @@ class Recording:
             if run.now < end:  # otherwise it would report an event that is due, before the command
                 yield run.advance(end)
             while run.now == end and run.impacts < impacts:  # of those at this very time
-                yield run.advance(impacts=impacts - run.impacts)
+                yield run.advance(end.after(_JUST_AFTER), impacts=impacts - run.impacts)
 
         run = self._run_from(self._snapshots[0])
         start = run.now

@@ -23,6 +23,8 @@ bool is_same(const Message& recorded, Message& simulated) {
   return same_bytes(ros::serialization::serializeMessage(recorded), ros::serialization::serializeMessage(simulated));
 }
 
+// [tau] so little behind a time all impacts at it are taken, and none is waited for that never comes.
+constexpr double kJustAfter = 1e-15;
 constexpr Number kBehindAll{std::numeric_limits<std::uint64_t>::max(), std::numeric_limits<std::uint32_t>::max()};
 
 std::string to_text(const afm_emulator::ModelTime& time, std::uint32_t epoch) {
@@ -315,12 +317,13 @@ void RunCheck::check_batch() {
 
 // As the emulator did: no batch has more impacts than its budget, and one that ended by its time has not spent it.
 void RunCheck::advance(const afm_emulator::Friction& recorded) {
-  const ModelTime end = from_message(recorded.time);
+  ModelTime end = from_message(recorded.time);
+  if (!is_possible(end) || end < run_->now()) end = run_->now();
   const std::uint64_t limit = recorded.impact_limit, budget = run_->settings().impact_budget;
   if (limit > 0) {
-    run_->advance(kEndOfTime, std::min(limit, budget), batch_);
+    run_->advance(end + kJustAfter, std::min(limit, budget), batch_);
   } else {
-    run_->advance(is_possible(end) && run_->now() <= end ? end : run_->now(), budget, batch_);
+    run_->advance(end, budget, batch_);
   }
 }
 
@@ -331,8 +334,8 @@ void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) 
   while (run_->now() < time || (run_->now() == time && run_->impacts() < impacts)) {
     const bool impacts_lack = run_->impacts() < impacts;
     const std::uint64_t budget = run_->settings().impact_budget;
-    run_->advance(impacts_lack ? kEndOfTime : time, impacts_lack ? std::min(impacts - run_->impacts(), budget) : budget,
-                  batch_);
+    run_->advance(impacts_lack ? time + kJustAfter : time,
+                  impacts_lack ? std::min(impacts - run_->impacts(), budget) : budget, batch_);
   }
 }
 
