@@ -179,6 +179,15 @@ class Claims:
         samples, applied, _, friction, *_ = self.numbers(tip.answer())
         self.assertEqual((applied, math.isnan(friction)), (1, True))
 
+    def test_a_speed_commanded_where_a_period_begins(self):
+        """By another, within the same batch: it is constant over the period, which had no friction coefficient."""
+        tip = self.start_both('real_time', batch_rate_hz=1.0)
+        other = self.start(Calls(self.program()))
+        Topic('deflection').wait_for_next()
+        tip.begin('control 1')
+        other.begin('control 0 %r' % (2.0 * SPEED_UNIT))
+        self.assertFalse(math.isnan(self.numbers(tip.answer())[3]))
+
     def test_the_number_of_what_is_in_force_at_the_end_of_a_period(self):
         """While another commands."""
         tip = self.start_both('real_time')
