@@ -20,6 +20,10 @@ LEVER_KICKS = {2: 11.09, 14: 8.652, 17: 10.507, 21: 12.979, 30: 18.541, 22: 11.0
 MORE_KICKS = (29.034, REFERENCE_KICKS)
 # where a rate of kicks locks to the lateral spring: 11.09 at omega_h/omega_v = 11.1, and 29.034 at 14; at 12.5 only
 # with a low Q
+# in liquids: suitable_kicks() by omega_h/omega_v and Q, beside the default and nearly the most that can be given
+LIQUID_KICKS = {(6.25, 1): 131.618, (6.25, 2): 122.99, (20, 1): 419.618, (20, 2): 210.618, (20, 5): 122.99,
+                (20, 10): 122.99, (41, 2): 430.618, (41, 5): 172.618, (41, 10): 122.99}
+LIQUID_MORE = (29.034, 843.618)
 LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS = (11.1, 12.5, 14), (20, 100), (8.652, 11.09, 29.034, 46.979, REFERENCE_KICKS)
 # coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
 HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),
@@ -242,6 +246,12 @@ def commands(quick):
                 curve("locked_kicks_%g_%g_%g" % (ratio, quality, kicks), "--eta 4 --cutoff 0.05 --temperature 0.926",
                       "--quality-factor", quality, "--kicks-per-tau", kicks, "--frequency-ratio", ratio,
                       "--duration", choose(200, 50000))
+
+    for (ratio, quality), own in LIQUID_KICKS.items():
+        for kicks in (own, *LIQUID_MORE):
+            curve("liquid_kicks_%g_%g_%g" % (ratio, quality, kicks), "--eta 2:4:2 --cutoff 0.05 --rest-height -0.3",
+                  "--temperature 0.02 --quality-factor", quality, "--kicks-per-tau", kicks, "--frequency-ratio", ratio,
+                  "--duration", choose(200, 50000))
 
     # scenes, recording, control
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep",

@@ -2,7 +2,8 @@
 import itertools
 import re
 
-from commands import FUZZED, LEVER_KICKS, LOCK_KICKS, LOCK_QUALITIES, LOCK_RATIOS, MORE_KICKS
+from commands import (FUZZED, LEVER_KICKS, LIQUID_KICKS, LIQUID_MORE, LOCK_KICKS, LOCK_QUALITIES, LOCK_RATIOS,
+                      MORE_KICKS)
 from registry import table
 
 
@@ -42,6 +43,21 @@ def lever_kicks(tables):
             row = {"omega_h/omega_v": "%g" % ratio, "rest height": "%g" % few["rest_height"], "eta": "%g" % few["eta"],
                    "kicks per tau": "%g" % own}
             for name, at in zip(("K_f", *("K_f at %g kicks" % kicks for kicks in MORE_KICKS)), (few, default, many)):
+                row[name] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
+            result.append(row)
+    return result
+
+
+@table(*["liquid_kicks_%g_%g_%g" % (*case, kicks) for case, own in LIQUID_KICKS.items()
+         for kicks in (own, *LIQUID_MORE)])
+def liquid_kicks(tables):
+    """K_f by work where the tip is damped as in a liquid."""
+    result = []
+    for case, own in LIQUID_KICKS.items():
+        for rows in zip(*(tables.rows("liquid_kicks_%g_%g_%g" % (*case, kicks)) for kicks in (own, *LIQUID_MORE))):
+            row = {"omega_h/omega_v": "%g" % case[0], "Q": "%g" % case[1], "eta": "%g" % rows[0]["eta"],
+                   "kicks per tau": "%g" % own}
+            for name, at in zip(("K_f", *("K_f at %g kicks" % kicks for kicks in LIQUID_MORE)), rows):
                 row[name] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
             result.append(row)
     return result

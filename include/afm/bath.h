@@ -11,12 +11,12 @@
 
 namespace afm {
 
-// Energy of a free spring decays like exp(-omega t / Q).
+// Energy of a free spring decays like exp(-omega t / Q), the better the more kicks there are in the time Q / omega.
 struct Bath {
   double temperature = 0.0;             // kT [m a^2/tau^2]; 0: damping alone
   double quality_factor = 0.0;          // of the vertical spring; 0: neither damped nor heated
   double lateral_quality_factor = 0.0;  // of the horizontal spring; 0: as the vertical one
-  double kicks_per_tau = 29.034;        // seventh power of the golden ratio; see kicks_lock()
+  double kicks_per_tau = 29.034;        // see suitable_kicks()
   std::uint64_t seed = 1;               // of the random numbers
   std::uint64_t stream = 0;             // which of the seed's sequences: many tips have one each
 
@@ -40,7 +40,7 @@ std::vector<ParameterError> find_faults(const Bath& bath);
 bool kicks_lock(const Model& model, const Bath& bath);
 
 // A rate of kicks [1/tau] for this model and these quality factors; the rate that the bath has does not count.
-// Guarantee: it does not lock, and is one at which K_f was measured, or the golden section of omega_h/omega_v.
+// Guarantee: it does not lock, and takes at most 0.3 of a velocity at once, or find_traps() tells of it.
 double suitable_kicks(const Model& model, const Bath& bath);
 
 // What can be run, but is seldom meant, with the remedy: kicks that lock or are too few. Named as in Bath.

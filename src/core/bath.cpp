@@ -21,10 +21,20 @@ bool is_slow(const Bath& bath) {
 // Where the spring turns less than few_turns from kick to kick, the kicks follow its swing. Measured (docs/levers.md):
 // at Q = 20 K_f is up to 19 % off, 0.055 of a turn from a lock, and 2 % at 0.07; at Q = 100 14 % at 0.02, 4 % at 0.055
 // and 0.1 % at 0.07.
+constexpr double kFewTurns = 0.39;
 bool locks(const Model& model, const Bath& bath, double kicks_per_tau) {
-  const double few_turns = is_slow(bath) ? 0.4 : 0.39, near = is_slow(bath) ? 0.06 : 0.11;
+  const double few_turns = is_slow(bath) ? 0.4 : kFewTurns, near = is_slow(bath) ? 0.06 : 0.11;
   const double turns = lateral_ratio(model) / kicks_per_tau;
   return turns > few_turns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < near;
+}
+
+// Below it a kick takes more than this part of a velocity at once, where the bath takes it over a swing. Measured
+// (docs/levers.md): K_f by work is then up to 6 % off at twice the part, and 20 % at six times.
+double least_kicks(const Model& model, const Bath& bath) {
+  constexpr double kMostDamping = 0.3;
+  const auto damping = [](double ratio, double q) { return q > 0.0 ? kTwoPi * ratio / q : 0.0; };  // [1/tau]
+  const double lateral = bath.lateral_quality_factor > 0.0 ? bath.lateral_quality_factor : bath.quality_factor;
+  return std::fmax(damping(1.0, bath.quality_factor), damping(lateral_ratio(model), lateral)) / kMostDamping;
 }
 
 }  // namespace
@@ -54,31 +64,37 @@ bool kicks_lock(const Model& model, const Bath& bath) { return bath.is_on() && l
 
 double suitable_kicks(const Model& model, const Bath& bath) {
   constexpr double kGolden = 0.618034;  // 1.618 turns of the lateral spring from kick to kick: far from every lock
-  constexpr double kLeast = 8.6;        // the least golden section that was measured (docs/levers.md)
-  const double section = std::round(1000.0 * kGolden * lateral_ratio(model)) / 1000.0;
-  const std::vector<double> few{11.09, 29.034}, many{29.034, 46.979, 122.99};  // powers of the golden ratio
-  if (is_slow(bath) && section >= kLeast) return section;
+  constexpr double kLeastSection = 8.6;  // the least golden section that was measured (docs/levers.md)
+  const double section = std::round(1000.0 * kGolden * lateral_ratio(model)) / 1000.0, least = least_kicks(model, bath);
+  const std::vector<double> few{11.09, 29.034}, many{29.034, 46.979, 122.99};
+  if (is_slow(bath) && section >= kLeastSection) return section;
   for (const double kicks : is_slow(bath) ? few : many) {
-    if (!locks(model, bath, kicks)) return kicks;
+    if (kicks >= least && !locks(model, bath, kicks)) return kicks;
   }
-  return section;  // all of `many` lock only from omega_h/omega_v = 69 on: this is then 42 or more
+  if (section >= std::fmax(least, many.front())) return section;
+  // no whole number, with which kicks come at the same phases of the drag again and again
+  const double unlocked = lateral_ratio(model) / kFewTurns, most = kMaxKickRate - 1.0;
+  return unlocked > most ? section : std::fmin(std::ceil(std::fmax(least, unlocked)), most) + 0.618;
 }
 
 std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {
   if (!bath.is_on()) return {};
   constexpr double kEnough = 0.9;  // of the rate that was measured
-  const double suitable = suitable_kicks(model, bath);
+  const double suitable = suitable_kicks(model, bath), kicks = bath.kicks_per_tau;
   const auto trap = [&](const std::string& reason) {
-    return std::vector<ParameterError>{
-        ParameterError("kicks_per_tau", bath.kicks_per_tau,
-                       reason + ": K_f may be wrong by up to a fifth; give " + number_text(suitable))};
+    return std::vector<ParameterError>{ParameterError("kicks_per_tau", kicks, reason)};
   };
+  const std::string remedy = ": K_f may be wrong by a fifth and more; give " + number_text(suitable);
   if (kicks_lock(model, bath)) {
     return trap("locks to the swing of the lateral spring, as omega_h/omega_v = " +
-                number_text(std::round(1e4 * model.frequency_ratio) / 1e4));
+                number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
   }
   const double least = is_slow(bath) ? std::fmin(suitable, Bath{}.kicks_per_tau) : suitable;
-  if (bath.kicks_per_tau < kEnough * least) return trap("is too low for these springs and quality factors");
+  if (kicks < kEnough * least) return trap("is too low for these springs and quality factors" + remedy);
+  if (suitable < kEnough * least_kicks(model, bath)) {
+    return trap("is too low for these springs and quality factors, as is every rate that can be given: K_f may be "
+                "wrong by a tenth and more");
+  }
   return {};
 }
 
