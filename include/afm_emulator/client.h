@@ -253,7 +253,7 @@ class Client {
   Connection<Control> control_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
-  std::pair<std::uint32_t, std::uint64_t> told_;  // epoch and number of what the latest answer says is in force
+  std::pair<std::uint32_t, std::uint64_t> told_;    // epoch and number of what the latest answer says is in force
   std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
 };
 

@@ -208,7 +208,8 @@ class EmulatorNode {
   // The fault, or nothing.
   std::string find_drag_fault(double drag_velocity) const {
     const bool possible = std::abs(drag_velocity) <= parameters_.max_drag_velocity;  // false for NaN
-    return possible ? "" : "must be finite and within max_drag_velocity";
+    return possible ? ""
+                    : "must be finite and within max_drag_velocity = " + number_text(parameters_.max_drag_velocity);
   }
 
   std::string find_height_fault(double rest_height) const {

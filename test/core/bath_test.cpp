@@ -68,10 +68,10 @@ TEST(Bath, SuitableKicksAreThoseThatWereMeasured) {
 
 // K_f by work was up to a half too large.
 TEST(Bath, InALiquidKicksTakeLittleAtOnce) {
-  for (double ratio = kMinFrequencyRatio; ratio <= 41.0; ratio *= 1.01) {
-    for (const double quality_factor : {2.0, 5.0, 10.0, 20.0}) {
+  for (double ratio = kMinFrequencyRatio; ratio <= 34.0; ratio *= 1.01) {
+    for (const double quality_factor : {2.0, 5.0, 10.0, 20.0, 100.0}) {
       const Bath bath = with(quality_factor, suitable_kicks(with_ratio(ratio), with(quality_factor)));
-      ASSERT_LE(kTwoPi * std::max(1.0, ratio) / (quality_factor * bath.kicks_per_tau), 0.3) << ratio;
+      ASSERT_LE(kTwoPi * std::max(1.0, ratio) / (quality_factor * bath.kicks_per_tau), 0.12) << ratio;
       ASSERT_TRUE(find_traps(with_ratio(ratio), bath).empty()) << ratio << " " << quality_factor;
     }
   }
@@ -91,7 +91,7 @@ TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {
 TEST(Bath, ATrapNamesTheRateAndTheRemedy) {
   EXPECT_TRUE(find_traps(Model{}, with(20.0)).empty());
   EXPECT_TRUE(find_traps(with_ratio(14.0), with(100.0, 8.652)).empty());
-  EXPECT_TRUE(find_traps(with_ratio(60.0), with(1e5)).empty());  // K_f as with the golden section of 60
+  EXPECT_TRUE(find_traps(with_ratio(60.0), with(1e5)).empty());           // K_f as with the golden section of 60
   ASSERT_EQ(find_traps(with_ratio(14.0), with(20.0, 8.652)).size(), 1u);  // the rate of a lever's file, with a lower Q
   EXPECT_EQ(find_traps(with_ratio(14.0), with(20.0, 8.652))[0].reason,
             "is too low for these springs and quality factors: K_f may be wrong by a fifth and more; give 46.979");

@@ -206,6 +206,21 @@ TEST(Advice, KicksThatLockToTheLateralSpringAreNamedWithARateThatDoesNot) {
   for (const double rate : {13.597, 29.034, 122.99}) EXPECT_TRUE(find_traps(heated_lever(rate)).empty()) << rate;
 }
 
+TEST(Advice, SamplesAtFewPhasesOfTauAreNamed) {
+  const auto traps = [](double resonance_hz, double sample_rate_hz) {
+    Faults faults;
+    return find_traps(read({{"omega_v_rad_per_s", kTwoPi * resonance_hz},
+                            {"omega_h_rad_per_s", 7.0 * kTwoPi * resonance_hz},
+                            {"sample_rate_hz", sample_rate_hz}},
+                           faults));
+  };
+  ASSERT_EQ(traps(5e6, 2e5).size(), 1u);  // the mean normal force was half as large again
+  EXPECT_NE(traps(5e6, 2e5)[0].find("at 1 of its phases"), std::string::npos);
+  EXPECT_NE(traps(1e5, 2e5)[0].find("at 2 of its phases"), std::string::npos);
+  EXPECT_TRUE(traps(5e6, 1.9e5).empty());
+  EXPECT_TRUE(traps(7.5e4, 2e5).empty());
+}
+
 TEST(Advice, HeatWithoutDampingHasNoEffect) {
   Faults faults;
   EXPECT_EQ(find_traps(read({{"temperature_k", 300.0}}, faults)).size(), 1u);

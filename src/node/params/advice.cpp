@@ -28,6 +28,17 @@ double advance_for(double seconds, Run& run, Batch& batch, std::uint64_t impacts
   return (run.now() - start) / (now - begin);
 }
 
+// At how many phases of tau all samples are taken, where these are very few; else 0.
+int phases_of_samples(double samples_per_tau) {
+  constexpr int kVeryFew = 4;
+  constexpr double kSame = 1e-4;  // [tau]
+  for (int phases = 1; phases <= kVeryFew; ++phases) {
+    const double turns = phases / samples_per_tau;
+    if (std::round(turns) >= 1.0 && std::abs(turns - std::round(turns)) < kSame) return phases;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string describe_tip(const Parameters& p) {
@@ -52,6 +63,13 @@ std::vector<std::string> find_traps(const Parameters& p) {
   if (p.bath.temperature_k > 0.0 && !settings.bath.is_on()) {
     traps.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
                     " has no effect: quality_factor is 0, so no heat reaches the tip");
+  }
+  const int phases = phases_of_samples(p.sample_rate_hz * Units(p.si).time());
+  if (phases > 0) {
+    traps.push_back("sample_rate_hz = " + number_text(p.sample_rate_hz) + ": samples see tau at " +
+                    std::to_string(phases) +
+                    " of its phases alone, so means of them, such as the mean normal force, may "
+                    "be far off: give a rate that is a few per cent less");
   }
   if (p.tolerance > 0.0 && p.model != kAuto) {
     traps.push_back("tolerance = " + number_text(p.tolerance) + " has no effect: model is " + p.model + ", not auto");

@@ -131,7 +131,8 @@ void check_settings(const Parameters& p, Check& check, Faults& faults) {
   settings.contact_tolerance = 0.0;
   for (const ParameterError& fault : afm::find_faults(settings)) {
     if (fault.name == "temperature") {
-      check.within("temperature_k", p.bath.temperature_k, 0.0, kMaxTemperature * Units(p.si).temperature());
+      const double most = std::round(kMaxTemperature * Units(p.si).temperature());
+      check.require(false, "temperature_k", p.bath.temperature_k, "must be between 0 and " + number_text(most) + " K");
     } else if (fault.name == "sample_period") {
       check.require(false, "sample_rate_hz", p.sample_rate_hz, "the time between two samples " + fault.reason);
     } else {
