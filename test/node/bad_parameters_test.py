@@ -6,9 +6,7 @@ import xmlrpc.client
 from socketserver import ThreadingMixIn
 from xmlrpc.server import SimpleXMLRPCServer
 
-import roslib.packages
-
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
+from emulator_under_test import Emulator, NodeTest, Process, find
 from topics import NAMESPACE
 
 
@@ -34,7 +32,7 @@ class MasterSpy(ThreadingMixIn, SimpleXMLRPCServer):
 class BadParameters(NodeTest):
     def test_a_name_that_cannot_be(self):
         for kind, argument in (('emulator_node', '__name:=a-b'), ('view_node', '_emulator:=a-b')):
-            node = self.start(Process([roslib.packages.find_node(PACKAGE, kind)[0], argument]))
+            node = self.start(Process([find(kind), argument]))
             self.assertEqual(node.wait(), 1)
             self.assertIn('a-b', node.output())
 

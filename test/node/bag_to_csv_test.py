@@ -5,12 +5,11 @@ import csv
 import subprocess
 
 import genpy
-import roslib.packages
 from afm_emulator.msg import Friction
 
 import bags
 from checks import SOUND, UNCHECKED, USAGE
-from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, NodeTest
+from emulator_under_test import SPEED_UNIT, TAU_S, NodeTest, find
 from spoiled_bag import SpoiledBag
 from topics import PATIENCE, Topic
 
@@ -22,8 +21,7 @@ NOT_IN_TABLE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limi
 
 
 def call(*arguments):
-    binary = roslib.packages.find_node(PACKAGE, 'bag_to_csv')[0]
-    done = subprocess.run([binary] + [str(argument) for argument in arguments],
+    done = subprocess.run([find('bag_to_csv')] + [str(argument) for argument in arguments],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
                           timeout=60 * PATIENCE)
     lines = done.stdout.splitlines()

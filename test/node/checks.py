@@ -5,9 +5,7 @@ import runpy
 import subprocess
 from unittest import mock
 
-import roslib.packages
-
-from emulator_under_test import PACKAGE
+from emulator_under_test import find
 from topics import PATIENCE
 
 SOUND, DIFFERS, USAGE, UNCHECKED = range(4)  # exit codes
@@ -16,10 +14,6 @@ SOUND, DIFFERS, USAGE, UNCHECKED = range(4)  # exit codes
 class Answer:
     def __init__(self, code, text):
         self.code, self.text = code, text
-
-
-def find(tool):
-    return roslib.packages.find_node(PACKAGE, tool)[0]
 
 
 def call(tool, *arguments):

@@ -10,10 +10,9 @@ import time
 import unittest
 from pathlib import Path
 
-import roslib.packages
 from std_srvs.srv import SetBool, Trigger
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Emulator, NodeTest
+from emulator_under_test import SPEED_UNIT, TAU_S, Emulator, NodeTest, find
 from topics import DEADLINE_S, PATIENCE, Topic
 
 TIMEOUT_S, LONG_S = 2.0 * PATIENCE, 15.0 * PATIENCE  # to see how it ends; for a busy machine
@@ -359,4 +358,4 @@ class Python(Claims, NodeTest):
 
 class Cpp(Claims, NodeTest):
     def program(self):
-        return [str(Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[1] / 'client_calls')]
+        return [str(Path(find('emulator_node')).parents[1] / 'client_calls')]

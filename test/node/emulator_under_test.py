@@ -20,12 +20,18 @@ from std_srvs.srv import SetBool, Trigger
 from topics import DEADLINE_S, NAMESPACE, PATIENCE, TOPICS, Topic, key, wait_until
 
 PACKAGE = 'afm_emulator'
+SHARE = Path(roslib.packages.get_pkg_dir(PACKAGE))
 
 # the paper's values, from which the expectations of the tests are made
 TAU_S = 2 * 3.141592653589793 / 40e3
 SPEED_UNIT = 0.52e-9 / TAU_S     # m/s for eta = 1
 ENERGY_UNIT = 408e-12 * SPEED_UNIT ** 2
 FRICTION_UNIT = 408e-12 / TAU_S  # kg/s for a K_f of 1 m_tip/tau
+
+
+def find(kind, package=PACKAGE):
+    """A program of a package."""
+    return roslib.packages.find_node(package, kind)[0]
 
 
 class Process:
@@ -110,8 +116,7 @@ def is_known(node):
 class Emulator(Process):
     def __init__(self, parameters=None, **environment):
         set_parameters(parameters or {})
-        binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
-        super().__init__([binary, '__name:=' + NAMESPACE[1:]], env=dict(os.environ, **environment))
+        super().__init__([find('emulator_node'), '__name:=' + NAMESPACE[1:]], env=dict(os.environ, **environment))
         self.publishers = {}
 
     def call(self, service, kind, **request):

@@ -11,9 +11,7 @@ import signal
 import time
 from pathlib import Path
 
-import roslib.packages
-
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
+from emulator_under_test import Emulator, NodeTest, Process, find
 from topics import Topic, wait_until
 
 LONG = ('_for_s:=1e6', '_timeout_s:=1e6')
@@ -45,8 +43,7 @@ class Ending(NodeTest):
             emulator.stop()
 
     def start_node(self, name):
-        return self.start(Process([roslib.packages.find_node(PACKAGE, name)[0], '__name:=' + name.split('.')[0],
-                                   *NODES[name]],
+        return self.start(Process([find(name), '__name:=' + name.split('.')[0], *NODES[name]],
                                   dict(os.environ, QT_QPA_PLATFORM='offscreen')))
 
     def test_at_any_moment(self):

@@ -3,11 +3,10 @@ import csv
 import subprocess
 from pathlib import Path
 
-import roslib.packages
 import rospy
 from std_msgs.msg import Float64MultiArray
 
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
+from emulator_under_test import Emulator, NodeTest, find
 from topics import PATIENCE, Topic, wait_until
 
 SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose nothing
@@ -49,8 +48,7 @@ class Examples(NodeTest):
 
     def test_the_loop_delay_is_measured(self):
         self.start(Emulator({'batch_rate_hz': 100.0}))
-        binary = roslib.packages.find_node(PACKAGE, 'loop_delay')[0]
-        done = subprocess.run([binary, '_commands:=40'], stdout=subprocess.PIPE, universal_newlines=True,
+        done = subprocess.run([find('loop_delay'), '_commands:=40'], stdout=subprocess.PIPE, universal_newlines=True,
                               timeout=60 * PATIENCE)
         self.assertEqual(done.returncode, 0)
         row, = csv.DictReader(line for line in done.stdout.splitlines() if not line.startswith('['))

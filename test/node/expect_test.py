@@ -6,21 +6,16 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-import roslib.packages
 import rospy
 from afm_emulator import Client, expectations
 from afm_emulator.msg import EmulatorStatus
 from std_srvs.srv import Trigger
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, find
 from topics import PATIENCE, wait_until
 
 NAME = '/expect_under_test'
 SPEED = 2.0 * SPEED_UNIT
-
-
-def find(kind):
-    return roslib.packages.find_node(PACKAGE, kind)[0]
 
 
 def set_parameters(node, parameters):

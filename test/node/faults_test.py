@@ -8,14 +8,13 @@ import xmlrpc.client
 from pathlib import Path
 from unittest import mock
 
-import roslib.packages
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from std_srvs.srv import SetBool
 
 import bags
 import checks
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process
+from emulator_under_test import Emulator, NodeTest, Process, find
 from own_master import own_master
 from tcpros import BareSubscriber
 from topics import NAMESPACE, PATIENCE, Topic, wait_until
@@ -41,10 +40,9 @@ class Faults(NodeTest):
     def test_the_master_dies(self):
         """The run, its subscribers and its recording do not need it."""
         self.directory = Path(self.temporary_directory())
-        binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
         with mock.patch.dict(os.environ), own_master() as master:  # for its children alone
             master.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
-            emulator = self.start(Process([binary, '__name:=' + NAMESPACE[1:]]))
+            emulator = self.start(Process([find('emulator_node'), '__name:=' + NAMESPACE[1:]]))
             wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.getSystemState('test')[2]),
                        'the last of it is registered')
             heights = [-1e-11, -2e-11]
@@ -72,7 +70,7 @@ class Faults(NodeTest):
         halt."""
         rospy.set_param('/use_sim_time', True)
         self.addCleanup(rospy.delete_param, '/use_sim_time')
-        library = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[1] / 'libafm_clock_jump.so'
+        library = Path(find('emulator_node')).parents[1] / 'libafm_clock_jump.so'
         self.jump = Path(self.temporary_directory()) / 'jump'
         self.jump.write_bytes(struct.pack('d', 0.0))
         self.emulator = self.recording_emulator(LD_PRELOAD=str(library), CLOCK_JUMP=str(self.jump))

@@ -1,13 +1,11 @@
 """What the nodes advertise is what docs/interface.md lists: names, types, and which topics are latched."""
 import re
 
-import roslib.packages
 import rosgraph
 import rospy
 import rosservice
-from pathlib import Path
 
-from emulator_under_test import PACKAGE, EmulatorTest, Process
+from emulator_under_test import PACKAGE, SHARE, EmulatorTest, Process
 from topics import NAMESPACE, wait_until
 
 ROW = re.compile(r'^\| (in|out) \| `(\S+)` \| (\w+/\w+) \| ?(yes|no|) ?\|', re.M)
@@ -17,7 +15,7 @@ ALL_NODES_HAVE = ('/rosout', 'get_loggers', 'set_logger_level')  # of roscpp's o
 
 
 def document():
-    return (Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'docs' / 'interface.md').read_text()
+    return (SHARE / 'docs' / 'interface.md').read_text()
 
 
 def resolved(name):

@@ -3,14 +3,13 @@ import math
 from pathlib import Path
 
 import dynamic_reconfigure.client
-import roslib.packages
 import yaml
 from afm_emulator.srv import Control
 
-from emulator_under_test import PACKAGE, Emulator, Emulators, NodeTest, Process, call_service
+from emulator_under_test import SHARE, Emulator, Emulators, NodeTest, Process, call_service
 from topics import Topic, wait_until
 
-CONFIG = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config'
+CONFIG = SHARE / 'config'
 LOAD = 0.4e-9  # [N]
 BOLTZMANN = 1.380649e-23
 LEVERS = sorted((CONFIG / 'levers').glob('*.yaml'))

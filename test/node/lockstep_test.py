@@ -4,7 +4,6 @@ import math
 import threading
 import time
 
-import roslib.packages
 import rospy
 from afm_emulator import Client, EmulatorError
 from afm_emulator.msg import Applied, Configuration
@@ -12,7 +11,7 @@ from afm_emulator.srv import Control, ControlResponse
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
-from emulator_under_test import ENERGY_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process
+from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, find
 from topics import Topic, key, tau_between, wait_until
 
 NAN = float('nan')
@@ -218,10 +217,9 @@ class TwoClocks(NodeTest):
     def test_of_two_that_begin_together_one_has_the_clock_at_most(self):
         """Each asked before the other had it."""
         parameters = {'publish_clock': True, 'pace': 'lockstep'}
-        binary = roslib.packages.find_node(PACKAGE, 'emulator_node')[0]
         for name in ('left', 'right'):
             rospy.set_param('/' + name, parameters)
-        both = [self.start(Process([binary, '__name:=' + name])) for name in ('left', 'right')]
+        both = [self.start(Process([find('emulator_node'), '__name:=' + name])) for name in ('left', 'right')]
         wait_until(lambda: any(process.child.poll() == 1 for process in both), 'one refuses')
         self.assertRegex(''.join(process.output() for process in both), '/(left|right) publishes /clock already')
 

@@ -4,9 +4,7 @@ import os
 import signal
 from pathlib import Path
 
-import roslib.packages
-
-from emulator_under_test import PACKAGE, NodeTest, Process
+from emulator_under_test import SHARE, NodeTest, Process, find
 from own_master import free_port
 from topics import wait_until
 
@@ -31,8 +29,7 @@ def addresses_by_process(marker):
 class Loopback(NodeTest):
     def test_run_listens_on_loopback_only(self):
         """In a path with a space too."""
-        package = Path(roslib.packages.get_pkg_dir(PACKAGE))
-        devel = Path(roslib.packages.find_node(PACKAGE, 'emulator_node')[0]).parents[2]
+        devel = Path(find('emulator_node')).parents[2]
         environment = {name: value for name, value in os.environ.items() if name not in ('ROS_IP', 'ROS_HOSTNAME')}
         master = 'http://localhost:%d' % free_port()
         spaced = Path(self.temporary_directory()) / 'a b'
@@ -40,7 +37,7 @@ class Loopback(NodeTest):
         environment.update(AFM_BUILD_DIR=str(spaced), ROS_MASTER_URI=master)
         command = ('source "$0/scripts/environment.bash"; listen_on_loopback_only; '
                    'exec roslaunch afm_emulator emulator.launch')
-        launch = self.start(Process(['bash', '-c', command, str(package)], env=environment, start_new_session=True))
+        launch = self.start(Process(['bash', '-c', command, str(SHARE)], env=environment, start_new_session=True))
         self.addCleanup(launch.stop, signal.SIGINT)
         wanted = {'emulator_node': 2, 'rosout': 2, 'rosmaster': 1, 'roslaunch': 1}
 

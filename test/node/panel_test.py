@@ -8,9 +8,7 @@ import sys
 import tempfile
 import time
 
-import roslib.packages
-
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process
+from emulator_under_test import SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process, find
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
 
 
@@ -272,7 +270,7 @@ class Coming(NodeTest):
         bag, = self.end(emulator)
         panel = Panel()
         self.addCleanup(panel.close)
-        self.start(Process([roslib.packages.find_node('rosbag', 'play')[0], '--quiet', '--loop', bag]))
+        self.start(Process([find('play', 'rosbag'), '--quiet', '--loop', bag]))
         banner = panel.part('banner')
         until(lambda: banner.isVisible() and 'recording' in banner.text(), 'it knows a recording')
         until(lambda: 'η = 3.400' in panel.window.readouts['eta'].text(), 'its drag speed')
@@ -289,7 +287,7 @@ class Ending(NodeTest):
                            if name not in ('DISPLAY', 'WAYLAND_DISPLAY')}
             if display:
                 environment['DISPLAY'] = display
-            panel = self.start(Process([roslib.packages.find_node(PACKAGE, 'panel')[0]], environment))
+            panel = self.start(Process([find('panel')], environment))
             self.assertEqual(panel.wait(), 1)
             self.assertEqual(panel.output().count('\n'), 1, panel.output())
             self.assertIn(why, panel.output())

@@ -3,10 +3,9 @@ reported."""
 import math
 import subprocess
 
-import roslib.packages
 from visualization_msgs.msg import Marker, MarkerArray
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, TAU_S, Process
+from emulator_under_test import SPEED_UNIT, TAU_S, Process, find
 from topics import Topic, key, tau_between
 
 CELLS, AHEAD = 6, 1     # seen across a picture, and from its middle to the holder
@@ -18,14 +17,12 @@ CONTACT_RED = 230 / 255
 
 class View(Process):
     def __init__(self):
-        binary = roslib.packages.find_node(PACKAGE, 'view_node')[0]
-        super().__init__([binary, '__name:=afm_view', '_emulator:=/afm'])
+        super().__init__([find('view_node'), '__name:=afm_view', '_emulator:=/afm'])
         self.markers = Topic('/afm_view/markers', MarkerArray)
 
 
 def open_rviz(**environment):
-    script = roslib.packages.find_node(PACKAGE, 'open_rviz')[0]
-    return subprocess.run([script], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    return subprocess.run([find('open_rviz')], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           universal_newlines=True, timeout=30)
 
 

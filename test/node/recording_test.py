@@ -7,7 +7,6 @@ import shutil
 import signal
 import subprocess
 
-import roslib.packages
 import rosbag
 from afm_emulator.msg import Friction
 from afm_emulator.srv import StartRecording, Step
@@ -15,7 +14,7 @@ from std_srvs.srv import SetBool, Trigger
 
 import bags
 import checks
-from emulator_under_test import PACKAGE, Emulator, NodeTest, Process, set_parameters
+from emulator_under_test import Emulator, NodeTest, Process, find, set_parameters
 from topics import Topic, wait_until
 
 CHUNK_BYTES = 768 * 1024  # what rosbag writes at once
@@ -131,8 +130,7 @@ class Recording(NodeTest):
     def test_topics_may_be_remapped_and_sigterm_leaves_a_good_bag(self):
         directory = self.temporary_directory()
         set_parameters({'record': True, 'bag_directory': directory})
-        node = self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=afm',
-                                   '~friction:=/force', '~snapshot:=/start']))
+        node = self.start(Process([find('emulator_node'), '__name:=afm', '~friction:=/force', '~snapshot:=/start']))
         force = Topic('/force', Friction)
         force.wait_for_more(100)
         # as SIGINT, with which the other recordings end: roscpp handles only that by itself

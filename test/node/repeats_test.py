@@ -5,17 +5,16 @@ import signal
 import time
 from pathlib import Path
 
-import roslib.packages
 import rospy
 from afm_emulator.srv import StartRecording, Step
 from std_srvs.srv import SetBool, Trigger
 
 import checks
-from emulator_under_test import PACKAGE, SPEED_UNIT, NodeTest, Process, connected_to
+from emulator_under_test import SHARE, SPEED_UNIT, NodeTest, Process, connected_to
 from topics import NAMESPACE, Topic, wait_until
 
 ETAS = [0.0, 1.0, 1.0, 2.0, -3.0, 3.4, 5.0, 5.0, 7.5, -1.0]  # contact, chatter, chaos, both directions
-LEVELS = os.path.join(roslib.packages.get_pkg_dir(PACKAGE), 'config', 'levels.csv')
+LEVELS = str(SHARE / 'config' / 'levels.csv')
 
 
 class Repeats(NodeTest):

@@ -1,9 +1,7 @@
 """Every shipped scene has the parameters of its file and shows what that says one sees. All are started paused, and
 stepped: faster than time passes, and with nothing lost."""
 import math
-from pathlib import Path
 
-import roslib.packages
 import rospy
 import yaml
 from afm_emulator.msg import Impact
@@ -11,10 +9,10 @@ from afm_emulator.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
-from emulator_under_test import FRICTION_UNIT, PACKAGE, SPEED_UNIT, TAU_S, Emulators, NodeTest, call_service
+from emulator_under_test import FRICTION_UNIT, SHARE, SPEED_UNIT, TAU_S, Emulators, NodeTest, call_service
 from topics import TOPICS, Topic, key, wait_until
 
-SCENES = Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes'
+SCENES = SHARE / 'config' / 'scenes'
 PEAK = 6.061052  # m_tip/tau, at every even eta, in closed form
 MOST_TAU = 10000  # of a step
 

@@ -5,15 +5,13 @@ from pathlib import Path
 
 import roslaunch.config
 import roslaunch.xmlloader
-import roslib.packages
 import rospy
 import yaml
 from afm_emulator.srv import Step
 
-from emulator_under_test import PACKAGE, Emulator, NodeTest, call_service
+from emulator_under_test import SHARE, Emulator, NodeTest, call_service
 from topics import Topic
 
-SHARE = Path(roslib.packages.get_pkg_dir(PACKAGE))
 SHIPPED = SHARE / 'config' / 'emulator.yaml'
 
 

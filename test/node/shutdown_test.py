@@ -7,16 +7,15 @@ import threading
 import time
 from pathlib import Path
 
-import roslib.packages
 import rospy
 import yaml
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 
-from emulator_under_test import PACKAGE, NodeTest, Process
+from emulator_under_test import SHARE, NodeTest, Process, find
 from topics import DEADLINE_S, NAMESPACE, PATIENCE
 
-SCENES = sorted((Path(roslib.packages.get_pkg_dir(PACKAGE)) / 'config' / 'scenes').glob('*.yaml'))
+SCENES = sorted((SHARE / 'config' / 'scenes').glob('*.yaml'))
 STOPS = int(os.environ.get('AFM_STOPS', len(SCENES)))
 SOON_S = 5.0
 WITHIN_S = 1.5  # of its start a node is stopped
@@ -54,7 +53,7 @@ class Shutdown(NodeTest):
         parameters.update(record=True, bag_directory=str(self.directory / name),
                           level_table=str(scene.parents[1] / 'levels.csv'))
         rospy.set_param('/' + name, parameters)
-        return self.start(Process([roslib.packages.find_node(PACKAGE, 'emulator_node')[0], '__name:=' + name]))
+        return self.start(Process([find('emulator_node'), '__name:=' + name]))
 
     def test_every_scene_ends_soon_at_any_moment(self):
         """Many at once; some are stopped before they have begun."""

@@ -11,7 +11,7 @@ from std_msgs.msg import Header, String
 
 import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
-from emulator_under_test import SPEED_UNIT
+from emulator_under_test import SPEED_UNIT, find
 from spoiled_bag import SpoiledBag
 from terminal import run_on_a_terminal
 from topics import NAMESPACE
@@ -61,7 +61,7 @@ class SpoiledBags(SpoiledBag):
 
     def test_progress_is_shown(self):
         """It stood at 0."""
-        code, text = run_on_a_terminal([checks.find('replay_check'), str(self.write())])
+        code, text = run_on_a_terminal([find('replay_check'), str(self.write())])
         batches = len(self.of('friction'))
         shown = re.findall(r'(\d+)/%d batches' % batches, text)
         self.assertEqual((code, shown[-1]), (SOUND, str(batches)))
