@@ -1,8 +1,6 @@
 """bag_to_csv writes every number of a recording as rosbag's reader finds it, in SI to the bit and in natural units to
 rounding; what is missing it names, and writes what there is."""
 import copy
-import csv
-import subprocess
 
 import genpy
 from afm_emulator.msg import Friction
@@ -11,7 +9,8 @@ import bags
 from checks import SOUND, UNCHECKED, USAGE
 from emulator_under_test import SPEED_UNIT, TAU_S, NodeTest, find
 from spoiled_bag import SpoiledBag
-from topics import PATIENCE, Topic
+from tables import run_tool
+from topics import Topic
 
 UNITS = ('_m_per_s', '_kg_per_s', '_per_s', '_j', '_n', '_m', '_s')  # in the names of columns
 OTHER_NAMES = {'sample_rate': 'sample_rate_hz'}
@@ -21,13 +20,7 @@ NOT_IN_TABLE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limi
 
 
 def call(*arguments):
-    done = subprocess.run([find('bag_to_csv')] + [str(argument) for argument in arguments],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          timeout=60 * PATIENCE)
-    lines = done.stdout.splitlines()
-    columns = lines[0].split(',') if lines else []
-    assert len(columns) == len(set(columns)), columns  # of two with one name a reader sees one
-    return done.returncode, list(csv.DictReader(lines)), done.stderr
+    return run_tool(find('bag_to_csv'), *map(str, arguments))
 
 
 def table(paths, *options):
@@ -57,10 +50,9 @@ class BagToCsv(NodeTest):
         friction.wait_for_more(60)
         self.paths = self.end(emulator)
         self.assertGreater(len(self.paths), 1)
-        self.check_impacts()
+        self.check_rows()
         self.check_deflection()
         self.check_friction()
-        self.check_commands()
         reversed_paths = call(*self.paths[::-1], '--topic', 'friction')
         self.assertEqual(reversed_paths[:2], (0, self.table('friction')))  # a shell may list them in another order
 
@@ -79,15 +71,19 @@ class BagToCsv(NodeTest):
             value = getattr(message, field_of(column, message))
             self.assertEqual(repr(type(value)(row[column])), repr(value), column)  # nan is nan
 
-    def check_impacts(self):
-        found = [(batch.first_index + i, impact) for batch in self.recorded('impacts')
-                 for i, impact in enumerate(batch.impacts)]
-        rows = self.table('impacts')
-        self.assertGreater(len(rows), 1000)
-        self.assertEqual(len(rows), len(found))
-        for row, (index, impact) in zip(rows, found):
-            self.assertEqual((int(row['epoch']), int(row['index'])), (0, index))
-            self.assert_row(row, impact)
+    def check_rows(self):
+        """Of all but the samples: one for each message, and for each impact."""
+        impacts = [impact for batch in self.recorded('impacts') for impact in batch.impacts]
+        self.assertGreater(len(impacts), 1000)
+        self.assertEqual([(int(row['epoch']), int(row['index'])) for row in self.table('impacts')],
+                         [(0, index) for index in range(len(impacts))])
+        commands = self.recorded('applied')
+        self.assertEqual(len(commands), 3)
+        for topic, found in (('impacts', impacts), ('friction', self.recorded('friction')), ('commands', commands)):
+            rows = self.table(topic)
+            self.assertEqual(len(rows), len(found), topic)
+            for row, message in zip(rows, found):
+                self.assert_row(row, message)
 
     def check_deflection(self):
         found = [(b.first_sample + i, (b.time.tau + b.time.phase) * TAU_S + i * b.sample_period, v, w)
@@ -103,17 +99,8 @@ class BagToCsv(NodeTest):
         found, rows = self.recorded('friction'), self.table('friction')
         self.assertEqual({field_of(column, found[0]) for column in set(rows[0]) - OF_THE_ROW},
                          set(Friction.__slots__) - NOT_IN_TABLE)
-        self.assertEqual(len(rows), len(found))
-        for row, message in zip(rows, found):
-            self.assert_row(row, message)
         natural = table(self.paths, '--topic', 'friction', '--natural')[-1]  # as table_writer_test.cpp has it of all
         self.assertAlmostEqual(float(natural['k_f_m_tip_per_tau']) / found[-1].k_f_natural, 1, delta=1e-13)
-
-    def check_commands(self):
-        found, rows = self.recorded('applied'), self.table('commands')
-        self.assertEqual((len(rows), len(found)), (3, 3))
-        for row, message in zip(rows, found):
-            self.assert_row(row, message)
 
 
 class Incomplete(SpoiledBag):

@@ -9,7 +9,8 @@ import rospy
 import rostest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'test' / 'support')]  # for own_master and terminal
+# for own_master, terminal and tables
+sys.path[:0] = [str(ROOT / folder) for folder in ('scripts', 'test/support', 'test/tools')]
 NAMES = [argument for argument in sys.argv[1:] if argument.isidentifier()]  # the others are of roslaunch and rostest
 
 

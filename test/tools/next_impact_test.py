@@ -10,6 +10,8 @@ import sys
 import tempfile
 import unittest
 
+from tables import run_tool
+
 TOOL, DATA = None, None
 INPUTS = ['eta', 'gamma', 'cutoff', 'phase', 'extension', 'u', 'w']
 OUTPUTS = ['dt', 'phase_next', 'extension_next', 'u_next', 'w_next', 'normal_speed', 'tangential_velocity',
@@ -20,9 +22,8 @@ GOOD_ROW = '3.4,0.7,0.05,0.25,0,3.4,2'
 
 def run(text, *arguments):
     """Exit code, rows as dictionaries, lines of complaint."""
-    done = subprocess.run([TOOL, *arguments], input=text.encode(), capture_output=True, timeout=60)
-    rows = list(csv.DictReader(done.stdout.decode().splitlines()))
-    return done.returncode, rows, done.stderr.decode().splitlines()
+    code, rows, complaints = run_tool(TOOL, *arguments, text=text)
+    return code, rows, complaints.splitlines()
 
 
 def table(*rows):

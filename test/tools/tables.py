@@ -10,4 +10,7 @@ def run_tool(*command, text=None):
     """The exit code, the rows as dictionaries, and the standard error. text: the standard input."""
     done = subprocess.run(command, input=text, stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
                           timeout=TIME_LIMIT_S)
-    return done.returncode, list(csv.DictReader(done.stdout.splitlines())), done.stderr
+    lines = done.stdout.splitlines()
+    columns = lines[0].split(',') if lines else []
+    assert len(columns) == len(set(columns)), columns  # of two with one name a reader sees one
+    return done.returncode, list(csv.DictReader(lines)), done.stderr
