@@ -301,21 +301,12 @@ class Arrays(unittest.TestCase):
         self.assertEqual(caught.exception.name, 'y')
 
     def test_models_are_values(self):
-        self.assertEqual(afm.Model(gamma=0.8), afm.Model(gamma=0.8))
-        self.assertNotEqual(afm.Model(gamma=0.8), afm.Model())
-        self.assertEqual(eval(repr(afm.Model(gamma=0.1)), {'Model': afm.Model}), afm.Model(gamma=0.1))
-        self.assertEqual(eval(repr(afm.Bath(0.3, 50)), {'Bath': afm.Bath}), afm.Bath(0.3, 50))
-        units = afm.Units(lattice_spacing_m=0.399e-9)
-        again = eval(repr(units), {'Units': afm.Units})
-        self.assertEqual((again.model, again.length, again.energy), (units.model, units.length, units.energy))
-        with self.assertRaises(AttributeError):
-            afm.Model().gamma = 0.5
-
-    def test_values_compare_with_anything(self):
-        for value, other in ((afm.Model(), afm.Model(gamma=0.1)), (afm.Bath(), afm.Bath(0, 9)),
-                             (afm.Units(), afm.Units(restitution_gamma=0.1))):
+        for value, other in ((afm.Model(gamma=0.1), afm.Model()), (afm.Bath(0.3, 50), afm.Bath()),
+                             (afm.Units(lattice_spacing_m=0.399e-9), afm.Units())):
             self.assertTrue(value == eval(repr(value), vars(afm)) and value != other and value != None)  # noqa: E711
             self.assertIn(value, [None, 1, value])
+        with self.assertRaises(AttributeError):
+            afm.Model().gamma = 0.5
 
     def test_the_time_of_an_event_is_a_time(self):
         event = afm.Tip(eta=2.0).advance(10)[-1]
