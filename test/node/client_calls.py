@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """client_calls.cpp in Python: a word in quotes is a text. usage: client_calls.py TIMEOUT"""
 import sys
-import threading
+from concurrent.futures import ThreadPoolExecutor
 
 from afm_emulator import ending
 import rospy
@@ -15,18 +15,11 @@ def argument(word):
 
 def control_in_threads(tip, *durations):
     """The lengths of 100 periods of each, that it got [us]."""
-    found = [set() for _ in durations]
-
-    def control(duration, lengths):
-        for _ in range(100):
-            period = tip.control(duration)
-            lengths.add(round(1e6 * tip.tau_s * tau_between(period.begin, period.end)))
-    threads = [threading.Thread(target=control, args=each) for each in zip(durations, found)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    return ' '.join(str(length) for lengths in found for length in lengths)
+    def lengths(duration):
+        periods = [tip.control(duration) for _ in range(100)]
+        return {round(1e6 * tip.tau_s * tau_between(period.begin, period.end)) for period in periods}
+    with ThreadPoolExecutor() as pool:
+        return ' '.join(str(length) for found in pool.map(lengths, durations) for length in found)
 
 
 def stale_reads(tip, commands):
