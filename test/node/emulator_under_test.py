@@ -1,5 +1,6 @@
 """Shared by the tests of the node: the emulator as a process of its own, which is cleaned up after every test."""
 import contextlib
+import math
 import os
 import re
 import signal
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import roslib.packages
 import rospy
-from afm_emulator.srv import Step
+from afm_emulator.srv import Control, Step
 from dynamic_reconfigure.msg import Config, DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure
 from std_msgs.msg import Float64
@@ -121,6 +122,9 @@ class Emulator(Process):
 
     def call(self, service, kind, **request):
         return call_service(NAMESPACE + '/' + service, kind, **request)
+
+    def control(self, duration, drag_velocity=math.nan, rest_height=math.nan):
+        return self.call('control', Control, duration=duration, drag_velocity=drag_velocity, rest_height=rest_height)
 
     def publisher(self, name):
         if name not in self.publishers:

@@ -14,19 +14,14 @@ from std_srvs.srv import SetBool, Trigger
 from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, find
 from topics import Topic, key, tau_between, wait_until
 
-NAN = float('nan')
 K_H = 408e-12 * 250e3 ** 2  # [N/m]
 
 
 class Lockstep(EmulatorTest):
     parameters = {'pace': 'lockstep', 'publish_clock': True, 'temperature_k': 300.0, 'quality_factor': 100.0}
 
-    def control(self, duration, drag_velocity=NAN, rest_height=NAN):
-        return self.emulator.call('control', Control, drag_velocity=drag_velocity, rest_height=rest_height,
-                                  duration=duration)
-
     def advance(self, *arguments):
-        answer = self.control(*arguments)
+        answer = self.emulator.control(*arguments)
         self.assertTrue(answer.success, answer.message)
         return answer
 
@@ -62,10 +57,10 @@ class Lockstep(EmulatorTest):
 
     def test_what_cannot_be_is_refused_by_name_and_nothing_advances(self):
         now = key(self.advance(0.01).end)
-        for name, request in (('drag_velocity', (0.01, 1.0)), ('rest_height', (0.01, NAN, 1e-9)),
-                              ('duration', (-0.01,)), ('duration', (NAN,)), ('duration', (math.inf,)),
+        for name, request in (('drag_velocity', (0.01, 1.0)), ('rest_height', (0.01, math.nan, 1e-9)),
+                              ('duration', (-0.01,)), ('duration', (math.nan,)), ('duration', (math.inf,)),
                               ('drag_velocity', (0.01, math.inf))):
-            answer = self.control(*request)
+            answer = self.emulator.control(*request)
             self.assertFalse(answer.success, request)
             self.assertIn(name, answer.message)
         self.topics['status'].wait_for_more(3)  # nor by itself
@@ -73,7 +68,7 @@ class Lockstep(EmulatorTest):
 
     def test_what_is_paused_does_not_advance(self):
         self.emulator.call('pause', SetBool, data=True)
-        answer = self.control(0.01)
+        answer = self.emulator.control(0.01)
         self.assertFalse(answer.success)
         self.assertIn('paused', answer.message)
         self.emulator.call('pause', SetBool, data=False)
@@ -122,7 +117,7 @@ class Commanded(NodeTest):
         for duration in (0.01, 0.03, 0.25):
             before = emulator.call('reset', Trigger) and len(applied.messages)
             for _ in range(round(0.75 / duration)):
-                answer = emulator.call('control', Control, drag_velocity=NAN, rest_height=NAN, duration=duration)
+                answer = emulator.control(duration)
             applied.wait_for(lambda m: m.epoch == answer.epoch and m.number == answer.applied, 'the last turn')
             turns.append([round(1e3 * (m.time.tau + m.time.phase) * TAU_S, 6) for m in applied.messages[before:]
                           if m.epoch == answer.epoch and m.cause == 'scene' and m.time.tau * TAU_S < 0.68])
@@ -132,8 +127,7 @@ class Commanded(NodeTest):
 
     def test_a_period_with_a_turn_in_it_has_no_friction_coefficient(self):
         emulator = self.emulator()
-        answers = [emulator.call('control', Control, drag_velocity=NAN, rest_height=NAN, duration=duration)
-                   for duration in (0.05, 0.1)]
+        answers = [emulator.control(duration) for duration in (0.05, 0.1)]
         for value in (answers[0].k_f, answers[0].k_f_work):
             self.assertTrue(math.isfinite(value), value)
         for value in (answers[1].k_f, answers[1].k_f_work):
@@ -144,8 +138,7 @@ class Commanded(NodeTest):
 class Waiting(NodeTest):
     def test_a_period_is_one_of_its_own(self):
         emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0}))
-        answers = [emulator.call('control', Control, drag_velocity=v * SPEED_UNIT, rest_height=NAN, duration=0.02)
-                   for v in (2.0, 2.1, 2.2)]
+        answers = [emulator.control(0.02, v * SPEED_UNIT) for v in (2.0, 2.1, 2.2)]
         for one, next_one in zip(answers, answers[1:]):
             self.assertEqual(key(one.end), key(next_one.begin))
         emulator.assert_alive()
@@ -187,15 +180,13 @@ class Waiting(NodeTest):
 class RealTime(NodeTest):
     def test_a_ninth_period_is_refused_and_commands_are_not(self):
         emulator, answers = self.start(Emulator()), []
-
-        def control(duration, drag_velocity=NAN):
-            return emulator.call('control', Control, drag_velocity=drag_velocity, rest_height=NAN, duration=duration)
-        periods = [threading.Thread(target=lambda: answers.append(control(60.0, 3e-6).message)) for _ in range(9)]
+        periods = [threading.Thread(target=lambda: answers.append(emulator.control(60.0, 3e-6).message))
+                   for _ in range(9)]
         for period in periods:
             period.start()
         wait_until(lambda: answers, 'one is refused')
         self.assertIn('eight control periods are under way', answers[0])
-        self.assertTrue(control(0.0, 4e-6).success)
+        self.assertTrue(emulator.control(0.0, 4e-6).success)
         emulator.call('reset', Trigger)
         for period in periods:
             period.join()
