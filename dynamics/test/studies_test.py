@@ -69,9 +69,6 @@ class Refusals(unittest.TestCase):
         self.assertEqual((code, rows), (1, []))
         self.assertIn('without chaos', complaint)
 
-    def test_a_table_that_cannot_be_written(self):
-        self.assertEqual(run('symbolic_dynamics', '--impacts', '2000', '--section', '/no/such/place')[0], 1)
-
 
 class Attractors(unittest.TestCase):
     def test_two_attractors_at_one_drag_velocity(self):
