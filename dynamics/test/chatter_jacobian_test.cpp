@@ -12,6 +12,7 @@
 #include "afm/tip.h"
 #include "contact_jacobian.h"
 #include "support/models.h"
+#include "support/quad_impacts.h"
 #include "trials/burst_trials.h"
 
 namespace afm {
@@ -37,10 +38,6 @@ Bounces bounce(const Model& model, double eta, TipState now, std::uint32_t count
     now = reflect(model, eta, landing.jet).after;
   }
   return bounces;
-}
-
-double relative_distance(const SectionJacobian<double>& J, const SectionJacobian<double>& truth) {
-  return (J - truth).norm() / truth.norm();
 }
 
 struct Burst {

@@ -6,12 +6,9 @@ import threading
 import xmlrpc.client
 
 import rospy
+from rosgraph.network import write_ros_handshake_header
 
 from topics import NAMESPACE, TOPICS
-
-
-def _field(text):
-    return struct.pack('<I', len(text)) + text.encode()
 
 
 class BareSubscriber:
@@ -26,10 +23,8 @@ class BareSubscriber:
         self.socket.settimeout(15.0)
         self.socket.connect((host, port))
         self.kind = TOPICS[name]
-        fields = {'callerid': caller, 'topic': topic, 'type': self.kind._type, 'md5sum': self.kind._md5sum,
-                  'tcp_nodelay': '1'}
-        header = b''.join(_field('%s=%s' % item) for item in fields.items())
-        self.socket.sendall(struct.pack('<I', len(header)) + header)
+        write_ros_handshake_header(self.socket, {'callerid': caller, 'topic': topic, 'type': self.kind._type,
+                                                 'md5sum': self.kind._md5sum, 'tcp_nodelay': '1'})
         self.read(struct.unpack('<I', self.read(4))[0])
 
     def read(self, size):

@@ -4,6 +4,7 @@ import threading
 import time
 
 import rospy
+from afm_emulator.client import tau_between  # noqa: F401
 from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray, Snapshot
 
 NAMESPACE = '/afm'
@@ -32,10 +33,6 @@ def wait_until(condition, what, deadline_s=DEADLINE_S):
 def key(model_time):
     """Orders model times; equal only when they are equal to the bit."""
     return (model_time.tau, model_time.phase)
-
-
-def tau_between(begin, end):
-    return (end.tau - begin.tau) + (end.phase - begin.phase)
 
 
 class Topic:
