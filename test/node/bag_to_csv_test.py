@@ -1,7 +1,5 @@
 """bag_to_csv writes every number of a recording as rosbag's reader finds it, in SI to the bit and in natural units to
 rounding; what is missing it names, and writes what there is."""
-import copy
-
 import genpy
 from afm_emulator.msg import Friction
 
@@ -134,12 +132,7 @@ class Incomplete(SpoiledBag):
         self.assertTrue(rows)
 
     def test_two_starts_are_noted(self):
-        for entry in [copy.copy(entry) for entry in self.entries]:
-            header = entry.message().header
-            header.stamp += genpy.Duration(100)
-            entry.edit(header=header)
-            entry.stamp += genpy.Duration(100)
-            self.entries.append(entry)
+        self.entries += [entry.shifted(100) for entry in self.entries]
         code, rows, complaint = call(self.write(), '--topic', 'friction')
         self.assertEqual((code, len(rows)), (SOUND, len(self.of('friction'))))
         self.assertIn('note: 2 starts of the node', complaint)

@@ -1,4 +1,6 @@
 """Shared by the tests of recording: what is in a bag, and what is published, message for message."""
+import functools
+
 import rosbag
 
 from topics import NAMESPACE, TOPICS, Topic
@@ -8,6 +10,13 @@ BEGINNING = ('configuration', 'applied', 'snapshot')  # of every bag
 
 def short(topic):
     return topic[len(NAMESPACE) + 1:]
+
+
+def alter(message, **values):
+    """a__b=value: field b of the field a."""
+    for path, value in values.items():
+        *parts, field = path.split('__')
+        setattr(functools.reduce(getattr, parts, message), field, value)
 
 
 def read(path):

@@ -1,5 +1,4 @@
 """The Python module simulates a recorded run again to the last bit."""
-import functools
 import time
 from pathlib import Path
 
@@ -153,9 +152,8 @@ class PythonModule(NodeTest):
         def altered(name, last=0, **values):
             """The snapshot, or of epoch 0 the message with this number."""
             def alter(topic, m):
-                for at, value in values.items() if topic == name and (m.epoch, m.header.seq) == (0, last) else ():
-                    *parts, field = at.split('__')
-                    setattr(functools.reduce(getattr, parts, m), field, value)
+                if topic == name and (m.epoch, m.header.seq) == (0, last):
+                    bags.alter(m, **values)
                 return True
             return alter
         last = max(m.header.seq for m in bags.read(path)['friction'] if m.epoch == 0)

@@ -1,11 +1,14 @@
 """A recording to spoil: its messages as bytes, which a test alters, loses or reorders and writes again."""
+import copy
 import tempfile
 from io import BytesIO
 from pathlib import Path
 
 import dynamic_reconfigure.client
+import genpy
 import rosbag
 
+import bags
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest
 from topics import NAMESPACE, TOPICS, Topic
 
@@ -22,11 +25,17 @@ class Entry:
 
     def edit(self, **values):
         message = self.message()
-        for name, value in values.items():
-            setattr(message, name, value)
+        bags.alter(message, **values)
         buffer = BytesIO()
         message.serialize(buffer)
         self.raw = (self.raw[0], buffer.getvalue()) + self.raw[2:]
+
+    def shifted(self, seconds):
+        """The same, published and recorded so much later."""
+        later = copy.copy(self)
+        later.edit(header__stamp=self.message().header.stamp + genpy.Duration(seconds))
+        later.stamp = self.stamp + genpy.Duration(seconds)
+        return later
 
     def flip_last_bit(self, byte):
         data = bytearray(self.raw[1])
