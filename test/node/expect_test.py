@@ -62,58 +62,54 @@ class Expect(NodeTest):
 
     def start_emulator(self):
         self.start(Emulator({'pace': 'lockstep', 'drag_velocity': SPEED}))
-        return Client('/afm')
+        self.tip = Client('/afm')
 
-    def judged(self, tip, **parameters):
-        """Exit code and words of expect while the emulator advances by 0.05 s a period."""
-        node = self.node(**parameters)
-        wait_until(lambda: NAME in connected_to('/afm/friction'), 'it listens')
-        for _ in range(3):
-            tip.control(0.05)
-        return self.end(node)
+    def advance(self, *speeds):
+        """By a period for each."""
+        for speed in speeds or (None, None, None):
+            self.tip.control(0.05, speed)
+
+    def judged(self, advance, field, code=0, **parameters):
+        """What expect says, which must end with this code. It listens before the emulator advances."""
+        node = self.node(field=field, **parameters)
+        wait_until(lambda: NAME in connected_to('/afm/' + field.split('/')[0]), 'it listens')
+        advance()
+        ended, said = self.end(node)
+        self.assertEqual(ended, code, said)
+        return said
 
     def test_what_is_expected_and_what_is_not(self):
-        tip = self.start_emulator()
-        field = {'field': 'friction/drag_velocity', 'for_s': 0.1}
-        code, said = self.judged(tip, value=SPEED, within=1e-9, **field)
-        self.assertEqual(code, 0, said)
-        code, said = self.judged(tip, least=1.5 * SPEED, **field)
-        self.assertEqual(code, 1, said)
+        self.start_emulator()
+        self.judged(self.advance, 'friction/drag_velocity', value=SPEED, within=1e-9, for_s=0.1)
+        said = self.judged(self.advance, 'friction/drag_velocity', code=1, least=1.5 * SPEED, for_s=0.1)
         self.assertRegex(said, r'friction/drag_velocity = \S+ at model time \S+ s: expected \S+ to inf from')
         self.assertTrue(list(self.results.glob('*.png')), said)
 
     def test_a_run_that_is_further_is_judged_where_it_is_and_that_is_said(self):
-        tip = self.start_emulator()
-        tip.control(0.5)
-        code, said = self.judged(tip, field='friction/drag_velocity', least=0.0, after_s=0.2, for_s=0.1)
-        self.assertEqual(code, 0, said)
-        self.assertRegex(said, r'judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = 0\.2 on')
-
-    def test_a_run_that_is_further_than_the_default_is_said_too(self):
-        tip = self.start_emulator()
-        tip.control(0.5)
-        code, said = self.judged(tip, field='friction/drag_velocity', least=0.0, for_s=0.1)
-        self.assertEqual(code, 0, said)
-        self.assertRegex(said, r'judged from 0\.5\d* s')
+        """Further than the default too."""
+        self.start_emulator()
+        for given in ({'after_s': 0.2}, {}):
+            rospy.ServiceProxy('/afm/reset', Trigger)()
+            self.tip.control(0.5)
+            said = self.judged(self.advance, 'friction/drag_velocity', least=0.0, for_s=0.1, **given)
+            self.assertRegex(said, r'judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = %g on'
+                             % given.get('after_s', 0))
 
     def test_a_mean_is_one_over_time(self):
-        tip = self.start_emulator()
+        def advance():
+            for _ in range(10):
+                self.tip.control(0.001, 2 * SPEED)
+            for _ in range(20):
+                self.tip.control(0.01, SPEED)
+                self.tip.control(0.01, 2 * SPEED)
+        self.start_emulator()
         for topic in ('friction', 'deflection'):
             rospy.ServiceProxy('/afm/reset', Trigger)()
-            node = self.node(field=topic + '/drag_velocity', value=1.5 * SPEED, within=0.01 * SPEED, for_s=0.2,
-                             mean=True)
-            wait_until(lambda: NAME in connected_to('/afm/' + topic), 'it listens')
-            for _ in range(10):
-                tip.control(0.001, 2 * SPEED)
-            for _ in range(20):
-                tip.control(0.01, SPEED)
-                tip.control(0.01, 2 * SPEED)
-            code, said = self.end(node)
-            self.assertEqual(code, 0, said)
+            self.judged(advance, topic + '/drag_velocity', value=1.5 * SPEED, within=0.01 * SPEED, for_s=0.2, mean=True)
 
     def test_lost_messages_fail_it(self):
         """What happened in them is not known."""
-        tip = self.start_emulator()
+        self.start_emulator()
         follower, take = expectations.Follower, expectations.Follower._take
         def lose_some(self, message):
             if message.header.seq % 4 or not hasattr(message, 'k_f'):
@@ -124,48 +120,36 @@ class Expect(NodeTest):
         (_, case), _ = run.call_args
         with mock.patch.object(follower, '_take', lose_some), \
                 mock.patch('afm_emulator.expectations.draw'), \
-                mock.patch.object(case, 'setUp', advance_after(case.setUp, tip)):
+                mock.patch.object(case, 'setUp', advance_after(case.setUp, self.tip)):
             self.assertRaisesRegex(AssertionError, 'messages were lost on the way', case('test_field').debug)
 
     def test_a_status_next_to_the_time_counts(self):
         """In lockstep none may fall into it: ten come in a second of wall time."""
-        tip = self.start_emulator()
-        node = self.node(field='status/search_failures', most=0, after_s=1.0, for_s=0.01)
-        wait_until(lambda: NAME in connected_to('/afm/status'), 'it listens')
-        for _ in range(3):
-            rospy.wait_for_message('/afm/status', EmulatorStatus, timeout=60 * PATIENCE)
-            tip.control(0.9)
-        code, said = self.end(node)
-        self.assertEqual(code, 0, said)
+        def advance():
+            for _ in range(3):
+                rospy.wait_for_message('/afm/status', EmulatorStatus, timeout=60 * PATIENCE)
+                self.tip.control(0.9)
+        self.start_emulator()
+        self.judged(advance, 'status/search_failures', most=0, after_s=1.0, for_s=0.01)
 
     def test_what_was_applied_holds_until_the_next(self):
-        tip = self.start_emulator()
-
-        def judged(*speeds, **parameters):
+        def judged(*speeds, **expected):
             rospy.ServiceProxy('/afm/reset', Trigger)()
-            node = self.node(field='applied/drag_velocity', after_s=0.06, for_s=0.08, **parameters)
-            wait_until(lambda: NAME in connected_to('/afm/applied'), 'it listens')
-            for speed in speeds:
-                tip.control(0.05, speed)
-            return self.end(node)
-        code, said = judged(2 * SPEED, None, None, value=2 * SPEED, within=1e-9)
-        self.assertEqual(code, 0, said)
-        code, said = judged(2 * SPEED, None, SPEED, value=SPEED, within=1e-9)
-        self.assertEqual(code, 1, said)
+            return self.judged(lambda: self.advance(*speeds), 'applied/drag_velocity', after_s=0.06, for_s=0.08,
+                               **expected)
+        self.start_emulator()
+        judged(2 * SPEED, None, None, value=2 * SPEED, within=1e-9)
+        said = judged(2 * SPEED, None, SPEED, value=SPEED, within=1e-9, code=1)
         self.assertIn('at model time 0.06 s', said)
-        code, said = judged(2 * SPEED, None, SPEED, value=1.5 * SPEED, within=0.01 * SPEED, mean=True)  # 1 : 1
-        self.assertEqual(code, 0, said)
+        judged(2 * SPEED, None, SPEED, value=1.5 * SPEED, within=0.01 * SPEED, mean=True)  # 1 : 1
 
     def test_the_latest_epoch_is_judged(self):
-        tip = self.start_emulator()
-        node = self.node(field='friction/drag_velocity', value=2 * SPEED, within=1e-9, for_s=0.1)
-        wait_until(lambda: NAME in connected_to('/afm/friction'), 'it listens')
-        tip.control(0.05)  # too slow
-        rospy.ServiceProxy('/afm/reset', Trigger)()
-        for _ in range(3):
-            tip.control(0.05, 2 * SPEED)
-        code, said = self.end(node)
-        self.assertEqual(code, 0, said)
+        def advance():
+            self.advance(None)  # too slow
+            rospy.ServiceProxy('/afm/reset', Trigger)()
+            self.advance(*[2 * SPEED] * 3)
+        self.start_emulator()
+        self.judged(advance, 'friction/drag_velocity', value=2 * SPEED, within=1e-9, for_s=0.1)
 
     def test_without_an_expectation(self):
         for given in ({}, {'within': 1.0}, {'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
