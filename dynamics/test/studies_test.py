@@ -71,18 +71,6 @@ class Refusals(unittest.TestCase):
 
 
 class Attractors(unittest.TestCase):
-    def test_two_attractors_at_one_drag_velocity(self):
-        code, rows, _ = run('attractors', '--eta', '3.75', '--cutoff', '0.375', '--starts', '40', '--friction-duration',
-                            '200')
-        self.assertEqual(code, 0)
-        self.assertGreaterEqual(len(rows), 2)
-        self.assertAlmostEqual(sum(float(row['basin']) for row in rows), 1.0, delta=1e-12)
-        self.assertIn('period-1', [row['attractor'] for row in rows])
-        exponents = [float(row['lyapunov_1']) for row in rows]
-        self.assertLess(min(exponents), -0.01)
-        self.assertGreater(max(exponents), 0.01)
-        self.assertGreater(len({row['k_f'] for row in rows}), 1)
-
     def test_any_number_of_threads_gives_the_same_table(self):
         grid = ['--eta', '1:3:0.5', '--gamma', '0.6:0.7:0.1', '--starts', '2', '--friction-duration', '50',
                 '--relative-cutoff', '--cutoff', '0.1']

@@ -292,6 +292,8 @@ class Arrays(unittest.TestCase):
         self.assertEqual(len(starts), 20)
         counts = np.bincount(starts['attractor_row'], minlength=len(table))
         np.testing.assert_allclose(counts / 20, table['basin'])
+        self.assertLessEqual({'period-1', 'chaotic'}, set(table['attractor']))  # friction depends on history
+        self.assertEqual(len(set(table['k_f'])), len(table))
         given = np.array(starts[['phase', 'extension', 'y', 'u', 'w']].tolist())[:5]
         _, again = afm.attractors([3.75, 2.0], cutoff=0.375, starts=given, friction_duration=100, labels=True)
         self.assertEqual((list(again['point']), len(again)), ([0] * 5 + [1] * 5, 10))
