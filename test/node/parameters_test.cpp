@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "afm/number_text.h"
 #include "node/params/advice.h"
 
 namespace afm::node {
@@ -193,17 +192,6 @@ Parameters heated_lever(double kicks_per_tau, const Given& more = {}) {
   const Parameters parameters = read(given, faults);
   EXPECT_TRUE(faults.empty()) << describe(faults);
   return parameters;
-}
-
-// Measured: at half of omega_h/omega_v K_f is up to 14 % wrong (docs/levers.md).
-TEST(Advice, KicksThatLockToTheLateralSpringAreNamedWithARateThatDoesNot) {
-  for (const double locked : {11.09, 22.0, 43.5}) {
-    const std::vector<std::string> traps = find_traps(heated_lever(locked));
-    ASSERT_EQ(traps.size(), 1u) << locked;
-    EXPECT_NE(traps[0].find("kicks_per_tau = " + number_text(locked)), std::string::npos) << traps[0];
-    EXPECT_NE(traps[0].find("give 13.597"), std::string::npos) << traps[0];
-  }
-  for (const double rate : {13.597, 29.034, 122.99}) EXPECT_TRUE(find_traps(heated_lever(rate)).empty()) << rate;
 }
 
 TEST(Advice, SamplesAtFewPhasesOfTauAreNamed) {
