@@ -231,16 +231,13 @@ class Claims:
             self.emulator.stop()
 
     def test_the_end_of_the_emulator_ends_a_period(self):
-        tip = self.begin_period(30.0)
-        self.emulator.stop()
-        self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*(shutting down|restarted)')
-
-    def test_a_node_of_the_same_name_ends_a_period(self):
-        """roscpp ended the services first, and waited for the answer, which waited for the end."""
-        tip, first = self.begin_period(60.0), self.emulator
-        self.emulator = self.start(Emulator())
-        self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*(shutting down|restarted)')
-        self.assertEqual(first.wait(), 0)
+        """Where a node of its name came, roscpp ended the services first, and waited for the answer, which waited for
+        the end."""
+        for end in (lambda: self.emulator.child.send_signal(signal.SIGINT), lambda: self.start(Emulator())):
+            tip, first = self.begin_period(60.0), self.emulator
+            end()
+            self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*(shutting down|restarted)')
+            self.assertEqual(first.wait(), 0)
 
     def test_a_period_of_less_than_a_batch_is_not_shorter(self):
         """Where a batch has two samples one of 2.4 was over with it."""
