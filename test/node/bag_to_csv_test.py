@@ -97,8 +97,13 @@ class BagToCsv(NodeTest):
         found, rows = self.recorded('friction'), self.table('friction')
         self.assertEqual({field_of(column, found[0]) for column in set(rows[0]) - OF_THE_ROW},
                          set(Friction.__slots__) - NOT_IN_TABLE)
-        natural = table(self.paths, '--topic', 'friction', '--natural')[-1]  # as table_writer_test.cpp has it of all
-        self.assertAlmostEqual(float(natural['k_f_m_tip_per_tau']) / found[-1].k_f_natural, 1, delta=1e-13)
+        natural, last = table(self.paths, '--topic', 'friction', '--natural')[-1], found[-1]
+        for name in ('k_f', 'window_k_f', 'k_f_work'):  # as table_writer_test.cpp has it of all
+            expected = getattr(last, name + '_natural')
+            self.assertAlmostEqual(float(natural[name + '_m_tip_per_tau']) / expected, 1, delta=1e-13)
+        self.assertAlmostEqual(last.eta * SPEED_UNIT / last.drag_velocity, 1, delta=1e-12)
+        self.assertAlmostEqual(last.k_f * last.drag_velocity / last.force, 1, delta=1e-9)
+        self.assertTrue(last.force > 0.0 and last.k_f_std_error > 0.0)
 
 
 class Incomplete(SpoiledBag):

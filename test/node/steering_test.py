@@ -6,19 +6,16 @@ import threading
 import time
 
 import dynamic_reconfigure.client
-from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import Config
 from std_srvs.srv import SetBool
 
-from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest
+from emulator_under_test import SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
 
 AT_START = {'restitution_gamma': 0.7, 'cutoff_speed': 1.66e-7, 'rest_height_m': 0.0, 'sample_rate_hz': 50000.0,
             'friction_window_tau': 1000.0, 'temperature_k': 0.0, 'quality_factor': 0.0, 'lateral_quality_factor': 0.0,
             'kicks_per_tau': 29.034}
 STIFFNESS = 408e-12 * 40e3 ** 2  # of the vertical spring [N/m]
-SLOPE = 2 * math.pi * 0.05 / 0.52
-K_F_AT_PEAK = 4 * (1 + 0.7) / (1 - 0.7) * SLOPE**2 / (1 + SLOPE**2)  # closed form at even eta [m_tip/tau]
 MOST = 1e-4  # max_drag_velocity [m/s]
 
 
@@ -45,22 +42,6 @@ class Steering(EmulatorTest):
             return abs(ratio - 1.0) < 0.05
         wait_until(goes_along, 'a second in real time')
         self.topics['status'].wait_for_next(lambda m: abs(m.real_time_factor - 1.0) < 0.05, 'the status says so')
-
-    def test_friction_peaks_at_even_eta_in_both_directions(self):
-        """After long, in every form in which it is reported."""
-        for eta in (2.0, -2.0):
-            self.begin(paused=True)
-            self.drag(eta)
-            friction = self.stepped(10000)
-            for k_f in (friction.k_f_natural, friction.k_f_work_natural, friction.k_f / FRICTION_UNIT,
-                        friction.k_f_work / FRICTION_UNIT):
-                self.assertAlmostEqual(k_f / K_F_AT_PEAK, 1.0, delta=0.01)
-            self.assertAlmostEqual(friction.window_k_f_natural / K_F_AT_PEAK, 1.0, delta=0.05)
-            self.assertAlmostEqual(friction.window_k_f / FRICTION_UNIT / friction.window_k_f_natural, 1.0, delta=1e-9)
-            self.assertAlmostEqual(friction.eta, eta, delta=1e-12)
-            self.assertAlmostEqual(friction.force / (friction.k_f * friction.drag_velocity), 1.0, delta=1e-9)
-            self.assertEqual(friction.force > 0.0, eta > 0.0)
-            self.assertGreater(friction.k_f_std_error, 0.0)
 
     def test_dynparam_and_clients_work(self):
         client = dynamic_reconfigure.client.Client(NAMESPACE, timeout=60)
@@ -98,21 +79,17 @@ class Steering(EmulatorTest):
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.5, 'reported')
 
     def test_a_faulty_combination_puts_the_old_values_back_and_says_why(self):
-        diagnostics, updates = Topic('/diagnostics', DiagnosticArray), Topic('parameter_updates', Config)
+        updates = Topic('parameter_updates', Config)
         in_force = self.emulator.set()
         faults = (('cutoff_speed', math.nan, 'finite'), ('rest_height_m', 6e-11, 'never touches'),
                   ('quality_factor', 0.05, 'at least 0.1'))
         for name, value, reason in faults:
-            before, said = len(updates.messages), len(diagnostics.messages)
+            before = len(updates.messages)
             # the good part of a faulty change is not taken either
             self.assertEqual(self.emulator.set(friction_window_tau=500.0, **{name: value}), in_force)
-            self.assertIn('refused: %s = ' % name, self.emulator.output())
+            self.assertRegex(self.emulator.output(), 'refused: %s = .*%s' % (name, reason))
             updates.wait_for(lambda m: {v.name: v.value for v in m.doubles} == in_force,
                              'clients see the old values', before)
-            diagnostics.wait_for(lambda m, n=name, r=reason: any(
-                s.name == 'afm: commands' and s.level == 1 and n + ' = ' in s.message and r in s.message
-                for s in m.status),
-                '%s is named' % name, said)
         self.assertEqual([m.cause for m in self.applied.messages], ['epoch'])
 
     def test_height_and_load_are_commanded_by_topic_and_reported(self):
