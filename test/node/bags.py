@@ -38,7 +38,10 @@ def read_raw(path):
 
 
 def listen():
-    return {name: Topic(name) for name in TOPICS}
+    topics = {name: Topic(name) for name in TOPICS}
+    for topic in topics.values():  # else the first messages of a recording may have gone by
+        topic.wait_for_connection()
+    return topics
 
 
 def count(topics):
