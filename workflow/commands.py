@@ -20,11 +20,11 @@ LEVER_KICKS = {2: 11.09, 14: 8.652, 17: 10.507, 21: 12.979, 30: 18.541, 22: 11.0
 MORE_KICKS = (29.034, REFERENCE_KICKS)
 # where a rate of kicks locks to the lateral spring: 11.09 at omega_h/omega_v = 11.1, and 29.034 at 14; at 12.5 only
 # with a low Q
+LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS = (11.1, 12.5, 14), (20, 100), (8.652, 11.09, 29.034, 46.979, REFERENCE_KICKS)
 # in liquids: suitable_kicks() by omega_h/omega_v and Q, beside the default and nearly the most that can be given
 LIQUID_KICKS = {(6.25, 1): 357.618, (6.25, 2): 179.618, (6.25, 5): 122.99, (20, 2): 572.618, (20, 5): 229.618,
                 (20, 10): 122.99, (20, 20): 122.99, (41, 5): 469.618, (41, 10): 235.618, (41, 20): 122.99}
 LIQUID_MORE = (29.034, 843.618)
-LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS = (11.1, 12.5, 14), (20, 100), (8.652, 11.09, 29.034, 46.979, REFERENCE_KICKS)
 # coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
 HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),
         6.5: ((0.4397, 0.5056), 50, (0.02, 0.025, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1, 0.12))}

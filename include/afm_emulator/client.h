@@ -187,11 +187,17 @@ class Client {
 
   // With subscriptions made anew: what they tell at once is of the emulator that is there now.
   void connect() {
+    const std::string service = name_ + "/control";
+    wait_for([&] { return ros::service::exists(service, false); }, service);
     subscribers_.clear();
     told_ = {};
     const Configuration::ConstPtr former_configuration = configuration_;
     const Applied::ConstPtr former_applied = applied_;
-    subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) { configuration_ = m; });
+    subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) {
+      if (configuration_ && m->epoch <= configuration_->epoch)
+        told_ = {};  // it is of an emulator that was started anew
+      configuration_ = m;
+    });
     subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) {
       applied_ = m;
       recently_applied_.push_back(m);
@@ -199,9 +205,6 @@ class Client {
     });
     wait_for([&] { return configuration_ != former_configuration; }, name_ + "/configuration");
     wait_for([&] { return applied_ != former_applied; }, name_ + "/applied");
-    const std::string service = name_ + "/control";
-    wait_for([&] { return ros::service::exists(service, false); }, service);
-    queue_.callAvailable();
     control_.open(node_, service);
   }
 

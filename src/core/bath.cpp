@@ -29,7 +29,7 @@ bool locks(const Model& model, const Bath& bath, double kicks_per_tau) {
 }
 
 // Below it a kick takes more than this part of a velocity at once. On a slope it drives a sliding tip into the surface
-// or off it, so that energy is lost: K_f by work was up to 0.2 of the part too large (docs/levers.md).
+// or off it, so that energy is lost: K_f by work was up to 0.3 of the part too large (docs/levers.md).
 double least_kicks(const Model& model, const Bath& bath) {
   constexpr double kMostDamping = 0.11;
   const auto damping = [](double ratio, double q) { return q > 0.0 ? kTwoPi * ratio / q : 0.0; };  // [1/tau]
@@ -90,12 +90,12 @@ std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {
                 number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
   }
   const double usual = Bath{}.kicks_per_tau, damped = least_kicks(model, bath);
-  const double least = is_slow(bath) ? std::fmin(suitable, usual) : std::fmax(usual, std::fmin(suitable, damped));
+  const double least = std::fmax(is_slow(bath) ? std::fmin(suitable, usual) : usual, std::fmin(suitable, damped));
   if (kicks < kEnough * least) return trap("is too low for these springs and quality factors" + remedy);
   if (kicks < kEnough * damped) {
     return trap(
-        "is too low for these quality factors, as is every rate that can be given: K_f may be wrong by some "
-        "per cent and more");
+        "is too low for these quality factors, and no rate is known that suits: K_f may be wrong by some per "
+        "cent and more");
   }
   return {};
 }

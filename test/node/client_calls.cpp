@@ -1,6 +1,6 @@
 // Calls the client as it reads from its input, a call a line: control, command_and_wait or mean_force with their
-// arguments, "-" for what is not given; tau; stale_reads of so many commands. Prints an answer for each.
-// client_calls.py is the same in Python.
+// arguments, "-" for what is not given; tau; in_force; stale_reads of so many commands; another, which makes a second
+// client. Prints an answer for each. client_calls.py is the same in Python.
 // usage: client_calls TIMEOUT
 #include <afm_emulator/client.h>
 
@@ -40,6 +40,11 @@ std::string answer(Client& tip, std::istream& line) {
     text << m.number << ' ' << m.drag_velocity << ' ' << m.rest_height_m;
   } else if (name == "tau") {
     text << tip.tau();
+  } else if (name == "in_force") {
+    text << tip.applied().number;
+  } else if (name == "another") {
+    static Client second("/afm");
+    text << second.applied().number;
   } else if (name == "stale_reads") {
     text << stale_reads(tip, static_cast<int>(*given[0]));
   } else {

@@ -22,6 +22,9 @@ def control_in_threads(tip, *durations):
         return ' '.join(str(length) for found in pool.map(lengths, durations) for length in found)
 
 
+others = []
+
+
 def stale_reads(tip, commands):
     """Of what is in force, right after a command."""
     stale = 0
@@ -37,6 +40,11 @@ def answer(tip, name, *words):
         return control_in_threads(tip, *map(argument, words))
     if name == 'tau':
         return '%g' % tip.tau_s
+    if name == 'in_force':
+        return '%d' % tip.applied.number
+    if name == 'another':
+        others.append(Client('/afm'))
+        return '%d' % others[-1].applied.number
     if name == 'stale_reads':
         return '%d' % stale_reads(tip, *map(argument, words))
     result = getattr(tip, name)(*map(argument, words))

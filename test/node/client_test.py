@@ -11,7 +11,7 @@ from pathlib import Path
 from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import SPEED_UNIT, TAU_S, Emulator, NodeTest, connected_to, find
-from topics import DEADLINE_S, PATIENCE, Topic
+from topics import DEADLINE_S, PATIENCE, Topic, wait_until
 
 TIMEOUT_S, LONG_S = 2.0 * PATIENCE, 15.0 * PATIENCE  # to see how it ends; for a busy machine
 FAULTY = (('duration', 'control nan'), ('duration', 'control inf'), ('duration', 'control -0.01'),
@@ -88,6 +88,7 @@ class Claims:
     def test_a_stopped_emulator(self):
         tip = self.start_both('lockstep', TIMEOUT_S)
         self.numbers(tip.call('control 0.01'))
+        self.numbers(tip.call('another'))  # of which rospy keeps the connections, without a word of what they told
         for fault in ('did not answer', ''):  # then it does not even connect
             self.emulator.halt()
             begin = time.monotonic()
@@ -128,6 +129,9 @@ class Claims:
         self.assertRegex(tip.call('command_and_wait 3e-6'), 'EmulatorError: /afm/control: .*restarted')
         for call in ('command_and_wait 4e-6', 'command_and_wait 4e-6'):  # it is told once
             self.assertEqual(self.numbers(tip.call(call))[1], 4e-6)
+        self.emulator.child.kill()
+        self.emulator = self.start(Emulator({'pace': 'real_time'}))
+        wait_until(lambda: self.numbers(tip.call('in_force')) == [0.0], 'it has heard of the new one')
 
     def test_what_is_in_force(self):
         """Right after a command `applied` was the message before it, more often than not."""

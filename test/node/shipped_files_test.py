@@ -80,7 +80,7 @@ class ShippedFiles(NodeTest):
         scene = Path(self.temporary_directory()) / 'mine.yaml'
         scene.write_text('drag_velocity: 4.0e-6\n')
         asked = {'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0, 'load_n': 1e-9,
-                 'quality_factor': 100.0, 'temperature_k': 300.0, 'seed': 5}
+                 'quality_factor': 100.0, 'temperature_k': 300.0, 'seed': 5, 'record': False}
         params = self.loaded(SHARE / 'launch/test_fixture.launch', 'scene_file:=%s' % scene, 'lever:=ppp_cont',
                              'surface:=nacl', *('%s:=%s' % item for item in asked.items())).params
         self.assertEqual({name: params['/afm/' + name].value for name in asked}, asked)

@@ -61,7 +61,8 @@ class Client:
 
     `configuration` is the latest message of that topic, there from the beginning. Every call raises a
     rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file. Calls from several threads,
-    such as callbacks of rospy, take turns.
+    such as callbacks of rospy, take turns. `applied` is not for a callback of the topics applied and configuration:
+    it may wait for the message that comes after it.
     """
 
     def __init__(self, name='afm', timeout=15.0):
@@ -77,7 +78,7 @@ class Client:
         self._turn = threading.RLock()  # of the call under way
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
-        self._subscribers = []
+        self._subscribers, self._heard = [], set()
         self._connection = None    # to ~control
         self._call_control()
 
@@ -126,9 +127,9 @@ class Client:
                                  math.nan if rest_height is None else rest_height, duration)
         with self._turn:
             answer = self._call_control(request)
-        if not answer.success:
-            raise EmulatorError('%s/control: %s' % (self.name, answer.message))
-        self._told = answer.epoch, answer.applied
+            if not answer.success:
+                raise EmulatorError('%s/control: %s' % (self.name, answer.message))
+            self._told = answer.epoch, answer.applied
         return answer
 
     def command_and_wait(self, drag_velocity=None, rest_height=None):
@@ -194,8 +195,8 @@ class Client:
         service, seconds = rospy.resolve_name(self.name + '/control'), self.timeout
         try:
             if self._connection is None:
-                self._subscribe()
                 self._connection = Connection(service, Control, time.monotonic() + seconds)
+                self._subscribe()
             if request is None:
                 return None
             if not self.is_lockstep:  # it may fall behind, or be paused
@@ -216,12 +217,12 @@ class Client:
         """Anew for every connection: what is then told at once is of the emulator that is there now."""
         for subscriber in self._subscribers:
             subscriber.unregister()
-        former, self._told = (self.configuration, self._applied), (0, 0)
-        topics = [self.name + topic for topic in ('/configuration', '/applied')]
-        self._subscribers = [rospy.Subscriber(topic, kind, keep, tcp_nodelay=True) for topic, kind, keep in zip(
-            topics, (Configuration, Applied), (self._keep_configuration, self._keep_applied))]
-        self._wait_for(lambda: self.configuration is not former[0], topics[0])
-        self._wait_for(lambda: self._applied is not former[1], topics[1])
+        self._heard, self._told = set(), (0, 0)
+        self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), kind, keep, tcp_nodelay=True)
+                             for topic, kind, keep in (('configuration', Configuration, self._keep_configuration),
+                                                       ('applied', Applied, self._keep_applied))]
+        for topic in ('configuration', 'applied'):
+            self._wait_for(lambda: topic in self._heard, '%s/%s' % (self.name, topic))
 
     def _drop_connection(self):
         if self._connection is not None:
@@ -239,12 +240,16 @@ class Client:
 
     def _keep_configuration(self, message):
         with self._news:
+            if self.configuration is not None and message.epoch <= self.configuration.epoch:
+                self._told = (0, 0)  # it is of an emulator that was started anew
             self.configuration = message
+            self._heard.add('configuration')
             self._news.notify_all()
 
     def _keep_applied(self, message):
         with self._news:
             self._applied = message
+            self._heard.add('applied')
             self._commanded.append(message)
             self._news.notify_all()
 

@@ -44,7 +44,7 @@ namespace {
 
 // True if the n-th time of the grid is the next one at `now`.
 bool is_next(const SampleGrid& grid, std::uint64_t n, const ModelTime& now) {
-  return n >= grid.first && is_possible(grid.origin) && now <= grid.time_or_end(n) &&
+  return n >= grid.first && is_possible(grid.origin) && grid.origin <= now && now <= grid.time_or_end(n) &&
          grid.time_or_end(n) < kEndOfTime && (n == grid.first || grid.time(n - 1) <= now);
 }
 
