@@ -142,6 +142,8 @@ class Expect(NodeTest):
         said = judged(2 * SPEED, None, SPEED, value=SPEED, within=1e-9, code=1)
         self.assertIn('at model time 0.06 s', said)
         judged(2 * SPEED, None, SPEED, value=1.5 * SPEED, within=0.01 * SPEED, mean=True)  # 1 : 1
+        said = judged(2 * SPEED, None, SPEED, most=SPEED, mean=True, code=1)
+        self.assertIn('mean of applied/drag_velocity = ', said)
 
     def test_the_latest_epoch_is_judged(self):
         def advance():
