@@ -33,18 +33,24 @@ def grazes(tables):
                                               if not row["graze"].startswith("ordinary")]
 
 
+def with_error(row):
+    return "%.4f +- %.4f" % (row["k_f_work"], row["k_f_work_std_error"])
+
+
+def by_rate(rows, own, more):
+    """K_f by work at a rate of its own, and at more of them."""
+    names = ["K_f", *("K_f at %g kicks" % kicks for kicks in more)]
+    return {"kicks per tau": "%g" % own, **dict(zip(names, map(with_error, rows)))}
+
+
 @table(*["lever_kicks_%g_%g" % (ratio, kicks) for ratio, own in LEVER_KICKS.items() for kicks in (own, *MORE_KICKS)])
 def lever_kicks(tables):
     """K_f by work at each rate of kicks."""
     result = []
     for ratio, own in LEVER_KICKS.items():
-        for few, default, many in zip(*(tables.rows("lever_kicks_%g_%g" % (ratio, kicks))
-                                        for kicks in (own, *MORE_KICKS))):
-            row = {"omega_h/omega_v": "%g" % ratio, "rest height": "%g" % few["rest_height"], "eta": "%g" % few["eta"],
-                   "kicks per tau": "%g" % own}
-            for name, at in zip(("K_f", *("K_f at %g kicks" % kicks for kicks in MORE_KICKS)), (few, default, many)):
-                row[name] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
-            result.append(row)
+        for rows in zip(*(tables.rows("lever_kicks_%g_%g" % (ratio, kicks)) for kicks in (own, *MORE_KICKS))):
+            result.append({"omega_h/omega_v": "%g" % ratio, "rest height": "%g" % rows[0]["rest_height"],
+                           "eta": "%g" % rows[0]["eta"], **by_rate(rows, own, MORE_KICKS)})
     return result
 
 
@@ -55,11 +61,8 @@ def liquid_kicks(tables):
     result = []
     for case, own in LIQUID_KICKS.items():
         for rows in zip(*(tables.rows("liquid_kicks_%g_%g_%g" % (*case, kicks)) for kicks in (own, *LIQUID_MORE))):
-            row = {"omega_h/omega_v": "%g" % case[0], "Q": "%g" % case[1], "eta": "%g" % rows[0]["eta"],
-                   "kicks per tau": "%g" % own}
-            for name, at in zip(("K_f", *("K_f at %g kicks" % kicks for kicks in LIQUID_MORE)), rows):
-                row[name] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
-            result.append(row)
+            result.append({"omega_h/omega_v": "%g" % case[0], "Q": "%g" % case[1], "eta": "%g" % rows[0]["eta"],
+                           **by_rate(rows, own, LIQUID_MORE)})
     return result
 
 
@@ -71,7 +74,7 @@ def locked_kicks(tables):
         row = {"omega_h/omega_v": "%g" % ratio, "Q": "%g" % quality}
         for kicks in LOCK_KICKS:
             at, = tables.rows("locked_kicks_%g_%g_%g" % (ratio, quality, kicks))
-            row["K_f at %g kicks" % kicks] = "%.4f +- %.4f" % (at["k_f_work"], at["k_f_work_std_error"])
+            row["K_f at %g kicks" % kicks] = with_error(at)
         result.append(row)
     return result
 

@@ -21,6 +21,7 @@ struct Bath {
   std::uint64_t stream = 0;             // which of the seed's sequences: many tips have one each
 
   bool is_on() const { return quality_factor > 0.0 || lateral_quality_factor > 0.0; }
+  double lateral_quality() const { return lateral_quality_factor > 0.0 ? lateral_quality_factor : quality_factor; }
 };
 
 bool operator==(const Bath& a, const Bath& b);

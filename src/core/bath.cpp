@@ -33,8 +33,8 @@ bool locks(const Model& model, const Bath& bath, double kicks_per_tau) {
 double least_kicks(const Model& model, const Bath& bath) {
   constexpr double kMostDamping = 0.11;
   const auto damping = [](double ratio, double q) { return q > 0.0 ? kTwoPi * ratio / q : 0.0; };  // [1/tau]
-  const double lateral = bath.lateral_quality_factor > 0.0 ? bath.lateral_quality_factor : bath.quality_factor;
-  return std::fmax(damping(1.0, bath.quality_factor), damping(lateral_ratio(model), lateral)) / kMostDamping;
+  return std::fmax(damping(1.0, bath.quality_factor), damping(lateral_ratio(model), bath.lateral_quality())) /
+         kMostDamping;
 }
 
 }  // namespace

@@ -28,11 +28,9 @@ void Thermostat::set(const Bath& bath, double frequency_ratio, const ModelTime& 
 
 // Sets the members that follow from the others.
 void Thermostat::prepare(double frequency_ratio) {
-  const double Q_v = bath_.quality_factor,
-               Q_h = bath_.lateral_quality_factor > 0.0 ? bath_.lateral_quality_factor : Q_v;
   const double angle = kTwoPi / bath_.kicks_per_tau;  // of the vertical spring from kick to kick
-  scale_.vertical = kick_of(bath_.temperature, angle, Q_v);
-  scale_.lateral = kick_of(bath_.temperature, frequency_ratio * angle, Q_h);
+  scale_.vertical = kick_of(bath_.temperature, angle, bath_.quality_factor);
+  scale_.lateral = kick_of(bath_.temperature, frequency_ratio * angle, bath_.lateral_quality());
   next_ = bath_.is_on() ? grid_.time_or_end(kicks_ + 1) : kEndOfTime;
 }
 

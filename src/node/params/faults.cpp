@@ -124,16 +124,15 @@ void check_settings(const Parameters& p, Check& check, Faults& faults) {
   check.within("friction_window_tau", p.friction_window_tau, kLeastFrictionWindow, kMostFrictionWindow);
   check.within("impact_budget", static_cast<double>(p.impact_budget), 1.0, kMaxImpactBudget);
   RunSettings settings = run_settings(p);
-  // checked already
+  // checked elsewhere
   settings.eta = 0.0;
   settings.friction_window = 1.0;
   settings.impact_budget = 1;
   settings.contact_tolerance = 0.0;
+  settings.bath = {};
+  add(afm::find_faults(p.bath, Units(p.si)), faults);
   for (const ParameterError& fault : afm::find_faults(settings)) {
-    if (fault.name == "temperature") {
-      const double most = std::round(kMaxTemperature * Units(p.si).temperature());
-      check.require(false, "temperature_k", p.bath.temperature_k, "must be between 0 and " + number_text(most) + " K");
-    } else if (fault.name == "sample_period") {
+    if (fault.name == "sample_period") {
       check.require(false, "sample_rate_hz", p.sample_rate_hz, "the time between two samples " + fault.reason);
     } else {
       add({fault}, faults);

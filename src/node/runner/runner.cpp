@@ -196,9 +196,12 @@ void Runner::apply(const Live& live, const char* cause) {
   next.level = choice.level;
   in_force_ = {live, choice.level, choice.expected_error, run_.apply(next), cause, applied_++};
   for (Period& period : periods_) {
-    const bool begins = period.measured.begin == run_.now();
-    if (begins) period.measured.drag_velocity = live.drag_velocity;
-    if (live.drag_velocity != period.measured.drag_velocity) period.measured.drag_velocity = kAsItIs;
+    double& constant = period.measured.drag_velocity;
+    if (period.measured.begin == run_.now()) {
+      constant = live.drag_velocity;
+    } else if (live.drag_velocity != constant) {
+      constant = kAsItIs;
+    }
   }
   pacer_.set_period(batch_period(parameters_));
   queue_.offer(make_report(Report::Kind::applied));

@@ -319,11 +319,16 @@ void RunCheck::check_batch() {
 void RunCheck::advance(const afm_emulator::Friction& recorded) {
   ModelTime end = from_message(recorded.time);
   if (!is_possible(end) || end < run_->now()) end = run_->now();
-  const std::uint64_t limit = recorded.impact_limit, budget = run_->settings().impact_budget;
-  if (limit > 0) {
-    run_->advance(end + kJustAfter, std::min(limit, budget), batch_);
+  advance_to(end, recorded.impact_limit);
+}
+
+// 0 impacts: however many there are.
+void RunCheck::advance_to(const ModelTime& time, std::uint64_t impacts) {
+  const std::uint64_t budget = run_->settings().impact_budget;
+  if (impacts > 0) {
+    run_->advance(time + kJustAfter, std::min(impacts, budget), batch_);
   } else {
-    run_->advance(end, budget, batch_);
+    run_->advance(time, budget, batch_);
   }
 }
 
@@ -332,10 +337,7 @@ void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) 
   const ModelTime time = from_message(to);
   if (!is_possible(time) || time - run_->now() > most_gap_) return;
   while (run_->now() < time || (run_->now() == time && run_->impacts() < impacts)) {
-    const bool impacts_lack = run_->impacts() < impacts;
-    const std::uint64_t budget = run_->settings().impact_budget;
-    run_->advance(impacts_lack ? time + kJustAfter : time,
-                  impacts_lack ? std::min(impacts - run_->impacts(), budget) : budget, batch_);
+    advance_to(time, run_->impacts() < impacts ? impacts - run_->impacts() : 0);
   }
 }
 

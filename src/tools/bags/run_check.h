@@ -92,6 +92,7 @@ class RunCheck {
   void check_without_friction();
   bool is_whole_batch(const afm_emulator::Deflection* deflection, const afm_emulator::ImpactArray* impacts, Run& run);
   void advance(const afm_emulator::Friction& recorded);
+  void advance_to(const ModelTime& time, std::uint64_t impacts);
   void run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts);
   template <class Message>
   boost::shared_ptr<Message> of_batch(Cursor<Message>* messages);
