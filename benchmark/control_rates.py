@@ -10,7 +10,7 @@ import time
 from emulator import binary, emulator, option, own_master
 
 # at eta = 3.4
-SCENES = {'cold': {}, '300 K and Q = 100': {'temperature_k': 300.0, 'quality_factor': 100.0}}
+SCENES = {'no bath': {}, '300 K and Q = 100': {'temperature_k': 300.0, 'quality_factor': 100.0}}
 DURATIONS_S = (0.0001, 0.001, 0.01, 0.1)
 
 

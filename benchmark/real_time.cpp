@@ -168,11 +168,11 @@ void print_line(const std::string& line) {
   if (!(std::cout << line << std::endl)) throw std::runtime_error("cannot write the output");
 }
 
-void warn_of_traps(const afm::CommandLine& app, const std::vector<Point>& points) {
+void give_warnings(const afm::CommandLine& app, const std::vector<Point>& points) {
   std::set<std::string> texts;
   for (const Point& p : points) {
-    for (const afm::ParameterError& trap : afm::find_traps(p.at, p.bath)) {
-      if (texts.insert(trap.what()).second) app.warn(trap.what());
+    for (const afm::ParameterError& warning : afm::find_warnings(p.at, p.bath)) {
+      if (texts.insert(warning.what()).second) app.warn(warning.what());
     }
   }
 }
@@ -217,7 +217,7 @@ int main(int argc, char** argv) {
     take_ranges(o);
     const double of_lever = afm::Units(take_lever(app, o)).time() / afm::Units(afm::SiModel{}).time();
     const std::vector<Point> points = points_of(o);
-    warn_of_traps(app, points);
+    give_warnings(app, points);
     print_line(std::string("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures,"
                            "frequency_ratio,amplitude,rest_height,temperature,quality_factor") +
                (afm::LeverOptions::are_given(app) ? ",lever_times_real_time" : ""));

@@ -89,8 +89,8 @@ int run(const afm::CommandLine& app, Options& options) {
   const std::vector<afm::SweepPoint> points = grid(app, options);
   for (const afm::SweepPoint& point : points) {
     const double transient = options.basins.attractor.transient;
-    const auto traps = afm::find_short_drag("transient", transient, point.eta, 1.0);
-    for (const auto& trap : afm::as_given(app, options.dynamics.si, traps)) app.warn(trap.what());
+    const auto warnings = afm::find_short_drag("transient", transient, point.eta, 1.0);
+    for (const auto& warning : afm::as_given(app, options.dynamics.si, warnings)) app.warn(warning.what());
   }
   afm::TableWriter table(std::cout, afm::kBasinColumns, afm::table_units(options.dynamics.si));
   table.write_header();

@@ -15,10 +15,10 @@
 namespace {
 
 const char kDescription[] =
-    "Measures how far each level of the model (hammer; oscillator with bursts at several contact tolerances;\n"
-    "oscillator with every bounce) is from the finest, over the drag velocity (units a, tau, tip mass), and\n"
-    "writes the table from which `model: auto` takes its levels. Without options it is the one that is shipped as\n"
-    "config/levels.csv, but for the costs, which are measured, and for coarse levels that these leave out.";
+    "Measures how far each level of the model (hammer; oscillator with chatter sequences at several contact\n"
+    "tolerances; oscillator with every bounce) is from the finest, over the drag velocity (units a, tau, tip mass),\n"
+    "and writes the table from which `model: auto` takes its levels. Without options it is the one that is shipped\n"
+    "as config/levels.csv, but for the costs, which are measured, and for coarse levels that these leave out.";
 
 // The shipped cutoff is 0.166 um/s, in these units.
 struct Options {

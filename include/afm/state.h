@@ -104,7 +104,9 @@ enum class Outcome : std::uint8_t {
   budget_spent,  // the budget of impacts ran out before the time asked for
   contact,       // contact has begun: the tip slides
   released,      // contact has ended
-  search_failed  // the search failed at a time that is certified free of impacts; the motion goes on from there
+  // A search failed. After Tip::advance_segment() the motion goes on from a time that is certified free of impacts, if
+  // that is later than the segment's start; after Tip::advance() it cannot go on.
+  search_failed
 };
 
 }  // namespace afm

@@ -38,11 +38,10 @@ struct SweepResult {
 std::vector<ParameterError> find_faults(const SweepPoint& point);
 std::vector<ParameterError> find_faults(const SweepSettings& settings);
 
-// What can be run, but is seldom meant; named as the faults. Of a bath (bath.h); and a drag over so little of the
-// surface that K_f is that of a place: over fewer than ten lattice spacings, each with the longest extension of the
-// lateral spring under the load.
-std::vector<ParameterError> find_traps(const SweepPoint& point, const Bath& bath);
-std::vector<ParameterError> find_traps(const SweepPoint& point, const SweepSettings& settings);
+// Warnings, named as the faults: those of a bath (bath.h); and a drag over so little of the surface that K_f is that of
+// one place: over less than ten times the sum of a lattice spacing and the longest extension of the lateral spring.
+std::vector<ParameterError> find_warnings(const SweepPoint& point, const Bath& bath);
+std::vector<ParameterError> find_warnings(const SweepPoint& point, const SweepSettings& settings);
 // So named, if the holder passes fewer than so many lattice spacings in this duration [tau]; never without a drag.
 std::vector<ParameterError> find_short_drag(const char* name, double duration, double eta, double spacings);
 

@@ -72,7 +72,7 @@ class Client {
   // What is in force: the latest message, none older than what held at the end of the latest control().
   Applied applied() const {
     queue_.callAvailable();
-    wait_for([this] { return told_ <= std::make_pair(applied_->epoch, applied_->number); }, name_ + "/applied");
+    wait_for([this] { return reported_ <= std::make_pair(applied_->epoch, applied_->number); }, name_ + "/applied");
     return *applied_;
   }
   bool is_lockstep() const { return configuration_->pace == "lockstep"; }
@@ -105,8 +105,8 @@ class Client {
                             "The next call connects again");
     }
     if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
-    told_ = {call.response.epoch, call.response.applied};
-    queue_.callAvailable();  // so that few wait in it
+    reported_ = {call.response.epoch, call.response.applied};
+    queue_.callAvailable();  // messages of topics would pile up in it: nothing else calls them
     return call.response;
   }
 
@@ -178,24 +178,24 @@ class Client {
     subscribers_.push_back(node_.subscribe<Message>(name_ + "/" + topic, 1000, take, {}, hints));
   }
 
-  // Of wall time, in which a control period is answered. In real time the emulator may fall behind, or be paused.
+  // Wall time in which a control period is answered. In real time the emulator may fall behind, or be paused.
   double seconds_for(double duration) const {
-    constexpr double kPatience = 3.0;
+    constexpr double kPatience = 3.0;  // a choice: an emulator at a third of real time still answers
     if (is_lockstep()) return timeout_;
     return std::min(timeout_ + kPatience * duration / configuration_->time_scale, kLongest);
   }
 
-  // With subscriptions made anew: what they tell at once is of the emulator that is there now.
+  // Subscribes anew: the latched messages are then those of the emulator that runs now.
   void connect() {
     const std::string service = name_ + "/control";
     wait_for([&] { return ros::service::exists(service, false); }, service);
     subscribers_.clear();
-    told_ = {};
+    reported_ = {};
     const Configuration::ConstPtr former_configuration = configuration_;
     const Applied::ConstPtr former_applied = applied_;
     subscribe<Configuration>("configuration", [this](const Configuration::ConstPtr& m) {
       if (configuration_ && m->epoch <= configuration_->epoch)
-        told_ = {};  // it is of an emulator that was started anew
+        reported_ = {};  // it is of an emulator that was started anew
       configuration_ = m;
     });
     subscribe<Applied>("applied", [this](const Applied::ConstPtr& m) {
@@ -208,7 +208,7 @@ class Client {
     control_.open(node_, service);
   }
 
-  // Control periods that follow `last`, each the last when it is over, in which what holds at its end goes on to hold.
+  // Runs control periods after `last`, and updates it. Throws if what is in force at its end changes meanwhile.
   template <class Take>
   void undisturbed(Control::Response& last, double duration, Take take) {
     const double count = is_lockstep() ? std::ceil(duration / (kMostTau * tau())) : 1.0;
@@ -234,7 +234,7 @@ class Client {
     }
   }
 
-  // Of a clock that nobody sets [s].
+  // Seconds of the monotonic clock, which nobody can set.
   static double steady_seconds() { return ros::SteadyTime::now().toSec(); }
 
   // Checks after every message.
@@ -256,8 +256,8 @@ class Client {
   Connection<Control> control_;
   Configuration::ConstPtr configuration_;
   Applied::ConstPtr applied_;
-  std::pair<std::uint32_t, std::uint64_t> told_;    // epoch and number of what the latest answer says is in force
-  std::deque<Applied::ConstPtr> recently_applied_;  // since the latest command
+  std::pair<std::uint32_t, std::uint64_t> reported_;  // epoch and number of what the latest answer says is in force
+  std::deque<Applied::ConstPtr> recently_applied_;    // since the latest command
 };
 
 }  // namespace afm_emulator

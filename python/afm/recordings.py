@@ -102,11 +102,13 @@ def _of_epoch(kind: str, messages: Dict[int, Any], epoch: int) -> List[Any]:
 class Recording:
     """One epoch of a recording.
 
-    units: of its configuration; model, bath, contact_tolerance, eta: at its beginning, the last in [a/tau], as Tip and
-    Run take them; configuration: the message;
-    commands: structured array (n,) of the drag velocity at the beginning and after each command: tau, phase, eta
-    [a/tau], drag_velocity [m/s]; begin, end: model times between which the run is simulated; epochs: all that the bag
-    tells of. Where something is missing without which the run is not known, it is a ValueError that names it.
+    configuration: the message; units: of this configuration;
+    model, bath, contact_tolerance, eta [a/tau]: at the beginning, as Tip and Run take them;
+    commands: structured array (n,) with the drag velocity at the beginning and after each command: tau, phase, eta
+    [a/tau], drag_velocity [m/s];
+    begin, end: model times between which the run is simulated;
+    epochs: the epochs that the bag holds messages of.
+    A ValueError names what is missing, if the run cannot be simulated without it.
     """
 
     def __init__(self, path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> None:

@@ -64,9 +64,9 @@ void warn(const std::string& text) {
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), kCallOfOurs) != 0) throw py::error_already_set();
 }
 
-void warn(const std::vector<ParameterError>& traps) {
-  for (const ParameterError& trap : traps) {
-    warn(ParameterError(argument_name(trap.name), trap.value, trap.reason).what());
+void warn(const std::vector<ParameterError>& warnings) {
+  for (const ParameterError& warning : warnings) {
+    warn(ParameterError(argument_name(warning.name), warning.value, warning.reason).what());
   }
 }
 

@@ -47,7 +47,7 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   s.sweep.bath = bath;
   s.sweep.seed = s.sweep.bath.seed = seed;
   refuse(find_faults(s));
-  warn(find_traps(s));
+  warn(find_warnings(s));
   const SweepGrid grid(s);
   std::vector<std::vector<SweepResult>> chains(grid.size() / grid.chain_length());
   std::atomic<std::size_t> next{0}, done{0};

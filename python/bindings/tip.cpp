@@ -20,7 +20,7 @@ Tip to_tip(const Model& model, double eta, double phase, double extension, doubl
   const RunSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(settings));
   Tip tip(model, eta, settings.initial, contact_tolerance);
-  warn(find_traps(model, bath));
+  warn(find_warnings(model, bath));
   tip.set_bath(bath);
   return tip;
 }
@@ -173,7 +173,7 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
       .def(
           "set_bath",
           [](Tip& self, const Bath& bath) {
-            warn(find_traps(self.model(), bath));
+            warn(find_warnings(self.model(), bath));
             self.set_bath(bath);
           },
           "bath"_a, "Another heat bath from now on.")

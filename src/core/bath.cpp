@@ -77,23 +77,23 @@ double suitable_kicks(const Model& model, const Bath& bath) {
   return unlocked > most ? section : std::fmin(std::ceil(std::fmax(least, unlocked)), most) + 0.618;
 }
 
-std::vector<ParameterError> find_traps(const Model& model, const Bath& bath) {
+std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath) {
   if (!bath.is_on()) return {};
   constexpr double kEnough = 0.9;  // of the rate that was measured
   const double suitable = suitable_kicks(model, bath), kicks = bath.kicks_per_tau;
-  const auto trap = [&](const std::string& reason) {
+  const auto warning = [&](const std::string& reason) {
     return std::vector<ParameterError>{ParameterError("kicks_per_tau", kicks, reason)};
   };
   const std::string remedy = ": K_f may be wrong by a fifth and more; give " + number_text(suitable);
   if (kicks_lock(model, bath)) {
-    return trap("locks to the swing of the lateral spring, as omega_h/omega_v = " +
-                number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
+    return warning("locks to the swing of the lateral spring, as omega_h/omega_v = " +
+                   number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
   }
   const double usual = Bath{}.kicks_per_tau, damped = least_kicks(model, bath);
   const double least = std::fmax(is_slow(bath) ? std::fmin(suitable, usual) : usual, std::fmin(suitable, damped));
-  if (kicks < kEnough * least) return trap("is too low for these springs and quality factors" + remedy);
+  if (kicks < kEnough * least) return warning("is too low for these springs and quality factors" + remedy);
   if (kicks < kEnough * damped) {
-    return trap(
+    return warning(
         "is too low for these quality factors, and no rate is known that suits: K_f may be wrong by some per "
         "cent and more");
   }

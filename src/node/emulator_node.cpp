@@ -42,8 +42,8 @@ using Kind = Request::Kind;
 constexpr unsigned kSpinnerThreads = 3, kControlThreads = kMaxPeriods + 1;
 constexpr double kQueueSeconds = 2.0;               // how far publishing may fall behind before the run waits for it
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
-constexpr double kMinBatches = 4.0;
-constexpr double kClientsPeriod = 0.1;  // [s]
+constexpr double kMinBatches = 4.0;                 // a choice: one is filled, one is published, two wait
+constexpr double kClientsPeriod = 0.1;              // [s]
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
 // In lockstep an idle processor takes 50 to 100 us to wake a thread; in real time this would hold up the publisher.
@@ -92,15 +92,15 @@ void check_clock() {
 }
 
 // A run that cannot keep real time says so before it falls behind.
-void report_pace(const Parameters& p) {
-  const double pace = measure_pace(p);
-  ROS_INFO("a trial run of this tip made %.3g times real time on this machine", pace);
-  const std::string fault = find_pace_fault(p, pace);
-  if (!fault.empty()) ROS_WARN_STREAM(fault);
+void report_speed(const Parameters& p) {
+  const double times_real_time = measure_times_real_time(p);
+  ROS_INFO("a trial run of this tip made %.3g times real time on this machine", times_real_time);
+  const std::string warning = find_speed_warning(p, times_real_time);
+  if (!warning.empty()) ROS_WARN_STREAM(warning);
 }
 
 void report_run(const Parameters& p, const std::string& scheduler) {
-  for (const std::string& trap : find_traps(p)) ROS_WARN_STREAM(trap);
+  for (const std::string& warning : find_warnings(p)) ROS_WARN_STREAM(warning);
   ROS_INFO_STREAM("tip: " << describe_tip(p));
   ROS_INFO("eta = %g, %g samples a second of model time, %lu to a batch, scheduler: %s", to_eta(p.drag_velocity, p.si),
            p.sample_rate_hz, static_cast<unsigned long>(samples_per_batch(p)), scheduler.c_str());
@@ -126,7 +126,7 @@ class EmulatorNode {
       const Recorder::Reply reply = recorder_.start("");
       if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
     }
-    report_pace(parameters);
+    report_speed(parameters);
     live_server_.emplace(node, parameters, refusals_, [this](const Live& shown, const Live& wanted) {
       Request change(Kind::change);
       change.live = wanted;
@@ -374,9 +374,9 @@ void await_signals() {
   }).detach();
 }
 
-// One heap: each of a thread's own keeps back what was freed into it, 10 MB in the course of some recordings. The
-// running thread, which must not wait for another, allocates nothing. And large buffers, as of bags and of bursts,
-// never come from the heap: left to itself, the allocator takes the first that is freed as a sign to keep all.
+// glibc gives each thread a heap of its own, and each keeps back freed memory: 10 MB after some recordings. We allow one
+// heap. The running thread need not wait for it, as it allocates nothing. Large buffers, as of bags and of messages,
+// come from the system each time. Otherwise glibc raises its threshold when the first is freed, and keeps all of them.
 void keep_memory_flat() {
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, kLargeBuffer);

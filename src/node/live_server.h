@@ -21,9 +21,9 @@
 
 namespace afm::node {
 
-// The live parameters, all of them numbers. They are written without roscpp's own call, which holds the lock of all
-// parameters meanwhile: without a master it tries for ever, diagnostics wait for it, and on ROS Noetic so does its own
-// complaint.
+// The live parameters, all of them numbers. They are written to the parameter server by a call that does not repeat.
+// roscpp's own call holds the lock of all parameters, and without a master it tries for ever. Diagnostics wait for that
+// lock, and on ROS Noetic so does the message that the master is missing.
 struct LiveConfig : afm_emulator::EmulatorConfig {
   LiveConfig() = default;
   LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // NOLINT: the server makes it of these
@@ -135,17 +135,17 @@ class LiveServer {
     if (values_of(to_config(changed)) == values_of(to_config(before))) return;
     std::string fault = describe(find_faults(changed));
     if (fault.empty()) fault = apply_(before, changed);
-    if (fault.empty()) return warn_of_new_traps(before, changed);
+    if (fault.empty()) return give_new_warnings(before, changed);
     refusals_.add(Refusal::faulty_change, fault);
     ROS_WARN_STREAM("change of parameters refused: " << fault);
   }
 
-  void warn_of_new_traps(const Live& before, const Parameters& changed) const {
+  void give_new_warnings(const Live& before, const Parameters& changed) const {
     Parameters was = start_;
     live_of(was) = before;
-    const std::vector<std::string> known = find_traps(was);
-    for (const std::string& trap : find_traps(changed)) {
-      if (std::find(known.begin(), known.end(), trap) == known.end()) ROS_WARN_STREAM(trap);
+    const std::vector<std::string> known = find_warnings(was);
+    for (const std::string& warning : find_warnings(changed)) {
+      if (std::find(known.begin(), known.end(), warning) == known.end()) ROS_WARN_STREAM(warning);
     }
   }
 

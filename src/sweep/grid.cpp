@@ -41,17 +41,17 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
   return faults;
 }
 
-std::vector<ParameterError> find_traps(const CurveSettings& s) {
-  std::vector<ParameterError> traps;
+std::vector<ParameterError> find_warnings(const CurveSettings& s) {
+  std::vector<ParameterError> warnings;
   const auto is_slower = [](double a, double b) { return a != 0.0 && (b == 0.0 || std::abs(a) < std::abs(b)); };
   const double slowest = *std::min_element(s.eta.begin(), s.eta.end(), is_slower);
   const double lowest = *std::min_element(s.rest_height.begin(), s.rest_height.end());
   const double highest = *std::max_element(s.amplitude.begin(), s.amplitude.end());
   for (const double ratio : s.frequency_ratio) {
     const SweepPoint point{slowest, s.gamma.front(), s.cutoff.front(), s.model, lowest, highest, ratio};
-    for (const ParameterError& trap : find_traps(point, s.sweep)) traps.push_back(trap);
+    for (const ParameterError& warning : find_warnings(point, s.sweep)) warnings.push_back(warning);
   }
-  return traps;
+  return warnings;
 }
 
 std::string identity(const CurveSettings& s) {

@@ -28,7 +28,7 @@ struct CurveSettings {
 std::vector<ParameterError> find_faults(const CurveSettings& settings);
 
 // What can be run, but is seldom meant, once for each frequency ratio; under the names of the command line.
-std::vector<ParameterError> find_traps(const CurveSettings& settings);
+std::vector<ParameterError> find_warnings(const CurveSettings& settings);
 
 // In one line all that the table depends on, and nothing else.
 std::string identity(const CurveSettings& settings);

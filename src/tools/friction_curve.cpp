@@ -123,7 +123,7 @@ void check(const afm::CommandLine& app, Options& o) {
   s.sweep.seed = s.sweep.bath.seed = static_cast<std::uint64_t>(o.seed);
   const std::vector<afm::ParameterError> faults = afm::as_given(app, o.si, afm::find_faults(s));
   if (!faults.empty()) refuse(afm::describe(faults));
-  for (const afm::ParameterError& trap : afm::as_given(app, o.si, afm::find_traps(s))) app.warn(trap.what());
+  for (const afm::ParameterError& warning : afm::as_given(app, o.si, afm::find_warnings(s))) app.warn(warning.what());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ ros::Subscriber subscribe(ros::NodeHandle& emulator, const char* topic, unsigned
   return emulator.subscribe<Message>(topic, queue_size, take, {}, ros::TransportHints().tcpNoDelay());
 }
 
-// Listens and keeps what it hears, as long as it is.
+// Subscribes to the emulator while it exists, and keeps what it receives.
 class Looking {
  public:
   Looking(ros::NodeHandle& emulator, double cells)

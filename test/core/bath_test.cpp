@@ -76,12 +76,12 @@ TEST(Bath, InALiquidKicksTakeLittleAtOnce) {
     for (const double quality_factor : {2.0, 5.0, 10.0, 20.0, 100.0}) {
       const Bath bath = with(quality_factor, suitable_kicks(with_ratio(ratio), with(quality_factor)));
       ASSERT_LE(kTwoPi * std::max(1.0, ratio) / (quality_factor * bath.kicks_per_tau), 0.12) << ratio;
-      ASSERT_TRUE(find_traps(with_ratio(ratio), bath).empty()) << ratio << " " << quality_factor;
+      ASSERT_TRUE(find_warnings(with_ratio(ratio), bath).empty()) << ratio << " " << quality_factor;
     }
   }
-  EXPECT_FALSE(find_traps(Model{}, with(2.0)).empty());
+  EXPECT_FALSE(find_warnings(Model{}, with(2.0)).empty());
   const Bath overdamped = with(0.1);
-  EXPECT_FALSE(find_traps(with_ratio(41.0), with(0.1, suitable_kicks(with_ratio(41.0), overdamped))).empty());
+  EXPECT_FALSE(find_warnings(with_ratio(41.0), with(0.1, suitable_kicks(with_ratio(41.0), overdamped))).empty());
 }
 
 TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {
@@ -92,20 +92,21 @@ TEST(Bath, TheFasterOfTheTwoSpringsSaysHowManyKicksAreNeeded) {
   EXPECT_EQ(suitable_kicks(Model{}, bath), 29.034);
 }
 
-TEST(Bath, ATrapNamesTheRateAndTheRemedy) {
-  EXPECT_TRUE(find_traps(Model{}, with(20.0)).empty());
-  EXPECT_TRUE(find_traps(with_ratio(14.0), with(100.0, 8.652)).empty());
-  EXPECT_TRUE(find_traps(with_ratio(60.0), with(1e5)).empty());           // K_f as with the golden section of 60
-  ASSERT_EQ(find_traps(with_ratio(14.0), with(20.0, 8.652)).size(), 1u);  // the rate of a lever's file, with a lower Q
-  EXPECT_EQ(find_traps(with_ratio(14.0), with(20.0, 8.652))[0].reason,
+TEST(Bath, AWarningNamesTheRateAndTheRemedy) {
+  EXPECT_TRUE(find_warnings(Model{}, with(20.0)).empty());
+  EXPECT_TRUE(find_warnings(with_ratio(14.0), with(100.0, 8.652)).empty());
+  EXPECT_TRUE(find_warnings(with_ratio(60.0), with(1e5)).empty());  // K_f as with the golden section of 60
+  ASSERT_EQ(find_warnings(with_ratio(14.0), with(20.0, 8.652)).size(),
+            1u);  // the rate of a lever's file, with a lower Q
+  EXPECT_EQ(find_warnings(with_ratio(14.0), with(20.0, 8.652))[0].reason,
             "is too low for these springs and quality factors: K_f may be wrong by a fifth and more; give 46.979");
-  EXPECT_NE(find_traps(with_ratio(60.0), with(100.0))[0].reason.find("give 37.082"), std::string::npos);
-  const std::vector<ParameterError> traps = find_traps(with_ratio(14.0), with(20.0));
-  ASSERT_EQ(traps.size(), 1u);
-  EXPECT_EQ(traps[0].name, "kicks_per_tau");
-  EXPECT_EQ(traps[0].value, 29.034);
+  EXPECT_NE(find_warnings(with_ratio(60.0), with(100.0))[0].reason.find("give 37.082"), std::string::npos);
+  const std::vector<ParameterError> warnings = find_warnings(with_ratio(14.0), with(20.0));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].name, "kicks_per_tau");
+  EXPECT_EQ(warnings[0].value, 29.034);
   for (const char* word : {"omega_h/omega_v = 14", "give 46.979"}) {
-    EXPECT_NE(traps[0].reason.find(word), std::string::npos) << traps[0].reason;
+    EXPECT_NE(warnings[0].reason.find(word), std::string::npos) << warnings[0].reason;
   }
 }
 

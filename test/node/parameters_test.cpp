@@ -195,47 +195,47 @@ Parameters heated_lever(double kicks_per_tau, const Given& more = {}) {
 }
 
 TEST(Advice, SamplesAtFewPhasesOfTauAreNamed) {
-  const auto traps = [](double resonance_hz, double sample_rate_hz) {
+  const auto warnings = [](double resonance_hz, double sample_rate_hz) {
     Faults faults;
-    return find_traps(read({{"omega_v_rad_per_s", kTwoPi * resonance_hz},
-                            {"omega_h_rad_per_s", 7.0 * kTwoPi * resonance_hz},
-                            {"sample_rate_hz", sample_rate_hz}},
-                           faults));
+    return find_warnings(read({{"omega_v_rad_per_s", kTwoPi * resonance_hz},
+                               {"omega_h_rad_per_s", 7.0 * kTwoPi * resonance_hz},
+                               {"sample_rate_hz", sample_rate_hz}},
+                              faults));
   };
-  ASSERT_EQ(traps(5e6, 2e5).size(), 1u);  // the mean normal force was half as large again
-  EXPECT_NE(traps(5e6, 2e5)[0].find("at 1 of its phases"), std::string::npos);
-  EXPECT_NE(traps(1e5, 2e5)[0].find("at 2 of its phases"), std::string::npos);
-  EXPECT_TRUE(traps(5e6, 1.9e5).empty());
-  EXPECT_TRUE(traps(7.5e4, 2e5).empty());
+  ASSERT_EQ(warnings(5e6, 2e5).size(), 1u);  // the mean normal force was half as large again
+  EXPECT_NE(warnings(5e6, 2e5)[0].find("at 1 of its phases"), std::string::npos);
+  EXPECT_NE(warnings(1e5, 2e5)[0].find("at 2 of its phases"), std::string::npos);
+  EXPECT_TRUE(warnings(5e6, 1.9e5).empty());
+  EXPECT_TRUE(warnings(7.5e4, 2e5).empty());
 }
 
 TEST(Advice, HeatWithoutDampingHasNoEffect) {
   Faults faults;
-  EXPECT_EQ(find_traps(read({{"temperature_k", 300.0}}, faults)).size(), 1u);
-  EXPECT_TRUE(find_traps(read({{"temperature_k", 300.0}, {"quality_factor", 100.0}}, faults)).empty());
+  EXPECT_EQ(find_warnings(read({{"temperature_k", 300.0}}, faults)).size(), 1u);
+  EXPECT_TRUE(find_warnings(read({{"temperature_k", 300.0}, {"quality_factor", 100.0}}, faults)).empty());
 }
 
 TEST(Advice, InLockstepOnlyAWaitForCommandsHasATimeout) {
   Faults faults;
   const Given lockstep{{"pace", "lockstep"}, {"command_timeout_s", 0.5}};
-  EXPECT_EQ(find_traps(read(lockstep, faults)).size(), 1u);
+  EXPECT_EQ(find_warnings(read(lockstep, faults)).size(), 1u);
   Given waiting = lockstep;
   waiting["wait_for"] = "command";
-  EXPECT_TRUE(find_traps(read(waiting, faults)).empty());
+  EXPECT_TRUE(find_warnings(read(waiting, faults)).empty());
 }
 
 TEST(Advice, InLockstepABagThatIsSplitEndsTheSameBits) {
   Faults faults;
-  EXPECT_EQ(find_traps(read({{"pace", "lockstep"}, {"split_size_mb", 100.0}}, faults)).size(), 1u);
-  EXPECT_TRUE(find_traps(read({{"split_size_mb", 100.0}}, faults)).empty());
+  EXPECT_EQ(find_warnings(read({{"pace", "lockstep"}, {"split_size_mb", 100.0}}, faults)).size(), 1u);
+  EXPECT_TRUE(find_warnings(read({{"split_size_mb", 100.0}}, faults)).empty());
 }
 
 TEST(Advice, ARunThatIsTooSlowIsToldHowSlowlyItCanRun) {
-  const std::string fault = find_pace_fault(heated_lever(29.034), 0.5);
+  const std::string fault = find_speed_warning(heated_lever(29.034), 0.5);
   EXPECT_NE(fault.find("Give time_scale = 0.3"), std::string::npos) << fault;  // 0.7 of it, one digit
   EXPECT_NE(fault.find("kicks_per_tau = 13.597"), std::string::npos) << fault;
-  EXPECT_EQ(find_pace_fault(heated_lever(29.034, {{"time_scale", 0.3}}), 0.5), "");
-  EXPECT_EQ(find_pace_fault(heated_lever(29.034, {{"pace", std::string("lockstep")}}), 0.5), "");
+  EXPECT_EQ(find_speed_warning(heated_lever(29.034, {{"time_scale", 0.3}}), 0.5), "");
+  EXPECT_EQ(find_speed_warning(heated_lever(29.034, {{"pace", std::string("lockstep")}}), 0.5), "");
 }
 
 TEST(Advice, TheTrialOfATipThatSticksAndSlipsHasItsSlips) {

@@ -57,11 +57,11 @@ inline T product_order(const A& a, const B& b, std::size_t n, std::size_t skip) 
   return low + high;
 }
 
-// With r = -h'(x) and c = -h''(x) along the slide: r' = c u and c' = -(2 pi)^2 r u, as the surface is a cosine. Of a
-// tip of mass 1, free along x:
+// With r = -h'(x) and c = -h''(x) along the slide: r' = c u and c' = -(2 pi)^2 r u, as the surface is a cosine. For
+// a tip of mass 1 that is free along x:
 //   x'' = -omega_h^2 X + r lambda,   lambda = y'' + omega_v^2 (h - y0) = c - omega_v^2 y0 - (r u)',
-// as y' = -r u and omega_v is the surface's wave number too. Of each order these are two linear equations for x'' and
-// lambda; the hammer has x'' = 0. The coefficients of the order before, u[n] and c[n], enter last.
+// as y' = -r u and omega_v is the surface's wave number too. Each order gives two linear equations for x'' and lambda;
+// the hammer has x'' = 0. The coefficients of the order before, u[n] and c[n], enter last.
 template <class T>
 inline void write_slide_series(const SpringConstants<T>& m, const T& eta, const SlideState<T>& start,
                                SlideSeries<T>& series) {

@@ -74,7 +74,7 @@ class Client:
             raise EmulatorError('timeout = %r: must be at most %g s' % (timeout, LONGEST_S))
         self.configuration = None
         self._applied = None  # the latest message
-        self._told = (0, 0)   # epoch and number of what was in force at the end of the latest answer
+        self._reported = (0, 0)   # epoch and number of what was in force at the end of the latest answer
         self._turn = threading.RLock()  # of the call under way
         self._news = threading.Condition()
         self._commanded = collections.deque(maxlen=KEPT_APPLIED)  # Applied messages since the latest command
@@ -85,7 +85,7 @@ class Client:
     @property
     def applied(self):
         """What is in force: the latest message, none older than what held at the end of the latest `control`."""
-        return self._wait_for(lambda: (self._applied.epoch, self._applied.number) >= self._told and self._applied,
+        return self._wait_for(lambda: (self._applied.epoch, self._applied.number) >= self._reported and self._applied,
                               self.name + '/applied')
 
     @property
@@ -129,7 +129,7 @@ class Client:
             answer = self._call_control(request)
             if not answer.success:
                 raise EmulatorError('%s/control: %s' % (self.name, answer.message))
-            self._told = answer.epoch, answer.applied
+            self._reported = answer.epoch, answer.applied
         return answer
 
     def command_and_wait(self, drag_velocity=None, rest_height=None):
@@ -217,7 +217,7 @@ class Client:
         """Anew for every connection: what is then told at once is of the emulator that is there now."""
         for subscriber in self._subscribers:
             subscriber.unregister()
-        self._heard, self._told = set(), (0, 0)
+        self._heard, self._reported = set(), (0, 0)
         self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), kind, keep, tcp_nodelay=True)
                              for topic, kind, keep in (('configuration', Configuration, self._keep_configuration),
                                                        ('applied', Applied, self._keep_applied))]
@@ -241,7 +241,7 @@ class Client:
     def _keep_configuration(self, message):
         with self._news:
             if self.configuration is not None and message.epoch <= self.configuration.epoch:
-                self._told = (0, 0)  # it is of an emulator that was started anew
+                self._reported = (0, 0)  # it is of an emulator that was started anew
             self.configuration = message
             self._heard.add('configuration')
             self._news.notify_all()

@@ -17,24 +17,24 @@ double w_over_log(double w) {
   return w < 1.0 ? -w / portable_log(1.0 - w) : 0.0;
 }
 
-// Does the reaction along the slide from `at` stay above `least` until its impulse is S? By its two derivatives where
+// Does the reaction along the slide from `at` stay above `least` until its impulse is J? By its two derivatives where
 // they are sure, or say no; else on the slide.
-bool stays_above(double least, double S, const SpringConstants<double>& springs, double eta,
+bool stays_above(double least, double J, const SpringConstants<double>& springs, double eta,
                  const SlideState<double>& at, const ReferenceForces<double>& f) {
   constexpr double kSureChange = 0.3, kSureFall = kSureChange + 0.5 * kSureChange * kSureChange;
   const double low = (1.0 - kSureFall) * f.P;
-  if (low > least && S / low * change_rates(springs, at.u, f).change < kSureChange) return true;
-  const double t = S / f.P, turns = -f.P1 / f.P2;  // the parabola turns there
+  if (low > least && J / low * change_rates(springs, at.u, f).change < kSureChange) return true;
+  const double t = J / f.P, turns = -f.P1 / f.P2;  // the parabola turns there
   const double at_turn = turns > 0.0 && turns < t ? f.P + 0.5 * f.P1 * turns : f.P;
   if (!(std::min(at_turn, f.P + t * (f.P1 + 0.5 * t * f.P2)) > least)) return false;
-  constexpr double kTolerance = 1e-5;  // [a]
-  constexpr int kMaxSteps = 2;         // a longer sequence is made
+  constexpr double kTolerance = 1e-5;  // [a] a choice: a hundredth of the default contact tolerance
+  constexpr int kMaxSteps = 2;         // a choice: a longer sequence is made
   // its reaction is along y, and never above P: that is on the safe side
   ContactStep step(springs, eta, at, kTolerance, {}, ContactStep::Purpose::look_ahead);
   for (int i = 1; step.is_accurate(); ++i) {
     const double below = step.first_below(least);
-    S -= step.impulse(below < 0.0 ? step.length() : below);
-    if (S <= 0.0) return true;
+    J -= step.impulse(below < 0.0 ? step.length() : below);
+    if (J <= 0.0) return true;
     if (below >= 0.0 || i == kMaxSteps) return false;
     step = ContactStep(springs, eta, step.at(step.length()), kTolerance, step.hint(), ContactStep::Purpose::look_ahead);
   }
@@ -112,24 +112,24 @@ std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& spri
                                              double time) const {
   constexpr double kLnTen = 2.302585092994046;
   if (v <= constants_.threshold || loss_ == 0.0) return std::nullopt;
-  // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k S/2)
+  // down to the cutoff each bounce loses the same part of v; below it v falls like exp(-k J/2)
   const double end = constants_.constant_loss ? constants_.threshold : std::min(v, cutoff_);
   const double gamma = 1.0 - loss_;
-  double S = 2.0 * (v - end) / loss_;
+  double J10 = 2.0 * (v - end) / loss_;
   double cubes = 2.0 * (v * v * v - end * end * end) / (1.0 - gamma * gamma * gamma);
   if (!constants_.constant_loss) {
-    S += 2.0 * kLnTen / constants_.dw_dv;
+    J10 += 2.0 * kLnTen / constants_.dw_dv;
     cubes += end * end / constants_.dw_dv;
   }
   const ReferenceForces<double> f = reference_forces(springs, eta, at);
   // a spring that is displaced by sigma gains the speed omega_h sigma
   const double per_height = std::max(std::abs(f.c_height), 2.0 * std::abs(f.turn) * std::max(springs.omega_h, 1.0));
   const double least = std::sqrt(per_height * cubes / (3.0 * allowed));  // reaction: the displacement goes like 1/P^2
-  if (!(f.P > least) || S > time * f.P || !stays_above(least, S, springs, eta, at, f)) return std::nullopt;
+  if (!(f.P > least) || J10 > time * f.P || !stays_above(least, J10, springs, eta, at, f)) return std::nullopt;
   double n = gamma > 0.0 ? portable_log(v / end) / -portable_log(gamma) : 1.0;
   if (!constants_.constant_loss) {
     constexpr double kLongDecay = 600.0;  // v is below every threshold then, and portable_exp ends at 700
-    const double rest = std::min(0.5 * constants_.dw_dv * (time * f.P - S), kLongDecay);
+    const double rest = std::min(0.5 * constants_.dw_dv * (time * f.P - J10), kLongDecay);
     const double last = std::max(constants_.threshold, 0.1 * end * portable_exp(-rest));
     n += (1.0 / last - 1.0 / end) / constants_.dw_dv;
   }

@@ -27,7 +27,7 @@ struct ContactLimits {
   static constexpr double kLeastStiffness = 0.25;  // over that of the spring and of the surface that passes
 
   // the interpolation
-  static constexpr double kTail = 1e-4;  // integrals of the first coefficient left out, over those of the last one
+  static constexpr double kTail = 1e-4;  // integrals of the first coefficient left out over those of the last: a choice
   static constexpr double kFall = 0.3;   // from one coefficient to the next; one may vanish by chance, so we take two
 
   // a step so far within its limits is followed by one of the level before

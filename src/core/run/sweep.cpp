@@ -76,11 +76,11 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings) {
   return faults;
 }
 
-std::vector<ParameterError> find_traps(const SweepPoint& point, const Bath& bath) {
-  std::vector<ParameterError> traps;
-  for (const ParameterError& trap : find_traps(model_of(point), bath))
-    traps.emplace_back(option_of(trap.name), trap.value, trap.reason);
-  return traps;
+std::vector<ParameterError> find_warnings(const SweepPoint& point, const Bath& bath) {
+  std::vector<ParameterError> warnings;
+  for (const ParameterError& warning : find_warnings(model_of(point), bath))
+    warnings.emplace_back(option_of(warning.name), warning.value, warning.reason);
+  return warnings;
 }
 
 std::vector<ParameterError> find_short_drag(const char* name, double duration, double eta, double spacings) {
@@ -93,14 +93,14 @@ std::vector<ParameterError> find_short_drag(const char* name, double duration, d
                              "error; give at least " + number_text(std::ceil(spacings / std::abs(eta))) + " tau")};
 }
 
-std::vector<ParameterError> find_traps(const SweepPoint& point, const SweepSettings& settings) {
+std::vector<ParameterError> find_warnings(const SweepPoint& point, const SweepSettings& settings) {
   constexpr double kSpacings = 10.0;
-  std::vector<ParameterError> traps = find_traps(point, settings.bath);
+  std::vector<ParameterError> warnings = find_warnings(point, settings.bath);
   const double spacings = kSpacings * (1.0 + longest_extension(model_of(point)));
-  for (const ParameterError& trap : find_short_drag("duration", settings.duration, point.eta, spacings)) {
-    traps.push_back(trap);
+  for (const ParameterError& warning : find_short_drag("duration", settings.duration, point.eta, spacings)) {
+    warnings.push_back(warning);
   }
-  return traps;
+  return warnings;
 }
 
 Model model_of(const SweepPoint& point) {

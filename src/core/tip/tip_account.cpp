@@ -112,7 +112,7 @@ Account Tip::account() const {
   return account_at_begin();
 }
 
-// Of all phases but contact. To the last digit. Chatter that has died has no normal speed left.
+// For every phase but contact. Exact to the last digit. Chatter that has died has no normal speed left.
 Account Tip::account_at_end() const {
   if (const Flying* flying = std::get_if<Flying>(&phase_)) {
     const bool lands = flying->landing.outcome == SearchOutcome::impact;
@@ -156,7 +156,7 @@ Segment Tip::impact_record(double slope, double gap_rate_change) const {
   return s;
 }
 
-// Of bounces that are one event, after which the gap rate is zero.
+// The record of a collapse: bounces that are one event, after which the gap rate is zero.
 Segment Tip::collapse_segment(double slope, double gap_rate) const {
   Segment s = impact_record(slope, -gap_rate);
   s.stored = s.work() - s.loss;

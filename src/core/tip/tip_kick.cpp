@@ -86,7 +86,7 @@ std::optional<Collapse> Tip::collapse_kick(const TipState& before, const TipStat
 }
 
 std::optional<Collapse> Tip::collapse_landing(const Flying& flying, const Impact& impact) const {
-  constexpr double kMaxTurn = 0.5;  // a longer bounce is refused at once
+  constexpr double kMaxTurn = 0.5;  // [turns] a choice: a longer first bounce is refused before the slower tests
   if (!(flying.flight.start().g2 < 0.0) || turn_of(flying.flight) > kMaxTurn) return std::nullopt;
   const Projection onto = project_onto_surface(model_, flying.flight.launch());
   return collapse(onto.reference, onto.normal_speed, 0.0, impact);

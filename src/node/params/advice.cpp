@@ -56,34 +56,36 @@ std::string describe_tip(const Parameters& p) {
   return text.str();
 }
 
-std::vector<std::string> find_traps(const Parameters& p) {
-  std::vector<std::string> traps;
+std::vector<std::string> find_warnings(const Parameters& p) {
+  std::vector<std::string> warnings;
   const RunSettings settings = run_settings(p);
-  for (const ParameterError& trap : afm::find_traps(settings.model, settings.bath)) traps.emplace_back(trap.what());
+  for (const ParameterError& warning : afm::find_warnings(settings.model, settings.bath))
+    warnings.emplace_back(warning.what());
   if (p.bath.temperature_k > 0.0 && !settings.bath.is_on()) {
-    traps.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
-                    " has no effect: quality_factor is 0, so no heat reaches the tip");
+    warnings.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
+                       " has no effect: quality_factor is 0, so no heat reaches the tip");
   }
   const int phases = phases_of_samples(p.sample_rate_hz * Units(p.si).time());
   if (phases > 0) {
-    traps.push_back("sample_rate_hz = " + number_text(p.sample_rate_hz) + ": samples see tau at " +
-                    std::to_string(phases) +
-                    " of its phases alone, so means of them, such as the mean normal force, may "
-                    "be far off: give a rate that is a few per cent less");
+    warnings.push_back("sample_rate_hz = " + number_text(p.sample_rate_hz) + ": samples see tau at " +
+                       std::to_string(phases) +
+                       " of its phases alone, so means of them, such as the mean normal force, may "
+                       "be far off: give a rate that is a few per cent less");
   }
   if (p.tolerance > 0.0 && p.model != kAuto) {
-    traps.push_back("tolerance = " + number_text(p.tolerance) + " has no effect: model is " + p.model + ", not auto");
+    warnings.push_back("tolerance = " + number_text(p.tolerance) + " has no effect: model is " + p.model +
+                       ", not auto");
   }
   if (p.command_timeout_s > 0.0 && p.pace == kLockstep && p.wait_for != kCommand) {
-    traps.push_back("command_timeout_s = " + number_text(p.command_timeout_s) +
-                    " has no effect: in lockstep the emulator waits for whoever steers");
+    warnings.push_back("command_timeout_s = " + number_text(p.command_timeout_s) +
+                       " has no effect: in lockstep the emulator waits for whoever steers");
   }
   if (p.pace == kLockstep && (p.split_size_mb > 0.0 || p.split_duration_s > 0.0)) {
-    traps.emplace_back(
+    warnings.emplace_back(
         "split_size_mb, split_duration_s: a new bag begins with a snapshot, which rounds the motion, at a time that "
         "depends on the disk: in lockstep two runs differ from there on");
   }
-  return traps;
+  return warnings;
 }
 
 Run trial_run(const Parameters& p) {
@@ -105,21 +107,23 @@ Run trial_run(const Parameters& p) {
   return run;
 }
 
-double measure_pace(const Parameters& p) {
+double measure_times_real_time(const Parameters& p) {
   Run run = trial_run(p);
   Batch batch = preallocated_batch(p);
   advance_for(kWarmUp, run, batch, kTrialImpacts);
   return advance_for(kTrial, run, batch, kTrialImpacts) * Units(p.si).time();
 }
 
-std::string find_pace_fault(const Parameters& p, double pace) {
-  if (p.pace == kLockstep || pace > kSafePace * p.time_scale) return {};
+std::string find_speed_warning(const Parameters& p, double times_real_time) {
+  constexpr double kMargin = 0.7;      // a choice: publishing and other programs take their part
+  constexpr double kWorthFewer = 1.1;  // a choice: fewer kicks are advised where they are at least a tenth fewer
+  if (p.pace == kLockstep || times_real_time > kSafePace * p.time_scale) return {};
   const RunSettings settings = run_settings(p);
-  const double kicks = suitable_kicks(settings.model, settings.bath), scale = 0.7 * pace;
+  const double kicks = suitable_kicks(settings.model, settings.bath), scale = kMargin * times_real_time;
   const double digit = std::pow(10.0, std::floor(std::log10(scale)));  // one digit, rounded down
-  const bool fewer_suffice = settings.bath.is_on() && p.bath.kicks_per_tau > 1.1 * kicks;
+  const bool fewer_suffice = settings.bath.is_on() && p.bath.kicks_per_tau > kWorthFewer * kicks;
   return "this run will not keep its pace: time_scale = " + number_text(p.time_scale) + ", and a trial run made " +
-         rounded_text(pace, 2) +
+         rounded_text(times_real_time, 2) +
          " times real time. Give time_scale = " + rounded_text(std::floor(scale / digit) * digit, 2) +
          (fewer_suffice ? ", kicks_per_tau = " + rounded_text(kicks, 5) : "") +
          (p.contact_tolerance < kMaxContactTolerance ? ", a contact_tolerance up to 1e-2" : "") +

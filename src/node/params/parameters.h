@@ -17,12 +17,12 @@ namespace afm::node {
 
 constexpr char kRealTime[] = "real_time", kLockstep[] = "lockstep", kCommand[] = "command", kAuto[] = "auto";
 
-constexpr double kMaxSampleRate = 1e6;       // [1/s]: ten samples a turn of the fastest spring of interest
+constexpr double kMaxSampleRate = 1e6;       // [1/s] a choice: 25 samples a turn of the paper's horizontal spring
 constexpr double kMaxWallSampleRate = 1e7;   // [1/s]: at time scales above 1, what subscribers can take
 constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
 
-// Live parameters, and the constants beside it: plain values, which travel through lock-free
-// queues.
+// The live parameters, and the constants of the model that stand in the same structs. Plain values, which travel through
+// lock-free queues.
 struct Live {
   SiModel si;
   SiBath bath;

@@ -21,9 +21,8 @@
 
 namespace afm::node {
 
-// The messages of a topic that roscpp still holds for its subscribers. It says neither how full the queue of a
-// subscriber is nor what it drops from one; but it lets go of the bytes of a message when the last subscriber has them,
-// or has lost them.
+// The messages of a topic that roscpp still holds for its subscribers. roscpp does not report how full the queue of a
+// subscriber is, nor what it drops. But it frees the bytes of a message when the last subscriber has them or lost them.
 class Outstanding {
  public:
   // The same message, whose bytes report when they are let go.

@@ -8,9 +8,9 @@ namespace {
 constexpr double kMarkTau = 100.0;             // impacts are counted over so long: some hundreds of them
 constexpr std::chrono::seconds kRecently{10};  // troubles that come and go are reported for so long
 
-constexpr double kTroublingLag = 0.5;        // [s]: what a person notices
-constexpr double kHopelessLag = 2.0;         // [s]
-constexpr double kTroublingLateShare = 0.1;  // of the batches since the last check
+constexpr double kTroublingLag = 0.5;        // [s] a choice: what a person notices
+constexpr double kHopelessLag = 2.0;         // [s] a choice
+constexpr double kTroublingLateShare = 0.1;  // of the batches since the last check: a choice
 constexpr double kPenetration = 1e-10;       // [a]: more is not rounding
 
 using Severity = diagnostic_msgs::DiagnosticStatus;

@@ -17,7 +17,7 @@ namespace {
 
 // rosbag writes a chunk when it is full: one may be under way, and its index follows it
 constexpr std::uint64_t kChunkSlack = 2 * 1024 * 1024;
-constexpr std::uint64_t kBetweenChecks = 256 * 1024;
+constexpr std::uint64_t kBetweenChecks = 256 * 1024;  // [bytes] a choice: a system call for each quarter of a megabyte
 // a second of an ordinary run: with less room a recording is not begun
 constexpr std::uint64_t kLeastRecording = 4 * 1024 * 1024;
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Eight seconds at 1 MHz of samples: longer than a disk stalls to flush its caches.
+// 134 MB: 7.7 s at 1 MHz of samples (docs/data/recording_cost.csv), longer than a disk stalls to flush its caches.
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
 constexpr std::size_t kMostHeld = 100;  // messages: a batch has three, and ten seconds of a pause have as many as this

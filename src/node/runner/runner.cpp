@@ -18,8 +18,9 @@ constexpr std::chrono::milliseconds kPausedPoll{100}, kLockstepPoll{10}, kRoomPo
 // longer (emulator_node.cpp), and learns how far it came.
 constexpr std::chrono::seconds kStepPatience{8};
 
-// Parts of a sample; rounding of times is less. A command of the scene that is due so soon is due now, however far the
-// run is advanced at once; a control period that lacks so little is over.
+// [sample periods] Model times are rounded by less than both. A command of the scene is due if its time is less than
+// kDueNow ahead, so a run that is advanced in other parts plays it at the same time. A control period is over if less
+// than kRounding is left of it.
 constexpr double kDueNow = 0.5, kRounding = 1e-3;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
@@ -341,7 +342,7 @@ void Runner::update_state() {
   state_.counters = run_.counters();
   state_.batches = pacer_.batches();
   state_.real_time_factor = is_held() ? 0.0 : pacer_.real_time_factor();
-  if (lockstep_) return;  // nothing is late that waits
+  if (lockstep_) return;  // an emulator that waits for its controller is never late
   state_.late_batches = pacer_.late_batches();
   // an unfinished batch is late already when its deadline is past
   const double overdue =

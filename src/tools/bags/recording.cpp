@@ -249,7 +249,7 @@ boost::shared_ptr<Message> Recording::last() const {
 }
 
 // A recording by the node begins with the snapshot before its first batch.
-std::uint64_t Recording::batches_told_at_beginning() const {
+std::uint64_t Recording::batches_proved_at_beginning() const {
   const auto batch = first<afm_emulator::Friction>();
   const auto snapshot = first<afm_emulator::Snapshot>();
   if (!is_by_node() || !batch || !snapshot || batch->epoch != snapshot->epoch) return 0;
@@ -258,7 +258,7 @@ std::uint64_t Recording::batches_told_at_beginning() const {
 }
 
 // The node publishes a status, a command and a snapshot after the batch up to which they tell.
-std::uint64_t Recording::batches_told_at_end() const {
+std::uint64_t Recording::batches_proved_at_end() const {
   const auto batch = last<afm_emulator::Friction>();
   if (!is_by_node() || !batch) return 0;
   std::uint64_t most = 0;
@@ -310,8 +310,8 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
                        : view(last_of, mine->getEndTime() + tick)->size();
   if (const auto told = ends_of(topic<afm_emulator::Friction>())) {  // some of these another topic may hold
     const std::uint32_t held_before = told->first.seq - all->first.seq, held_after = all->second.seq - told->second.seq;
-    missing.at_beginning += std::max<std::uint64_t>(batches_told_at_beginning(), held_before) - held_before;
-    missing.at_end += std::max<std::uint64_t>(batches_told_at_end(), held_after) - held_after;
+    missing.at_beginning += std::max<std::uint64_t>(batches_proved_at_beginning(), held_before) - held_before;
+    missing.at_end += std::max<std::uint64_t>(batches_proved_at_end(), held_after) - held_after;
   }
   return missing;
 }

@@ -40,10 +40,10 @@ struct Number {
 inline bool operator<(const Number& a, const Number& b) { return std::tie(a.start, a.seq) < std::tie(b.start, b.seq); }
 inline bool operator==(const Number& a, const Number& b) { return a.start == b.start && a.seq == b.seq; }
 
-// When the node was started. On wall time the stamp of a message tells of which start it is, whatever else is missing.
+// When the node was started. On wall time a stamp shows after which start a message was made, even if others are missing.
 class Starts {
  public:
-  // A start is behind one stamp, and at the other at the latest.
+  // A start was after the stamp `behind`, and not after the stamp `latest`.
   void add(const ros::Time& behind, const ros::Time& latest) { found_.push_back({latest, behind}); }
   void merge() {
     std::sort(found_.begin(), found_.end());
@@ -51,7 +51,7 @@ class Starts {
       if (times_.empty() || times_.back() <= behind) times_.push_back(latest);
     }
   }
-  // Of the last one that is not later, or 0.
+  // The last start that is not later than the stamp [ns]; 0 if there is none.
   std::uint64_t of(const ros::Time& stamp) const {
     const auto later = std::upper_bound(times_.begin(), times_.end(), stamp);
     return later == times_.begin() ? 0 : (later - 1)->toNSec();
@@ -157,7 +157,7 @@ class Recording {
   const std::string& node() const { return node_; }
   std::string name() const;  // of the node and the bags
   const std::vector<File>& files() const { return files_; }
-  // Those that follow; so many batches are missing before them.
+  // Adds the bags that follow. `batches_between`: missing before them.
   void add(const Recording& next, std::uint32_t batches_between);
 
   template <class Message>
@@ -186,15 +186,15 @@ class Recording {
   Missing missing_at_ends() const {
     return missing_at_ends(ros::message_traits::datatype<Message>());
   }
-  // Of what was applied before the recording began, which the node writes before the first snapshot: 0 or 1.
+  // 0 or 1: the node writes the command in force before the first snapshot; 1 if that message is missing.
   std::uint64_t commands_missing_at_beginning() const;
 
  private:
   Missing missing_at_ends(const std::string& type) const;
   bool is_by_node() const;
-  // Further batches before the first one, or behind the last one, of which other messages of the node tell.
-  std::uint64_t batches_told_at_beginning() const;
-  std::uint64_t batches_told_at_end() const;
+  // Batches before the first or after the last one that the bag holds. Other messages of the node prove them.
+  std::uint64_t batches_proved_at_beginning() const;
+  std::uint64_t batches_proved_at_end() const;
   template <class Message>
   boost::shared_ptr<Message> first() const;
   template <class Message>
