@@ -42,8 +42,10 @@ BUILDS = (
 def processor_seconds(command, scratch):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     environment = dict(os.environ, SCRATCH=scratch, CMAKE_PREFIX_PATH=os.environ['CMAKE_PREFIX_PATH'].split(':')[0])
-    subprocess.run(['bash', '-c', command], check=True, cwd=str(ROOT), env=environment, stdout=subprocess.DEVNULL,
-                   stderr=subprocess.DEVNULL)
+    done = subprocess.run(['bash', '-c', command], cwd=str(ROOT), env=environment, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.PIPE, universal_newlines=True)
+    if done.returncode != 0:
+        sys.exit('%s ends with %d:\n%s' % (command, done.returncode, done.stderr))
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 

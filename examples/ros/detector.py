@@ -19,7 +19,7 @@ class Detector:
         self.step = 2 * self.range / 2 ** rospy.get_param('~bits', 16)
         self.random = numpy.random.default_rng(rospy.get_param('~seed', 1))
         self.volts = rospy.Publisher('~volts', Float64MultiArray, queue_size=100)
-        rospy.Subscriber(rospy.get_param('~emulator', '/afm') + '/deflection', Deflection, self.measure,
+        rospy.Subscriber(rospy.get_param('~emulator', 'afm') + '/deflection', Deflection, self.measure,
                          tcp_nodelay=True, buff_size=1 << 22)
 
     def measure(self, batch):

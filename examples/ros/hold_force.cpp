@@ -8,18 +8,19 @@
 
 #include <algorithm>
 
+using afm_emulator::number_parameter;
 using afm_emulator::to_message;
 
 int main(int argc, char** argv) try {
   ros::init(argc, argv, "hold_force");
   ros::NodeHandle own("~");
-  const double setpoint = own.param("force", 60e-12);
-  const double gain = own.param("gain", 1.0);  // half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
-  const double lowest = own.param("lowest", -0.33e-9), highest = own.param("highest", -0.03e-9);
-  const double settle = own.param("settle_s", 0.02), window = own.param("window_s", 0.1);
+  const double setpoint = number_parameter(own, "force", 60e-12);
+  const double gain = number_parameter(own, "gain", 1.0);  // half of 1 / (dF / d height): 0.45 N/m at eta = 3.4
+  const double lowest = number_parameter(own, "lowest", -0.33e-9), highest = number_parameter(own, "highest", -0.03e-9);
+  const double settle = number_parameter(own, "settle_s", 0.02), window = number_parameter(own, "window_s", 0.1);
   const ros::Publisher measured = own.advertise<std_msgs::Float64>("measured_force", 10);
   const ros::Publisher commanded = own.advertise<std_msgs::Float64>("commanded_height", 10);
-  afm_emulator::Client tip(own.param<std::string>("emulator", "/afm"));
+  afm_emulator::Client tip(own.param<std::string>("emulator", "afm"));
   double height = std::clamp(tip.applied().rest_height_m, lowest, highest);
   while (ros::ok()) {
     const double force = tip.mean_force(window, settle, tip.kAsItIs, height);

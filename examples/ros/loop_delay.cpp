@@ -11,10 +11,11 @@
 int main(int argc, char** argv) try {
   ros::init(argc, argv, "loop_delay");
   ros::NodeHandle own("~");
-  const int commands = own.param("commands", 1000);
-  if (commands < 1) throw std::invalid_argument("commands = " + std::to_string(commands) + ": must be at least 1");
+  const double commands = afm_emulator::number_parameter(own, "commands", 1000.0);
+  if (!(commands >= 1.0))
+    throw std::invalid_argument("commands = " + std::to_string(commands) + ": must be at least 1");
   const auto count = static_cast<std::size_t>(commands);
-  afm_emulator::Client tip(own.param<std::string>("emulator", "/afm"));
+  afm_emulator::Client tip(own.param<std::string>("emulator", "afm"));
   const double batch_rate = tip.configuration().batch_rate_hz;
   std::vector<double> waits_ms;
   std::mt19937 random(1);

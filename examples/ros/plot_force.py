@@ -40,7 +40,7 @@ def main():
     if output:
         matplotlib.use('Agg')
     import matplotlib.pyplot as plt  # after the choice of how to draw
-    recorder = Recorder(rospy.get_param('~emulator', '/afm'))
+    recorder = Recorder(rospy.get_param('~emulator', 'afm'))
     # wall time: with use_sim_time and without a clock rospy.sleep() would last for ever
     end = time.monotonic() + rospy.get_param('~duration', 5.0)
     while time.monotonic() < end and not rospy.is_shutdown():

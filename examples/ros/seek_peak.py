@@ -19,7 +19,7 @@ def main():
     lowest, highest = rospy.get_param('~lowest', 1.2 * ETA), rospy.get_param('~highest', 3.0 * ETA)
     settle, window = rospy.get_param('~settle_s', 0.02), rospy.get_param('~window_s', 0.1)
     published = rospy.Publisher('~speed', Float64, queue_size=10)
-    tip = Client(rospy.get_param('~emulator', '/afm'))
+    tip = Client(rospy.get_param('~emulator', 'afm'))
     while not rospy.is_shutdown():
         below, above = (tip.mean_force(window, settle, drag_velocity=v) for v in (speed - dither, speed + dither))
         published.publish(speed)

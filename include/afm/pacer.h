@@ -16,7 +16,7 @@ class Pacer {
 
   Duration deadline() const;         // when the next batch is due: an absolute time, so delays never add up
   void batch_done(Duration now);     // the batch due at deadline() is complete
-  void resume(Duration now);         // after a pause, which counts as no delay
+  void resume(Duration now);         // begins anew: after a pause, and at a reset, no delay is left
   void set_period(Duration period);  // for the batches after the next one
 
   double lag() const { return lag_; }              // [s] delay of the last batch behind the end of its period

@@ -46,6 +46,19 @@ inline std_msgs::Float64 to_message(double value) {
   return message;
 }
 
+// A parameter of a node. Throws EmulatorError if it is no number: roscpp alone would take the default in place of a text,
+// such as 8e-12 in YAML.
+inline double number_parameter(const ros::NodeHandle& node, const std::string& name, double usual) {
+  double value = usual;
+  XmlRpc::XmlRpcValue given;
+  if (node.getParam(name, value) || !node.getParam(name, given)) return value;
+  std::ostringstream text;
+  text << node.resolveName(name) << " = ";
+  given.write(text);
+  text << ": must be a number; YAML needs 1.0e-12 for 1e-12";
+  throw EmulatorError(text.str());
+}
+
 // Model time from one to the other [tau].
 inline double tau_between(const ModelTime& begin, const ModelTime& end) {
   return static_cast<double>(end.tau - begin.tau) + (end.phase - begin.phase);

@@ -44,6 +44,7 @@ constexpr double kQueueSeconds = 2.0;               // how far publishing may fa
 constexpr double kMaxQueueBytes = 512.0 * 1048576;  // of address space; only what is used is touched
 constexpr double kMinBatches = 4.0;                 // a choice: one is filled, one is published, two wait
 constexpr double kClientsPeriod = 0.1;              // [s]
+constexpr char kTooMany[] = "too many commands are waiting";
 // A batch takes at most 1.5 s, and a step fails after 8 s.
 constexpr std::chrono::seconds kAnswerDeadline{12};
 // In lockstep an idle processor takes 50 to 100 us to wake a thread; in real time this would hold up the publisher.
@@ -198,8 +199,7 @@ class EmulatorNode {
   void submit_or_refuse(const Request& request, double given, const char* unit, const std::string& fault) {
     if (fault.empty() && runner_.submit(request)) return;
     std::ostringstream text;
-    text << request.cause << " = " << number_text(given) << ' ' << unit << ": "
-         << (fault.empty() ? "too many commands are waiting" : fault);
+    text << request.cause << " = " << number_text(given) << ' ' << unit << ": " << (fault.empty() ? kTooMany : fault);
     if (refusals_.add(fault.empty() ? Refusal::overload : Refusal::faulty_command, text.str())) {
       ROS_WARN_STREAM("refused: " << text.str());
     }
@@ -301,7 +301,10 @@ class EmulatorNode {
     const bool has_deadline = request.kind != Kind::control || request.tau == 0.0 || is_lockstep();
     request.reply = std::make_shared<std::promise<Answer>>();
     std::future<Answer> future = request.reply->get_future();
-    if (!runner_.submit(request)) return "too many requests are waiting";
+    if (!runner_.submit(request)) {
+      if (request.cause[0] != '\0') refusals_.add(Refusal::overload, std::string("control: ") + kTooMany);
+      return kTooMany;
+    }
     const auto begin = std::chrono::steady_clock::now();
     while (is_lockstep() && future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
            std::chrono::steady_clock::now() - begin < kSpin) {
@@ -317,8 +320,8 @@ class EmulatorNode {
     const std::string fault = answer.fault;
     if (fault != kWallTimeRanOut && fault != kModelTimeRanOut) return fault;
     const double tau = static_cast<double>(answer.time.tau) + answer.time.phase;
-    return fault + " after " + std::to_string(answer.impacts) + " impacts, at model time " + number_text(tau) +
-           " tau; a command of the same call holds";
+    return fault + " after " + std::to_string(answer.impacts) + " impacts, at model time " + number_text(tau) + " tau" +
+           (request.cause[0] != '\0' ? "; the command of the same call holds" : "");
   }
 
   std::string ask(Kind kind) {

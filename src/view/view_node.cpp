@@ -46,7 +46,8 @@ class Looking {
 int run(int argc, char** argv) {
   ros::init(argc, argv, "afm_view");
   ros::NodeHandle handle("~");
-  const double cells = handle.param("cells", 6.0);
+  double cells = 6.0;
+  if (!handle.getParam("cells", cells) && handle.hasParam("cells")) throw std::runtime_error("cells: must be a number");
   if (!(cells >= 1.0 && cells <= 100.0)) {
     ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", cells);
     return 1;

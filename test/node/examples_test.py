@@ -6,7 +6,7 @@ from pathlib import Path
 import rospy
 from std_msgs.msg import Float64MultiArray
 
-from emulator_under_test import Emulator, NodeTest, find
+from emulator_under_test import Emulator, NodeTest, Process, find
 from topics import PATIENCE, Topic, wait_until
 
 SLOW_MOTION = 1 / PATIENCE  # subscribers under a sanitizer need it to lose nothing
@@ -45,6 +45,14 @@ class Examples(NodeTest):
         text = example.output()
         self.assertGreater(output.stat().st_size, 10000)
         self.assertRegex(text, r'\b\d\d+ batches, 0 samples lost')
+
+    def test_a_text_is_no_number(self):
+        """The controller once held its default in place of 8e-12, which is a text in YAML."""
+        rospy.set_param('/hold_force', {'force': '8e-12'})
+        self.addCleanup(rospy.delete_param, '/hold_force')
+        controller = self.start(Process([find('hold_force')]))
+        self.assertEqual(controller.wait(60.0), 1)
+        self.assertIn('/hold_force/force = 8e-12: must be a number', controller.output())
 
     def test_the_loop_delay_is_measured(self):
         self.start(Emulator({'batch_rate_hz': 100.0}))

@@ -1,5 +1,6 @@
 """The test nodes expect, expect_sound and expect_repeats judge what they say, and refuse with a sentence what they
 cannot judge."""
+import os
 import runpy
 import subprocess
 import unittest
@@ -64,6 +65,12 @@ class Expect(NodeTest):
         self.start(Emulator({'pace': 'lockstep', 'drag_velocity': SPEED}))
         self.tip = Client('/afm')
 
+    def without_matplotlib(self):
+        """A path of Python on which it cannot be imported."""
+        directory = Path(self.temporary_directory())
+        (directory / 'matplotlib.py').write_text('raise ImportError("no matplotlib here")\n')
+        return '%s:%s' % (directory, os.environ['PYTHONPATH'])
+
     def advance(self, *speeds):
         """By a period for each."""
         for speed in speeds or (None, None, None):
@@ -84,6 +91,9 @@ class Expect(NodeTest):
         said = self.judged(self.advance, 'friction/drag_velocity', code=1, least=1.5 * SPEED, for_s=0.1)
         self.assertRegex(said, r'friction/drag_velocity = \S+ at model time \S+ s: expected \S+ to inf from')
         self.assertTrue(list(self.results.glob('*.png')), said)
+        with mock.patch.dict('os.environ', PYTHONPATH=self.without_matplotlib()):
+            said = self.judged(self.advance, 'friction/drag_velocity', code=1, least=1.5 * SPEED, for_s=0.1)
+        self.assertRegex(said, r'friction/drag_velocity = \S+ at .* Its picture: none, .*; the bag')
 
     def test_a_run_that_is_further_is_judged_where_it_is_and_that_is_said(self):
         """Further than the default too."""

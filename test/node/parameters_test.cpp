@@ -63,6 +63,27 @@ TEST(Parameters, EveryFaultIsReportedAtOnce) {
   for (const auto& [name, value] : given) EXPECT_TRUE(is_blamed(name, faults)) << name << " in\n" << faults;
 }
 
+// A driver names its nodes below its own name. A group of ours is refused, as it would have no effect.
+TEST(Parameters, ANodeBelowMayHaveParametersOfItsOwn) {
+  XmlRpc::XmlRpcValue theirs, ours;
+  theirs["gain"] = 0.5;
+  ours["temperature_k"] = 300.0;
+  EXPECT_EQ(refusal({{"controller", theirs}}), "");
+  EXPECT_TRUE(is_blamed("bath", refusal({{"bath", ours}})));
+  EXPECT_TRUE(is_blamed("temperature_k", refusal({{"temperature_k", theirs}})));
+}
+
+TEST(Parameters, ATildeIsTheHomeOfTheUser) {
+  Faults faults;
+  const std::string home = std::getenv("HOME");
+  EXPECT_EQ(read({{"bag_directory", "~"}}, faults).bag_directory, home);
+  EXPECT_EQ(read({{"bag_directory", "~/bags"}}, faults).bag_directory, home + "/bags");
+  unsetenv("HOME");  // as of a service of the system
+  EXPECT_EQ(read({{"bag_directory", "~/bags"}}, faults).bag_directory.front(), '/');
+  setenv("HOME", home.c_str(), 1);
+  EXPECT_TRUE(faults.empty());
+}
+
 TEST(Parameters, AFaultSaysWhatIsWrong) {
   const Given lever_and_mass{{"spring_constant_n_per_m", 0.2},
                              {"resonance_hz", 13e3},

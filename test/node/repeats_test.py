@@ -61,6 +61,13 @@ class Repeats(NodeTest):
             self.command(2)
         self.call('pause', SetBool, data=False)
 
+    def test_a_command_that_changes_the_last_digit_of_si_alone(self):
+        """To the run it is the same speed, and the estimate of friction goes on: bag_check once called that unsound."""
+        emulator = self.record(pace='lockstep', record=True)
+        for speed in (6.951887914253988e-06, 6.951887914253989e-06):  # eta = 2.1, both
+            self.assertTrue(emulator.control(0.3, speed).success)
+        checks.assert_identical(self, *self.end(emulator))
+
     def assert_each_is_identical(self, *paths):
         """Together, and each without the others."""
         checks.assert_identical(self, *paths)

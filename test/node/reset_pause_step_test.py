@@ -1,11 +1,13 @@
 """Reset starts the same run again, with the parameters of the start. Pause holds model time. A step goes exactly as far
 as it is asked to, and a slow subscriber loses nothing in it, or what it loses is counted."""
 import math
+import signal
+import time
 
 from afm_emulator.srv import Step
 
 import bags
-from emulator_under_test import EmulatorTest
+from emulator_under_test import TAU_S, EmulatorTest
 from tcpros import BareSubscriber
 from topics import key, tau_between, wait_until
 
@@ -57,14 +59,27 @@ class ResetPauseStep(EmulatorTest):
     def test_pause_holds_model_time(self):
         self.topics['deflection'].wait_for()
         self.pause(True)
-        time = self.topics['status'].wait_for_next(lambda m: m.paused, 'paused').time
+        paused = self.topics['status'].wait_for_next(lambda m: m.paused, 'paused')
+        self.assertEqual(paused.lag, 0.0)  # it owes nothing: the last batch's lag once stayed
+        held = paused.time
         begin = len(self.topics['status'].messages)
         self.topics['status'].wait_for_more(3)
-        self.assertEqual({key(m.time) for m in self.topics['status'].messages[begin:]}, {key(time)})
-        self.assertLessEqual(max(key(m.time) for m in self.topics['deflection'].messages), key(time))
+        self.assertEqual({key(m.time) for m in self.topics['status'].messages[begin:]}, {key(held)})
+        self.assertLessEqual(max(key(m.time) for m in self.topics['deflection'].messages), key(held))
         self.pause(False)
-        self.topics['status'].wait_for_next(lambda m: not m.paused and tau_between(time, m.time) > 500,
+        self.topics['status'].wait_for_next(lambda m: not m.paused and tau_between(held, m.time) > 500,
                                             'time passes again')
+
+    def test_a_new_epoch_owes_nothing(self):
+        """It once went on at full speed until the lag of the epoch before was made up."""
+        self.emulator.child.send_signal(signal.SIGSTOP)
+        stopped = time.monotonic()
+        wait_until(lambda: time.monotonic() > stopped + 2.0, 'it falls behind')
+        self.emulator.child.send_signal(signal.SIGCONT)
+        asked = time.monotonic()
+        self.begin()
+        status = self.topics['status'].wait_for(lambda m: m.time.tau > 1000, 'model time passes')
+        self.assertLess(status.time.tau * TAU_S, time.monotonic() - asked + 0.02)  # two batches
 
     def test_step_to_the_next_impacts(self):
         self.begin(paused=True)

@@ -6,6 +6,7 @@ import time
 import rospy
 from afm_emulator.client import tau_between  # noqa: F401
 from afm_emulator.msg import Applied, Configuration, Deflection, EmulatorStatus, Friction, ImpactArray, Snapshot
+from afm_emulator.subscription import Subscription
 
 NAMESPACE = '/afm'
 TOPICS = {'deflection': Deflection, 'impacts': ImpactArray, 'friction': Friction, 'applied': Applied,
@@ -42,33 +43,25 @@ class Topic:
     def __init__(self, name, kind=None):
         self.name, self.kind = name, kind or TOPICS[name.rsplit('/', 1)[-1]]
         self.raw, self.messages, self._epoch = [], [], 0
-        self._subscribe()
-        Topic._open.append(self)
-
-    def _subscribe(self):
         path = self.name if self.name.startswith('/') else NAMESPACE + '/' + self.name
-        self._asked = time.monotonic()
-        self._subscriber = rospy.Subscriber(path, rospy.AnyMsg, self._take, tcp_nodelay=True, buff_size=1 << 20)
-
-    def _ask_again(self):
-        """rospy misses a publisher that the master names while it still answers who was there before: we ask every 2
-        s."""
-        if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._asked + 2.0:
-            self._subscriber.unregister()
-            self._subscribe()
+        self._subscription = Subscription(path, rospy.AnyMsg, self._take, buff_size=1 << 20)
+        Topic._open.append(self)
 
     def _wait_until(self, condition, what, deadline_s=DEADLINE_S):
         def looked_after():
-            self._ask_again()
+            self._subscription.ask_again()
             return condition()
         return wait_until(looked_after, self.name + ': ' + what, deadline_s)
 
+    def connections(self):
+        return self._subscription.subscriber.impl.connections
+
     def wait_for_connection(self):
         """rospy counts a connection before it is made; the publisher's header says that it is."""
-        self._wait_until(lambda: any(c.header for c in self._subscriber.impl.connections), 'connected')
+        self._wait_until(lambda: any(c.header for c in self.connections()), 'connected')
 
     def close(self):
-        self._subscriber.unregister()
+        self._subscription.subscriber.unregister()
         Topic._open.remove(self)
 
     @staticmethod

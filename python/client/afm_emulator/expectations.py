@@ -11,6 +11,7 @@ import rosgraph.names
 import rospy
 import rostest
 from afm_emulator.msg import Configuration
+from afm_emulator.subscription import Subscription
 
 PACKAGE = 'afm_emulator'
 
@@ -84,7 +85,7 @@ class Follower:
 
     def __init__(self, topic, kind):
         self.messages, self.news = [], threading.Condition()
-        rospy.Subscriber(topic, kind, self._take, tcp_nodelay=True, buff_size=1 << 22)
+        self.subscription = Subscription(topic, kind, self._take, buff_size=1 << 22)
 
     def _take(self, message):
         with self.news:
@@ -96,21 +97,22 @@ class Follower:
     def wait_for(self, condition, timeout_s):
         """Whether it came true of the messages so far in that time, and these."""
         end = time.monotonic() + timeout_s
-        with self.news:
-            while not condition(self.messages):
-                if time.monotonic() > end or rospy.is_shutdown():
-                    return False, list(self.messages)
+        while True:
+            with self.news:
+                came_true = bool(condition(self.messages))
+                if came_true or time.monotonic() > end or rospy.is_shutdown():
+                    return came_true, list(self.messages)
                 self.news.wait(0.1)
-            return True, list(self.messages)
+            self.subscription.ask_again()
 
 
 def configuration_of(emulator, timeout_s):
     """The emulator's Configuration, once it is there."""
-    try:
-        return rospy.wait_for_message(emulator + '/configuration', Configuration, timeout_s)
-    except rospy.ROSException as fault:
+    _, messages = Follower(emulator + '/configuration', Configuration).wait_for(bool, timeout_s)
+    if not messages:
         raise AssertionError('%s/configuration: %s nothing had come: no emulator there?' %
-                             (emulator, how_long(timeout_s))) from fault
+                             (emulator, how_long(timeout_s)))
+    return messages[-1]
 
 
 def results_path(name):

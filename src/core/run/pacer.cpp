@@ -29,6 +29,7 @@ void Pacer::batch_done(Duration now) {
 }
 
 void Pacer::resume(Duration now) {
+  lag_ = 0.0;
   origin_ = now + period_;
   due_ = 0;
   mark_time_ = now;

@@ -1,6 +1,8 @@
 #include "parameters.h"
 
+#include <pwd.h>
 #include <ros/master.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -92,9 +94,19 @@ void set_most_drag(Parameters& p) {
   if (p.max_drag_velocity == usual) p.max_drag_velocity = std::min(usual, kMaxEta * Units(p.si).velocity());
 }
 
+// ~ and ~/... A service of the system has no HOME.
 std::string expand_home(const std::string& path) {
+  if (path != "~" && path.compare(0, 2, "~/") != 0) return path;
   const char* home = std::getenv("HOME");
-  return home != nullptr && path.compare(0, 2, "~/") == 0 ? home + path.substr(1) : path;
+  const passwd* user = home == nullptr ? getpwuid(getuid()) : nullptr;
+  if (user != nullptr) home = user->pw_dir;
+  return home != nullptr ? home + path.substr(1) : path;
+}
+
+// Parameters of a node that has its name below ours; not ours in a group of their own, which would have no effect.
+bool is_of_another_node(Value& value, const std::set<std::string>& ours) {
+  if (value.getType() != Value::TypeStruct) return false;
+  return std::none_of(value.begin(), value.end(), [&](const auto& member) { return ours.count(member.first) > 0; });
 }
 
 // The levels for model auto, from their file.
@@ -143,7 +155,7 @@ Parameters read_parameters(Value tree, Faults& faults) {
   });
   if (has_values) {
     for (auto& [name, value] : tree) {
-      if (known.count(name) > 0) continue;
+      if (known.count(name) > 0 || is_of_another_node(value, known)) continue;
       faults.push_back({name, text_of(value), "there is no such parameter; there are " + names});
     }
   }

@@ -59,7 +59,6 @@ bool Runner::submit(const Request& request) {
 void Runner::loop() {
   name_thread("afm_run");
   running_.set_value(claim_real_time());
-  pacer_.resume(monotonic_now());
   begin_epoch();
   while (!stopping_) {
     wait_for_work();
@@ -170,6 +169,7 @@ void Runner::begin_epoch() {
   in_force_.live = start_;
   run_ = Run(run_settings(parameters_));
   last_command_ = monotonic_now();
+  pacer_.resume(last_command_);
   state_.timed_out = false;
   commands_played_ = applied_ = 0;
   command_came_ = true;  // the first batch needs none: whoever listens hears of it
@@ -218,13 +218,18 @@ void Runner::take_snapshot() {
   queue_.offer(report);
 }
 
+// The time of a pause is no silence of a controller, and no delay.
 void Runner::pause(bool paused) {
-  if (state_.paused && !paused) {
-    last_command_ = monotonic_now();
-    command_deadline_ = last_command_ + command_wait();
-    pacer_.resume(last_command_);
-  }
+  if (state_.paused == paused) return;
   state_.paused = paused;
+  const Time now = monotonic_now();
+  if (paused) {
+    paused_at_ = now;
+    return;
+  }
+  last_command_ = std::min(last_command_ + (now - paused_at_), now);
+  command_deadline_ = now + command_wait();
+  pacer_.resume(now);
 }
 
 // To the limit, or until so many impacts are taken, of which there must then be as many before the limit.
@@ -345,9 +350,8 @@ void Runner::update_state() {
   if (lockstep_) return;  // an emulator that waits for its controller is never late
   state_.late_batches = pacer_.late_batches();
   // an unfinished batch is late already when its deadline is past
-  const double overdue =
-      state_.paused ? 0.0 : std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
-  state_.lag = std::max(pacer_.lag(), overdue);
+  const double overdue = std::chrono::duration<double>(monotonic_now() - pacer_.deadline()).count();
+  state_.lag = state_.paused ? 0.0 : std::max(pacer_.lag(), overdue);
   state_.worst_lag = std::max({state_.worst_lag, state_.lag, pacer_.worst_lag()});
 }
 

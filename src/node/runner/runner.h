@@ -91,6 +91,7 @@ class Runner {
   std::uint64_t applied_ = 0;          // reports of kind `applied` in this epoch
   std::uint64_t commands_played_ = 0;  // of the scene
   Time last_command_{0};               // of a drag velocity
+  Time paused_at_{0};
   std::uint64_t last_batch_impacts_ = 0;
   boost::container::static_vector<Period, kMaxPeriods> periods_;
   const bool lockstep_;

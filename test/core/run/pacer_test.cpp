@@ -54,8 +54,9 @@ TEST(Pacer, WhatWasMissedIsCaughtUpNotForgotten) {
 
 TEST(Pacer, TimeInAPauseIsNotOwed) {
   Pacer pacer(kPeriod, kStart);
-  for (int batch = 1; batch <= 150; ++batch) pacer.batch_done(at(10 * batch));
+  for (int batch = 1; batch <= 150; ++batch) pacer.batch_done(at(10 * batch + 2));
   pacer.resume(at(100000));
+  EXPECT_EQ(pacer.lag(), 0.0);
   for (int batch = 1; batch <= 150; ++batch) {
     EXPECT_EQ(pacer.deadline(), at(100000 + 10 * batch));
     pacer.batch_done(at(100002 + 10 * batch));

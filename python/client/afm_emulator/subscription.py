@@ -1,0 +1,20 @@
+"""A subscriber that finds its publisher."""
+import time
+
+import rospy
+
+ASK_AGAIN_S = 2.0
+
+
+class Subscription:
+    """Subscribes. rospy misses a publisher that the master names while it still answers who was there before: so
+    ask_again(), which is called now and then, subscribes anew while nobody is connected."""
+
+    def __init__(self, topic, kind, take, *arguments, **options):
+        self._subscribe = lambda: rospy.Subscriber(topic, kind, take, *arguments, tcp_nodelay=True, **options)
+        self.subscriber, self._asked = self._subscribe(), time.monotonic()
+
+    def ask_again(self):
+        if self.subscriber.get_num_connections() == 0 and time.monotonic() > self._asked + ASK_AGAIN_S:
+            self.subscriber.unregister()
+            self.subscriber, self._asked = self._subscribe(), time.monotonic()
