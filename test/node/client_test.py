@@ -206,13 +206,15 @@ class Claims:
 
     def test_two_controllers_measure_at_once(self):
         """Each over batches of its own. A speed that changes has no friction coefficient."""
-        tip = self.begin_period(1.0)
+        tip = self.start_both('real_time')
         other = self.start(Calls(self.program()))
+        tip.begin('control 3 3e-6')
+        Topic('applied').wait_for(lambda m: m.drag_velocity == 3e-6, 'its begin')
         durations = (0.03, 0.1, 0.1)  # not rounded up to another batch: the sum of ten times 0.01 s is below 0.1 s
         answers = [self.numbers(other.call('control %g %r' % (duration, (2 + i) * SPEED_UNIT)))
                    for i, duration in enumerate(durations)]
         answers.append(self.numbers(tip.answer()))
-        for (samples, *_, end, begin, _), duration in zip(answers, durations + (1.0,)):
+        for (samples, *_, end, begin, _), duration in zip(answers, durations + (3.0,)):
             self.assertEqual(samples, round(200e3 * duration))
             self.assertAlmostEqual((end - begin) * TAU_S, duration, delta=1e-9)
         self.assertEqual([math.isnan(k_f) for _, _, _, k_f, *_ in answers], [False] * 3 + [True])

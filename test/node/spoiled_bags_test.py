@@ -234,6 +234,7 @@ class SpoiledBags(SpoiledBag):
             self.assert_reported(code, words, path=path, sound=True if code == SOUND else None)
         self.assertEqual(checks.bag_check(path).code, UNCHECKED)
         self.assertEqual(checks.replay_check(self.good, '--node', '/other').code, UNCHECKED)
+        self.assertIn('named /other, but of %s' % NAMESPACE, checks.bag_check(self.good, '--node', '/other').text)
         self.assertEqual(checks.replay_check(self.good, '--node', NAMESPACE).code, SOUND)
 
     def test_what_is_no_closed_bag(self):
