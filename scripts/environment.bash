@@ -2,6 +2,7 @@
 # shellcheck disable=SC2034  # the variables are used where this is sourced
 
 afm_root=$(CDPATH='' cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+scripts=$afm_root/scripts
 afm_build=${AFM_BUILD_DIR:-$afm_root/build}
 # what is sourced: rosrun finds no executable below PACKAGE/build, and roslaunch finds files of an install space below
 # the package twice
