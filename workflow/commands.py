@@ -109,8 +109,7 @@ def commands(quick):
             "--starts", choose(10, 60), "--friction-duration 300")
         for direction in ("up", "down"):
             curve("sweep_%s_%g" % (direction, low), *mica, "--eta", "%g:%g:%g" % (low, high, choose(0.025, 0.0025)),
-                  "--sweep", direction,
-                  "--duration 3000")
+                  "--sweep", direction, "--duration 3000")
     add("periodic_orbits", "periodic_orbits --eta 3.4", *mica, choose("--max-length 6 --trajectory 20000 --guesses 200",
         "--max-length 10 --trajectory 1000000 --guesses 3000"), "--averages {out}/cycle_averages.csv --quiet",
         sides=["cycle_averages"])
@@ -141,8 +140,7 @@ def commands(quick):
         "--relative-cutoff --cutoff 0.05 --starts 2", *length)
     ratios = RATIOS[::3] if quick else RATIOS
     add("hammer_error_ratio", "model_error --eta", ",".join(map(str, HAMMER_ETAS)), "--frequency-ratio",
-        ",".join(map(str, ratios)),
-        "--relative-cutoff --cutoff 0.05 --starts 2", *length)
+        ",".join(map(str, ratios)), "--relative-cutoff --cutoff 0.05 --starts 2", *length)
     add("hammer_words", "symbolic_dynamics --eta", HAMMER_ETA, choose("--max-length 8 --impacts 50000",
                                                                       "--max-length 14 --impacts 2000000"),
         "--section {out}/hammer_section.csv --forbidden {out}/hammer_forbidden.csv",
@@ -168,13 +166,11 @@ def commands(quick):
                   "--duration", choose(500, 20000), *bath(kelvin, quality))
         for eta in THERMAL_FINE:  # between the points of the whole curve
             curve("thermal_fine_%s_%g" % (bath_name(kelvin, quality), eta), "--eta",
-                  "%g:%g:0.05" % (eta - 0.225, eta + 0.225),
-                  "--duration", choose(500, 3000), *bath(kelvin, quality))
+                  "%g:%g:0.05" % (eta - 0.225, eta + 0.225), "--duration", choose(500, 3000), *bath(kelvin, quality))
     for eta, quality, theta in kicks_cases(quick):
         for kicks in (GOLDEN[::3] if quick else GOLDEN) + (REFERENCE_KICKS,):
             curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature",
-                  theta,
-                  "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
+                  theta, "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
     add("thermal_real_time", "real_time --temperature 0.926 --quality-factor 100 --cutoff 0.05",
         choose("--step 1 --tau 100", "--step 0.05 --tau 5000"))
     add("thermostats", "thermostats --seconds", choose(0.2, 12))

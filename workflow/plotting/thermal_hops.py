@@ -8,8 +8,7 @@ RATES = tuple(windows_name(eta, theta, HOPS_QUALITY, window, 20000) for eta, (_,
               for theta in temperatures)
 TRACED = tuple(windows_name(6.5, theta, HOPS_QUALITY, 50, 20000) for theta in TRACES)
 MERGED = tuple(windows_name(eta, kelvin * KELVIN, quality, 50, 5000) for eta in MERGE_ETAS
-               for quality in MERGE_QUALITIES
-               for kelvin in TEMPERATURES)
+               for quality in MERGE_QUALITIES for kelvin in TEMPERATURES)
 
 
 def windows(tables, eta, theta, quality=HOPS_QUALITY, window=20, duration=20000):
