@@ -1,4 +1,4 @@
-"""What plain Markdown does not say to Sphinx: the sidebar, and where links out of the pages lead.
+"""What plain Markdown does not say to Sphinx: the sidebar, where links out of the pages lead, and what a header holds.
 
 The lists of links in index.md are the sidebar: each of its headings with such a list is a part.
 """
@@ -12,6 +12,7 @@ OUTSIDE = ('history',)  # pages that are linked, and stand in no part
 LINK = re.compile(r'\[([^\]]+)\]\((\.\./[^)#\s]+)\)')
 LONG_NAME = re.compile(r'(\b\w{6,})/(?=\w{4})')
 FILE_NAME = re.compile(r'\[(\w+)\.md\]\(\1\.md((?:#[\w-]*)?)\)')
+HEADER = re.compile(r'^- (afm/\S+\.h)$', re.M)
 PAGE = re.compile(r'^- \[([^\]]+)\]\(([\w./-]+)\.(?:md|rst)\)', re.M)
 
 
@@ -49,10 +50,15 @@ def link_out(folder):
     return rewritten
 
 
+def reference(found):
+    """A public header that stands in a list is a section: what Doxygen has read in it."""
+    return '%s\n%s\n\n.. doxygenfile:: %s\n' % (found[1], '-' * len(found[1]), found[1])
+
+
 def prepare(app, page, source):
     text = LINK.sub(link_out(Path(app.env.doc2path(page)).parent), source[0])
     titles = {name: title for _, pages in parts(Path(app.env.doc2path('index')).read_text()) for title, name in pages}
-    text = FILE_NAME.sub(by_title(titles), text)
+    text = HEADER.sub(reference, FILE_NAME.sub(by_title(titles), text))
     if page == 'index':
         text += sidebar(text)
     if page in OUTSIDE:
