@@ -26,6 +26,7 @@ breathe_projects = {'afm': os.environ.get('AFM_DOXYGEN_XML', str(ROOT / 'build/d
 breathe_default_project = 'afm'
 breathe_show_include = True
 
+autodoc_default_options = {'members': True}
 autodoc_member_order = 'bysource'
 autoclass_content = 'both'
 add_module_names = False
