@@ -208,11 +208,8 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
     shape = inputs[0].shape
     constants = [np.full(shape, x) for x in (chosen.rest_height, chosen.amplitude, chosen.frequency_ratio)]
     rows = np.stack([column.ravel() for column in list(inputs) + constants], axis=1)
-    results, fault = _afm.next_impact(rows, chosen.kind, thread_count(threads))
+    results = _afm.next_impact(rows, chosen.kind, on_error == 'raise', thread_count(threads))
     results = results.reshape(-1, len(_RESULTS))
-    if fault is not None and on_error == 'raise':
-        _afm.check_flight(rows[fault[0]], chosen.kind)
-        raise ValueError('state %d: %s' % fault)
     table = np.empty(len(rows), [(name, 'f8') for name in _INPUTS + _RESULTS])
     for i, name in enumerate(_INPUTS):
         table[name] = rows[:, i]

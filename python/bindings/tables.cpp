@@ -73,8 +73,8 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
 }
 
 // A row of the input is (eta, gamma, cutoff, phase, extension, u, w, rest_height, amplitude, frequency_ratio). Returns
-// the eight results of each row, NaN where it has none; and number and fault of the first such row.
-py::tuple next_impact(const Numbers& inputs, const std::string& kind, int threads) {
+// the eight results of each row, NaN where it has none; where `raises` is set, the first such row is an error.
+py::array next_impact(const Numbers& inputs, const std::string& kind, bool raises, int threads) {
   constexpr std::size_t kInputs = 10, kResults = 8, kRowsAtATime = 1000;
   const std::size_t n = static_cast<std::size_t>(inputs.size()) / kInputs;
   const ModelKind model = kind_of(kind);
@@ -82,11 +82,13 @@ py::tuple next_impact(const Numbers& inputs, const std::string& kind, int thread
   std::vector<double> results(n * kResults, std::numeric_limits<double>::quiet_NaN());
   std::vector<std::string> faults(n);
   std::atomic<std::size_t> next{0};
-  const auto compute = [&](std::size_t i) {
+  const auto input_of = [&](std::size_t i) {
     const double* x = in + i * kInputs;
-    const FlightInput input{x[0], x[1], x[2], x[3], x[4], x[5], x[6], model, x[7], x[8], x[9]};
+    return FlightInput{x[0], x[1], x[2], x[3], x[4], x[5], x[6], model, x[7], x[8], x[9]};
+  };
+  const auto compute = [&](std::size_t i) {
     try {
-      const FlightResult r = fly_to_next_impact(input);
+      const FlightResult r = fly_to_next_impact(input_of(i));
       const double row[] = {r.dt, r.phase, r.extension, r.u, r.w, r.normal_speed, r.tangential_velocity, r.energy_loss};
       std::copy(std::begin(row), std::end(row), &results[i * kResults]);
     } catch (const std::exception& fault) {
@@ -99,17 +101,12 @@ py::tuple next_impact(const Numbers& inputs, const std::string& kind, int thread
       for (std::size_t i = from; i < std::min(n, from + kRowsAtATime); ++i) compute(i);
     }
   });
-  const auto first =
-      std::find_if(faults.begin(), faults.end(), [](const std::string& fault) { return !fault.empty(); });
-  const py::array array = to_array(std::move(results));
-  if (first == faults.end()) return py::make_tuple(array, py::none());
-  return py::make_tuple(array, py::make_tuple(first - faults.begin(), *first));
-}
-
-// Throws ParameterError for one row that next_impact() could not compute, where an argument is at fault.
-void check_flight(const Numbers& row, const std::string& kind) {
-  const double* x = row.data();
-  refuse(find_faults(FlightInput{x[0], x[1], x[2], x[3], x[4], x[5], x[6], kind_of(kind), x[7], x[8], x[9]}));
+  for (std::size_t i = 0; i < n && raises; ++i) {
+    if (faults[i].empty()) continue;
+    refuse(find_faults(input_of(i)));  // where an argument is at fault
+    throw py::value_error("state " + std::to_string(i) + ": " + faults[i]);
+  }
+  return to_array(std::move(results));
 }
 
 }  // namespace
@@ -119,7 +116,6 @@ void add_tables(py::module& m) {
   m.def("arithmetic_fingerprint", &arithmetic_fingerprint);
   m.def("friction_curve", &friction_curve);
   m.def("next_impact", &next_impact);
-  m.def("check_flight", &check_flight);
 }
 
 }  // namespace afm::python
