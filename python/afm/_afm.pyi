@@ -1,4 +1,4 @@
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Final, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -14,34 +14,22 @@ def arithmetic_fingerprint() -> str: ...
 class Model:
     def __init__(self, gamma: float = ..., cutoff: float = ..., rest_height: float = ..., amplitude: float = ...,
                  frequency_ratio: float = ..., kind: str = ...) -> None: ...
-    @property
-    def gamma(self) -> float: ...
-    @property
-    def cutoff(self) -> float: ...
-    @property
-    def rest_height(self) -> float: ...
-    @property
-    def amplitude(self) -> float: ...
-    @property
-    def frequency_ratio(self) -> float: ...
-    @property
-    def kind(self) -> str: ...
+    gamma: Final[float]
+    cutoff: Final[float]
+    rest_height: Final[float]
+    amplitude: Final[float]
+    frequency_ratio: Final[float]
+    kind: Final[str]
 
 class Bath:
     def __init__(self, temperature: float = ..., quality_factor: float = ..., lateral_quality_factor: float = ...,
                  kicks_per_tau: float = ..., seed: int = ..., stream: int = ...) -> None: ...
-    @property
-    def temperature(self) -> float: ...
-    @property
-    def quality_factor(self) -> float: ...
-    @property
-    def lateral_quality_factor(self) -> float: ...
-    @property
-    def kicks_per_tau(self) -> float: ...
-    @property
-    def seed(self) -> int: ...
-    @property
-    def stream(self) -> int: ...
+    temperature: Final[float]
+    quality_factor: Final[float]
+    lateral_quality_factor: Final[float]
+    kicks_per_tau: Final[float]
+    seed: Final[int]
+    stream: Final[int]
 
 class Units:
     def __init__(self, omega_v_rad_per_s: float = ..., omega_h_rad_per_s: float = ..., tip_mass_kg: float = ...,
@@ -51,22 +39,14 @@ class Units:
                  load_n: float = ...) -> None: ...
     def bath(self, temperature_k: float = ..., quality_factor: float = ..., lateral_quality_factor: float = ...,
              kicks_per_tau: float = ..., seed: int = ...) -> Bath: ...
-    @property
-    def model(self) -> Model: ...
-    @property
-    def length(self) -> float: ...
-    @property
-    def time(self) -> float: ...
-    @property
-    def velocity(self) -> float: ...
-    @property
-    def energy(self) -> float: ...
-    @property
-    def force(self) -> float: ...
-    @property
-    def friction(self) -> float: ...
-    @property
-    def temperature(self) -> float: ...
+    model: Final[Model]
+    length: Final[float]
+    time: Final[float]
+    velocity: Final[float]
+    energy: Final[float]
+    force: Final[float]
+    friction: Final[float]
+    temperature: Final[float]
 
 class Tip:
     def __init__(self, model: Model = ..., eta: float = ..., phase: float = ..., extension: float = ..., y: float = ...,

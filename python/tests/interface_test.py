@@ -333,7 +333,7 @@ class Stubs(unittest.TestCase):
         self.assertEqual(top - types, self.public(dir(_afm)))
         for node in stub.body:
             if isinstance(node, ast.ClassDef):
-                members = self.public(f.name for f in node.body if isinstance(f, ast.FunctionDef))
+                members = self.public(f.target.id if isinstance(f, ast.AnnAssign) else f.name for f in node.body)
                 self.assertEqual(members, self.public(dir(getattr(_afm, node.name))), node.name)
 
     def test_their_arguments_are_those_that_the_module_takes(self):
