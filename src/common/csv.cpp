@@ -1,17 +1,13 @@
 #include "csv.h"
 
+#include <boost/algorithm/string.hpp>
 #include <cstdlib>
 #include <sstream>
 
 namespace afm {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
+void trim(std::string& text) { boost::algorithm::trim_if(text, boost::algorithm::is_any_of(" \t\r")); }
 
 }  // namespace
 
@@ -21,7 +17,7 @@ bool CsvLines::next(std::string& line) {
     if (++number_ == 1 && line.compare(0, byte_order_mark.size(), byte_order_mark) == 0) {
       line.erase(0, byte_order_mark.size());
     }
-    line = trimmed(line);
+    trim(line);
     if (!line.empty()) return true;
   }
   return false;
@@ -29,11 +25,8 @@ bool CsvLines::next(std::string& line) {
 
 std::vector<std::string> split_fields(const std::string& line) {
   std::vector<std::string> fields;
-  std::size_t begin = 0;
-  for (std::size_t comma; (comma = line.find(',', begin)) != std::string::npos; begin = comma + 1) {
-    fields.push_back(trimmed(line.substr(begin, comma - begin)));
-  }
-  fields.push_back(trimmed(line.substr(begin)));
+  boost::algorithm::split(fields, line, boost::algorithm::is_any_of(","));
+  for (std::string& field : fields) trim(field);
   return fields;
 }
 
