@@ -4,22 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <map>
+
+#include "core/fault_list.h"
 
 namespace afm::python {
 namespace {
 
-std::string argument_name(std::string name) {
-  static const std::map<std::string, std::string> names{{"v_c", "cutoff"},
-                                                        {"y0", "rest_height"},
-                                                        {"H", "amplitude"},
-                                                        {"initial_phase", "phase"},
-                                                        {"initial_extension", "extension"},
-                                                        {"initial_height", "y"},
-                                                        {"initial_u", "u"},
-                                                        {"initial_w", "w"}};
-  const auto found = names.find(name);
-  if (found != names.end()) return found->second;
+std::string argument_name(const std::string& member) {
+  std::string name = detail::word_for(member);
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }

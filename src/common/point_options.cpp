@@ -5,6 +5,7 @@
 
 #include "common/csv.h"
 #include "common/decimal_range.h"
+#include "core/fault_list.h"
 
 namespace afm {
 namespace {
@@ -34,7 +35,7 @@ Model model_of(const PointOptions& o) {
 std::vector<ParameterError> find_faults(const PointOptions& o, const Model& model) {
   std::vector<ParameterError> faults;
   for (const ParameterError& fault : find_faults(model)) {
-    faults.emplace_back(fault.name == "v_c" ? "cutoff" : fault.name, fault.value, fault.reason);
+    faults.emplace_back(detail::word_for(fault.name), fault.value, fault.reason);
   }
   if (!(std::abs(o.eta) <= kMaxEta))
     faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");

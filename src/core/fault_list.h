@@ -1,7 +1,7 @@
-// Collects the faults of a set of parameters. A limit stands in one place: the text of a fault is made from it. A set
-// without faults allocates nothing.
+// The faults of a set of parameters: how they are collected, and by which word a user knows the parameter.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,6 +10,21 @@
 
 namespace afm::detail {
 
+// The word of tables, options and arguments for a member of Model or of RunSettings: cutoff for v_c.
+inline std::string word_for(const std::string& member) {
+  static const std::map<std::string, std::string> words{{"v_c", "cutoff"},
+                                                        {"y0", "rest_height"},
+                                                        {"H", "amplitude"},
+                                                        {"initial_phase", "phase"},
+                                                        {"initial_extension", "extension"},
+                                                        {"initial_height", "y"},
+                                                        {"initial_u", "u"},
+                                                        {"initial_w", "w"}};
+  const auto found = words.find(member);
+  return found == words.end() ? member : found->second;
+}
+
+// A limit stands in one place: the text of a fault is made from it. A set without faults allocates nothing.
 struct FaultList {
   std::vector<ParameterError> faults;
 

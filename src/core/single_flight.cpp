@@ -1,7 +1,6 @@
 #include "afm/single_flight.h"
 
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "afm/run.h"
 #include "afm/surface.h"
 #include "core/search/double_double.h"
+#include "fault_list.h"
 
 namespace afm {
 
@@ -28,19 +28,6 @@ Model model_of(const FlightInput& input) {
   model.H = input.amplitude;
   model.frequency_ratio = input.frequency_ratio;
   return model;
-}
-
-// By the column's name.
-std::string column(const std::string& parameter) {
-  static const std::map<std::string, std::string> names{{"v_c", "cutoff"},
-                                                        {"y0", "rest_height"},
-                                                        {"H", "amplitude"},
-                                                        {"initial_phase", "phase"},
-                                                        {"initial_extension", "extension"},
-                                                        {"initial_u", "u"},
-                                                        {"initial_w", "w"}};
-  const auto found = names.find(parameter);
-  return found == names.end() ? parameter : found->second;
 }
 
 void check(const FlightInput& input) {
@@ -94,7 +81,7 @@ std::vector<ParameterError> find_faults(const FlightInput& input) {
   settings.initial = {input.phase, input.extension, height, input.u, input.w};
   std::vector<ParameterError> faults;
   for (const ParameterError& fault : find_faults(settings)) {
-    faults.emplace_back(column(fault.name), fault.value, fault.reason);
+    faults.emplace_back(word_for(fault.name), fault.value, fault.reason);
   }
   return faults;
 }

@@ -8,6 +8,7 @@
 #include "afm/number_text.h"
 #include "afm/surface.h"
 #include "afm/tip.h"
+#include "core/fault_list.h"
 #include "core/run/interruptible_advance.h"
 
 namespace afm {
@@ -43,13 +44,7 @@ std::string option_of(std::string name) {
 std::vector<ParameterError> find_faults(const SweepPoint& point) {
   std::vector<ParameterError> faults;
   for (const ParameterError& fault : find_faults(model_of(point))) {
-    const std::string& name = fault.name;
-    faults.emplace_back(name == "v_c"               ? "cutoff"
-                        : name == "y0"              ? "rest-height"
-                        : name == "H"               ? "amplitude"
-                        : name == "frequency_ratio" ? "frequency-ratio"
-                                                    : name,
-                        fault.value, fault.reason);
+    faults.emplace_back(option_of(detail::word_for(fault.name)), fault.value, fault.reason);
   }
   if (!(std::abs(point.eta) <= kMaxEta)) {
     faults.emplace_back("eta", point.eta, "the drag velocity must be finite and at most 1000 lattice spacings per tau");
