@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 
-from emulator import emulator, own_master
+from emulator import STDERR, emulator, own_master
 
 PARAMETERS = {'record': True, 'sample_rate_hz': 1e6, 'batch_rate_hz': 1000.0}
 
@@ -33,13 +33,16 @@ def resident_mb(pid):
 
 
 def watch(pid, seconds):
+    """Says every ten seconds what it costs. Returns seconds, MB, and the per cent of a core of each thread, by name."""
     begin, before = time.monotonic(), threads(pid)
     while time.monotonic() < begin + seconds:
         time.sleep(min(10.0, seconds))
-        elapsed, now = time.monotonic() - begin, threads(pid)
-        shares = {name: 100 * (cpu - before.get(name, 0.0)) / elapsed for name, cpu in now.items()}
-        print('%4.0f s, %4.0f MB resident, per cent of a core: %s' % (elapsed, resident_mb(pid), ', '.join(
-            '%s %.1f' % item for item in sorted(shares.items()) if item[0].startswith('afm_'))), flush=True)
+        elapsed, memory, now = time.monotonic() - begin, resident_mb(pid), threads(pid)
+        shares = {name: '%.1f' % (100 * (cpu - before.get(name, 0.0)) / elapsed)
+                  for name, cpu in sorted(now.items()) if name.startswith('afm_')}
+        print('%4.0f s, %4.0f MB resident, per cent of a core: %s'
+              % (elapsed, memory, ', '.join('%s %s' % item for item in shares.items())), file=sys.stderr)
+    return elapsed, memory, shares
 
 
 def main():
@@ -48,10 +51,12 @@ def main():
     directory, seconds = os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 600.0
     with own_master() as server, emulator(server, dict(PARAMETERS, bag_directory=directory)) as node:
         time.sleep(2.0)
-        watch(node.pid, seconds)
+        elapsed, memory, shares = watch(node.pid, seconds)
     bags = sorted(glob.glob(directory + '/*.bag'))
-    print('%.2f GB in %d bags' % (sum(os.path.getsize(bag) for bag in bags) / 1e9, len(bags)), flush=True)
-    checked = subprocess.call(['rosrun', 'afm_emulator', 'bag_check'] + bags)
+    row = {'seconds': '%.0f' % elapsed, 'memory / MB': '%.0f' % memory,
+           'recorded / GB': '%.2f' % (sum(os.path.getsize(bag) for bag in bags) / 1e9), **shares}
+    print('%s\n%s' % (','.join(row), ','.join(row.values())), flush=True)
+    checked = subprocess.call(['rosrun', 'afm_emulator', 'bag_check'] + bags, stdout=STDERR)
     sys.exit(node.returncode or checked)
 
 

@@ -252,7 +252,7 @@ def commands(quick):
     # scenes, recording, control
     add("scene_levels", "model_error --scene glide paper resonance slow_motion splash sweep",
         choose("--duration 500", ""))
-    add("recording", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
+    add("recording_cost", "benchmark/record_throughput.py {out}/bags", choose(20, 600))
     add("topic_rates", "benchmark/topic_rates.py --seconds", choose(2, 10))
     add("panel_load", "benchmark/panel_load.py --seconds", choose(2, 20))
     add("durations", "benchmark/durations.py", choose("--only import", "--builds"))

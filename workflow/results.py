@@ -98,16 +98,6 @@ def stress(tables):
     return rows
 
 
-@table("recording")
-def recording_cost(tables):
-    text = tables.text("recording")
-    line = [line for line in text.splitlines() if "MB resident" in line][-1]
-    found = re.search(r"([\d.]+) s, +(\d+) MB resident, per cent of a core: (.*)", line)
-    bags = re.search(r"([\d.]+) GB in (\d+) bags", text)
-    return [dict([("seconds", found[1]), ("memory / MB", found[2]), ("recorded / GB", bags[1])] +
-                 [part.rsplit(" ", 1) for part in found[3].split(", ")])]
-
-
 def failed(tables, name):
     return ", it ended with " in tables.stamp(name)
 
