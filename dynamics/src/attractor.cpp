@@ -23,11 +23,7 @@ struct Mark {
   int impacts;
 };
 
-double distance(const TipState& a, const TipState& b) {
-  const double phase = a.phase - b.phase;
-  return std::max(
-      {std::abs(phase - std::round(phase)), std::abs(a.X - b.X), std::abs(a.u - b.u), std::abs(a.g1 - b.g1)});
-}
+double distance(const TipState& a, const TipState& b) { return section_difference(a, b).lpNorm<Eigen::Infinity>(); }
 
 // A bounce that hardly lifts the tip. At 0.01 a/tau and a reaction of 4 a/tau^2 it rises by 1.3e-5 a: v^2/2P.
 bool is_creeping(const Impact& impact) {

@@ -18,9 +18,7 @@ Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& s
   const Model model = model_of(point);
   Tip tip(model, point.eta, v.start);
   v.attractor = find_attractor(model, tip, settings.attractor);
-  const FrictionAverage friction = v.attractor.cells > 0
-                                       ? average_over_periods(tip, v.attractor.cells, settings.friction_duration)
-                                       : average_over_time(tip, settings.friction_duration);
+  const FrictionAverage friction = average_over_periods(tip, v.attractor.cells, settings.friction_duration);
   v.K_f = friction.K_f;
   v.K_f_std_error = friction.K_f_std_error;
   return v;

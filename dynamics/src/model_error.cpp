@@ -66,8 +66,7 @@ LevelRun run_level(const Model& model, Tip& tip, const ErrorSettings& settings) 
     return run;
   }
   const double duration = affordable(run.attractor, tip.eta(), settings);
-  run.friction = run.attractor.cells > 0 ? average_over_periods(tip, run.attractor.cells, duration)
-                                         : average_over_time(tip, duration);
+  run.friction = average_over_periods(tip, run.attractor.cells, duration);
   run.share_measured = duration / settings.duration;
   const int samples = run.attractor.cells > 0 ? std::min(settings.samples, settings.periodic_samples)
                                               : static_cast<int>(settings.samples * run.share_measured);

@@ -182,11 +182,15 @@ void measure(const PoincareMap& map, PeriodicOrbit& orbit) {
   orbit.residual = shot.residual();
   orbit.cells = static_cast<int>(std::lround(map.eta() * orbit.period));
   orbit.slowest_impact = orbit.clearance = std::numeric_limits<double>::infinity();
-  for (const MapStep& step : shot.steps) orbit.slowest_impact = std::min(orbit.slowest_impact, step.normal_speed);
+  SectionJacobian<double> J = SectionJacobian<double>::Identity();  // around the orbit from its first point
+  for (const MapStep& step : shot.steps) {
+    orbit.slowest_impact = std::min(orbit.slowest_impact, step.normal_speed);
+    J = step.J * J;
+  }
   for (std::size_t i = 0; i < orbit.points.size(); ++i) {
     orbit.clearance = std::min(orbit.clearance, map.clearance(orbit.points[i], orbit.times[i]));
   }
-  orbit.multipliers = eigenvalues(orbit_jacobian(map, orbit));
+  orbit.multipliers = eigenvalues(J);
 }
 
 PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot& shot) {
@@ -246,12 +250,6 @@ PeriodicOrbit orbit_at(const PoincareMap& map, const std::vector<TipState>& poin
   turn_to_first(orbit);
   measure(map, orbit);
   return orbit;
-}
-
-SectionJacobian<double> orbit_jacobian(const PoincareMap& map, const PeriodicOrbit& orbit) {
-  SectionJacobian<double> J = SectionJacobian<double>::Identity();
-  for (const TipState& point : orbit.points) J = map(point).J * J;
-  return J;
 }
 
 namespace {

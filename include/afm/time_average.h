@@ -28,7 +28,8 @@ FrictionAverage average_over_time(Tip& tip, double duration);
 
 // For a periodic orbit: the second half of the whole periods in `duration`, at least one period. Exact except for
 // rounding and a transient; the error is the difference from the first half. Precondition: the orbit repeats after the
-// holder has passed `cells` cells, and eta is not 0.
+// holder has passed `cells` cells, and eta is not 0. With 0 cells, of an orbit that is not periodic, it is
+// average_over_time().
 FrictionAverage average_over_periods(Tip& tip, std::int64_t cells, double duration);
 
 }  // namespace afm

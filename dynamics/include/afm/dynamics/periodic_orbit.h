@@ -48,9 +48,6 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
 // impact.
 PeriodicOrbit orbit_at(const PoincareMap& map, const std::vector<TipState>& points);
 
-// The Jacobian around the orbit from its first point: the product of those of the flights.
-SectionJacobian<double> orbit_jacobian(const PoincareMap& map, const PeriodicOrbit& orbit);
-
 // True: b has the points of a, starting with another one.
 bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b);
 
