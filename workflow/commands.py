@@ -113,7 +113,6 @@ def commands(quick):
     add("periodic_orbits", "periodic_orbits --eta 3.4", *mica, choose("--max-length 6 --trajectory 20000 --guesses 200",
         "--max-length 10 --trajectory 1000000 --guesses 3000"), "--averages {out}/cycle_averages.csv --quiet",
         sides=["cycle_averages"])
-    add("return_scan", "return_scan --eta 3.4", *mica, choose("--points 30 --depth 10", "--points 120 --depth 30"))
     curve("direct", "--eta 3.4", *mica, "--duration", choose(20000, 1000000))
     add("even_orbit_gamma", "continue_orbits --cutoff 0.05 --eta 2 --gamma 0.7 --vary gamma --to 0.1")
     add("even_basins", "attractors --eta 2 --gamma", choose("0.2:0.8:0.1 --starts 20", "0.2:0.8:0.01 --starts 200"),

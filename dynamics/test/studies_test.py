@@ -33,7 +33,6 @@ REFUSED = {
                     ('model = anvil', '--model anvil'), ('gamma: not with --scene', '--scene glide --gamma 0.5')],
     'periodic_orbits': [('gamma = 1.5', '--gamma 1.5'), ('cutoff = -1', '--cutoff -1'), ('eta = ', '--eta inf'),
                         ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'), ('model = anvil', '--model anvil')],
-    'return_scan': [('eta = 0', '--eta 0')],
     'symbolic_dynamics': [('gamma = 7', '--gamma 7'), ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'),
                           ('model = oscillator', '--model oscillator')]}
 
@@ -57,12 +56,6 @@ class Refusals(unittest.TestCase):
             code, rows, complaint = run(tool, option, '/there/is/no/such/folder', '--max-length', '8')
             self.assertEqual((code, rows), (1, []), tool)
             self.assertIn('cannot write /there/is/no/such/folder', complaint)
-
-    def test_a_point_has_no_box(self):
-        """Its rounding was scanned."""
-        code, rows, complaint = run('return_scan', '--eta', '2.25', '--points', '3', '--depth', '3')
-        self.assertEqual((code, rows), (1, []))
-        self.assertIn('a point has no box', complaint)
 
     def test_without_chaos_there_are_no_words(self):
         code, rows, complaint = run('symbolic_dynamics', '--eta', '2', '--max-length', '3', '--impacts', '20000')
@@ -109,13 +102,6 @@ class Orbits(unittest.TestCase):
         self.assertEqual({row['attractor'] for row in rows}, {'period-1'})
         self.assertAlmostEqual(float(rows[-1]['phase']), 0.75, delta=1e-9)
 
-    def test_the_nearest_return_is_at_the_fixed_point(self):
-        code, rows, _ = run('return_scan', '--points', '40', '--depth', '36')
-        self.assertEqual((code, len(rows)), (0, 1600))
-        nearest = min(rows, key=lambda row: float(row['distance']))
-        self.assertAlmostEqual(float(nearest['phase']), 0.529, delta=0.02)
-        self.assertAlmostEqual(float(nearest['w']), 2.088, delta=0.2)
-
     def test_every_tool_takes_the_hammer(self):
         hammer = ['--model', 'hammer']
         _, rows, _ = run('attractors', '--eta', '2', '--starts', '5', '--friction-duration', '200', *hammer)
@@ -128,8 +114,6 @@ class Orbits(unittest.TestCase):
         self.assertAlmostEqual(float(rows[-1]['multiplier_1_re']), 0.6, delta=1e-6)
         _, rows, _ = run('bifurcations', '--range', '2:2:1', '--impacts', '5', *hammer)
         self.assertEqual({row['extension'] for row in rows}, {'0'})
-        _, rows, _ = run('return_scan', '--eta', '2.7', '--points', '20', '--length', '1', *hammer)
-        self.assertEqual(len(rows), 400)
 
 
 class ModelErrors(unittest.TestCase):

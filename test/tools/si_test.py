@@ -89,9 +89,7 @@ class SameNumbers(unittest.TestCase):
                  ['period_s', 'k_f_kg_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s']),
                 (bifurcations, ['normal_speed_m_per_s', 'extension_m']),
                 # a share of eta has no unit: it was divided by that of a speed
-                ([*bifurcations, '--relative-cutoff', '--cutoff', 0.1], ['normal_speed_m_per_s', 'extension_m']),
-                (['return_scan', '--eta', 3.4, '--points', 2, '--depth', 2],
-                 ['gap_rate_m_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s'])):
+                ([*bifurcations, '--relative-cutoff', '--cutoff', 0.1], ['normal_speed_m_per_s', 'extension_m'])):
             with self.subTest(arguments=arguments):
                 self.compare(run(*arguments), run(*arguments, '--si'), columns)
 
@@ -248,7 +246,7 @@ class Refused(unittest.TestCase):
         self.refuse('tip-mass: has a meaning only with --si', 'attractors', '--tip-mass', 1e-12)
         self.refuse('must be above 0', 'friction_curve', '--si', '--tip-mass', 0)
         self.refuse('must be positive, between 1e-40 and 1e40', 'next_impact', '--si', '--tip-mass', 1e50)
-        self.refuse('drag-velocity = 1e-6:2e-6:1e-6: must be one number', 'return_scan', '--si', '--drag-velocity',
+        self.refuse('drag-velocity = 1e-6:2e-6:1e-6: must be one number', 'periodic_orbits', '--si', '--drag-velocity',
                     '1e-6:2e-6:1e-6')
         self.refuse('lever, surface, load: have a meaning only with --si', 'friction_curve', '--lever', 'soft')
         for scale in ('omega-v', 'tip-mass', 'lattice-spacing'):  # once only two of these were refused

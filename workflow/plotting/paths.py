@@ -30,10 +30,10 @@ def flight(state, eta, dt, points=60):
     return list(zip(*(at(state, eta, dt * i / points)[:2] for i in range(points + 1))))
 
 
-def next_impact(state, eta, gamma, cutoff):
-    """The row of the next impact, and the state after it."""
+def next_impact(state, eta, gamma, cutoff, on_error="raise"):
+    """The row of the next impact, and the state after it; a state may consist of arrays. on_error: as of the module."""
     import afm  # the other figures do without
-    row = afm.next_impact(eta=eta, gamma=gamma, cutoff=cutoff, **dict(zip(STATE, state)))[()]
+    row = afm.next_impact(eta=eta, gamma=gamma, cutoff=cutoff, on_error=on_error, **dict(zip(STATE, state)))[()]
     return row, [row[name + "_next"] for name in STATE]
 
 
