@@ -38,11 +38,9 @@ CUTOFF_SPEED = 1.66e-7  # [m/s]
 HAMMER_ETA, HAMMER_ETAS = 3.2, (1.5, 2.0, 3.4)
 # no even numbers, at which the horizontal spring is in resonance with the orbit of even eta
 RATIOS = (2.25, 3.25, 4.25, 6.25, 8.25, 12.25, 17.25, 24.25, 34.25, 48.25, 68.25, 98.25, 140.25, 198.25)
-BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--gamma", 0.7), ("--eta 2 --vary eta --to 1.2",
-                                                            "--eta 2 --vary eta --to 3")),
-            "eta_3": ("eta", (3.0, 4.3), ("--gamma", 0.7), ("--eta 4 --vary eta --to 3.0",
-                                                            "--eta 4 --vary eta --to 5.0")),
-            "gamma_3": ("gamma", (0.3, 0.95), ("--eta", 3.4),
+BRANCHES = {"eta_2": ("eta", (1.5, 2.6), ("--eta 2 --vary eta --to 1.2", "--eta 2 --vary eta --to 3")),
+            "eta_3": ("eta", (3.0, 4.3), ("--eta 4 --vary eta --to 3.0", "--eta 4 --vary eta --to 5.0")),
+            "gamma_3": ("gamma", (0.3, 0.95),
                         ("--eta 3.4 --vary gamma --to 0.2", "--eta 3.4 --vary gamma --to 0.97",
                          "--eta 3.4 --vary gamma --to 0.97 --length 4"))}
 FUZZED = ("csv_filter", "parameters", "bag_messages", "tip")
@@ -117,14 +115,9 @@ def commands(quick):
     add("even_orbit_gamma", "continue_orbits --cutoff 0.05 --eta 2 --gamma 0.7 --vary gamma --to 0.1")
     add("even_basins", "attractors --eta 2 --gamma", choose("0.2:0.8:0.1 --starts 20", "0.2:0.8:0.01 --starts 200"),
         "--cutoff 0.05 --friction-duration 200")
-    for name, (vary, bounds, fixed, branches) in BRANCHES.items():
+    for name, (_, _, branches) in BRANCHES.items():
         for i, branch in enumerate(branches):
             add("%s_branch_%d" % (name, i), "continue_orbits --cutoff 0.05", branch)
-        for direction in ("up", "down"):
-            step = (bounds[1] - bounds[0]) / choose(60, 600)
-            add("%s_%s" % (name, direction), "bifurcations --vary", vary, "--range",
-                "%.6g:%.6g:%.6g" % (*bounds, step), "--sweep",
-                direction, "--impacts 60 --cutoff 0.05 --transient 300", *fixed)
     add("atlas", "attractors --eta", choose("0.1:9:0.1 --gamma 0.3:0.95:0.05", "0.03:9:0.03 --gamma 0.3:0.95:0.01"),
         "--cutoff 0.05 --starts 1 --friction-duration 200")
     curve("scaling_eta", "--eta", choose("0.5:9:0.1 --duration 1000", "0.5:9:0.02 --duration 5000"), *mica)

@@ -22,9 +22,6 @@ SHORT = ['--starts', '1', '--duration', '200', '--transient', '200']
 REFUSED = {
     'attractors': [('gamma = 1.5', '--gamma 1.5'), ('eta = 1:2', '--eta 1:2'), ('eta = 2000', '--eta 2000'),
                    ('cutoff = -1', '--cutoff -1'), ('--starts', '--starts 0'), ('model = anvil', '--model anvil')],
-    'bifurcations': [('1:2', '--range 1:2'), ('mass', '--vary mass'), ('left', '--sweep left'),
-                     ('eta: varies', '--vary eta --range 2:2:1 --eta 5'),
-                     ('anvil', '--model anvil')],
     'continue_orbits': [('mass', '--vary mass --to 1'), ('eta = 0', '--eta 0 --to 1'), ('to', ''),
                         ('to: eta = nan', '--to nan'), ('to: eta = 2000', '--to 2000'),
                         ('to: gamma = 1.5', '--vary gamma --to 1.5')],
@@ -96,12 +93,6 @@ class Orbits(unittest.TestCase):
         self.assertAlmostEqual(float(graze['value']), 0.305677576, delta=1e-8)
         self.assertEqual(rows[-1]['event'], 'end: grazing')
 
-    def test_bifurcations_on_a_period_one(self):
-        code, rows, _ = run('bifurcations', '--range', '1.9:2:0.05', '--impacts', '5')
-        self.assertEqual((code, len(rows)), (0, 15))
-        self.assertEqual({row['attractor'] for row in rows}, {'period-1'})
-        self.assertAlmostEqual(float(rows[-1]['phase']), 0.75, delta=1e-9)
-
     def test_every_tool_takes_the_hammer(self):
         hammer = ['--model', 'hammer']
         _, rows, _ = run('attractors', '--eta', '2', '--starts', '5', '--friction-duration', '200', *hammer)
@@ -112,8 +103,6 @@ class Orbits(unittest.TestCase):
         _, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'gamma', '--to', '0.6', '--guesses', '50', *hammer)
         self.assertEqual(rows[-1]['event'], 'end: target')
         self.assertAlmostEqual(float(rows[-1]['multiplier_1_re']), 0.6, delta=1e-6)
-        _, rows, _ = run('bifurcations', '--range', '2:2:1', '--impacts', '5', *hammer)
-        self.assertEqual({row['extension'] for row in rows}, {'0'})
 
 
 class ModelErrors(unittest.TestCase):

@@ -33,8 +33,14 @@ std::vector<afm::Column> columns(const std::string& vary) {
                                 {"clearance", Q::length}});
 }
 
-const std::map<std::string, afm::Parameter> kParameters{
-    {"eta", afm::Parameter::eta}, {"gamma", afm::Parameter::gamma}, {"cutoff", afm::Parameter::cutoff}};
+struct Varied {
+  afm::Parameter parameter;
+  double afm::PointOptions::*option;
+};
+
+const std::map<std::string, Varied> kVaried{{"eta", {afm::Parameter::eta, &afm::PointOptions::eta}},
+                                            {"gamma", {afm::Parameter::gamma, &afm::PointOptions::gamma}},
+                                            {"cutoff", {afm::Parameter::cutoff, &afm::PointOptions::cutoff}}};
 
 const std::map<afm::BranchEnd, std::string> kEnds{
     {afm::BranchEnd::target, "end: target"},
@@ -78,9 +84,15 @@ void print(int number, const afm::Branch& branch, afm::TableWriter& to) {
   print_row(number, branch.points.back(), kEnds.at(branch.end), to);
 }
 
+const Varied& varied(const std::string& vary) {
+  const auto found = kVaried.find(vary);
+  if (found == kVaried.end()) throw std::invalid_argument("vary = " + vary + ": must be eta, gamma or cutoff");
+  return found->second;
+}
+
 void check_target(const Options& options) {
   afm::PointOptions at = options.dynamics;
-  varied(at, options.vary) = options.to;
+  at.*varied(options.vary).option = options.to;
   try {
     checked_model(at);
   } catch (const std::invalid_argument& fault) {
@@ -103,7 +115,7 @@ int run(const afm::CommandLine& app, Options options) {
   int number = 0;
   for (const afm::FoundOrbit& f : found.orbits) {
     if (f.orbit.length() != static_cast<std::size_t>(options.length)) continue;
-    print(++number, continue_orbit(model, eta, f.orbit, kParameters.at(options.vary), options.to), table);
+    print(++number, continue_orbit(model, eta, f.orbit, varied(options.vary).parameter, options.to), table);
     table.flush();
   }
   if (number == 0) std::cerr << "continue_orbits: no orbit of length " << options.length << " found\n";

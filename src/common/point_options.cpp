@@ -97,9 +97,9 @@ void add_si_options(CommandLine& app, PointOptions& o) {
   add_si_options(app, o.si);
 }
 
-void take_si(const CommandLine& app, PointOptions& o, bool cutoff_is_a_speed) {
+void take_si(const CommandLine& app, PointOptions& o) {
   checked_units(app, o.si);
-  if (cutoff_is_a_speed) take_si(app, o.si, "cutoff", o.cutoff);
+  take_si(app, o.si, "cutoff", o.cutoff);
   if (has_drag_velocity(app, o.si)) {
     const std::vector<double> values = range_option("drag-velocity", o.drag_velocity);
     if (values.size() != 1) throw std::invalid_argument("drag-velocity = " + o.drag_velocity + ": must be one number");
@@ -107,13 +107,6 @@ void take_si(const CommandLine& app, PointOptions& o, bool cutoff_is_a_speed) {
     take_si(app, o.si, "drag-velocity", o.eta);
   }
   checked_model(app, o);
-}
-
-double& varied(PointOptions& o, const std::string& vary) {
-  if (vary == "eta") return o.eta;
-  if (vary == "gamma") return o.gamma;
-  if (vary == "cutoff") return o.cutoff;
-  throw std::invalid_argument("vary = " + vary + ": must be eta, gamma or cutoff");
 }
 
 Model checked_model(const CommandLine& app, const PointOptions& o) {

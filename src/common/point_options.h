@@ -22,7 +22,7 @@ void add_options(CommandLine& app, PointOptions& options);
 // --si and --drag-velocity, beside the options of add_options(); and what follows from them: eta and cutoff in natural
 // units. Throws std::invalid_argument.
 void add_si_options(CommandLine& app, PointOptions& options);
-void take_si(const CommandLine& app, PointOptions& options, bool cutoff_is_a_speed = true);
+void take_si(const CommandLine& app, PointOptions& options);
 void add_model_option(CommandLine& app, std::string& model);
 
 // Throws std::invalid_argument where there is no such model.
@@ -32,9 +32,6 @@ ModelKind checked_kind(const std::string& name);
 Model checked_model(const PointOptions& options);
 // The same, with values that were given in SI shown in SI.
 Model checked_model(const CommandLine& app, const PointOptions& options);
-
-// The parameter that the option vary names: eta, gamma or cutoff. Throws std::invalid_argument where it is none.
-double& varied(PointOptions& options, const std::string& vary);
 
 // The numbers of an option: a range as parse_range() knows it, or several with commas between. Both throw
 // std::invalid_argument with name and text of the option, and the reason.

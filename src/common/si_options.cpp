@@ -9,11 +9,12 @@
 namespace afm {
 namespace {
 
-// The options of all tools that --si takes in SI. --range and --to are of a drag velocity or a cutoff, or not taken.
+// The options of all tools that --si takes in SI. --to is a drag velocity or a cutoff, or not taken.
 const std::map<std::string, Quantity> kQuantityOf{
-    {"amplitude", Quantity::length},   {"cutoff", Quantity::velocity},         {"drag-velocity", Quantity::velocity},
-    {"duration", Quantity::time},      {"friction-duration", Quantity::time},  {"range", Quantity::velocity},
-    {"rest-height", Quantity::length}, {"temperature", Quantity::temperature}, {"to", Quantity::velocity},
+    {"amplitude", Quantity::length},        {"cutoff", Quantity::velocity},
+    {"drag-velocity", Quantity::velocity},  {"duration", Quantity::time},
+    {"friction-duration", Quantity::time},  {"rest-height", Quantity::length},
+    {"temperature", Quantity::temperature}, {"to", Quantity::velocity},
     {"transient", Quantity::time}};
 
 const std::map<Quantity, const char*> kSiUnit{

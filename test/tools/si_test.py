@@ -82,16 +82,10 @@ class SameNumbers(unittest.TestCase):
         self.assertAlmostEqual(float(rows[0]['k_f_work_kg_per_s']) / (MASS / TAU), float(natural[1][0]['k_f_work']),
                                delta=0.3)
 
-    def test_by_the_same_arguments(self):
-        bifurcations = ['bifurcations', '--vary', 'gamma', '--range', '0.6:0.7:0.1', '--impacts', 3]
-        for arguments, columns in (
-                (['periodic_orbits', '--eta', 3.4, '--max-length', 1, *QUICK],
-                 ['period_s', 'k_f_kg_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s']),
-                (bifurcations, ['normal_speed_m_per_s', 'extension_m']),
-                # a share of eta has no unit: it was divided by that of a speed
-                ([*bifurcations, '--relative-cutoff', '--cutoff', 0.1], ['normal_speed_m_per_s', 'extension_m'])):
-            with self.subTest(arguments=arguments):
-                self.compare(run(*arguments), run(*arguments, '--si'), columns)
+    def test_periodic_orbits(self):
+        arguments = ['periodic_orbits', '--eta', 3.4, '--max-length', 1, *QUICK]
+        self.compare(run(*arguments), run(*arguments, '--si'),
+                     ['period_s', 'k_f_kg_per_s', 'extension_m', 'u_m_per_s', 'w_m_per_s'])
 
     def test_continue_orbits(self):
         arguments = ['--eta', 3.4, '--guesses', 100]
@@ -107,9 +101,19 @@ class SameNumbers(unittest.TestCase):
                       'y_m', 'u_m_per_s', 'w_m_per_s'], tolerance=1e-6)
 
     def test_a_range_of_drag_velocities(self):
-        code, rows, complaint = run('bifurcations', '--range', '6.6e-6:6.7e-6:1e-7', '--impacts', 1, '--si')
+        code, rows, complaint = run('attractors', '--drag-velocity', '6.6e-6:6.7e-6:1e-7', '--starts', 1,
+                                    '--friction-duration', 50 * TAU, '--si')
         self.assertEqual((code, [row['drag_velocity_m_per_s'] for row in rows]),
                          (0, ['6.6000000000000003e-06', '6.7000000000000002e-06']), complaint)
+
+    def test_a_share_of_eta_has_no_unit(self):
+        """It was divided by that of a speed."""
+        share = ['attractors', '--eta', 2, '--starts', 1, '--relative-cutoff', '--cutoff', 0.1]
+        natural, si = run(*share), run(*share, '--si')
+        self.assertEqual((natural[0], si[0], len(natural[1])), (0, 0, len(si[1])), natural[2] + si[2])
+        for row, other in zip(natural[1], si[1]):
+            self.assertEqual(float(row['cutoff']), 0.2)
+            self.assertAlmostEqual(float(other['cutoff_m_per_s']) / SPEED, 0.2, delta=1e-12)
 
     def test_next_impact(self):
         natural = 'eta,gamma,cutoff,phase,extension,u,w\n3.4,0.7,0.05,0.25,0.1,3.4,2\n'
