@@ -13,7 +13,9 @@ from .errors import ArgumentTypeError
 def number(name: str, value: Any) -> float:
     """The value as a float."""
     try:
-        return float(value) if not isinstance(value, (str, bytes)) else value + 0.0
+        if isinstance(value, (str, bytes)):  # float() reads these
+            raise TypeError
+        return float(value)
     except (TypeError, ValueError):
         raise ArgumentTypeError(name, value, 'must be a number') from None
     except OverflowError:  # a whole number beyond all floats: whoever asks has bounds

@@ -220,8 +220,8 @@ class Recording:
 
     def _model_of(self, live: Dict[str, Any]) -> Model:
         fixed = self.units.model
-        return Model(*(live[name] for name in ('gamma', 'cutoff', 'rest_height')), fixed.amplitude,
-                     fixed.frequency_ratio, live['kind'])
+        return Model(live['gamma'], live['cutoff'], live['rest_height'], fixed.amplitude, fixed.frequency_ratio,
+                     live['kind'])
 
     def _run_from(self, snapshot: Any) -> Run:
         c, live = self.configuration, self._settings(snapshot.applied)

@@ -116,10 +116,10 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     points = np.stack([axis.ravel() for axis in reversed(mesh)], axis=1)
     given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
     how_many = count('starts', starts) if np.ndim(starts) == 0 else len(given)
-    *table, where = _laboratory('attractors')(
+    columns, rows, names, where = _laboratory('attractors')(
         points, chosen.kind, how_many, given, seed_of(seed), number('transient', transient),
         number('duration', duration), number('friction_duration', friction_duration), thread_count(threads))
-    found = _structured(*table, whole=('impacts', 'cells'))
+    found = _structured(columns, rows, names, whole=('impacts', 'cells'))
     if not labels:
         return found
     return found, _structured(('point', 'attractor_row', 'phase', 'extension', 'y', 'u', 'w'), where, [],
