@@ -7,6 +7,7 @@
 #include <afm_emulator/client.h>
 
 #include <algorithm>
+#include <cstdio>
 
 using afm_emulator::number_parameter;
 using afm_emulator::to_message;
@@ -37,6 +38,6 @@ int main(int argc, char** argv) try {
 } catch (const afm_emulator::Shutdown&) {
   return 0;
 } catch (const std::exception& error) {
-  ROS_FATAL("%s", error.what());
+  std::fprintf(stderr, "hold_force: %s\n", error.what());  // roscpp's log ends with the last node handle
   return 1;
 }

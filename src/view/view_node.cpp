@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
-  } catch (const ros::InvalidNameException& fault) {  // of the node, or of the emulator
+  } catch (const std::exception& fault) {  // such as a name that cannot be, of the node or of the emulator
     std::cerr << "view_node: " << fault.what() << "\n";
     return 1;
   }
