@@ -120,9 +120,10 @@ LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period
   const ModelTime begin = tip.now(), end = begin + 1.5 * duration;
   Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
   double volume = 0.0;
-  for (int marks = 0; marks < period.marks && tip.now() < end; ++s.events) {
+  for (int marks = 0; marks < period.marks && tip.now() < end;) {
     const Outcome outcome = tangents.advance(end);
     if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
+    if (outcome != Outcome::flying) ++s.events;
     J = tangents.jacobian() * J;
     volume += tangents.growth().volume;
     const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;

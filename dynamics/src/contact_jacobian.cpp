@@ -1,6 +1,7 @@
 #include "contact_jacobian.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/contact/chatter_law.h"
 #include "core/contact/projection.h"
@@ -11,7 +12,7 @@ namespace afm::detail {
 Eigen::Matrix3d slide_jacobian(const Model& model, double eta, const SlideState<double>& start, double s) {
   const SpringConstants<Dual3> springs(model);
   SlideState<Dual3> q{Dual3::variable(start.phase, 0), Dual3::variable(start.X, 1), Dual3::variable(start.u, 2)};
-  constexpr int kMaxSegments = 100000;  // a guard against an endless loop; a segment is up to 8 tau long
+  constexpr int kMaxSegments = 100000;  // a guard against an endless loop: under a load a tau has some hundreds
   double left = s;
   for (int i = 0; i < kMaxSegments && left > 0.0; ++i) {
     const SlideSegment<Dual3> segment(springs, Dual3(eta), q);
@@ -19,6 +20,7 @@ Eigen::Matrix3d slide_jacobian(const Model& model, double eta, const SlideState<
     q = segment.at(Dual3(step));
     left -= step;
   }
+  if (left > 0.0) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
   return without_held_directions(is_free_along_x(model), derivatives<3>({q.phase, q.X, q.u}));
 }
 

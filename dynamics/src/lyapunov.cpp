@@ -73,7 +73,8 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
   while (tip.now() < end && s.outcome == LyapunovOutcome::measured) {
     const Outcome outcome = tangents.advance(end);
     if (outcome == Outcome::search_failed) s.outcome = LyapunovOutcome::search_failed;
-    if (++s.events >= settings.most_events) s.outcome = LyapunovOutcome::budget_spent;
+    if (outcome != Outcome::flying) ++s.events;
+    if (s.events >= settings.most_events) s.outcome = LyapunovOutcome::budget_spent;
     growth.add(tip.now() - begin, settings.duration, tangents.growth());
   }
   s.duration = tangents.carried_to() - begin;

@@ -43,11 +43,15 @@ bool Tangents::start(double within) {
 }
 
 Outcome Tangents::advance(const ModelTime& limit) {
+  constexpr double kLongestSlide = 1.0;  // [tau] a choice: a displacement grows by e at most, so the columns stay apart
   growth_ = {};
-  const Outcome outcome = advance_interruptibly(tip_, limit);
+  const ModelTime cut = tip_.now() + kLongestSlide;
+  const bool is_cut = tip_.in_contact() && cut < limit;
+  const Outcome outcome = advance_interruptibly(tip_, is_cut ? cut : limit);
   const double dt = tip_.now() - since_;
   if (outcome == Outcome::time_limit) {
     if (tip_.in_contact()) carry_slide(dt);  // other segments count when they end
+    if (is_cut) return Outcome::flying;
   } else if (outcome == Outcome::impact) {
     tip_.last_impact().kind == ImpactKind::burst ? carry_chatter(dt) : carry_bounce(dt);
   } else if (outcome == Outcome::contact) {

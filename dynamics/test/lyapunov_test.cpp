@@ -30,6 +30,25 @@ TEST(Lyapunov, SumsUpToWhatTheRestitutionTakes) {
   }
 }
 
+// Contact has no friction: a slide that never ends keeps volumes. The stiff one was once carried as one Jacobian, which
+// ended after 330 tau, and what grew was shared out over all of the time.
+TEST(Lyapunov, SumsUpToNothingInContact) {
+  Model model;
+  model.y0 = -20.0;
+  LyapunovSettings settings;
+  settings.transient = 50.0;
+  for (const double duration : {400.0, 1200.0}) {
+    settings.duration = duration;
+    const LyapunovSpectrum s = lyapunov(model, 0.5, FreeState{0.5, 0.0, -model.H, 0.0, 0.0}, settings);
+    ASSERT_EQ(s.outcome, LyapunovOutcome::measured);
+    ASSERT_EQ(s.rank, 2);
+    EXPECT_LT(s.events, 10u);  // where it is cut is no event
+    EXPECT_NEAR(s.exponents[0] + s.exponents[1], 0.0, 0.01);
+    EXPECT_NEAR(s.exponents[0], 0.69, 0.1);
+    EXPECT_LT(s.std_errors[0], 0.1);
+  }
+}
+
 // How far a neighbour is after a time, in parts of how far it was.
 double growth_of(const Tip& tip, const Model& model, double duration) {
   constexpr double kApart = 1e-11;

@@ -71,9 +71,12 @@ void take_si(const afm::CommandLine& app, Options& o) {
 }
 
 std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& options) {
+  const std::vector<double> speeds = etas(app, options), gammas = afm::range_option("gamma", options.gamma);
+  const double count = static_cast<double>(speeds.size()) * static_cast<double>(gammas.size());
+  for (const auto& fault : afm::find_point_count_fault(count)) throw std::invalid_argument(fault.what());
   std::vector<afm::SweepPoint> points;
-  for (const double gamma : afm::range_option("gamma", options.gamma)) {
-    for (const double eta : etas(app, options)) {
+  for (const double gamma : gammas) {
+    for (const double eta : speeds) {
       afm::PointOptions at = options.dynamics;
       at.eta = eta;
       at.gamma = gamma;

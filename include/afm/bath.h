@@ -44,7 +44,8 @@ bool kicks_lock(const Model& model, const Bath& bath);
 // Guarantee: it does not lock, and takes at most 0.11 of a velocity at once, or find_warnings() reports it.
 double suitable_kicks(const Model& model, const Bath& bath);
 
-// What can be run, but is seldom meant, with the remedy: kicks that lock or are too few. Named as in Bath.
+// What can be run, but is seldom meant, with the remedy: kicks that lock or are too few, and a bath that acts on no
+// spring of the hammer. Named as in Bath.
 std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath);
 
 }  // namespace afm

@@ -38,6 +38,9 @@ struct SweepResult {
 std::vector<ParameterError> find_faults(const SweepPoint& point);
 std::vector<ParameterError> find_faults(const SweepSettings& settings);
 
+// The fault of a table of so many points, if they are more than a million.
+std::vector<ParameterError> find_point_count_fault(double points);
+
 // Warnings, named as the faults: those of a bath (bath.h); and a drag over so little of the surface that K_f is that of
 // one place: over less than ten times the sum of a lattice spacing and the longest extension of the lateral spring.
 std::vector<ParameterError> find_warnings(const SweepPoint& point, const Bath& bath);

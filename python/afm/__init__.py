@@ -27,7 +27,7 @@ from .errors import ArgumentTypeError, ParameterError
 from .values import Batch, Kind, Lyapunov, ModelTime, Samples, State
 from ._afm import Bath, Ensemble, Model, Run, Tip, Units, kicks_lock, suitable_kicks
 from ._afm import VERSION as __version__
-from .arguments import explain
+from .arguments import explain, explained
 from .tables import attractors, friction_curve, lyapunov, next_impact, periodic_orbits
 from .recordings import Recording, from_bag
 
@@ -36,4 +36,5 @@ __all__ = ['ArgumentTypeError', 'Bath', 'Batch', 'Ensemble', 'Kind', 'Lyapunov',
            'kicks_lock', 'lyapunov', 'next_impact', 'periodic_orbits', 'suitable_kicks', '__version__']
 
 explain(Bath, Ensemble, Model, Run, Tip, Units)
-del explain
+kicks_lock, suitable_kicks = explained(kicks_lock, 'kicks_lock'), explained(suitable_kicks, 'suitable_kicks')
+del explain, explained

@@ -68,44 +68,56 @@ def _check(name, kind, value):
     afm._afm.Bath."""
     last = kind.rsplit('.', 1)[-1]
     if last in ('float', 'SupportsFloat'):
-        number(name, value)
-    elif last in ('int', 'SupportsInt', 'SupportsIndex'):
+        return number(name, value)
+    if name == 'threads':
+        return thread_count(value)
+    if last in ('int', 'SupportsInt', 'SupportsIndex'):
         return count(name, value, most=2 ** 64 - 1)
-    elif last == 'str' and not isinstance(value, str):
+    if last == 'str' and not isinstance(value, str):
         raise ArgumentTypeError(name, value, 'must be a text')
-    elif kind.startswith('afm.') and type(value).__name__ != last:
+    if last in ('dict', 'Dict') and not isinstance(value, dict):
+        raise ArgumentTypeError(name, value, 'must be a dict')
+    if kind.startswith('afm.') and type(value).__name__ != last:
         raise ArgumentTypeError(name, value, 'must be a %s' % last)
-    elif last in ('List', 'list', 'Sequence') and not (isinstance(value, (list, tuple)) and
-                                                       {type(item).__name__ for item in value} <= {'Tip'}):
+    if last in ('List', 'list', 'Sequence') and not (isinstance(value, (list, tuple)) and
+                                                   {type(item).__name__ for item in value} <= {'Tip'}):
         raise ArgumentTypeError(name, value, 'must be a list of tips')
     return value
 
 
-def _explained(call: Callable) -> Callable:
-    kinds = re.findall(r'[,(] ?(\w+): ([\w.]+)', (call.__doc__ or '').split('->')[0])[1:]  # behind self
+def explained(call: Callable, said: str) -> Callable:
+    """The function or method, which says which argument is wrong. said: what it is called in errors."""
+    kinds = dict(re.findall(r'[,(] ?(\w+): ([\w.]+)', (call.__doc__ or '').split('->')[0]))
+    has_self = kinds.pop('self', None) is not None
+    has = '; it has %s' % ', '.join(kinds) if kinds else ''
 
     @functools.wraps(call)
-    def explained(self, *arguments, **options):
+    def checked(*given, **options):
         try:
-            return call(self, *arguments, **options)
+            return call(*given, **options)
         except TypeError as fault:
             if 'incompatible' not in str(fault):
                 raise
-            for name in options:
-                if name not in dict(kinds):
-                    raise TypeError('%s has no argument %s; it has %s' % (
-                        type(self).__name__, name, ', '.join(dict(kinds)))) from None
-            taken = [_check(name, kind, value) for (name, kind), value in zip(kinds, arguments)]
-            if len(taken) < len(arguments):
+        for name in options:
+            if name not in kinds:
+                raise TypeError('%s has no argument %s%s' % (said, name, has))
+        taken = [_check(name, kind, value) for (name, kind), value in zip(kinds.items(), given[has_self:])]
+        options = {name: _check(name, kinds[name], value) for name, value in options.items()}
+        try:
+            return call(*given[:has_self], *taken, *given[has_self + len(taken):], **options)
+        except TypeError as fault:
+            if 'incompatible' not in str(fault):
                 raise
-            return call(self, *taken, **{name: _check(name, dict(kinds)[name], value)
-                                         for name, value in options.items()})
-    return explained
+        raise TypeError('%s lacks an argument, or has one too many%s' % (said, has))
+    return checked
 
 
 def explain(*classes: type) -> None:
-    """Lets the constructors and methods of these classes say which argument is wrong."""
+    """Lets the constructors, methods and indices of these classes say which argument is wrong."""
     for class_ in classes:
         for name, call in list(vars(class_).items()):
-            if type(call).__name__ == 'instancemethod' and (name == '__init__' or not name.startswith('_')):
-                setattr(class_, name, _explained(call))
+            said = class_.__name__ if name == '__init__' else '%s.%s' % (class_.__name__, name)
+            if isinstance(call, staticmethod):
+                setattr(class_, name, staticmethod(explained(getattr(class_, name), said)))
+            elif type(call).__name__ == 'instancemethod' and (name in ('__init__', '__getitem__') or name[0] != '_'):
+                setattr(class_, name, explained(call, said))

@@ -112,6 +112,7 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     """
     chosen = _model(model)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)
+    _afm.check_point_count(float(np.prod([float(len(axis)) for axis in axes])))
     mesh = np.meshgrid(*reversed(axes), indexing='ij')  # eta changes fastest
     points = np.stack([axis.ravel() for axis in reversed(mesh)], axis=1)
     given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
@@ -185,7 +186,7 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
 
     states: a structured array with the fields phase, extension [a], u, w [a/tau], and eta, gamma, cutoff where they are
     not given; or these as keywords, numbers or arrays that broadcast. gamma and cutoff default to the model's.
-    on_error: 'raise', or 'nan' for rows that have no next impact.
+    on_error: 'raise', or 'nan' for rows that have no next impact, and for those with a fault in an argument.
 
     Returns a structured array of the broadcast shape: the seven inputs, then dt [tau], phase_next, extension_next [a],
     u_next, w_next (after the impact), normal_speed, tangential_velocity (before it) [a/tau], energy_loss [m a^2/tau^2].

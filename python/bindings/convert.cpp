@@ -80,6 +80,11 @@ double real(const char* name, const py::handle& value) {
 }
 
 std::uint64_t whole(const char* name, const py::handle& value) {
+  constexpr double kMostWhole = 9007199254740992.0;  // up to there every whole number is a double
+  const double number_given = PyFloat_Check(value.ptr()) ? PyFloat_AS_DOUBLE(value.ptr()) : -1.0;
+  if (number_given >= 0.0 && number_given <= kMostWhole && number_given == std::floor(number_given)) {
+    return static_cast<std::uint64_t>(number_given);
+  }
   const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   const std::uint64_t number = index ? PyLong_AsUnsignedLongLong(index.ptr()) : 0;
   if (PyErr_Occurred() == nullptr) return number;
@@ -93,21 +98,21 @@ ModelKind kind_of(const std::string& name) {
   return kind;
 }
 
-ModelTime to_time(const py::object& time) {
+ModelTime to_time(const py::object& time, const char* name) {
   constexpr double kLongest = 1e15;  // [tau]
   ModelTime result;
   if (py::isinstance<py::tuple>(time)) {
     const auto parts = py::reinterpret_borrow<py::tuple>(time);
     if (parts.size() != 2 || PyIndex_Check(parts[0].ptr()) == 0) {  // NumPy's whole numbers too, as of an event
-      refuse_type("time", time, "must be a number of tau, or whole tau and a phase");
+      refuse_type(name, time, "must be a number of tau, or whole tau and a phase");
     }
-    const double tau = real("time", parts[0]);
-    require(std::abs(tau) <= kLongest, "time", tau, "must be at most 1e15 tau");
-    result = {py::int_(parts[0]).cast<std::int64_t>(), real("time", parts[1])};
-    require(result.phase >= 0.0 && result.phase < 1.0, "time", result.phase, "the phase must be in [0, 1)");
+    const double tau = real(name, parts[0]);
+    require(std::abs(tau) <= kLongest, name, tau, "must be at most 1e15 tau");
+    result = {py::int_(parts[0]).cast<std::int64_t>(), real(name, parts[1])};
+    require(result.phase >= 0.0 && result.phase < 1.0, name, result.phase, "the phase must be in [0, 1)");
   } else {
-    const double tau = real("time", time);
-    require(std::abs(tau) <= kLongest, "time", tau, "must be finite and at most 1e15 tau");
+    const double tau = real(name, time);
+    require(std::abs(tau) <= kLongest, name, tau, "must be finite and at most 1e15 tau");
     result = ModelTime{} + tau;
   }
   return result;

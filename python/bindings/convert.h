@@ -43,7 +43,7 @@ std::uint64_t whole(const char* name, const py::handle& value);
 ModelKind kind_of(const std::string& name);
 
 // A number of tau, or whole tau and a phase.
-ModelTime to_time(const py::object& time);
+ModelTime to_time(const py::object& time, const char* name = "time");
 py::object to_python(const ModelTime& time);   // afm.ModelTime
 py::object to_python(const FreeState& state);  // afm.State
 py::dict to_python(const FrictionEstimate& friction);

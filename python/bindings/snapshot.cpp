@@ -11,12 +11,19 @@
 namespace afm::python {
 namespace {
 
+[[noreturn]] void refuse_entry(const char* name, const py::handle& value) {
+  throw py::type_error(std::string(name) + " = " + std::string(py::repr(value)) + ": has the wrong type");
+}
+
 template <class T>
 void read(const char* name, const py::handle& value, T& out) {
+  if (value.is_none()) refuse_entry(name, value);  // pybind11 would look for another constructor
   try {
     out = value.cast<T>();
   } catch (const py::cast_error&) {
-    throw py::type_error(std::string(name) + " = " + std::string(py::repr(value)) + ": has the wrong type");
+    refuse_entry(name, value);
+  } catch (const py::error_already_set&) {  // NumPy's, of an array
+    refuse_entry(name, value);
   }
 }
 void read(const char* name, const py::handle& value, double& out) { out = real(name, value); }
@@ -47,7 +54,7 @@ class FromDict {
   void operator()(const char* name, T& value) {
     read(name, take(name), value);
   }
-  void operator()(const char* name, ModelTime& time) { time = to_time(take(name)); }
+  void operator()(const char* name, ModelTime& time) { time = to_time(take(name), name); }
   template <std::size_t n>
   void operator()(const char* name, std::array<double, n>& numbers) {
     py::array_t<double, py::array::c_style | py::array::forcecast> array;

@@ -116,6 +116,7 @@ void add_tables(py::module& m) {
   m.def("arithmetic_fingerprint", &arithmetic_fingerprint);
   m.def("friction_curve", &friction_curve);
   m.def("next_impact", &next_impact);
+  m.def("check_point_count", [](double points) { refuse(find_point_count_fault(points)); });
 }
 
 }  // namespace afm::python

@@ -113,6 +113,9 @@ class Errors(unittest.TestCase):
                            ('model', lambda: afm.friction_curve(2, model=1)),
                            ('sweep', lambda: afm.friction_curve(2, sweep=None)),
                            ('threads', lambda: afm.friction_curve(2, threads=2**40)),
+                           ('threads', lambda: afm.Ensemble([tip], threads=2**40)),
+                           ('model', lambda: afm.kicks_lock(1, 2)), ('bath', lambda: afm.suitable_kicks(afm.Model(), None)),
+                           ('snapshot', lambda: afm.Run.from_snapshot(5)),
                            ('seed', lambda: afm.friction_curve(2, seed=2**64)), ('seed', lambda: afm.Bath(seed=2**64)),
                            ('states', lambda: afm.next_impact([1, 2])), ('bath', lambda: run.apply(bath=3)),
                            ('eta', lambda: afm.next_impact(eta='2', phase=0, extension=0, u=0, w=1)),
@@ -126,9 +129,36 @@ class Errors(unittest.TestCase):
                 self.assertRegex(str(caught.exception), '(?s)' + name + ' = .*: must be ')
                 self.assertIsInstance(caught.exception, (TypeError, afm.ParameterError))
         self.assertRaisesRegex(TypeError, 'Model has no argument colour', afm.Model, colour=1)
+        for call in (afm.Ensemble, afm.Run.from_snapshot, tip.advance, lambda: run.apply(1)):
+            self.assertRaisesRegex(TypeError, r'^[A-Z][\w.]+ lacks an argument, or has one too many(; it has [\w, ]+)?$',
+                                   call)
+        self.refused('eta', math.inf, afm.Tip, eta=10 ** 400)
+
+    def test_an_entry_of_a_snapshot_of_a_wrong_type(self):
+        for name in ('model', 'bath', 'eta', 'time', 'sample_origin', 'window_begins'):
+            snapshot = dict(afm.Run().snapshot())
+            if name in snapshot:
+                snapshot[name] = None
+                self.assertRaisesRegex(TypeError, name + ' = None: ', afm.Run.from_snapshot, snapshot)
+
+    def test_a_table_of_too_many_points_is_refused_at_once(self):
+        """2**64 of them once were none, and fewer filled the memory."""
+        many = np.linspace(0.1, 0.9, 2 ** 16)
+        for table in (afm.friction_curve, afm.attractors):
+            fault = self.refused('points of the table', 2.0 ** 64, table, many, gamma=many, cutoff=many,
+                                 amplitude=many / 10)
+            self.assertIn('at most 1e+06', str(fault))
+
+    def test_heat_that_no_spring_takes(self):
+        """The hammer has no lateral spring; such a row was once called thermal."""
+        bath = dict(temperature=1.5, lateral_quality_factor=20.0)
+        self.refused('temperature', 1.5, afm.friction_curve, 2.0, model='hammer', duration=200, **bath)
+        with self.assertWarnsRegex(RuntimeWarning, 'lateral_quality_factor = 20: has no effect'):
+            afm.Tip(afm.Model(kind='hammer'), bath=afm.Bath(**bath))
 
     def test_a_whole_float_is_a_whole_number(self):
         self.assertEqual(len(afm.Tip().samples(0.1, 5.0)), 5)
+        self.assertEqual(len(afm.Tip(eta=3.4).advance(100, most_events=1.0)), 1)
 
     def test_all_faults_of_a_call_are_there(self):
         with self.assertRaises(afm.ParameterError) as caught:

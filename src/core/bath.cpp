@@ -79,6 +79,10 @@ double suitable_kicks(const Model& model, const Bath& bath) {
 
 std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath) {
   if (!bath.is_on()) return {};
+  if (model.kind == ModelKind::hammer && bath.quality_factor == 0.0) {
+    return {ParameterError("lateral_quality_factor", bath.lateral_quality_factor,
+                           "has no effect: the hammer has no lateral spring; give a quality factor")};
+  }
   constexpr double kEnough = 0.9;  // of the rate that was measured
   const double suitable = suitable_kicks(model, bath), kicks = bath.kicks_per_tau;
   const auto warning = [&](const std::string& reason) {

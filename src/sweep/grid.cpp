@@ -38,6 +38,16 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
     add_faults(faults, point);
   }
   for (const ParameterError& fault : find_faults(s.sweep)) faults.push_back(fault);
+  double points = 1.0;
+  for (const auto* axis : {&s.eta, &s.gamma, &s.cutoff, &s.rest_height, &s.amplitude, &s.frequency_ratio}) {
+    points *= static_cast<double>(axis->size());
+  }
+  for (const ParameterError& fault : find_point_count_fault(points)) faults.push_back(fault);
+  const Bath& bath = s.sweep.bath;
+  if (s.model == ModelKind::hammer && bath.temperature > 0.0 && bath.is_on() && bath.quality_factor == 0.0) {
+    faults.emplace_back("temperature", bath.temperature,
+                        "needs a quality-factor above 0: the hammer has no lateral spring, so no heat reaches the tip");
+  }
   return faults;
 }
 

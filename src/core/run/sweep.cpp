@@ -71,6 +71,12 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings) {
   return faults;
 }
 
+std::vector<ParameterError> find_point_count_fault(double points) {
+  constexpr double kMostPoints = 1e6;  // a choice: days, and a row of each waits in memory
+  if (points <= kMostPoints) return {};
+  return {ParameterError("points of the table", points, "must be at most 1e+06: give coarser or shorter ranges")};
+}
+
 std::vector<ParameterError> find_warnings(const SweepPoint& point, const Bath& bath) {
   std::vector<ParameterError> warnings;
   for (const ParameterError& warning : find_warnings(model_of(point), bath))

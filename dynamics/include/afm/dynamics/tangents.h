@@ -26,7 +26,7 @@ class Tangents {
   // [tau].
   bool start(double within);
 
-  // To the tip's next event, or to the limit.
+  // To the tip's next event, or to the limit. In contact at most 1 tau: Outcome::flying, which is no event.
   Outcome advance(const ModelTime& limit);
 
   const EventGrowth& growth() const { return growth_; }  // of the last advance
