@@ -117,13 +117,14 @@ def count_samples(paths):
 def read(paths, node):
     run = Run()
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
-    known, sources = {}, {}
+    known, sources, others = {}, {}, set()
     add = {'Configuration': run.begin_epoch, 'Deflection': lambda m: run.add_deflection(m, every),
            'ImpactArray': run.add_impacts, 'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
         with open_bag(path) as bag:
             for m in read_raw(bag, add):
                 if node not in (None, m.node):
+                    others.add(m.node)
                     continue
                 if sources.setdefault(m.kind, (m.node, m.topic)) != (m.node, m.topic):
                     raise ValueError('%s by %s and %s by %s: choose one emulator by --node' % (
@@ -138,7 +139,8 @@ def read(paths, node):
                 if is_new and (m.kind == 'Configuration' or run.configuration is not None):
                     add[m.kind](m.data if m.kind == 'ImpactArray' else m.of_type().deserialize(m.data))
     if run.configuration is None or not run.samples:
-        sys.exit('plot_run.py: %s: no run of the emulator in it' % ' '.join(paths))
+        named = '' if node is None else ' %s, but of %s' % (node, ' and '.join(sorted(others)) or 'no other')
+        sys.exit('plot_run.py: %s: no run of the emulator%s in it' % (' '.join(paths), named))
     return run
 
 

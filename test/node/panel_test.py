@@ -8,8 +8,10 @@ import sys
 import tempfile
 import time
 
+import rospy
+
 from emulator_under_test import SPEED_UNIT, Emulator, EmulatorTest, NodeTest, Process, find
-from topics import NAMESPACE, Topic, key, tau_between, wait_until
+from topics import NAMESPACE, TOPICS, Topic, key, tau_between, wait_until
 
 
 class Display:
@@ -252,6 +254,11 @@ class Coming(NodeTest):
         APPLICATION.processEvents()
         self.assertFalse(panel.is_ready())
         for _ in range(2):
+            master, uri = rospy.get_master(), rospy.get_node_uri()  # it forgets the panel, as a new one does not know it
+            for topic in ('drag_velocity', 'rest_height'):
+                master.unregisterPublisher('/afm/' + topic, uri)
+            for topic in TOPICS:
+                master.unregisterSubscriber('/afm/' + topic, uri)
             emulator = self.start(Emulator())
             until(panel.is_ready, 'it has found the emulator')
             until(lambda: not panel.part('banner').isVisible(), 'it says nothing any more')

@@ -2,6 +2,7 @@
 another test of the node."""
 import os
 import re
+import subprocess
 from pathlib import Path
 
 import roslaunch.config
@@ -89,6 +90,13 @@ class ShippedFiles(NodeTest):
                 if name not in asked:
                     self.assertEqual(params['/afm/' + name].value, value)
         self.assertEqual(params['/afm/drag_velocity'].value, 4.0e-6)
+
+    def test_a_misspelt_argument_of_scripts_run(self):
+        """roslaunch passes over it."""
+        done = subprocess.run([str(Path(__file__).resolve().parents[2] / 'scripts/run'), '--', 'scen:=paper'],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        self.assertEqual((done.returncode, done.stdout),
+                         (2, 'run: scen: launch/emulator.launch has no such argument\n'))
 
     def test_a_directory_may_be_named_by_a_number(self):
         """roslaunch takes it for one where it evaluates."""

@@ -44,8 +44,8 @@ class Link:
         self._heard = self._asked = -math.inf
         self._subscribers, self._jobs, self._wanted = [], queue.Queue(), {}
         self._lock, self._asking = threading.Lock(), threading.Lock()
-        self._commands = {topic: rospy.Publisher('%s/%s' % (name, topic), Float64, queue_size=10, tcp_nodelay=True)
-                          for topic in ('drag_velocity', 'rest_height')}
+        self._commands = {}
+        self._advertise()
         threading.Thread(target=self._work, daemon=True).start()
 
     # what comes
@@ -93,6 +93,12 @@ class Link:
                 impacts.append(waiting.popleft()[1:])
             yield batch, impacts
 
+    def _advertise(self):
+        for publisher in self._commands.values():
+            publisher.unregister()
+        self._commands = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10, tcp_nodelay=True)
+                          for topic in ('drag_velocity', 'rest_height')}
+
     def _subscribe(self):
         if not self._asking.acquire(blocking=False):
             return  # the master has not answered yet
@@ -105,6 +111,7 @@ class Link:
         with self._lock:
             for subscriber in self._subscribers:
                 subscriber.unregister()
+            self._advertise()  # a master that comes back does not know them either
             fast = {'tcp_nodelay': True, 'buff_size': 1 << 20}
             self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, keep, (topic, kind),
                                                   **fast)
