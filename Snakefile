@@ -118,7 +118,7 @@ rule table:
 
 rule picture:
     output: OUT + "/images/{name}.png"
-    input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)] or BUILT
+    input: lambda wildcards: [table(name) for name in names_read(PICTURES[wildcards.name], QUICK)] + BUILT
     wildcard_constraints: name=any_of(PICTURES)
     shell: "workflow/make.py {MODE} picture {wildcards.name} {OUT}/tables {OUT}/data {output}"
 

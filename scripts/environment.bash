@@ -4,10 +4,14 @@
 # without symbolic links: cmake must find the paths of the build before, whichever way it is called
 afm_root=$(CDPATH='' cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 scripts=$afm_root/scripts
-afm_build=$(realpath -m "${AFM_BUILD_DIR:-$afm_root/build}")
+if [[ -n ${AFM_BUILD_DIR:-} ]]; then
+  AFM_BUILD_DIR=$(realpath -m "$AFM_BUILD_DIR")
+  export AFM_BUILD_DIR
+fi
+afm_build=${AFM_BUILD_DIR:-$afm_root/build}
 # what is sourced: rosrun finds no executable below PACKAGE/build, and roslaunch finds files of an install space below
 # the package twice
-afm_devel=$(realpath -m "${AFM_BUILD_DIR:-$afm_root}")/devel
+afm_devel=${AFM_BUILD_DIR:-$afm_root}/devel
 
 # another python3 may be first on PATH (pyenv, conda); ROS's modules belong to the system's
 export PATH=/usr/bin:/bin:$PATH

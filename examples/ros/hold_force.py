@@ -11,12 +11,16 @@ from afm_emulator import Client
 from std_msgs.msg import Float64
 
 
+def number(name, usual):
+    return float(rospy.get_param(name, usual))  # of a text too, as 8e-12 is in YAML
+
+
 def main():
     ending.init_node('hold_force')
-    setpoint = float(rospy.get_param('~force', 60e-12))  # of a text too, as 8e-12 is in YAML
-    gain = rospy.get_param('~gain', 1.0)  # half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
-    lowest, highest = rospy.get_param('~lowest', -0.33e-9), rospy.get_param('~highest', -0.03e-9)
-    settle, window = rospy.get_param('~settle_s', 0.02), rospy.get_param('~window_s', 0.1)
+    setpoint = number('~force', 60e-12)
+    gain = number('~gain', 1.0)  # half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
+    lowest, highest = number('~lowest', -0.33e-9), number('~highest', -0.03e-9)
+    settle, window = number('~settle_s', 0.02), number('~window_s', 0.1)
     measured = rospy.Publisher('~measured_force', Float64, queue_size=10)
     commanded = rospy.Publisher('~commanded_height', Float64, queue_size=10)
     tip = Client(rospy.get_param('~emulator', 'afm'))

@@ -12,8 +12,9 @@ int main(int argc, char** argv) try {
   ros::init(argc, argv, "loop_delay");
   ros::NodeHandle own("~");
   const double commands = afm_emulator::number_parameter(own, "commands", 1000.0);
-  if (!(commands >= 1.0))
-    throw std::invalid_argument("commands = " + std::to_string(commands) + ": must be at least 1");
+  if (!(commands >= 1.0 && commands <= 1e9)) {
+    throw std::invalid_argument("commands = " + std::to_string(commands) + ": must be between 1 and 1e9");
+  }
   const auto count = static_cast<std::size_t>(commands);
   afm_emulator::Client tip(own.param<std::string>("emulator", "afm"));
   const double batch_rate = tip.configuration().batch_rate_hz;

@@ -63,6 +63,10 @@ def thread_count(value: Any) -> int:
     return count('threads', value, most=1024)
 
 
+def _is_a(value, kind):
+    return kind in {of.__name__ for of in type(value).__mro__}
+
+
 def _check(name, kind, value):
     """The value, a whole float as a whole number. kind: as pybind11 writes it, such as typing.SupportsFloat or
     afm._afm.Bath."""
@@ -72,22 +76,23 @@ def _check(name, kind, value):
     if name == 'threads':
         return thread_count(value)
     if last in ('int', 'SupportsInt', 'SupportsIndex'):
-        return count(name, value, most=2 ** 64 - 1)
+        return count(name, value, least=-2 ** 63 if name == 'i' else 0, most=2 ** 64 - 1)  # an index may be below 0
     if last == 'str' and not isinstance(value, str):
         raise ArgumentTypeError(name, value, 'must be a text')
     if last in ('dict', 'Dict') and not isinstance(value, dict):
         raise ArgumentTypeError(name, value, 'must be a dict')
-    if kind.startswith('afm.') and type(value).__name__ != last:
+    if kind.startswith('afm.') and not _is_a(value, last):
         raise ArgumentTypeError(name, value, 'must be a %s' % last)
     if last in ('List', 'list', 'Sequence') and not (isinstance(value, (list, tuple)) and
-                                                   {type(item).__name__ for item in value} <= {'Tip'}):
+                                                     all(_is_a(item, 'Tip') for item in value)):
         raise ArgumentTypeError(name, value, 'must be a list of tips')
     return value
 
 
 def explained(call: Callable, said: str) -> Callable:
     """The function or method, which says which argument is wrong. said: what it is called in errors."""
-    kinds = dict(re.findall(r'[,(] ?(\w+): ([\w.]+)', (call.__doc__ or '').split('->')[0]))
+    signature = (call.__doc__ or '').split('->')[0]
+    kinds = dict(re.findall(r'[,(] ?(\w+): ([\w.]+)', signature))
     has_self = kinds.pop('self', None) is not None
     has = '; it has %s' % ', '.join(kinds) if kinds else ''
 
@@ -98,11 +103,11 @@ def explained(call: Callable, said: str) -> Callable:
         except TypeError as fault:
             if 'incompatible' not in str(fault):
                 raise
-        for name in options:
+        for name in options if '**' not in signature else ():
             if name not in kinds:
                 raise TypeError('%s has no argument %s%s' % (said, name, has))
         taken = [_check(name, kind, value) for (name, kind), value in zip(kinds.items(), given[has_self:])]
-        options = {name: _check(name, kinds[name], value) for name, value in options.items()}
+        options = {name: _check(name, kinds.get(name, ''), value) for name, value in options.items()}
         try:
             return call(*given[:has_self], *taken, *given[has_self + len(taken):], **options)
         except TypeError as fault:

@@ -94,7 +94,7 @@ number, ensemble[i] a copy of the i-th Tip as it is now.)")
            "(n,).")
       .def("drag", &PyEnsemble::drag, "eta"_a, "A new drag velocity of all tips [a/tau] from now on.")
       .def("__len__", &PyEnsemble::size)
-      .def("__getitem__", &PyEnsemble::tip);
+      .def("__getitem__", &PyEnsemble::tip, "i"_a);
 }
 
 }  // namespace afm::python

@@ -303,7 +303,7 @@ class EmulatorNode {
     std::future<Answer> future = request.reply->get_future();
     if (!runner_.submit(request)) {
       if (request.cause[0] != '\0') refusals_.add(Refusal::overload, std::string("control: ") + kTooMany);
-      return kTooMany;
+      return "too many requests are waiting";
     }
     const auto begin = std::chrono::steady_clock::now();
     while (is_lockstep() && future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&

@@ -46,7 +46,7 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
   const Bath& bath = s.sweep.bath;
   if (s.model == ModelKind::hammer && bath.temperature > 0.0 && bath.is_on() && bath.quality_factor == 0.0) {
     faults.emplace_back("temperature", bath.temperature,
-                        "needs a quality-factor above 0: the hammer has no lateral spring, so no heat reaches the tip");
+                        "needs a quality factor above 0: the hammer has no lateral spring, so no heat reaches the tip");
   }
   return faults;
 }

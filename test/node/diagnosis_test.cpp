@@ -44,7 +44,7 @@ TEST(DiagnoseCommands, TellsRefusalsAndSilence) {
   expect(diagnose_commands, health, kOk, "");
   health.timed_out = true;
   health.command_timeout_s = 0.5;
-  expect(diagnose_commands, health, kWarn, "no command for 0.5 s (command_timeout_s)");
+  expect(diagnose_commands, health, kWarn, "no drag velocity for 0.5 s (command_timeout_s)");
   health.refusal = "drag_velocity = nan m/s: must be finite";
   expect(diagnose_commands, health, kWarn, health.refusal);
   health.overload = true;

@@ -37,7 +37,7 @@ class Diagnostics(NodeTest):
         self.assertTrue(pace['scheduler'].startswith(('fifo', 'normal')))
         self.expect('numerics', OK)
         self.expect('recording', OK, 'not recording')
-        self.expect('commands', WARN, 'no command for 2 s')
+        self.expect('commands', WARN, 'no drag velocity for 2 s')
         self.emulator.drag(SPEED_UNIT)
         self.expect('commands', OK)
         self.emulator.drag(math.nan)

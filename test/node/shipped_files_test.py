@@ -104,8 +104,8 @@ class ShippedFiles(NodeTest):
         for file in ('emulator', 'test_fixture'):
             params = self.loaded(SHARE / 'launch' / (file + '.launch'), 'bag_directory:=007', 'record:=true').params
             self.assertEqual(params['/afm/bag_directory'].value, os.getcwd() + '/007', file)
-        nodes = self.loaded(SHARE / 'launch/replay.launch', 'bag:=20240105').nodes
-        self.assertIn("'%s/20240105'" % os.getcwd(), nodes[0].args)
+        nodes = self.loaded(SHARE / 'launch/replay.launch', 'bag:=007').nodes
+        self.assertIn("'%s/007'" % os.getcwd(), nodes[0].args)
 
     def test_a_load_of_nothing_is_a_load(self):
         """As a parameter, 0 leaves the height to the scene: once a loop over loads had the scene's height first."""

@@ -54,7 +54,7 @@ class Topic:
         return wait_until(looked_after, self.name + ': ' + what, deadline_s)
 
     def connections(self):
-        return self._subscription.subscriber.impl.connections
+        return self._subscription.connections()
 
     def wait_for_connection(self):
         """rospy counts a connection before it is made; the publisher's header says that it is."""

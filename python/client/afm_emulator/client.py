@@ -214,7 +214,7 @@ class Client:
             raise
 
     def _subscribe(self):
-        """Anew for every connection: what is then told at once is of the emulator that is there now."""
+        """Anew for every connection: the latched messages are then those of the emulator that runs now."""
         for subscriber in self._subscribers:
             subscriber.unregister()
         self._heard, self._reported = set(), (0, 0)

@@ -108,7 +108,9 @@ class Follower:
 
 def configuration_of(emulator, timeout_s):
     """The emulator's Configuration, once it is there."""
-    _, messages = Follower(emulator + '/configuration', Configuration).wait_for(bool, timeout_s)
+    follower = Follower(emulator + '/configuration', Configuration)
+    _, messages = follower.wait_for(bool, timeout_s)
+    follower.subscription.subscriber.unregister()
     if not messages:
         raise AssertionError('%s/configuration: %s nothing had come: no emulator there?' %
                              (emulator, how_long(timeout_s)))

@@ -1,4 +1,6 @@
 """A subscriber that finds its publisher."""
+import math
+import threading
 import time
 
 import rospy
@@ -15,6 +17,14 @@ class Subscription:
         self.subscriber, self._asked = self._subscribe(), time.monotonic()
 
     def ask_again(self):
-        if self.subscriber.get_num_connections() == 0 and time.monotonic() > self._asked + ASK_AGAIN_S:
-            self.subscriber.unregister()
-            self.subscriber, self._asked = self._subscribe(), time.monotonic()
+        if time.monotonic() > self._asked + ASK_AGAIN_S and self.subscriber.get_num_connections() == 0:
+            self._asked = math.inf
+            threading.Thread(target=self._ask, daemon=True).start()  # a master that is gone lets one wait
+
+    def _ask(self):
+        self.subscriber.unregister()
+        self.subscriber = self._subscribe()
+        self._asked = time.monotonic()
+
+    def connections(self):
+        return self.subscriber.impl.connections if self.subscriber.impl else []

@@ -105,12 +105,12 @@ void diagnose_commands(const Health& health, Diagnosis& out) {
     out.mergeSummary(health.overload ? Severity::ERROR : Severity::WARN, "refused: " + health.refusal);
   }
   if (health.timed_out) {
-    out.mergeSummaryf(Severity::WARN, "the drag was stopped: no command for %g s (command_timeout_s)",
+    out.mergeSummaryf(Severity::WARN, "the drag was stopped: no drag velocity for %g s (command_timeout_s)",
                       health.command_timeout_s);
   }
   out.add("refused commands", health.status.refused_commands);
   out.add("refused changes of parameters", health.refused_changes);
-  out.add("drag stopped as no command came", health.timed_out);
+  out.add("drag stopped as no drag velocity came", health.timed_out);
 }
 
 void diagnose_numerics(const Health& health, Diagnosis& out) {

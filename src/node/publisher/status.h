@@ -55,7 +55,7 @@ struct Health {
   afm_emulator::EmulatorStatus status;
   double late_share = 0.0;    // of the batches since the last check
   bool budget_spent = false;  // recently
-  bool timed_out = false;     // the drag was stopped as no command came
+  bool timed_out = false;     // the drag was stopped as no drag velocity came
   double command_timeout_s = 0.0;
   std::string refusal;    // the latest, if recent
   bool overload = false;  // it was refused as too many were waiting

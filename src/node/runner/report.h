@@ -76,7 +76,7 @@ struct RunnerState {
   std::uint64_t batches = 0, late_batches = 0;
   Counters counters;
   bool paused = false;
-  bool timed_out = false;  // the drag was stopped as no command came
+  bool timed_out = false;  // the drag was stopped as no drag velocity came
 };
 
 // The settings in force since the last report of kind `applied`.

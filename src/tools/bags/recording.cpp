@@ -308,8 +308,8 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   missing.at_end = have_one_start(own->second, all->second)
                        ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
                        : view(last_of, mine->getEndTime() + tick)->size();
-  if (const auto told = ends_of(topic<afm_emulator::Friction>())) {  // some of these another topic may hold
-    const std::uint32_t held_before = told->first.seq - all->first.seq, held_after = all->second.seq - told->second.seq;
+  if (const auto held = ends_of(topic<afm_emulator::Friction>())) {  // another topic may hold some of these
+    const std::uint32_t held_before = held->first.seq - all->first.seq, held_after = all->second.seq - held->second.seq;
     missing.at_beginning += std::max<std::uint64_t>(batches_proved_at_beginning(), held_before) - held_before;
     missing.at_end += std::max<std::uint64_t>(batches_proved_at_end(), held_after) - held_after;
   }

@@ -76,7 +76,10 @@ class Link:
 
     def takes_commands(self):
         """Else it is a recording that is played."""
-        return self._commands['drag_velocity'].get_num_connections() > 0
+        try:
+            return self._commands['drag_velocity'].get_num_connections() > 0
+        except AttributeError:  # it is just advertised anew
+            return False
 
     def batches(self):
         """(Deflection message, its impacts as (epoch, table)) of every batch since the last call; without impacts if
@@ -94,10 +97,14 @@ class Link:
             yield batch, impacts
 
     def _advertise(self):
-        for publisher in self._commands.values():
-            publisher.unregister()
-        self._commands = {topic: rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10, tcp_nodelay=True)
-                          for topic in ('drag_velocity', 'rest_height')}
+        """Anew while nobody is connected: a master that comes back knows no publisher."""
+        for topic in ('drag_velocity', 'rest_height'):
+            former = self._commands.get(topic)
+            if former is None or former.get_num_connections() == 0:
+                if former is not None:
+                    former.unregister()
+                self._commands[topic] = rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
+                                                        tcp_nodelay=True)
 
     def _subscribe(self):
         if not self._asking.acquire(blocking=False):
@@ -111,7 +118,7 @@ class Link:
         with self._lock:
             for subscriber in self._subscribers:
                 subscriber.unregister()
-            self._advertise()  # a master that comes back does not know them either
+            self._advertise()
             fast = {'tcp_nodelay': True, 'buff_size': 1 << 20}
             self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, keep, (topic, kind),
                                                   **fast)
@@ -147,7 +154,8 @@ class Link:
     # what goes
 
     def command(self, topic, value):
-        self._commands[topic].publish(value)
+        with contextlib.suppress(rospy.ROSException, AttributeError):  # it is just advertised anew
+            self._commands[topic].publish(value)
 
     def set_parameter(self, name, value):
         """A slider may ask for more than is done: the last value of each counts."""
