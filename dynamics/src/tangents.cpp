@@ -43,8 +43,8 @@ bool Tangents::start(double within) {
 }
 
 Outcome Tangents::advance(const ModelTime& limit) {
-  constexpr double kLongestSlide =
-      1.0;  // [tau] a choice: displacements grow by some factors of e in it, and stay apart
+  // [tau] a choice: displacements grow by some factors of e in it, and stay apart
+  constexpr double kLongestSlide = 1.0;
   growth_ = {};
   const ModelTime cut = tip_.now() + kLongestSlide;
   const bool is_cut = tip_.in_contact() && cut < limit;

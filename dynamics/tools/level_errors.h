@@ -30,11 +30,11 @@ struct MeasuredLevel {
 };
 
 // Finest first. Every bounce is the reference where it keeps time, and takes no more events a tau than are allowed;
-// elsewhere it is missing, and the finest chatter sequences are, which are given the error of the next coarser ones. Levels
-// coarser than the full model that cost more than 1.2 times as much as it are missing too. Where several attractors
-// coexist a level is held against the nearest one that the reference comes to. Errors of K_f include two standard
-// errors, those of the deflection what two samples of one attractor differ by; both are 0 where the level does to the
-// bit what the reference does.
+// elsewhere it is missing, and the finest chatter sequences are, which are given the error of the next coarser ones.
+// Levels coarser than the full model that cost more than 1.2 times as much as it are missing too. Where several
+// attractors coexist a level is held against the nearest one that the reference comes to. Errors of K_f include two
+// standard errors, those of the deflection what two samples of one attractor differ by; both are 0 where the level does
+// to the bit what the reference does.
 std::vector<MeasuredLevel> measure_levels(const Model& model, double eta, const LevelErrorSettings& settings);
 
 // Processor time of a tau [ns] of each tip: the median of intervals that the tips fly by turns, so that what else the

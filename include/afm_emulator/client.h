@@ -46,8 +46,8 @@ inline std_msgs::Float64 to_message(double value) {
   return message;
 }
 
-// A parameter of a node. Throws EmulatorError if it is no number: roscpp alone would take the default in place of a text,
-// such as 8e-12 in YAML.
+// A parameter of a node. Throws EmulatorError if it is no number: roscpp alone would take the default in place of a
+// text, such as 8e-12 in YAML.
 inline double number_parameter(const ros::NodeHandle& node, const std::string& name, double usual) {
   double value = usual;
   XmlRpc::XmlRpcValue given;

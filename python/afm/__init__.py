@@ -39,4 +39,4 @@ explain(Bath, Ensemble, Model, Run, Tip, Units)
 kicks_lock, suitable_kicks = explained(kicks_lock, 'kicks_lock'), explained(suitable_kicks, 'suitable_kicks')
 for _function in (kicks_lock, suitable_kicks):  # so that they can be pickled
     _function.__module__, _function.__qualname__ = 'afm', _function.__name__
-del explain, explained
+del explain, explained, _function

@@ -114,7 +114,8 @@ class Errors(unittest.TestCase):
                            ('sweep', lambda: afm.friction_curve(2, sweep=None)),
                            ('threads', lambda: afm.friction_curve(2, threads=2**40)),
                            ('threads', lambda: afm.Ensemble([tip], threads=2**40)),
-                           ('model', lambda: afm.kicks_lock(1, 2)), ('bath', lambda: afm.suitable_kicks(afm.Model(), None)),
+                           ('model', lambda: afm.kicks_lock(1, 2)),
+                           ('bath', lambda: afm.suitable_kicks(afm.Model(), None)),
                            ('snapshot', lambda: afm.Run.from_snapshot(5)),
                            ('seed', lambda: afm.friction_curve(2, seed=2**64)), ('seed', lambda: afm.Bath(seed=2**64)),
                            ('states', lambda: afm.next_impact([1, 2])), ('bath', lambda: run.apply(bath=3)),
@@ -130,8 +131,8 @@ class Errors(unittest.TestCase):
                 self.assertIsInstance(caught.exception, (TypeError, afm.ParameterError))
         self.assertRaisesRegex(TypeError, 'Model has no argument colour', afm.Model, colour=1)
         for call in (afm.Ensemble, afm.Run.from_snapshot, tip.advance, lambda: run.apply(1)):
-            self.assertRaisesRegex(TypeError, r'^[A-Z][\w.]+ lacks an argument, or has one too many(; it has [\w, ]+)?$',
-                                   call)
+            self.assertRaisesRegex(
+                TypeError, r'^[A-Z][\w.]+ lacks an argument, or has one too many(; it has [\w, ]+)?$', call)
         self.refused('eta', math.inf, afm.Tip, eta=10 ** 400)
 
     def test_an_entry_of_a_snapshot_of_a_wrong_type(self):

@@ -254,7 +254,7 @@ class Coming(NodeTest):
         APPLICATION.processEvents()
         self.assertFalse(panel.is_ready())
         for _ in range(2):
-            master, uri = rospy.get_master(), rospy.get_node_uri()  # it forgets the panel, as a new one does not know it
+            master, uri = rospy.get_master(), rospy.get_node_uri()  # it forgets the panel, as a new one would
             for topic in ('drag_velocity', 'rest_height'):
                 master.unregisterPublisher('/afm/' + topic, uri)
             for topic in TOPICS:

@@ -61,7 +61,7 @@ class Topic:
         self._wait_until(lambda: any(c.header for c in self.connections()), 'connected')
 
     def close(self):
-        self._subscription.subscriber.unregister()
+        self._subscription.close()
         Topic._open.remove(self)
 
     @staticmethod

@@ -110,7 +110,7 @@ def configuration_of(emulator, timeout_s):
     """The emulator's Configuration, once it is there."""
     follower = Follower(emulator + '/configuration', Configuration)
     _, messages = follower.wait_for(bool, timeout_s)
-    follower.subscription.subscriber.unregister()
+    follower.subscription.close()
     if not messages:
         raise AssertionError('%s/configuration: %s nothing had come: no emulator there?' %
                              (emulator, how_long(timeout_s)))

@@ -26,5 +26,9 @@ class Subscription:
         self.subscriber = self._subscribe()
         self._asked = time.monotonic()
 
+    def close(self):
+        self._asked = math.inf  # it is not made again
+        self.subscriber.unregister()
+
     def connections(self):
         return self.subscriber.impl.connections if self.subscriber.impl else []

@@ -199,8 +199,8 @@ class ChatterIntegration {
   static double whole_after(const Point& at) { return std::floor(value(at.y.n)) + 1.0; }
 
   // The last whole n of a step before the adiabaticity ratio reaches its limit, or the first whole n of the step. Near
-  // the zero of the reaction the ratio grows like (t_end - t)^(-5/3) (docs/algorithm.md, "Exit"), so its inverse root is
-  // nearly linear in time.
+  // the zero of the reaction the ratio grows like (t_end - t)^(-5/3) (docs/algorithm.md, "Exit"), so its inverse root
+  // is nearly linear in time.
   double last_whole(const Point& from, double first, Point to, double dt) const {
     constexpr int kMaxTries = 4;  // one is enough, except where P passes its maximum
     for (int i = 0; i < kMaxTries; ++i) {

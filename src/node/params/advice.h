@@ -11,8 +11,8 @@ namespace afm::node {
 // The tip in the terms of its owner.
 std::string describe_tip(const Parameters& parameters);
 
-// Warnings of what the owner may not expect: kicks that lock or are too few, heat without damping, samples at few phases
-// of tau, a tolerance without model auto, and in lockstep a time-out of commands or a split recording.
+// Warnings of what the owner may not expect: kicks that lock or are too few, heat without damping, samples at few
+// phases of tau, a tolerance without model auto, and in lockstep a time-out of commands or a split recording.
 std::vector<std::string> find_warnings(const Parameters& parameters);
 
 // The run that a trial goes on with. Undamped, a tip that has slipped swings for good, and a slow drag may take seconds

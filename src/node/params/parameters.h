@@ -21,8 +21,8 @@ constexpr double kMaxSampleRate = 1e6;       // [1/s] a choice: 25 samples a tur
 constexpr double kMaxWallSampleRate = 1e7;   // [1/s]: at time scales above 1, what subscribers can take
 constexpr double kMaxSamplesPerBatch = 1e6;  // 16 MB a message
 
-// The live parameters, and the constants of the model that stand in the same structs. Plain values, which travel through
-// lock-free queues.
+// The live parameters, and the constants of the model that stand in the same structs. Plain values, which travel
+// through lock-free queues.
 struct Live {
   SiModel si;
   SiBath bath;

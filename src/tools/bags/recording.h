@@ -40,7 +40,8 @@ struct Number {
 inline bool operator<(const Number& a, const Number& b) { return std::tie(a.start, a.seq) < std::tie(b.start, b.seq); }
 inline bool operator==(const Number& a, const Number& b) { return a.start == b.start && a.seq == b.seq; }
 
-// When the node was started. On wall time a stamp shows after which start a message was made, even if others are missing.
+// When the node was started. On wall time a stamp shows after which start a message was made, even if others are
+// missing.
 class Starts {
  public:
   // A start was after the stamp `behind`, and not after the stamp `latest`.
