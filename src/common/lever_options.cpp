@@ -154,6 +154,9 @@ LeverScene::LeverScene(const CommandLine& app, const LeverOptions& o) {
   if (!o.surface.empty()) check("surface", o.surface, fault_of([&] { read_surface(o.surface, si); }));
   std::vector<ParameterError> faults = set_lever_and_load(lever, o.load_n, si);
   if (faults.empty()) faults = find_faults(si);
+  for (ParameterError& fault : faults) {
+    if (fault.name == "load_n") fault = ParameterError("load", fault.value, fault.reason);
+  }
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
 }
 

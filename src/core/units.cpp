@@ -66,6 +66,16 @@ std::vector<ParameterError> set_lever_and_load(const Lever& lever, double load_n
   const auto forbid = [&](const char* name, double value, double usual_value, const std::string& instead) {
     if (value != usual_value) faults.emplace_back(name, value, "is given beside " + instead + ": give one of them");
   };
+  // a model that follows from what was given under another name: a fault of it is named as it was given
+  const auto take = [&](const SiModel& changed, const char* follows, const char* given, double value) {
+    bool fits = true;
+    for (const ParameterError& fault : find_faults(changed)) {
+      if (fault.name != follows) continue;
+      fits = false;
+      faults.emplace_back(given, value, "makes " + fault.name + " = " + number_text(fault.value) + ": " + fault.reason);
+    }
+    if (fits) si = changed;
+  };
   if (lever.is_given()) {
     const char* const constants = "the spring constants and the resonance of a lever";
     forbid("omega_v_rad_per_s", si.omega_v_rad_per_s, usual.omega_v_rad_per_s, constants);
@@ -73,23 +83,21 @@ std::vector<ParameterError> set_lever_and_load(const Lever& lever, double load_n
     forbid("tip_mass_kg", si.tip_mass_kg, usual.tip_mass_kg, constants);
     const std::vector<ParameterError> wrong = find_faults(lever);
     faults.insert(faults.end(), wrong.begin(), wrong.end());
-    if (wrong.empty()) set_lever(lever, si);
+    if (wrong.empty()) {
+      SiModel with_lever = si;
+      set_lever(lever, with_lever);
+      take(with_lever, "omega_h_rad_per_s", "lateral_spring_constant_n_per_m", lever.lateral_spring_constant_n_per_m);
+    }
   }
   if (load_n == 0.0) return faults;
   forbid("rest_height_m", si.rest_height_m, usual.rest_height_m, "load_n");
   if (!std::isfinite(load_n)) {
     faults.emplace_back("load_n", load_n, "must be finite");
-    return faults;
   }
+  if (!faults.empty()) return faults;  // the load of another lever would be judged
   SiModel loaded = si;
   loaded.rest_height_m = -load_n / spring_constant(si);
-  bool fits = true;
-  for (const ParameterError& fault : find_faults(loaded)) {
-    if (fault.name != "rest_height_m") continue;
-    fits = false;
-    faults.emplace_back("load_n", load_n, "makes rest_height_m = " + number_text(fault.value) + ": " + fault.reason);
-  }
-  if (fits) si = loaded;
+  take(loaded, "rest_height_m", "load_n", load_n);
   return faults;
 }
 

@@ -119,6 +119,16 @@ TEST(Units, ALoadOutOfRangeIsNamedByWhoeverGaveIt) {
   EXPECT_DOUBLE_EQ(spring_constant(si) * si.rest_height_m, -1e-9);
 }
 
+TEST(Units, AFaultOfALeversFrequencyNamesTheSpringThatWasGiven) {
+  SiModel si;
+  const double stiff = 1e11;  // N/m: 2e6 times the vertical frequency
+  const std::vector<ParameterError> faults = set_lever_and_load({0.2, 13e3, stiff}, 50e-9, si);
+  ASSERT_EQ(faults.size(), 1u);  // and none of the load, which another lever would bear
+  EXPECT_EQ(faults[0].name, "lateral_spring_constant_n_per_m");
+  EXPECT_EQ(faults[0].value, stiff);
+  EXPECT_TRUE(find_faults(si).empty());
+}
+
 TEST(Units, AFaultOfABathShowsKelvin) {
   const std::vector<ParameterError> faults = find_faults(SiBath{-1.0, 0.01}, Units(SiModel{}));
   EXPECT_EQ(names(faults), (std::multiset<std::string>{"temperature_k", "quality_factor"}));

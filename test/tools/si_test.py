@@ -258,9 +258,9 @@ class Refused(unittest.TestCase):
                 self.refuse(scale + ': is that of --lever', 'friction_curve', '--si', *scene, '--' + scale, 1e-10)
         self.refuse('rest-height: is given beside --load', 'real_time', '--load', 1e-9, '--rest-height', 0)
         self.refuse('rest-height: is given beside --load', 'real_time', '--load', 0, '--rest-height', -0.5)
-        self.refuse('load_n = nan: must be finite', 'real_time', '--load', 'nan')
-        self.refuse('load_n = 1: ', 'real_time', '--load', 1)
-        self.refuse('load_n = -1: ', 'friction_curve', '--si', '--load', -1)
+        self.refuse('load = nan: must be finite', 'real_time', '--load', 'nan')
+        self.refuse('load = 1: ', 'real_time', '--load', 1)
+        self.refuse('load = -1: ', 'friction_curve', '--si', '--load', -1)
         self.refuse('ppp_cont', 'real_time', '--lever', 'nosuch')
         self.refuse('mica', 'real_time', '--surface', 'nosuch')
 
