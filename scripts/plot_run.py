@@ -140,7 +140,8 @@ def read(paths, node):
                     add[m.kind](m.data if m.kind == 'ImpactArray' else m.of_type().deserialize(m.data))
     if run.configuration is None or not run.samples:
         named = '' if node is None else ' %s, but of %s' % (node, ' and '.join(sorted(others)) or 'no other')
-        sys.exit('plot_run.py: %s: no run of the emulator%s in it' % (' '.join(paths), named))
+        sys.exit('plot_run.py: %s: no run of the emulator%s in it: it holds no message of %s' %
+                 (' '.join(paths), named, 'Deflection' if run.configuration else 'Configuration'))
     return run
 
 

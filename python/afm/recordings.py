@@ -2,9 +2,10 @@
 import bisect
 import contextlib
 import os
+import struct
 import warnings
 from collections import defaultdict
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -16,13 +17,43 @@ _SI_MODEL = ('omega_v_rad_per_s', 'omega_h_rad_per_s', 'tip_mass_kg', 'lattice_s
              'rest_height_m', 'restitution_gamma', 'cutoff_speed')
 _BATH = ('temperature_k', 'quality_factor', 'lateral_quality_factor', 'kicks_per_tau')
 _KINDS = ('Applied', 'Configuration', 'Deflection', 'EmulatorStatus', 'Friction', 'ImpactArray', 'Snapshot')
+_DIGESTED = ('Deflection', 'ImpactArray')
+_DEFLECTION = struct.Struct('<I16xQ32xI')  # epoch, index of the first, number of samples
+_IMPACTS = struct.Struct('<IQI')
+_LOSS = np.dtype({'names': ['energy_loss'], 'formats': ['<f8'], 'offsets': [40], 'itemsize': 53})  # of an Impact
 _JUST_AFTER = 1e-15  # [tau] so little behind a time all its impacts are taken, and none is waited for that never comes
 _MOST_WAITING = 100  # batches in the queues of the topics when a recorder is stopped
 Paths = Union[str, 'os.PathLike[str]', Sequence[Union[str, 'os.PathLike[str]']]]
 
 
+class _Digest(NamedTuple):
+    """Of the samples or of the losses of a batch, which a long recording has too many of."""
+
+    epoch: int
+    first: int
+    count: int
+    values: int
+
+
+def _digest_of(kind: str, data: bytes) -> _Digest:
+    """From the bytes of a message of Deflection or ImpactArray."""
+    at = 16 + int.from_bytes(data[12:16], 'little')  # the header ends in a text
+    layout = _DEFLECTION if kind == 'Deflection' else _IMPACTS
+    epoch, first, count = layout.unpack_from(data, at)
+    at += layout.size
+    if kind == 'Deflection':  # a number stands before the second list too
+        lists = [np.frombuffer(data, '<f8', count, at + i * (4 + 8 * count)) for i in range(2)]
+    else:
+        lists = [np.frombuffer(data, _LOSS, count, at)['energy_loss']]
+    return _Digest(epoch, first, count, _hash(lists))
+
+
+def _hash(lists: Sequence[Any]) -> int:
+    return hash(tuple(values.tobytes() for values in lists))
+
+
 def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
-    """Topic, name of the node, type, bytes, message (of samples and impacts None), and stamp in the bag."""
+    """Topic, name of the node, type, bytes, message (of samples and impacts a digest), and stamp in the bag."""
     try:
         import rosbag
     except ImportError as fault:
@@ -42,7 +73,7 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
                     connection_filter=lambda _, datatype, *__: datatype in kinds):
                 node = header.get('callerid', named.get(topic.rpartition('/')[0], b''))
                 kind = raw[0].split('/')[1]
-                message = None if kind in ('Deflection', 'ImpactArray') else raw[4]().deserialize(raw[1])
+                message = _digest_of(kind, raw[1]) if kind in _DIGESTED else raw[4]().deserialize(raw[1])
                 yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message, stamp
     except rosbag.bag.ROSBagUnindexedException as fault:
         raise ValueError('%s: not closed: rosbag reindex recovers what is in it (take a copy while it is written)' %
@@ -122,7 +153,7 @@ class Recording:
             if not read[kind]:
                 raise ValueError('the bag holds no message of %s: %s is not known' % (kind, why))
         last = max(read['Friction'])
-        for kind in ('Deflection', 'ImpactArray'):  # where the node is killed, a bag ends within a batch
+        for kind in _DIGESTED:  # where the node is killed, a bag ends within a batch
             if max(read[kind], default=0) > last + (1 if by_node else _MOST_WAITING):
                 raise ValueError('messages of Friction are missing at the end')
             if max(read[kind], default=0) > last:
@@ -166,9 +197,15 @@ class Recording:
         self._applied = [m for m in read['Applied'].values() if m.epoch == self.epoch
                          and m.number > start.applied.number]
         numbers = [start.applied.number] + [m.number for m in self._applied]
-        if numbers != list(range(numbers[0], max(numbers[-1], self._snapshots[-1].applied.number) + 1)):
+        follow = all(after == before + 1 for before, after in zip(numbers, numbers[1:]))
+        if not follow or numbers[-1] < self._snapshots[-1].applied.number:
             raise ValueError('messages of Applied are missing: a command is not known')
         self._check_batches(frictions)
+        self._digests = {kind: {seq: m for seq, m in read[kind].items()
+                                if m.epoch == self.epoch and frictions[0].header.seq <= seq <= last}
+                         for kind in _DIGESTED}
+        if any(seq > self._last.header.seq for digests in self._digests.values() for seq in digests):
+            raise ValueError('messages of Friction are missing at the end of epoch %d' % self.epoch)
         self.commands = np.array([(m.time.tau, m.time.phase, m.drag_velocity / self.units.velocity, m.drag_velocity)
                                   for m in [start.applied] + self._applied],
                                  [('tau', 'i8'), ('phase', 'f8'), ('eta', 'f8'), ('drag_velocity', 'f8')])
@@ -270,13 +307,27 @@ class Recording:
         for name, unit in (('energy_loss', self.units.energy), ('impact_count', 1), ('window_force', self.units.force),
                            ('mean_normal_force', self.units.force)):
             if not np.array_equal(parts[-1].friction[name] * unit, getattr(self._last, name), equal_nan=True):
-                raise ValueError('the run does not end as recorded, by its %s: messages of Applied or Snapshot are '
-                                 'missing at its end, or the bag is damaged' % name)
+                self._refuse('the %s at its end' % name)
         joined = {name: np.concatenate([getattr(part, name) for part in parts])
                   for name in ('vertical', 'lateral', 'impacts')}
-        return parts[-1]._replace(begin=parts[0].begin, first_sample=parts[0].first_sample,
-                                  first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact,
-                                  **joined)
+        run = parts[-1]._replace(begin=parts[0].begin, first_sample=parts[0].first_sample,
+                                 first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact,
+                                 **joined)
+        self._compare('Deflection', run.first_sample, [run.vertical, run.lateral], self.units.length)
+        self._compare('ImpactArray', run.first_impact, [run.impacts['energy_loss']], self.units.energy)
+        return run
+
+    def _compare(self, kind: str, first: int, simulated: List[Any], unit: float) -> None:
+        """Batch by batch, with what the bag holds."""
+        for seq, m in self._digests[kind].items():
+            begin, end = m.first - first, m.first - first + m.count
+            if not 0 <= begin <= end <= len(simulated[0]) or m.values != _hash([v[begin:end] * unit for v in simulated]):
+                self._refuse('message %d of %s' % (seq, kind))
+
+    @staticmethod
+    def _refuse(by: str) -> None:
+        raise ValueError('the run is not as recorded, by %s: messages of Applied or Snapshot are missing, or the bag is '
+                         'damaged' % by)
 
 
 def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:

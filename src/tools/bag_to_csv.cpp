@@ -41,7 +41,7 @@ const char kDescription[] =
     "  commands    a row for everything that took effect: all that is in force from there on\n"
     "Lost messages show as gaps in the running index.\n"
     "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag\n"
-    "cannot be read: stderr says what, and what there is is written.";
+    "cannot be read: stderr says what, and all is written up to what cannot be read.";
 
 constexpr int kIncomplete = 3;
 

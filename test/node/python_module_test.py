@@ -145,7 +145,7 @@ class PythonModule(NodeTest):
         unnamed = self.filtered(paths[0], lambda *_: True)
         self.assertEqual(afm.from_bag(paths + [unnamed], namespace='').eta, afm.from_bag(unnamed).eta)
         undone = self.filtered(paths[1], lambda topic, m: topic != 'applied' or m.number < 2)
-        self.assertRaisesRegex(ValueError, 'does not end as recorded', afm.from_bag(undone).simulate)
+        self.assertRaisesRegex(ValueError, 'is not as recorded, by', afm.from_bag(undone).simulate)
 
     def check_what_is_missing(self, path):
         """The whole run, or an error that names what it would take."""
@@ -176,9 +176,13 @@ class PythonModule(NodeTest):
                              (altered('snapshot', configuration__version='0.0.1'), 'made by version 0.0.1'),
                              (altered('snapshot', configuration__arithmetic_digest='0' * 16), '0' * 16),
                              (altered('friction', last, time__tau=10 ** 9), 'batch %d does not' % last),
+                             (altered('applied', 2, number=2 ** 64 - 1), 'Applied'),
+                             (altered('friction', last, epoch=7), 'Friction are missing at the end of epoch 0'),
                              (altered('friction', last, impact_limit=10 ** 12), 'batch %d does not' % last)):
             with self.subTest(words=words):
                 self.assertRaisesRegex(ValueError, words, afm.from_bag, self.filtered(path, keeps))
+        longer = self.filtered(path, altered('applied', 2, sample_period_tau=0.15))
+        self.assertRaisesRegex(ValueError, 'by message [0-9]+ of Deflection', afm.from_bag(longer).simulate)
         spoiled = self.directory / 'spoiled.bag'
         spoiled.write_bytes(Path(path).read_bytes().replace(b'ModelTime time', b'ModelTime tim='))
         self.assertEqual(afm.from_bag(spoiled).end, afm.from_bag(path).end)

@@ -112,6 +112,14 @@ class SpoiledBags(SpoiledBag):
             words = '3 messages of /afm/%s, the first after' % topic, 'what was compared is identical'
             self.spoil_each((UNCHECKED, words, False, lambda: self.remove(*self.of(topic)[80:83])))
 
+    def test_a_hole_may_hide_a_snapshot(self):
+        """At which the motion was split: a difference behind it may be that in the last digits."""
+        def lose_batches_before_a_difference():
+            self.of('deflection')[90].flip_last_bit(-8)
+            self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[80:83]))
+        self.spoil_each((UNCHECKED, ('3 messages of /afm/friction', 'what was compared is identical'), False,
+                         lose_batches_before_a_difference))
+
     def test_messages_are_lost_at_the_ends(self):
         for topic in ('deflection', 'impacts', 'friction'):
             words = 'missing: 3 messages of /afm/%s at the beginning' % topic, 'what was compared is identical'
@@ -163,6 +171,12 @@ class SpoiledBags(SpoiledBag):
         self.spoil_each((SOUND, ('IDENTICAL',), None, lambda: start_again(0)),  # said again
                         (UNCHECKED, words, None, lambda: start_again(0, force=1.0)),
                         (UNCHECKED, words, None, lambda: start_again(60)))
+
+    def test_the_wall_clock_is_set_back(self):
+        """To before the start of the node: what is latched has later stamps than all that follows."""
+        for entry in self.entries[:2]:
+            entry.edit(header__stamp=entry.message().header.stamp + genpy.Duration(3600))
+        self.assert_reported(SOUND, 'IDENTICAL', sound=True)
 
     def test_two_starts(self):
         """On wall time each message is of one of them, whatever is lost."""
@@ -302,19 +316,21 @@ class SpoiledBags(SpoiledBag):
         for part, other in zip((parts[0], parts[2]), others):
             other.write_bytes(part.read_bytes())
         self.assertEqual(checks.bag_check(*others).code, SOUND)
+        answer = checks.replay_check(parts[0], '%s/./%s' % (self.directory, parts[2].name))  # another spelling
+        self.assertEqual(answer.code, UNCHECKED, answer.text)
         named = parts[2].rename(parts[2].with_name('run_002.bag.active'))  # as one that was killed and indexed again
-        answer = checks.bag_check(parts[0], named)
+        answer = checks.bag_check(parts[0], '%s/./%s' % (self.directory, named.name))
         self.assertEqual(answer.code, DIFFERS, answer.text)
         self.assertIn('%s does not go on where run.bag ends: 20 batches between them are missing' % named.name,
                       answer.text)
 
     def test_latched_messages_come_again(self):
-        """The parts of a split recording merged, or played and recorded again."""
-        middle = self.entries.index(self.of('friction')[39]) + 1
-        again = [copy.copy(entry) for entry in self.entries[:3]]
-        for entry in again:
-            entry.stamp = self.entries[middle].stamp
-        self.entries[middle:middle] = again
+        """The parts of a split recording merged, or played and recorded again, or rosbag record repeats the first."""
+        for at in self.entries.index(self.of('friction')[39]) + 1, len(self.entries) - 1:
+            again = [copy.copy(entry) for entry in self.entries[:3]]
+            for entry in again:
+                entry.stamp = self.entries[at].stamp
+            self.entries[at:at] = again
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=self.write('merged.bag'))
 
     def test_physics_alone_tells(self):
@@ -349,6 +365,7 @@ class SpoiledBags(SpoiledBag):
                                ('complete', lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
                                                                   for e in self.of(topic)[100:110]))),
                                ('complete', lambda: self.of('friction')[-1].edit(drag_velocity=1e200)),
+                               ('complete', lambda: self.of('friction')[-1].edit(epoch=7)),
                                ('energy', lambda: self.of('deflection')[5].edit(
                                    vertical=[1e200] * len(self.of('deflection')[5].message().vertical))),
                                ('energy', lambda: self.of('friction')[-1].edit(heat_to_bath=float('nan'))),

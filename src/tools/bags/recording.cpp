@@ -115,10 +115,10 @@ std_msgs::Header header_of(const rosbag::MessageInstance& message) {
 }
 
 // Whether the node named it as a part of the recording that begins with NAME.bag: NAME_001.bag, NAME_002.bag.
-bool is_part(const std::string& path, const std::string& first) {
-  const std::string name = first.substr(0, first.rfind(".bag"));
-  return path.compare(0, name.size(), name) == 0 &&
-         std::regex_match(path.substr(name.size()), std::regex("_[0-9]{3,}\\.bag(\\.active)?"));
+bool is_part(const std::filesystem::path& path, const std::filesystem::path& first) {
+  const std::string part = path.filename(), whole = first.filename(), name = whole.substr(0, whole.rfind(".bag"));
+  return part.compare(0, name.size(), name) == 0 &&
+         std::regex_match(part.substr(name.size()), std::regex("_[0-9]{3,}\\.bag(\\.active)?"));
 }
 
 // How many batches are missing between two parts of one recording; nothing if they are not.
@@ -193,6 +193,7 @@ std::shared_ptr<const Starts> Recording::starts() const {
     std::optional<std_msgs::Header> last;
     for (const rosbag::MessageInstance& message : *messages) {
       const std_msgs::Header header = header_of(message);
+      if (header.stamp > message.getTime() + ros::Duration(1.0)) starts.set_back();  // a latched one
       if (is_simulated(header.stamp) || (last && header.stamp <= last->stamp)) continue;
       const bool again = last && header.seq <= last->seq;
       if (header.seq == 0 || again) starts.add(last ? last->stamp : ros::TIME_MIN, header.stamp);

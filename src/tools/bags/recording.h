@@ -46,11 +46,14 @@ class Starts {
  public:
   // A start was after the stamp `behind`, and not after the stamp `latest`.
   void add(const ros::Time& behind, const ros::Time& latest) { found_.push_back({latest, behind}); }
+  // The wall clock was set back to before a start, as a message shows that was recorded before it was made.
+  void set_back() { is_set_back_ = true; }
   void merge() {
     std::sort(found_.begin(), found_.end());
     for (const auto& [latest, behind] : found_) {
       if (times_.empty() || times_.back() <= behind) times_.push_back(latest);
     }
+    if (is_set_back_ && times_.size() == 1) times_.clear();  // stamps before it are of this start too
   }
   // The last start that is not later than the stamp [ns]; 0 if there is none.
   std::uint64_t of(const ros::Time& stamp) const {
@@ -65,12 +68,14 @@ class Starts {
  private:
   std::vector<std::pair<ros::Time, ros::Time>> found_;
   std::vector<ros::Time> times_;
+  bool is_set_back_ = false;
 };
 
 // Simulated time begins at 1 s, and wall clocks have passed 1e9 s in 2001.
 inline bool is_simulated(const ros::Time& stamp) { return stamp < ros::Time(1000000000, 0); }
 
-// The messages of one topic, each once: latched ones stand in every bag of a split recording.
+// The messages of one topic, each once: latched ones stand in every bag of a split recording, in those by rosbag record
+// the first one that it has heard.
 template <class Message>
 class Cursor {
  public:
@@ -99,9 +104,9 @@ class Cursor {
       auto message = at_->template instantiate<Message>();
       if (!message) throw Problem(at_->getTopic() + ": a message cannot be read");
       const std_msgs::Header& header = message->header;
-      const bool is_twice = last_ && header.seq == number_.seq && header.stamp == last_->header.stamp;
-      if (is_twice && is_same(*message, *last_)) continue;
+      if (is_same(*message, last_.get()) || is_same(*message, first_.get())) continue;
       find_number(header);
+      if (!first_) first_ = message;
       last_ = message_ = message;
       return;
     }
@@ -129,14 +134,15 @@ class Cursor {
   }
 
   // A message of another start may have the same number and, on simulated time, the same stamp.
-  static bool is_same(const Message& a, const Message& b) {
-    return same_bytes(ros::serialization::serializeMessage(a), ros::serialization::serializeMessage(b));
+  static bool is_same(const Message& a, const Message* b) {
+    return b != nullptr && a.header.seq == b->header.seq && a.header.stamp == b->header.stamp &&
+           same_bytes(ros::serialization::serializeMessage(a), ros::serialization::serializeMessage(*b));
   }
 
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator at_;
   const std::size_t size_;
-  boost::shared_ptr<Message> message_, last_;
+  boost::shared_ptr<Message> message_, last_, first_;
   Number number_;
   std::shared_ptr<const Starts> starts_;
   std::uint32_t lost_ = 0;

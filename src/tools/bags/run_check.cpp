@@ -135,7 +135,7 @@ void RunCheck::run() {
       check_batch();
       progress_(batches_->read_so_far(), batches_->size());
     }
-    if (!difference_ || !is_doubtful_) continue;
+    if (!difference_ || !(is_doubtful_ || is_behind_hole_)) continue;
     difference_.reset();  // it is what the lost command or snapshot did
     run_.reset();
   }
@@ -229,6 +229,7 @@ void RunCheck::note_beginning(const Mark& mark) {
   if (extent_.epochs == 0 || mark.number.start != start_ || mark.epoch() != applied_.epoch) ++extent_.epochs;
   start_ = mark.number.start;
   has_begun_ = true;
+  is_behind_hole_ = false;
   last_.reset();
 }
 
@@ -282,6 +283,7 @@ void RunCheck::check_batch() {
   const bool follows = batches_->lost() == 0 && !has_begun_;
   lose("messages of " + recording_.topic<afm_emulator::Friction>(), batches_->lost());
   check_without_friction();
+  is_behind_hole_ |= is_hole();
   const auto deflection = of_batch(deflections_.get());
   const auto impacts = of_batch(impacts_.get());
   batches_->next();
@@ -313,6 +315,18 @@ void RunCheck::check_batch() {
   extent_.samples += deflection ? batch_.vertical.size() : 0;
   extent_.impact_arrays += impacts ? 1 : 0;
   extent_.impacts += impacts ? batch_.impacts.size() : 0;
+}
+
+// Whether whole batches are missing before this one, and after the last snapshot of its start: the number of a lost one
+// shows by the next alone.
+bool RunCheck::is_hole() const {
+  const auto is_lost = [](const auto& messages) { return !messages || !messages->get() || messages->lost() > 0; };
+  if (has_begun_ ? !run_ || !(run_->now() < from_message(batches_->get()->begin))
+                 : batches_->lost() == 0 || !is_lost(deflections_) || !is_lost(impacts_)) {
+    return false;
+  }
+  return std::none_of(marks_.begin() + static_cast<std::ptrdiff_t>(next_mark_), marks_.end(),
+                      [&](const Mark& c) { return c.snapshot && c.number.start == batches_->number().start; });
 }
 
 // As the emulator did: no batch has more impacts than its budget, and one that ended by its time has not spent it.

@@ -89,6 +89,7 @@ class RunCheck {
   void take_snapshot(const Mark& mark);
   void settle();
   void check_batch();
+  bool is_hole() const;
   void check_without_friction();
   bool is_whole_batch(const afm_emulator::Deflection* deflection, const afm_emulator::ImpactArray* impacts, Run& run);
   void advance(const afm_emulator::Friction& recorded);
@@ -124,6 +125,7 @@ class RunCheck {
   boost::shared_ptr<afm_emulator::Friction> last_;  // batch compared since something was applied
   bool has_begun_ = false;                          // and no batch was compared since
   bool is_doubtful_ = false;                        // a command or a snapshot is lost: a difference is what it did
+  bool is_behind_hole_ = false;                     // where a snapshot may be lost: likewise
 
   std::optional<Difference> difference_;
   Extent extent_;
