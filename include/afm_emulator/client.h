@@ -117,7 +117,10 @@ class Client {
         throw EmulatorError(name_ + "/control: the connection has ended: was the emulator restarted? " +
                             "The next call connects again");
     }
-    if (!call.response.success) throw EmulatorError(name_ + "/control: " + call.response.message);
+    if (!call.response.success) {
+      if (call.response.message.find("shutting down") != std::string::npos) end_with_the_launch();
+      throw EmulatorError(name_ + "/control: " + call.response.message);
+    }
     reported_ = {call.response.epoch, call.response.applied};
     queue_.callAvailable();  // messages of topics would pile up in it: nothing else calls them
     return call.response;

@@ -245,6 +245,13 @@ class Claims:
             self.assertRegex(tip.answer(), 'EmulatorError: /afm/control: .*(shutting down|restarted)')
             self.assertEqual(first.wait(), 0)
 
+    def test_an_emulator_and_a_controller_that_are_ended_together(self):
+        """As by Ctrl-C of roslaunch: it is no fault that the emulator is first."""
+        tip = self.begin_period(60.0)
+        self.emulator.child.send_signal(signal.SIGINT)
+        tip.child.send_signal(signal.SIGINT)
+        self.assertEqual(tip.answer(), 'shut down')
+
     def test_a_period_of_less_than_a_batch_is_not_shorter(self):
         """Where a batch has two samples one of 2.4 was over with it."""
         tip = self.start_both('real_time', time_scale=2e-4, sample_rate_hz=1e6)

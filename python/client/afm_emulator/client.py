@@ -128,6 +128,8 @@ class Client:
         with self._turn:
             answer = self._call_control(request)
             if not answer.success:
+                if 'shutting down' in answer.message:
+                    self._end_with_the_launch()
                 raise EmulatorError('%s/control: %s' % (self.name, answer.message))
             self._reported = answer.epoch, answer.applied
         return answer
