@@ -1,5 +1,6 @@
 #include "node/params/advice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <sstream>
@@ -59,8 +60,14 @@ std::string describe_tip(const Parameters& p) {
 std::vector<std::string> find_warnings(const Parameters& p) {
   std::vector<std::string> warnings;
   const RunSettings settings = run_settings(p);
-  for (const ParameterError& warning : afm::find_warnings(settings.model, settings.bath))
-    warnings.emplace_back(warning.what());
+  std::vector<double> etas = p.commands_eta;
+  etas.insert(etas.begin(), settings.eta);
+  for (const double eta : etas) {
+    for (const ParameterError& warning : afm::find_warnings(settings.model, settings.bath, eta)) {
+      if (std::find(warnings.begin(), warnings.end(), warning.what()) == warnings.end())
+        warnings.emplace_back(warning.what());
+    }
+  }
   if (p.bath.temperature_k > 0.0 && !settings.bath.is_on()) {
     warnings.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
                        " has no effect: quality_factor is 0, so no heat reaches the tip");
