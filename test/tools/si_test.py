@@ -165,6 +165,15 @@ class Levers(unittest.TestCase):
         self.assertEqual([row['amplitude'] for row in run(*short, '--lever', 'soft', '--amplitude', '0.1,0.2')[1]],
                          ['0.10000000000000001', '0.20000000000000001'])
 
+    def test_a_temperature_in_kelvin_is_warned_of(self):
+        short = ['real_time', '--eta', 2, '--cutoff', 0.1, '--tau', 1, '--transient', 0, '--temperature']
+        theta = BOLTZMANN * 300 / (self.K / (2 * math.pi) ** 2 * self.A ** 2)
+        complaint = run(*short, 300, *self.GIVEN)[2]
+        self.assertIn('warning: temperature = 300: is kT in m a^2/tau^2', complaint)
+        self.assertIn('%d K; for 300 K give %.3g' % (round(300 / theta * 300), theta), complaint)
+        self.assertEqual(run(*short, '%.3g' % theta, *self.GIVEN)[2], '')
+        self.assertEqual(run(*short, 300, '--quality-factor', 100)[2], '')
+
     def test_a_file_of_ones_own(self):
         with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
             def refused(text, *words):
