@@ -200,6 +200,8 @@ class Levers(unittest.TestCase):
             by_model = ('omega_v_rad_per_s: 4.0e+4\nomega_h_rad_per_s: 2.5e+5\ntip_mass_kg: 4.0e-10\n'
                         'quality_factor: 20\n')
             refused(by_model)
+            refused(by_model.replace('20', '-5'), 'lever = ' + file.name + ': quality_factor = -5')
+            refused(by_model + 'kicks_per_tau: 0.0\n', 'lever = ' + file.name + ': kicks_per_tau = 0')
             refused(by_model.split('\n', 1)[1], file.name, 'lacks omega_v_rad_per_s')
             refused(by_model + 'resonance_hz: 2.0e+4\n', file.name, 'twice')
             refused(by_model + lever + 'lateral_spring_constant_n_per_m: 60\n', file.name, 'twice')
@@ -271,6 +273,8 @@ class Refused(unittest.TestCase):
         self.refuse('load = 1: ', 'real_time', '--load', 1)
         self.refuse('load = -1: ', 'friction_curve', '--si', '--load', -1)
         self.refuse('ppp_cont', 'real_time', '--lever', 'nosuch')
+        self.refuse('ppp_cont', 'real_time', '--lever', '')  # it was the paper's: a variable that is not set
+        self.refuse('mica', 'friction_curve', '--si', '--lever', 'soft', '--surface', '', '--eta', 1)
         self.refuse('mica', 'real_time', '--surface', 'nosuch')
 
 
