@@ -165,7 +165,7 @@ class Errors(unittest.TestCase):
         with self.assertRaises(afm.ParameterError) as caught:
             afm.Model(gamma=-1, cutoff=-1, amplitude=-1)
         self.assertEqual({fault.name for fault in caught.exception.faults},
-                         {'gamma', 'cutoff', 'amplitude', 'rest_height'})
+                         {'gamma', 'cutoff', 'amplitude'})
 
     def test_errors_are_values(self):
         fault = pickle.loads(pickle.dumps(self.refused('gamma', 1.5, afm.Model, gamma=1.5)))
