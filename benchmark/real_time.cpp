@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "afm/level.h"
+#include "afm/number_text.h"
 #include "afm/sweep.h"
 #include "afm/tip.h"
 #include "afm/units.h"
@@ -177,6 +178,18 @@ void give_warnings(const afm::CommandLine& app, const std::vector<Point>& points
   }
 }
 
+// Whoever gives a lever and a load in SI may take the temperature for kelvin.
+void warn_of_heat(const afm::CommandLine& app, const Options& o, const afm::Units& units) {
+  constexpr double kHot = 2000.0, kRoom = 300.0;  // [K] a choice: hotter than any lever
+  constexpr int kFew = 3;
+  const double hottest = *std::max_element(o.temperature.begin(), o.temperature.end());
+  const double kelvin = hottest * units.temperature();
+  if (!afm::LeverOptions::are_given(app) || kelvin < kHot) return;
+  app.warn("temperature = " + afm::number_text(hottest) + ": is kT in m a^2/tau^2 of this lever and crystal, " +
+           afm::number_text(std::round(kelvin)) + " K; for 300 K give " +
+           afm::rounded_text(kRoom / units.temperature(), kFew));
+}
+
 // As its file, that of the surface and the load say, where no option says otherwise.
 afm::SiModel take_lever(const afm::CommandLine& app, Options& o) {
   if (!afm::LeverOptions::are_given(app)) return {};
@@ -215,9 +228,11 @@ int main(int argc, char** argv) {
   afm::add_lever_options(app, o.lever);
   return app.run(argc, argv, [&] {
     take_ranges(o);
-    const double of_lever = afm::Units(take_lever(app, o)).time() / afm::Units(afm::SiModel{}).time();
+    const afm::Units units(take_lever(app, o));
+    const double of_lever = units.time() / afm::Units(afm::SiModel{}).time();
     const std::vector<Point> points = points_of(o);
     give_warnings(app, points);
+    warn_of_heat(app, o, units);
     print_line(std::string("eta,cutoff,times_real_time,slowest_tau_us,k_f,impacts_per_tau,search_failures,"
                            "frequency_ratio,amplitude,rest_height,temperature,quality_factor") +
                (afm::LeverOptions::are_given(app) ? ",lever_times_real_time" : ""));

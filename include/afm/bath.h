@@ -35,18 +35,19 @@ constexpr double kMaxKickRate = 1000.0;     // [1/tau]
 // Every fault, named as in Bath.
 std::vector<ParameterError> find_faults(const Bath& bath);
 
-// Whether the kicks lock to the swing of the lateral spring, because from kick to kick it makes nearly a whole or half
-// number of turns. K_f may then be wrong by a fifth (docs/levers.md). False without a bath, and for the hammer,
-// which has no such spring. Precondition of this and of the next two: a model and a bath without faults.
-bool kicks_lock(const Model& model, const Bath& bath);
+// Whether the kicks lock, because from kick to kick the lateral spring makes nearly a whole or half number of turns, or
+// the holder passes nearly a whole or half number of cells. K_f may then be wrong by a fifth (docs/levers.md), or depend
+// on the start (docs/temperature.md). eta: drag velocity [a/tau]; 0: whatever it is. False without a bath. The hammer
+// has no lateral spring. Precondition of this and of the next two: a model and a bath without faults.
+bool kicks_lock(const Model& model, const Bath& bath, double eta = 0.0);
 
 // A rate of kicks [1/tau] for this model and these quality factors; the rate that the bath has does not count.
 // Guarantee: it does not lock, and takes at most 0.11 of a velocity at once, or 0.123 where 0.11 needs more than 1000 a
 // tau, or find_warnings() reports it.
-double suitable_kicks(const Model& model, const Bath& bath);
+double suitable_kicks(const Model& model, const Bath& bath, double eta = 0.0);
 
 // What can be run, but is seldom meant, with the remedy: kicks that lock or are too few, and a bath that acts on no
 // spring of the hammer. Named as in Bath.
-std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath);
+std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, double eta = 0.0);
 
 }  // namespace afm

@@ -26,7 +26,7 @@ Run to_run(const Model& model, double eta, double phase, double extension, doubl
   settings.impact_budget = impact_budget;
   settings.bath = bath;
   refuse(find_faults(settings));
-  warn(find_warnings(model, bath));
+  warn(find_warnings(model, bath, eta));
   return Run(settings);
 }
 
@@ -58,7 +58,7 @@ double apply(Run& self, const py::kwargs& what) {
   RunSettings settings = self.settings();
   set_live(live, settings);
   refuse(find_faults(settings));
-  if (what.contains("bath")) warn(find_warnings(settings.model, settings.bath));
+  if (what.contains("bath") || what.contains("eta")) warn(find_warnings(settings.model, settings.bath, settings.eta));
   return self.apply(live);
 }
 

@@ -20,7 +20,7 @@ Tip to_tip(const Model& model, double eta, double phase, double extension, doubl
   const RunSettings settings = to_settings(model, eta, phase, extension, y, u, w, contact_tolerance);
   refuse(find_faults(settings));
   Tip tip(model, eta, settings.initial, contact_tolerance);
-  warn(find_warnings(model, bath));
+  warn(find_warnings(model, bath, eta));
   tip.set_bath(bath);
   return tip;
 }
@@ -166,14 +166,19 @@ After Ctrl-C the tip stands where it had come to.)")
 
 Returns Samples: time of the first, period, vertical and lateral of shape (count,) [a], events as advance() does.)")
       .def(
-          "drag", [](Tip& self, double eta) { check_eta(eta), self.drag(eta); }, "eta"_a,
-          "A new drag velocity [a/tau] from now on.")
+          "drag",
+          [](Tip& self, double eta) {
+            check_eta(eta);
+            warn(find_warnings(self.model(), self.thermostat().bath(), eta));
+            self.drag(eta);
+          },
+          "eta"_a, "A new drag velocity [a/tau] from now on.")
       .def("change", &change, "gamma"_a = py::none(), "cutoff"_a = py::none(), "rest_height"_a = py::none(),
            "Another restitution, cutoff [a/tau] or height of the holder [a] from now on; None: as it is.")
       .def(
           "set_bath",
           [](Tip& self, const Bath& bath) {
-            warn(find_warnings(self.model(), bath));
+            warn(find_warnings(self.model(), bath, self.eta()));
             self.set_bath(bath);
           },
           "bath"_a, "Another heat bath from now on.")

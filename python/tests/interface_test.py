@@ -165,7 +165,7 @@ class Errors(unittest.TestCase):
         with self.assertRaises(afm.ParameterError) as caught:
             afm.Model(gamma=-1, cutoff=-1, amplitude=-1)
         self.assertEqual({fault.name for fault in caught.exception.faults},
-                         {'gamma', 'cutoff', 'amplitude', 'rest_height'})
+                         {'gamma', 'cutoff', 'amplitude'})
 
     def test_errors_are_values(self):
         fault = pickle.loads(pickle.dumps(self.refused('gamma', 1.5, afm.Model, gamma=1.5)))
@@ -215,6 +215,20 @@ class Warnings(unittest.TestCase):
             with self.assertWarnsRegex(RuntimeWarning, r'kicks_per_tau = 29\.034: .*give 46\.979') as caught:
                 call()
             self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
+
+    def test_kicks_that_lock_to_the_drag(self):
+        model, bath, eta = afm.Model(), afm.Bath(1, 20), 29.034
+        tip, run = afm.Tip(model, eta), afm.Run(model, eta)
+        cold, still = afm.Tip(model, 2, bath=bath), afm.Run(model, 2, bath=bath)
+        for call in (lambda: afm.Tip(model, eta, bath=bath), lambda: tip.set_bath(bath), lambda: cold.drag(-eta),
+                     lambda: afm.Run(model, eta, bath=bath), lambda: run.apply(bath=bath), lambda: still.apply(eta=eta),
+                     lambda: afm.friction_curve([2, eta], model=model, bath=bath, duration=10, transient=1)):
+            with self.assertWarnsRegex(RuntimeWarning, 'locks to the drag near eta = 29.034, .*give 46.979') as caught:
+                call()
+            self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
+        self.assertTrue(afm.kicks_lock(model, bath, eta))
+        self.assertFalse(afm.kicks_lock(model, bath))
+        self.assertEqual(afm.suitable_kicks(model, bath, eta=eta), 46.979)
 
     def test_none_with_suitable_kicks(self):
         self.assertTrue(afm.kicks_lock(self.MODEL, self.BATH))

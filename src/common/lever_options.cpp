@@ -150,8 +150,15 @@ LeverScene::LeverScene(const CommandLine& app, const LeverOptions& o) {
   const auto check = [](const std::string& option, const std::string& name, const std::string& fault) {
     if (!fault.empty()) throw std::invalid_argument(option + " = " + name + ": " + fault);
   };
-  if (!o.lever.empty()) check("lever", o.lever, fault_of([&] { read_lever(o.lever, lever, si, bath); }));
-  if (!o.surface.empty()) check("surface", o.surface, fault_of([&] { read_surface(o.surface, si); }));
+  // an empty name is refused: it may be a variable of a shell that is not set
+  if (app.is_given("lever")) {
+    check("lever", o.lever, fault_of([&] {
+            read_lever(o.lever, lever, si, bath);
+            const std::vector<ParameterError> faults = find_faults(Units(SiModel{}).to_natural(bath));
+            if (!faults.empty()) throw std::invalid_argument(describe(faults));
+          }));
+  }
+  if (app.is_given("surface")) check("surface", o.surface, fault_of([&] { read_surface(o.surface, si); }));
   std::vector<ParameterError> faults = set_lever_and_load(lever, o.load_n, si);
   if (faults.empty()) faults = find_faults(si);
   for (ParameterError& fault : faults) {

@@ -28,6 +28,19 @@ bool locks(const Model& model, const Bath& bath, double kicks_per_tau) {
   return turns > few_turns && std::abs(turns - 0.5 * std::round(2.0 * turns)) < near;
 }
 
+// The drag velocity near eta at which the holder passes a whole or half number of cells from kick to kick; 0: none.
+double resonant_drag(double eta, double kicks_per_tau) {
+  return 0.5 * std::round(2.0 * std::abs(eta) / kicks_per_tau) * kicks_per_tau;
+}
+
+// Where the holder passes so nearly these cells, a kick meets the same one or two phases of the surface for hundreds of
+// tau, and the start decides which. A choice: 0.001 of a cell.
+bool locks_to_drag(double eta, double kicks_per_tau) {
+  constexpr double kNear = 1e-3;
+  const double drag = resonant_drag(eta, kicks_per_tau);
+  return drag > 0.0 && std::abs(std::abs(eta) - drag) < kNear * kicks_per_tau;
+}
+
 // Below it a kick takes more than this part of a velocity at once. On a slope it drives a sliding tip into the surface
 // or off it, so that energy is lost: K_f by work was up to 0.3 of the part too large (docs/levers.md).
 double least_kicks(const Model& model, const Bath& bath) {
@@ -60,24 +73,27 @@ std::vector<ParameterError> find_faults(const Bath& b) {
   return list.faults;
 }
 
-bool kicks_lock(const Model& model, const Bath& bath) { return bath.is_on() && locks(model, bath, bath.kicks_per_tau); }
+bool kicks_lock(const Model& model, const Bath& bath, double eta) {
+  return bath.is_on() && (locks(model, bath, bath.kicks_per_tau) || locks_to_drag(eta, bath.kicks_per_tau));
+}
 
-double suitable_kicks(const Model& model, const Bath& bath) {
+double suitable_kicks(const Model& model, const Bath& bath, double eta) {
   constexpr double kGolden = 0.618034;   // 1.618 turns of the lateral spring from kick to kick: far from every lock
   constexpr double kLeastSection = 8.6;  // the least golden section that was measured (docs/levers.md)
   const double section = std::round(1000.0 * kGolden * lateral_ratio(model)) / 1000.0, least = least_kicks(model, bath);
   const std::vector<double> few{11.09, 29.034}, many{29.034, 46.979, 122.99};
-  if (is_slow(bath) && section >= kLeastSection) return section;
+  const bool section_locks = locks_to_drag(eta, section);
+  if (is_slow(bath) && section >= kLeastSection && !section_locks) return section;
   for (const double kicks : is_slow(bath) ? few : many) {
-    if (kicks >= least && !locks(model, bath, kicks)) return kicks;
+    if (kicks >= least && !locks(model, bath, kicks) && !locks_to_drag(eta, kicks)) return kicks;
   }
-  if (section >= std::fmax(least, many.front())) return section;
+  if (section >= std::fmax(least, many.front()) && !section_locks) return section;
   // no whole number, with which kicks come at the same phases of the drag again and again
   const double unlocked = lateral_ratio(model) / kFewTurns, most = kMaxKickRate - 1.0;
   return unlocked > most ? section : std::fmin(std::ceil(std::fmax(least, unlocked)), most) + 0.618;
 }
 
-std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath) {
+std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, double eta) {
   if (!bath.is_on()) return {};
   if (model.kind == ModelKind::hammer && bath.quality_factor == 0.0) {
     return {ParameterError("lateral_quality_factor", bath.lateral_quality_factor,
@@ -89,7 +105,7 @@ std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath) 
     return std::vector<ParameterError>{ParameterError("kicks_per_tau", kicks, reason)};
   };
   const std::string remedy = ": K_f may be wrong by a fifth and more; give " + number_text(suitable);
-  if (kicks_lock(model, bath)) {
+  if (locks(model, bath, kicks)) {
     return warning("locks to the swing of the lateral spring, as omega_h/omega_v = " +
                    number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
   }
@@ -100,6 +116,13 @@ std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath) 
     return warning(
         "is too low for these quality factors, and no rate is known that suits: K_f may be wrong by some per "
         "cent and more");
+  }
+  if (locks_to_drag(eta, kicks)) {
+    constexpr int kFew = 6;
+    return warning("locks to the drag near eta = " + rounded_text(resonant_drag(eta, kicks), kFew) +
+                   ", where kicks meet the same phases of the surface: K_f depends on the start, by more than its "
+                   "error says; give " +
+                   number_text(suitable_kicks(model, bath, eta)));
   }
   return {};
 }

@@ -60,6 +60,14 @@ std::vector<ParameterError> find_warnings(const CurveSettings& s) {
   for (const double ratio : s.frequency_ratio) {
     const SweepPoint point{slowest, s.gamma.front(), s.cutoff.front(), s.model, lowest, highest, ratio};
     for (const ParameterError& warning : find_warnings(point, s.sweep)) warnings.push_back(warning);
+    for (const double eta : s.eta) {
+      SweepPoint other = point;
+      other.eta = eta;
+      for (const ParameterError& warning : find_warnings(other, s.sweep.bath)) {
+        const auto is_same = [&](const ParameterError& known) { return known.reason == warning.reason; };
+        if (std::none_of(warnings.begin(), warnings.end(), is_same)) warnings.push_back(warning);
+      }
+    }
   }
   return warnings;
 }

@@ -43,6 +43,32 @@ TEST(Bath, WithoutKicksOrWithoutALateralSpringNothingLocks) {
   EXPECT_FALSE(kicks_lock(hammer, with(20.0)));
 }
 
+// At these K_f scattered from start to start by up to fifty times its error (Q = 20, 0 K).
+TEST(Bath, KicksLockToTheDragWhereTheyMeetTheSamePhasesOfTheSurface) {
+  for (const double cells : {0.5, 1.0, 2.0, -1.0, 1.0005}) {
+    EXPECT_TRUE(kicks_lock(Model{}, with(20.0), 29.034 * cells)) << cells;
+    const double kicks = suitable_kicks(Model{}, with(20.0), 29.034 * cells);
+    EXPECT_FALSE(kicks_lock(Model{}, with(20.0, kicks), 29.034 * cells)) << cells;
+    EXPECT_TRUE(find_warnings(Model{}, with(20.0, kicks), 29.034 * cells).empty()) << cells;
+  }
+  for (const double cells : {0.0, 0.01, 0.2, 0.502, 0.75, 1.002}) {
+    EXPECT_FALSE(kicks_lock(Model{}, with(20.0), 29.034 * cells)) << cells;
+    EXPECT_EQ(suitable_kicks(Model{}, with(20.0), 29.034 * cells), 29.034) << cells;
+  }
+  EXPECT_FALSE(kicks_lock(Model{}, with(0.0), 29.034));
+  Model hammer;
+  hammer.kind = ModelKind::hammer;
+  EXPECT_TRUE(kicks_lock(hammer, with(20.0), 29.034));
+  ASSERT_EQ(find_warnings(Model{}, with(100.0, 11.09), 11.091).size(), 1u);
+  for (const char* word : {"near eta = 11.09,", "give 29.034"}) {
+    const std::string reason = find_warnings(Model{}, with(100.0, 11.09), 11.091)[0].reason;
+    EXPECT_NE(reason.find(word), std::string::npos) << reason;
+  }
+  EXPECT_TRUE(find_warnings(Model{}, with(100.0, 11.09)).empty());
+  // the golden section itself may lock; 11.09 are too few for these springs
+  EXPECT_EQ(suitable_kicks(with_ratio(21.0), with(100.0), 12.979), 29.034);
+}
+
 TEST(Bath, SuitableKicksNeverLock) {
   for (double ratio = kMinFrequencyRatio; ratio <= kMaxFrequencyRatio; ratio *= 1.0003) {
     for (const double quality_factor : {kMinQualityFactor, 2.0, 10.0, 20.0, 99.9, 100.0, 1e4}) {

@@ -59,6 +59,12 @@ TEST(Model, LimitsAreWhereTheyAreSaidToBe) {
   }
 }
 
+TEST(Model, AFlatSurfaceIsOneFault) {
+  Model flat;
+  flat.H = 0.0;  // the holder at mid-surface does not hover over it
+  EXPECT_EQ(names(find_faults(flat)), std::multiset<std::string>{"H"});
+}
+
 TEST(Model, ADescriptionHasALineForEachFault) {
   EXPECT_EQ(describe({}), "");
   EXPECT_EQ(describe({{"H", -1.0, "too low"}}), "H = -1: too low");

@@ -135,6 +135,11 @@ TEST(Units, AFaultOfABathShowsKelvin) {
   EXPECT_EQ(faults[0].value, -1.0);
   EXPECT_NE(faults[0].reason.find(" K"), std::string::npos);
   EXPECT_TRUE(find_faults(SiBath{300.0, 100.0}, Units(SiModel{})).empty());
+  SiModel light;  // 300 K are too hot for it
+  light.tip_mass_kg /= 2000.0;
+  ASSERT_EQ(find_faults(SiBath{300.0, 100.0}, Units(light)).size(), 1u);
+  EXPECT_NE(find_faults(SiBath{300.0, 100.0}, Units(light))[0].reason.find(" K: kT is at most 1000 "),
+            std::string::npos);
 }
 
 TEST(Units, AScaleMustBeOneOfThisWorld) {

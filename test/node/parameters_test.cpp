@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "afm/number_text.h"
 #include "node/params/advice.h"
 
 namespace afm::node {
@@ -257,6 +258,36 @@ TEST(Advice, ARunThatIsTooSlowIsToldHowSlowlyItCanRun) {
   EXPECT_NE(fault.find("kicks_per_tau = 13.597"), std::string::npos) << fault;
   EXPECT_EQ(find_speed_warning(heated_lever(29.034, {{"time_scale", 0.3}}), 0.5), "");
   EXPECT_EQ(find_speed_warning(heated_lever(29.034, {{"pace", std::string("lockstep")}}), 0.5), "");
+}
+
+// The time_scale was that of the rate in force: with the rate that was advised beside it the run fell behind.
+TEST(Advice, WhereMoreKicksAreAdvisedTheTimeScaleIsThatOfThem) {
+  const Parameters liquid = heated_lever(29.034, {{"quality_factor", 2.0}});
+  ASSERT_EQ(find_warnings(liquid).size(), 1u);
+  const std::string fault = find_speed_warning(liquid, 0.5);
+  const double kicks = suitable_kicks(run_settings(liquid).model, run_settings(liquid).bath);
+  EXPECT_GT(kicks, 20.0 * 29.034);
+  for (const std::string& warning : {find_warnings(liquid)[0], fault}) {
+    EXPECT_NE(warning.find(number_text(kicks)), std::string::npos) << warning;
+  }
+  EXPECT_NE(fault.find("Give time_scale = 0.01 with kicks_per_tau"), std::string::npos) << fault;
+}
+
+TEST(Advice, KicksThatLockToTheDragOfTheStartOrOfTheSceneAreNamedOnce) {
+  Faults faults;
+  const double locked = 29.034, free = 2.0;  // a/tau, at 29.034 kicks a tau
+  const auto warnings = [&](double start, double first, double second) {
+    return find_warnings(read({{"quality_factor", 20.0},
+                               {"drag_velocity", start * Units(SiModel{}).velocity()},
+                               {"commands_eta", list(first, second)}},
+                              faults));
+  };
+  EXPECT_TRUE(warnings(free, free, -free).empty());
+  for (const auto& found : {warnings(locked, free, -free), warnings(free, locked, -locked)}) {
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].find("locks to the drag near eta = 29.034,"), std::string::npos) << found[0];
+  }
+  EXPECT_EQ(describe(faults), "");
 }
 
 TEST(Advice, TheTrialOfATipThatSticksAndSlipsHasItsSlips) {

@@ -137,6 +137,15 @@ class Refusals(Case):
         silent = self.run_tool(['--eta', '2', '--frequency-ratio', '14', '--kicks-per-tau', '46.979', *heat])
         self.assertEqual(silent.stderr, b'')
 
+    def test_kicks_that_lock_to_one_of_the_drags_are_warned_of_once(self):
+        heat = ['--temperature', '1', '--quality-factor', '100', '--kicks-per-tau', '10', '--duration', '20',
+                '--transient', '1']
+        self.assertEqual(self.run_tool(['--eta', '2:4:0.1', *heat]).stderr, b'')
+        done = self.run_tool(['--eta', '9.99:10.01:0.005', *heat])
+        self.assertEqual((done.returncode, done.stderr.count(b'\n')), (0, 1), done.stderr)
+        for word in (b'warning: kicks-per-tau = 10: locks to the drag near eta = 10, ', b'give 11.09'):
+            self.assertIn(word, done.stderr)
+
     def test_a_drag_over_less_than_the_surface_is_warned_of(self):
         """K_f was many standard errors off, with the sign of the slope below the tip."""
         bath = ['--temperature', '0.926', '--quality-factor', '100', '--rest-height', '-0.3', '--duration', '100']

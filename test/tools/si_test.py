@@ -165,6 +165,15 @@ class Levers(unittest.TestCase):
         self.assertEqual([row['amplitude'] for row in run(*short, '--lever', 'soft', '--amplitude', '0.1,0.2')[1]],
                          ['0.10000000000000001', '0.20000000000000001'])
 
+    def test_a_temperature_in_kelvin_is_warned_of(self):
+        short = ['real_time', '--eta', 2, '--cutoff', 0.1, '--tau', 1, '--transient', 0, '--temperature']
+        theta = BOLTZMANN * 300 / (self.K / (2 * math.pi) ** 2 * self.A ** 2)
+        complaint = run(*short, 300, *self.GIVEN)[2]
+        self.assertIn('warning: temperature = 300: is kT in m a^2/tau^2', complaint)
+        self.assertIn('%d K; for 300 K give %.3g' % (round(300 / theta * 300), theta), complaint)
+        self.assertEqual(run(*short, '%.3g' % theta, *self.GIVEN)[2], '')
+        self.assertEqual(run(*short, 300, '--quality-factor', 100)[2], '')
+
     def test_a_file_of_ones_own(self):
         with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
             def refused(text, *words):
@@ -191,6 +200,8 @@ class Levers(unittest.TestCase):
             by_model = ('omega_v_rad_per_s: 4.0e+4\nomega_h_rad_per_s: 2.5e+5\ntip_mass_kg: 4.0e-10\n'
                         'quality_factor: 20\n')
             refused(by_model)
+            refused(by_model.replace('20', '-5'), 'lever = ' + file.name + ': quality_factor = -5')
+            refused(by_model + 'kicks_per_tau: 0.0\n', 'lever = ' + file.name + ': kicks_per_tau = 0')
             refused(by_model.split('\n', 1)[1], file.name, 'lacks omega_v_rad_per_s')
             refused(by_model + 'resonance_hz: 2.0e+4\n', file.name, 'twice')
             refused(by_model + lever + 'lateral_spring_constant_n_per_m: 60\n', file.name, 'twice')
@@ -262,6 +273,8 @@ class Refused(unittest.TestCase):
         self.refuse('load = 1: ', 'real_time', '--load', 1)
         self.refuse('load = -1: ', 'friction_curve', '--si', '--load', -1)
         self.refuse('ppp_cont', 'real_time', '--lever', 'nosuch')
+        self.refuse('ppp_cont', 'real_time', '--lever', '')  # it was the paper's: a variable that is not set
+        self.refuse('mica', 'friction_curve', '--si', '--lever', 'soft', '--surface', '', '--eta', 1)
         self.refuse('mica', 'real_time', '--surface', 'nosuch')
 
 

@@ -79,7 +79,7 @@ std::vector<ParameterError> find_point_count_fault(double points) {
 
 std::vector<ParameterError> find_warnings(const SweepPoint& point, const Bath& bath) {
   std::vector<ParameterError> warnings;
-  for (const ParameterError& warning : find_warnings(model_of(point), bath))
+  for (const ParameterError& warning : find_warnings(model_of(point), bath, point.eta))
     warnings.emplace_back(option_of(warning.name), warning.value, warning.reason);
   return warnings;
 }

@@ -1,5 +1,6 @@
 #include "node/params/advice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <sstream>
@@ -59,8 +60,14 @@ std::string describe_tip(const Parameters& p) {
 std::vector<std::string> find_warnings(const Parameters& p) {
   std::vector<std::string> warnings;
   const RunSettings settings = run_settings(p);
-  for (const ParameterError& warning : afm::find_warnings(settings.model, settings.bath))
-    warnings.emplace_back(warning.what());
+  std::vector<double> etas = p.commands_eta;
+  etas.insert(etas.begin(), settings.eta);
+  for (const double eta : etas) {
+    for (const ParameterError& warning : afm::find_warnings(settings.model, settings.bath, eta)) {
+      if (std::find(warnings.begin(), warnings.end(), warning.what()) == warnings.end())
+        warnings.emplace_back(warning.what());
+    }
+  }
   if (p.bath.temperature_k > 0.0 && !settings.bath.is_on()) {
     warnings.push_back("temperature_k = " + number_text(p.bath.temperature_k) +
                        " has no effect: quality_factor is 0, so no heat reaches the tip");
@@ -119,12 +126,17 @@ std::string find_speed_warning(const Parameters& p, double times_real_time) {
   constexpr double kWorthFewer = 1.1;  // a choice: fewer kicks are advised where they are at least a tenth fewer
   if (p.pace == kLockstep || times_real_time > kSafePace * p.time_scale) return {};
   const RunSettings settings = run_settings(p);
-  const double kicks = suitable_kicks(settings.model, settings.bath), scale = kMargin * times_real_time;
+  const double kicks = suitable_kicks(settings.model, settings.bath, settings.eta);
+  const bool more_needed =
+      p.bath.kicks_per_tau < kicks && !afm::find_warnings(settings.model, settings.bath, settings.eta).empty();
+  // a run with more kicks takes at most so much more time
+  const double scale = kMargin * times_real_time * (more_needed ? p.bath.kicks_per_tau / kicks : 1.0);
   const double digit = std::pow(10.0, std::floor(std::log10(scale)));  // one digit, rounded down
   const bool fewer_suffice = settings.bath.is_on() && p.bath.kicks_per_tau > kWorthFewer * kicks;
   return "this run will not keep its pace: time_scale = " + number_text(p.time_scale) + ", and a trial run made " +
          rounded_text(times_real_time, 2) +
          " times real time. Give time_scale = " + rounded_text(std::floor(scale / digit) * digit, 2) +
+         (more_needed ? " with kicks_per_tau = " + number_text(kicks) : "") +
          (fewer_suffice ? ", kicks_per_tau = " + rounded_text(kicks, 5) : "") +
          (p.contact_tolerance < kMaxContactTolerance ? ", a contact_tolerance up to 1e-2" : "") +
          (p.model != "hammer" ? ", model = hammer" : "") + ", or a lower sample_rate_hz";

@@ -52,6 +52,31 @@ INSTANTIATE_TEST_SUITE_P(Settings, HeatedSweep,
 // four starts are 4, 6, 33 and 36 % off.
 TEST(HeatedSweep, AWholeRateIsNot) { EXPECT_GT(bias_beyond_noise(2.0, 100.0, 0.926, 2.0), 4.0 * kBias); }
 
+// Kicks that lock to the drag meet the same phase of the surface in every cell, which the start decides.
+TEST(HeatedSweep, WhereKicksLockToTheDragTheStartDecides) {
+  constexpr double eta = 29.034;
+  const auto spread_over_error = [](double kicks_per_tau) {
+    const SweepPoint point{eta, 0.7, 0.05};
+    SweepSettings settings;
+    settings.duration = 2000.0;
+    settings.bath.quality_factor = 20.0;
+    settings.bath.kicks_per_tau = kicks_per_tau;
+    constexpr int kStarts = 8;
+    double least = INFINITY, greatest = 0.0, error = 0.0;
+    for (std::uint64_t start = 0; start < kStarts; ++start) {
+      const FrictionAverage friction = sweep_point(point, settings, random_start(point, 1, start)).friction;
+      least = std::fmin(least, friction.K_f_work);
+      greatest = std::fmax(greatest, friction.K_f_work);
+      error += friction.K_f_work_std_error / kStarts;
+    }
+    return (greatest - least) / error;
+  };
+  Bath bath;
+  bath.quality_factor = 20.0;
+  EXPECT_GT(spread_over_error(bath.kicks_per_tau), 20.0);
+  EXPECT_LT(spread_over_error(suitable_kicks(Model{}, bath, eta)), 6.0);
+}
+
 // Of a light tip under a load, which is mostly down.
 double K_f_of(double contact_tolerance, std::uint64_t seed) {
   RunSettings settings;
