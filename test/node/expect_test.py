@@ -10,6 +10,7 @@ from unittest import mock
 import rospy
 from afm_emulator import Client, expectations
 from afm_emulator.msg import EmulatorStatus
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, find
@@ -71,6 +72,14 @@ class Expect(NodeTest):
         (directory / 'matplotlib.py').write_text('raise ImportError("no matplotlib here")\n')
         return '%s:%s' % (directory, os.environ['PYTHONPATH'])
 
+    def sound(self, name, **parameters):
+        """expect_sound, which hears a status. No node before had this name, whose connection might still be there."""
+        node = self.node('expect_sound', name, **parameters)
+        wait_until(lambda: name in connected_to('/afm/status'), 'it listens')
+        count = len(self.statuses.messages)
+        wait_until(lambda: len(self.statuses.messages) > count + 1, 'one was sent to it')
+        return node
+
     def advance(self, *speeds):
         """By a period for each."""
         for speed in speeds or (None, None, None):
@@ -104,6 +113,34 @@ class Expect(NodeTest):
             said = self.judged(self.advance, 'friction/drag_velocity', least=0.0, for_s=0.1, **given)
             self.assertRegex(said, r'judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = %g on'
                              % given.get('after_s', 0))
+
+    def test_what_is_sound_in_a_run_that_is_further(self):
+        """A command that is refused before the test listens counts with after_s at 0 alone. One that is refused while
+        it listens always counts."""
+        self.start_emulator()
+        drag = rospy.Publisher('/afm/drag_velocity', Float64, queue_size=1)
+        self.statuses = expectations.Follower('/afm/status', EmulatorStatus)
+        self.addCleanup(self.statuses.subscription.close)
+
+        def refuse(count):
+            drag.publish(float('nan'))
+            refused, _ = self.statuses.wait_for(lambda said: said and said[-1].refused_commands == count, 60 * PATIENCE)
+            self.assertTrue(refused)
+
+        wait_until(lambda: drag.get_num_connections(), 'it is connected')
+        refuse(1)
+        self.tip.control(0.5)
+        node = self.sound('/sound_1', after_s=0.2, for_s=0.1)
+        self.advance()
+        code, said = self.end(node)
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r'/afm was judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = 0.2 on')
+        node = self.sound('/sound_2', after_s=0.2, for_s=0.1)
+        refuse(2)
+        self.advance()
+        self.assert_fails(node, 'refused_commands = 1 more at model time')
+        node = self.node('expect_sound', '/sound_3', for_s=0.1)
+        self.assert_fails(node, 'refused_commands = 2 more at model time')
 
     def test_a_mean_is_one_over_time(self):
         def advance():

@@ -66,6 +66,12 @@ def how_long(timeout_s):
     return 'when the launch ended' if rospy.is_shutdown() else 'after %g s of wall time' % timeout_s
 
 
+def warn_of_late_begin(what, begin, end, after):
+    """The emulator does not wait for a test that begins to listen."""
+    rospy.logwarn('%s was judged from %g s to %g s of model time, not from after_s = %g on: the run was further when '
+                  'this test began to listen', what, begin, end, after)
+
+
 def flag(name, default):
     """A private parameter that is true or false."""
     value = parameter(name, default)
