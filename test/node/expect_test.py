@@ -222,6 +222,12 @@ class Expect(NodeTest):
             self.assert_refused('field = %s cannot be tested: .*%s' % (field, reason), field=field, for_s=0.1,
                                 least=0.0)
 
+    def test_names_that_no_node_can_have(self):
+        for kind, given in (('expect', {'field': 'friction/eta', 'least': 0.0}), ('expect_sound', {})):
+            for name in ('a b', '', 5):
+                self.assert_refused('parameter emulator = %r: must be the name of a node' % (name,), kind, for_s=1.0,
+                                    emulator=name, **given)
+
     def test_times_that_make_no_sense(self):
         self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
                             for_s=0.0)

@@ -10,6 +10,7 @@ import unittest
 import rosgraph.names
 import rospy
 import rostest
+from afm_emulator.client import name_fault
 from afm_emulator.msg import Configuration
 from afm_emulator.subscription import Subscription
 
@@ -162,4 +163,9 @@ def run(name, case):
 
 
 def emulator_name():
-    return rosgraph.names.ns_join('/', rospy.resolve_name(rospy.get_param('~emulator', 'afm')))
+    """What the private parameter `emulator` names."""
+    name = parameter('emulator', 'afm')
+    fault = name_fault(name)
+    if fault:
+        raise AssertionError('parameter emulator = %r: %s' % (name, fault))
+    return rosgraph.names.ns_join('/', rospy.resolve_name(name))
