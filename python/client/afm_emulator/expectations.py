@@ -1,4 +1,5 @@
 """What the test nodes expect, expect_sound and expect_repeats share (docs/controllers.md)."""
+import contextlib
 import math
 import os
 import signal
@@ -20,6 +21,7 @@ PACKAGE = 'afm_emulator'
 class Test(unittest.TestCase):
     """Refuses private parameters that it does not know: a misspelt one would be left out of the test."""
     parameters = ()
+    longMessage = False  # our sentences say all
 
     def setUp(self):
         own = rospy.get_name() + '/'
@@ -40,10 +42,10 @@ def parameter(name, default=None):
 def number(name, default=None):
     """A private parameter that is a number."""
     value = parameter(name, default)
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise AssertionError('parameter %s = %r: must be a number' % (name, value)) from None
+    with contextlib.suppress(TypeError, ValueError):
+        if not math.isnan(float(value)):
+            return float(value)
+    raise AssertionError('parameter %s = %r: must be a number' % (name, value))
 
 
 def duration(name, default=None):
