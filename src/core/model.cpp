@@ -26,7 +26,7 @@ std::vector<ParameterError> find_faults(const Model& m) {
   list.require_between(kMinFrequencyRatio, kMaxFrequencyRatio, "frequency_ratio", m.frequency_ratio,
                        "omega_h/omega_v must be");
   list.require_between(kMinAmplitude, kMaxAmplitude, "H", m.H, "the surface amplitude must be", " lattice spacings");
-  list.require(std::isfinite(m.y0) && m.y0 < m.H, "y0", m.y0,
+  list.require(m.y0 < m.H, "y0", m.y0,  // -infinity, which a height in SI units may become, is too far down
                "the holder must be at a finite height below the crest, or the tip hovers and never touches");
   if (m.y0 < kMinRestHeight) {
     list.faults.emplace_back("y0", m.y0,
