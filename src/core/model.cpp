@@ -26,8 +26,8 @@ std::vector<ParameterError> find_faults(const Model& m) {
   list.require_between(kMinFrequencyRatio, kMaxFrequencyRatio, "frequency_ratio", m.frequency_ratio,
                        "omega_h/omega_v must be");
   list.require_between(kMinAmplitude, kMaxAmplitude, "H", m.H, "the surface amplitude must be", " lattice spacings");
-  // a surface that is too flat is one fault
-  list.require(std::isfinite(m.y0) && m.y0 < std::fmax(m.H, kMinAmplitude), "y0", m.y0,
+  // a surface that is too flat is one fault; -infinity, which a height in SI units may become, is too far down
+  list.require(m.y0 < std::fmax(m.H, kMinAmplitude), "y0", m.y0,
                "the holder must be at a finite height below the crest, or the tip hovers and never touches");
   if (m.y0 < kMinRestHeight) {
     list.faults.emplace_back("y0", m.y0,

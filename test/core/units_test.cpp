@@ -94,6 +94,7 @@ struct Wrong {
 
 TEST(Units, AFaultNamesTheParameterAndShowsTheValueAsItWasGiven) {
   for (const Wrong& wrong : {Wrong{"rest_height_m", &SiModel::rest_height_m, 0.06e-9},                // above the crest
+                             Wrong{"rest_height_m", &SiModel::rest_height_m, -1e300},                 // -infinity a
                              Wrong{"lattice_spacing_m", &SiModel::lattice_spacing_m, 0.52},           // in nm
                              Wrong{"omega_h_rad_per_s", &SiModel::omega_h_rad_per_s, 2e3 * 40e3}}) {  // the ratio
     SiModel si;

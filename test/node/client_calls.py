@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""client_calls.cpp in Python: a word in quotes is a text. usage: client_calls.py TIMEOUT"""
+"""client_calls.cpp in Python: a word in quotes is a text, True is itself. usage: client_calls.py TIMEOUT"""
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
@@ -10,7 +10,9 @@ from afm_emulator.client import tau_between
 
 
 def argument(word):
-    return None if word == '-' else word.strip("'") if word.startswith("'") else float(word)
+    if word in ('-', 'True'):
+        return {'-': None, 'True': True}[word]
+    return word.strip("'") if word.startswith("'") else float(word)
 
 
 def control_in_threads(tip, *durations):

@@ -8,6 +8,7 @@ import threading
 import time
 from pathlib import Path
 
+from afm_emulator import Client, EmulatorError
 from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import SPEED_UNIT, TAU_S, Emulator, NodeTest, connected_to, find
@@ -332,6 +333,18 @@ class Python(Claims, NodeTest):
         self.assertRegex(tip.call("control '0.01'"), '^EmulatorError: duration = ')
         self.assertRegex(tip.call("control 0.01 '3e-6'"), '^EmulatorError: drag_velocity = ')
         self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # no half request is before it
+
+
+    def test_a_truth_value_is_no_number(self):
+        tip = self.start_both('lockstep')
+        self.assertRegex(tip.call('control True'), '^EmulatorError: duration = True: must be a finite number')
+
+    def test_a_name_that_no_node_can_have(self):
+        """Is refused at once. A legal one, relative or private, is waited for."""
+        for name in ('a fm', '', '/', 'a//b', '5', None, 5):
+            self.assertRaisesRegex(EmulatorError, '^name = %r: must be the name of a node' % (name,), Client, name, 1e9)
+        for name in ('nobody', 'of/nobody', '/nobody', '~nobody'):
+            self.assertRaisesRegex(EmulatorError, 'nobody/control: was not there within 0 s', Client, name, 0.0)
 
 
 class Cpp(Claims, NodeTest):

@@ -1,9 +1,12 @@
 """Every Python node that we ship ends within 5 s of SIGINT, whenever that comes after the node's first lines. Before
-them Python itself starts, and may swallow a SIGINT: it prints a KeyboardInterrupt and goes on.
+them Python itself starts, and may swallow a SIGINT: it prints a KeyboardInterrupt and goes on. A node that imports
+afm_emulator.ending later ends too, whichever of its threads gets the signal.
 
 AFM_STOPS, 1 by default: so many rounds, in each of which all nodes start at once, and each is stopped at a random
 moment.
 """
+import functools
+import itertools
 import os
 import random
 import re
@@ -20,6 +23,19 @@ NODES = {'detector.py': (), 'hold_force.py': (), 'plot_force.py': (), 'seek_peak
 ROUNDS = int(os.environ.get('AFM_STOPS', 1))
 LATEST_S = 4.0  # after the first lines: by then all nodes run, on a slow machine too
 LIMIT_S = 5.0
+# a thread that was started before does not block the signal, as those that rospy starts by importing numpy; it prints
+# its number, and the main thread waits for a lock
+LATE = '''
+import threading
+early = threading.Thread(target=threading.Event().wait, daemon=True)
+early.start()
+import rospy
+from afm_emulator import ending
+print(early.native_id, flush=True)
+lock = threading.Lock()
+lock.acquire()
+lock.acquire()
+'''
 
 
 def blocks_sigint(process):
@@ -41,6 +57,16 @@ class Ending(NodeTest):
             self.assertEqual(node.output(), '')
             applied.close()
             emulator.stop()
+
+    def test_imported_after_rospy(self):
+        """A signal that was ignored at the start too, as SIGINT is by the & of a script."""
+        for number, action in itertools.product((signal.SIGINT, signal.SIGTERM), (signal.SIG_DFL, signal.SIG_IGN)):
+            node = self.start(Process(['/usr/bin/python3', '-c', LATE],
+                                      preexec_fn=functools.partial(signal.signal, number, action)))
+            wait_until(lambda: node.output().endswith('\n'), 'it waits')
+            os.kill(int(node.output()), number)  # the early thread gets it
+            self.assertEqual(node.wait(LIMIT_S), 0)
+            self.assertEqual(node.output().count('\n'), 1)
 
     def start_node(self, name):
         return self.start(Process([find(name), '__name:=' + name.split('.')[0], *NODES[name]],

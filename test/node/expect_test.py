@@ -10,6 +10,7 @@ from unittest import mock
 import rospy
 from afm_emulator import Client, expectations
 from afm_emulator.msg import EmulatorStatus
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, find
@@ -59,7 +60,9 @@ class Expect(NodeTest):
             runpy.run_path(find(kind))
         (_, case), _ = run.call_args
         name, = unittest.defaultTestLoader.getTestCaseNames(case)
-        self.assertRaisesRegex(AssertionError, sentence, case(name).debug)
+        with self.assertRaisesRegex(AssertionError, sentence) as refused:
+            case(name).debug()
+        self.assertNotIn(' : ', str(refused.exception))  # with which unittest introduces a sentence
 
     def start_emulator(self):
         self.start(Emulator({'pace': 'lockstep', 'drag_velocity': SPEED}))
@@ -70,6 +73,14 @@ class Expect(NodeTest):
         directory = Path(self.temporary_directory())
         (directory / 'matplotlib.py').write_text('raise ImportError("no matplotlib here")\n')
         return '%s:%s' % (directory, os.environ['PYTHONPATH'])
+
+    def sound(self, name, **parameters):
+        """expect_sound, which hears a status. No node before had this name, whose connection might still be there."""
+        node = self.node('expect_sound', name, **parameters)
+        wait_until(lambda: name in connected_to('/afm/status'), 'it listens')
+        count = len(self.statuses.messages)
+        wait_until(lambda: len(self.statuses.messages) > count + 1, 'one was sent to it')
+        return node
 
     def advance(self, *speeds):
         """By a period for each."""
@@ -104,6 +115,34 @@ class Expect(NodeTest):
             said = self.judged(self.advance, 'friction/drag_velocity', least=0.0, for_s=0.1, **given)
             self.assertRegex(said, r'judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = %g on'
                              % given.get('after_s', 0))
+
+    def test_what_is_sound_in_a_run_that_is_further(self):
+        """A command that is refused before the test listens counts with after_s at 0 alone. One that is refused while
+        it listens always counts."""
+        self.start_emulator()
+        drag = rospy.Publisher('/afm/drag_velocity', Float64, queue_size=1)
+        self.statuses = expectations.Follower('/afm/status', EmulatorStatus)
+        self.addCleanup(self.statuses.subscription.close)
+
+        def refuse(count):
+            drag.publish(float('nan'))
+            refused, _ = self.statuses.wait_for(lambda said: said and said[-1].refused_commands == count, 60 * PATIENCE)
+            self.assertTrue(refused)
+
+        wait_until(lambda: drag.get_num_connections(), 'it is connected')
+        refuse(1)
+        self.tip.control(0.5)
+        node = self.sound('/sound_1', after_s=0.2, for_s=0.1)
+        self.advance()
+        code, said = self.end(node)
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r'/afm was judged from 0\.5\d* s to 0\.6\d* s of model time, not from after_s = 0.2 on')
+        node = self.sound('/sound_2', after_s=0.2, for_s=0.1)
+        refuse(2)
+        self.advance()
+        self.assert_fails(node, 'refused_commands = 1 more at model time')
+        node = self.node('expect_sound', '/sound_3', for_s=0.1)
+        self.assert_fails(node, 'refused_commands = 2 more at model time')
 
     def test_a_mean_is_one_over_time(self):
         def advance():
@@ -167,6 +206,7 @@ class Expect(NodeTest):
         for given in ({}, {'within': 1.0}, {'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
             self.assert_refused('there is no expectation', field='friction/eta', for_s=0.1, **given)
         self.assert_refused("least = 'x': must be a number", field='friction/eta', for_s=0.1, least='x')
+        self.assert_refused('least = nan: must be a number', field='friction/eta', for_s=0.1, least=float('nan'))
         for given in ({'value': 1.0, 'within': float('inf')}, {'least': -float('inf')}):
             self.assert_refused('which any number is', field='friction/eta', for_s=0.1, **given)
 
@@ -185,11 +225,17 @@ class Expect(NodeTest):
             self.assert_refused('field = %s cannot be tested: .*%s' % (field, reason), field=field, for_s=0.1,
                                 least=0.0)
 
+    def test_names_that_no_node_can_have(self):
+        for kind, given in (('expect', {'field': 'friction/eta', 'least': 0.0}), ('expect_sound', {})):
+            for name in ('a b', '', 5):
+                self.assert_refused('parameter emulator = %r: must be the name of a node' % (name,), kind, for_s=1.0,
+                                    emulator=name, **given)
+
     def test_times_that_make_no_sense(self):
         self.assert_refused('parameter for_s = .*: must be finite and above 0', field='friction/eta', least=0.0,
                             for_s=0.0)
-        for read, words, values in ((expectations.duration, 'above 0', (-1.0, 0.0, float('nan'), float('inf'))),
-                                    (expectations.time_after, 'not negative', (-1.0, float('nan'), float('inf')))):
+        for read, words, values in ((expectations.duration, 'above 0', (-1.0, 0.0, float('inf'))),
+                                    (expectations.time_after, 'not negative', (-1.0, float('inf')))):
             for value in values:
                 with mock.patch('rospy.get_param', return_value=value):
                     self.assertRaisesRegex(AssertionError, 'parameter t = .*: must be finite and ' + words, read, 't')
@@ -227,6 +273,12 @@ class Expect(NodeTest):
         launch.write_text('<launch><arg name="bag_directory"/></launch>')
         self.assert_refused('arguments = bags:=x: unknown to .*, which has bag_directory', 'expect_repeats',
                             launch=str(launch), arguments='bags:=x')
+        self.assert_refused('^arguments = bag_directory: must be NAME:=VALUE', 'expect_repeats', launch=str(launch),
+                            arguments='bag_directory')
+
+    def test_a_launch_file_that_is_not_there(self):
+        self.assert_refused('^launch = /no/such.launch: there is no such file', 'expect_repeats',
+                            launch='/no/such.launch', arguments='bags:=x')
 
     def test_help_may_be_cut_short(self):
         said = [subprocess.Popen('"%s" --help | true' % find(kind), shell=True, stderr=subprocess.PIPE,

@@ -9,6 +9,7 @@ import math
 import threading
 import time
 
+import rosgraph.names
 import rospy
 from afm_emulator.connection import Connection
 from afm_emulator.msg import Applied, Configuration
@@ -27,7 +28,7 @@ class EmulatorError(RuntimeError):
 def finite(name, value, wanted='a finite number'):
     """The value as a float. An EmulatorError names an argument that is no finite number."""
     try:
-        number = math.nan if isinstance(value, (str, bytes)) else float(value)
+        number = math.nan if isinstance(value, (str, bytes, bool)) else float(value)
     except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
@@ -46,6 +47,13 @@ def not_negative(name, value):
     return number
 
 
+def name_fault(name):
+    """Why no node can have this name, or nothing: who waits for one would wait in vain."""
+    if isinstance(name, str) and name.strip('/') and rosgraph.names.is_legal_name(name):
+        return ''
+    return 'must be the name of a node: letters, digits, _ and /, of which a letter, / or ~ comes first'
+
+
 def tau_between(begin, end):
     """Model time from one ModelTime message to another [tau]."""
     return (end.tau - begin.tau) + (end.phase - begin.phase)
@@ -54,7 +62,7 @@ def tau_between(begin, end):
 class Client:
     """An emulator, by the name of its node. The same calls work in real time and in lockstep.
 
-    name: of the node, such as 'afm'
+    name: of the node, such as 'afm', resolved as that of a topic is; an EmulatorError if no node can have it
     timeout: wall time that every call waits for an answer before it raises an EmulatorError [s], in real time longer by
         three times the period. The default is longer than the 12 s after which the emulator itself answers that a
         control period in lockstep takes too long.
@@ -68,6 +76,9 @@ class Client:
     def __init__(self, name='afm', timeout=15.0):
         if not rospy.core.is_initialized():
             raise EmulatorError('rospy.init_node comes before a Client')
+        fault = name_fault(name)
+        if fault:
+            raise EmulatorError('name = %r: %s' % (name, fault))
         self.name = rospy.resolve_name(name)
         self.timeout = not_negative('timeout', timeout)
         if self.timeout > LONGEST_S:

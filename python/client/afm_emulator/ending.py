@@ -1,8 +1,9 @@
-"""Import this before all else: from here on the node ends at SIGINT and SIGTERM, whenever they come.
+"""Import this early: from here on the node ends at SIGINT and SIGTERM, whenever they come.
 
 rospy's own handler runs in the middle of what the main thread does, an import or a lock that it waits for, and the node
 may hang. Here a thread of its own waits for the signal. It asks rospy to shut down, and a second later the kernel ends
-the process.
+the process. The signal may also come to a thread that was started before, as numpy starts some, or be ignored, as by a
+script's `&`. So Python writes it to a pipe, whichever thread gets it, and the thread reads it there.
 """
 import os
 import signal
@@ -13,8 +14,10 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 LEAVE_S = 1  # to take leave of the master
 
 
-def _wait():
-    signal.sigwait(SIGNALS)
+def _wait(pipe):
+    unblock()
+    while os.read(pipe, 1)[0] not in SIGNALS:  # others with a handler in Python are written too
+        pass
     signal.alarm(LEAVE_S)  # no lock holds it up
     rospy = sys.modules.get('rospy')
     if rospy is None or not hasattr(rospy, 'core') or not rospy.core.is_initialized():
@@ -33,6 +36,16 @@ def init_node(name, **options):
     rospy.init_node(name, disable_signals=True, **options)
 
 
-signal.signal(signal.SIGALRM, signal.SIG_DFL)
-signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)  # for every thread that is started from here on
-threading.Thread(target=_wait, daemon=True).start()
+def _begin():
+    reading, writing = os.pipe()
+    os.set_blocking(writing, False)
+    signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
+    for number in SIGNALS:
+        # for a library that takes the place of the pipe for a time, as matplotlib does while it shows a window
+        signal.signal(number, lambda number, _: os.write(writing, bytes([number])))
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)  # for every thread that is started from here on
+    threading.Thread(target=_wait, args=(reading,), daemon=True).start()
+
+
+_begin()

@@ -1,4 +1,5 @@
 """What the test nodes expect, expect_sound and expect_repeats share (docs/controllers.md)."""
+import contextlib
 import math
 import os
 import signal
@@ -10,6 +11,7 @@ import unittest
 import rosgraph.names
 import rospy
 import rostest
+from afm_emulator.client import name_fault
 from afm_emulator.msg import Configuration
 from afm_emulator.subscription import Subscription
 
@@ -19,6 +21,7 @@ PACKAGE = 'afm_emulator'
 class Test(unittest.TestCase):
     """Refuses private parameters that it does not know: a misspelt one would be left out of the test."""
     parameters = ()
+    longMessage = False  # our sentences say all
 
     def setUp(self):
         own = rospy.get_name() + '/'
@@ -39,10 +42,10 @@ def parameter(name, default=None):
 def number(name, default=None):
     """A private parameter that is a number."""
     value = parameter(name, default)
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise AssertionError('parameter %s = %r: must be a number' % (name, value)) from None
+    with contextlib.suppress(TypeError, ValueError):
+        if not math.isnan(float(value)):
+            return float(value)
+    raise AssertionError('parameter %s = %r: must be a number' % (name, value))
 
 
 def duration(name, default=None):
@@ -64,6 +67,12 @@ def time_after(name):
 def how_long(timeout_s):
     """Why Follower.wait_for() gave up: a required node that dies ends the launch."""
     return 'when the launch ended' if rospy.is_shutdown() else 'after %g s of wall time' % timeout_s
+
+
+def warn_of_late_begin(what, begin, end, after):
+    """The emulator does not wait for a test that begins to listen."""
+    rospy.logwarn('%s was judged from %g s to %g s of model time, not from after_s = %g on: the run was further when '
+                  'this test began to listen', what, begin, end, after)
 
 
 def flag(name, default):
@@ -156,4 +165,9 @@ def run(name, case):
 
 
 def emulator_name():
-    return rosgraph.names.ns_join('/', rospy.resolve_name(rospy.get_param('~emulator', 'afm')))
+    """What the private parameter `emulator` names."""
+    name = parameter('emulator', 'afm')
+    fault = name_fault(name)
+    if fault:
+        raise AssertionError('parameter emulator = %r: %s' % (name, fault))
+    return rosgraph.names.ns_join('/', rospy.resolve_name(name))
