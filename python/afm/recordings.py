@@ -1,6 +1,7 @@
 """Recordings of the emulator: their model and commands, and the run simulated again to the same bits."""
 import bisect
 import contextlib
+import hashlib
 import os
 import struct
 import warnings
@@ -31,8 +32,8 @@ class _Digest(NamedTuple):
 
     epoch: int
     first: int
-    count: int
-    values: int
+    length: int
+    values: bytes
 
 
 def _digest_of(kind: str, data: bytes) -> _Digest:
@@ -48,8 +49,8 @@ def _digest_of(kind: str, data: bytes) -> _Digest:
     return _Digest(epoch, first, count, _hash(lists))
 
 
-def _hash(lists: Sequence[Any]) -> int:
-    return hash(tuple(values.tobytes() for values in lists))
+def _hash(lists: Sequence[Any]) -> bytes:
+    return hashlib.blake2b(b''.join(values.tobytes() for values in lists), digest_size=8).digest()
 
 
 def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
@@ -59,9 +60,11 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
     except ImportError as fault:
         raise ImportError('from_bag() reads with rosbag (Debian: python3-rosbag; else source the setup.bash of ROS): '
                           '%s' % fault)
+    known: Dict[str, Any] = {}
     with contextlib.suppress(ImportError):  # else rosbag makes classes from the bag's definitions: they may be damaged
         from afm_emulator import msg
-        rosbag.bag._message_types.update({c._md5sum: c for c in (getattr(msg, kind) for kind in _KINDS)})
+        known = {c._md5sum: c for c in (getattr(msg, kind) for kind in _KINDS)}
+        rosbag.bag._message_types.update(known)
     kinds = ['afm_emulator/' + kind for kind in _KINDS]
     try:
         with rosbag.Bag(str(path)) as bag:
@@ -73,7 +76,12 @@ def _messages(path: Any) -> Iterator[Tuple[str, str, str, bytes, Any, Any]]:
                     connection_filter=lambda _, datatype, *__: datatype in kinds):
                 node = header.get('callerid', named.get(topic.rpartition('/')[0], b''))
                 kind = raw[0].split('/')[1]
-                message = _digest_of(kind, raw[1]) if kind in _DIGESTED else raw[4]().deserialize(raw[1])
+                if kind not in _DIGESTED:
+                    message = raw[4]().deserialize(raw[1])
+                elif not known or raw[2] in known:
+                    message = _digest_of(kind, raw[1])
+                else:  # of another version, which the snapshot names
+                    message = None
                 yield topic, node.decode() if isinstance(node, bytes) else node, kind, raw[1], message, stamp
     except rosbag.bag.ROSBagUnindexedException as fault:
         raise ValueError('%s: not closed: rosbag reindex recovers what is in it (take a copy while it is written)' %
@@ -202,7 +210,7 @@ class Recording:
             raise ValueError('messages of Applied are missing: a command is not known')
         self._check_batches(frictions)
         self._digests = {kind: {seq: m for seq, m in read[kind].items()
-                                if m.epoch == self.epoch and frictions[0].header.seq <= seq <= last}
+                                if m and m.epoch == self.epoch and frictions[0].header.seq <= seq <= last}
                          for kind in _DIGESTED}
         if any(seq > self._last.header.seq for digests in self._digests.values() for seq in digests):
             raise ValueError('messages of Friction are missing at the end of epoch %d' % self.epoch)
@@ -320,7 +328,7 @@ class Recording:
     def _compare(self, kind: str, first: int, simulated: List[Any], unit: float) -> None:
         """Batch by batch, with what the bag holds."""
         for seq, m in self._digests[kind].items():
-            begin, end = m.first - first, m.first - first + m.count
+            begin, end = m.first - first, m.first - first + m.length
             if not 0 <= begin <= end <= len(simulated[0]) or m.values != _hash([v[begin:end] * unit for v in simulated]):
                 self._refuse('message %d of %s' % (seq, kind))
 

@@ -33,12 +33,12 @@ double resonant_drag(double eta, double kicks_per_tau) {
   return 0.5 * std::round(2.0 * std::abs(eta) / kicks_per_tau) * kicks_per_tau;
 }
 
-// Where the holder passes so nearly these cells, a kick meets the same one or two phases of the surface for hundreds of
-// tau, and the start decides which. A choice: 0.001 of a cell.
+// At it a kick meets the same one or two phases of the surface, and the start decides which. Beside it these phases move
+// on by the difference. A choice: as slow as a cell in 100 tau.
 bool locks_to_drag(double eta, double kicks_per_tau) {
-  constexpr double kNear = 1e-3;
+  constexpr double kNear = 0.01;  // [a/tau]
   const double drag = resonant_drag(eta, kicks_per_tau);
-  return drag > 0.0 && std::abs(std::abs(eta) - drag) < kNear * kicks_per_tau;
+  return drag > 0.0 && std::abs(std::abs(eta) - drag) <= kNear;
 }
 
 // Below it a kick takes more than this part of a velocity at once. On a slope it drives a sliding tip into the surface
@@ -90,7 +90,8 @@ double suitable_kicks(const Model& model, const Bath& bath, double eta) {
   if (section >= std::fmax(least, many.front()) && !section_locks) return section;
   // no whole number, with which kicks come at the same phases of the drag again and again
   const double unlocked = lateral_ratio(model) / kFewTurns, most = kMaxKickRate - 1.0;
-  return unlocked > most ? section : std::fmin(std::ceil(std::fmax(least, unlocked)), most) + 0.618;
+  const double kicks = unlocked > most ? section : std::fmin(std::ceil(std::fmax(least, unlocked)), most) + 0.618;
+  return locks_to_drag(eta, kicks) ? kicks - 0.236 : kicks;  // its other golden section
 }
 
 std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, double eta) {
@@ -104,7 +105,8 @@ std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, 
   const auto warning = [&](const std::string& reason) {
     return std::vector<ParameterError>{ParameterError("kicks_per_tau", kicks, reason)};
   };
-  const std::string remedy = ": K_f may be wrong by a fifth and more; give " + number_text(suitable);
+  const std::string give = "; give " + number_text(suitable_kicks(model, bath, eta));
+  const std::string remedy = ": K_f may be wrong by a fifth and more" + give;
   if (locks(model, bath, kicks)) {
     return warning("locks to the swing of the lateral spring, as omega_h/omega_v = " +
                    number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
@@ -121,8 +123,8 @@ std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, 
     constexpr int kFew = 6;
     return warning("locks to the drag near eta = " + rounded_text(resonant_drag(eta, kicks), kFew) +
                    ", where kicks meet the same phases of the surface: K_f depends on the start, by more than its "
-                   "error says; give " +
-                   number_text(suitable_kicks(model, bath, eta)));
+                   "error says" +
+                   give);
   }
   return {};
 }

@@ -113,12 +113,29 @@ class SpoiledBags(SpoiledBag):
             self.spoil_each((UNCHECKED, words, False, lambda: self.remove(*self.of(topic)[80:83])))
 
     def test_a_hole_may_hide_a_snapshot(self):
-        """At which the motion was split: a difference behind it may be that in the last digits."""
-        def lose_batches_before_a_difference():
-            self.of('deflection')[90].flip_last_bit(-8)
+        """At which the motion was split: a difference right behind it may be that in the last digits."""
+        def lose_batches_before_a_difference(batch):
+            self.of('deflection')[batch].flip_last_bit(-8)
             self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[80:83]))
         self.spoil_each((UNCHECKED, ('3 messages of /afm/friction', 'what was compared is identical'), False,
-                         lose_batches_before_a_difference))
+                         lambda: lose_batches_before_a_difference(83)),
+                        (DIFFERS, ('message 90 of /afm/deflection',), False,
+                         lambda: lose_batches_before_a_difference(90)))
+
+    def test_begun_late_by_rosbag_record(self):
+        """At the latched snapshot and command: what is altered later is still found. Where rosbag record repeats the
+        latched messages of the beginning, another snapshot may have come."""
+        def begin_late(batch, repeated=False):
+            batches = [e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[:20]]
+            self.remove(*batches)
+            snapshot = self.of('snapshot')[0]
+            snapshot.stamp += genpy.Duration(0, 1000)
+            for entry in self.entries[:3] if repeated else ():
+                entry.header = {k: v for k, v in entry.header.items() if k != 'callerid'}
+            self.of('deflection')[batch].flip_last_bit(-8)
+        self.spoil_each((DIFFERS, ('message 30 of /afm/deflection',), None, lambda: begin_late(10)),
+                        (DIFFERS, ('message 20 of /afm/deflection',), None, lambda: begin_late(0)),
+                        (UNCHECKED, ('not compared:',), None, lambda: begin_late(0, True)))
 
     def test_messages_are_lost_at_the_ends(self):
         for topic in ('deflection', 'impacts', 'friction'):
@@ -176,6 +193,7 @@ class SpoiledBags(SpoiledBag):
         """To before the start of the node: what is latched has later stamps than all that follows."""
         for entry in self.entries[:2]:
             entry.edit(header__stamp=entry.message().header.stamp + genpy.Duration(3600))
+        self.of('snapshot')[0].edit(header__seq=1)  # that of the recording, which begins later than the node
         self.assert_reported(SOUND, 'IDENTICAL', sound=True)
 
     def test_two_starts(self):

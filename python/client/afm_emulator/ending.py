@@ -3,7 +3,7 @@
 rospy's own handler runs in the middle of what the main thread does, an import or a lock that it waits for, and the node
 may hang. Here a thread of its own waits for the signal. It asks rospy to shut down, and a second later the kernel ends
 the process. The signal may also come to a thread that was started before, as numpy starts some, or be ignored, as by a
-script's `&`. So Python writes it to a pipe, whichever thread gets it, and the thread reads it there.
+script's `&`. So Python writes it to a pipe, whichever thread gets it, and another thread reads it there.
 """
 import os
 import signal
@@ -14,10 +14,18 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 LEAVE_S = 1  # to take leave of the master
 
 
-def _wait(pipe):
-    unblock()
+def _wait():
+    signal.sigwait(SIGNALS)
+    _end()
+
+
+def _read(pipe):
     while os.read(pipe, 1)[0] not in SIGNALS:  # others with a handler in Python are written too
         pass
+    _end()
+
+
+def _end():
     signal.alarm(LEAVE_S)  # no lock holds it up
     rospy = sys.modules.get('rospy')
     if rospy is None or not hasattr(rospy, 'core') or not rospy.core.is_initialized():
@@ -36,6 +44,13 @@ def init_node(name, **options):
     rospy.init_node(name, disable_signals=True, **options)
 
 
+def _leave():
+    """A child of multiprocessing has the pipe too: its signals would end this node."""
+    signal.set_wakeup_fd(-1)
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_DFL)
+
+
 def _begin():
     reading, writing = os.pipe()
     os.set_blocking(writing, False)
@@ -43,9 +58,11 @@ def _begin():
     for number in SIGNALS:
         # for a library that takes the place of the pipe for a time, as matplotlib does while it shows a window
         signal.signal(number, lambda number, _: os.write(writing, bytes([number])))
+    os.register_at_fork(after_in_child=_leave)
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)  # for every thread that is started from here on
-    threading.Thread(target=_wait, args=(reading,), daemon=True).start()
+    threading.Thread(target=_wait, daemon=True).start()
+    threading.Thread(target=_read, args=(reading,), daemon=True).start()
 
 
 _begin()

@@ -115,8 +115,9 @@ std_msgs::Header header_of(const rosbag::MessageInstance& message) {
 }
 
 // Whether the node named it as a part of the recording that begins with NAME.bag: NAME_001.bag, NAME_002.bag.
-bool is_part(const std::filesystem::path& path, const std::filesystem::path& first) {
-  const std::string part = path.filename(), whole = first.filename(), name = whole.substr(0, whole.rfind(".bag"));
+bool is_part(const std::string& path, const std::string& first) {
+  const std::string part = std::filesystem::canonical(path), whole = std::filesystem::canonical(first);
+  const std::string name = whole.substr(0, whole.rfind(".bag"));
   return part.compare(0, name.size(), name) == 0 &&
          std::regex_match(part.substr(name.size()), std::regex("_[0-9]{3,}\\.bag(\\.active)?"));
 }

@@ -53,7 +53,8 @@ class Starts {
     for (const auto& [latest, behind] : found_) {
       if (times_.empty() || times_.back() <= behind) times_.push_back(latest);
     }
-    if (is_set_back_ && times_.size() == 1) times_.clear();  // stamps before it are of this start too
+    const bool is_first = times_.size() == 1 && found_.front().second == ros::TIME_MIN;
+    if (is_set_back_ && is_first) times_.clear();  // stamps before it are of this start too
   }
   // The last start that is not later than the stamp [ns]; 0 if there is none.
   std::uint64_t of(const ros::Time& stamp) const {
@@ -84,6 +85,8 @@ class Cursor {
     read();
   }
 
+  // Whether it is a latched message that rosbag record repeats, without the name of its node.
+  bool is_repeated() const { return at_->getCallerId().empty(); }
   // The next message; null at the end.
   const boost::shared_ptr<Message>& get() const { return message_; }
   const Number& number() const { return number_; }

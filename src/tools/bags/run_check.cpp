@@ -74,13 +74,13 @@ void RunCheck::read_marks() {
   const auto snapshots = recording_.read<afm_emulator::Snapshot>();
   for (; snapshots->get(); snapshots->next()) {
     if (!marks_.empty()) marks_.back().lost_snapshots = snapshots->lost();
-    marks_.push_back({snapshots->number(), nullptr, snapshots->get()});
+    marks_.push_back({snapshots->number(), nullptr, snapshots->get(), snapshots->is_repeated()});
   }
   const auto applied = recording_.read<afm_emulator::Applied>();
   std::uint64_t lost = 0, known_lost = 0;
   for (; applied->get(); applied->next()) {
     if (!marks_.empty() && applied->lost() == 0) check_number(marks_.back(), *applied->get(), applied->number());
-    marks_.push_back({applied->number(), applied->get(), nullptr});
+    marks_.push_back({applied->number(), applied->get(), nullptr, applied->is_repeated()});
     lost += applied->lost();
   }
   const auto key = [](const Mark& c) {
@@ -129,7 +129,8 @@ void RunCheck::check_configurations() {
 void RunCheck::run() {
   check_configurations();
   while ((batches_->get() || next_mark_ < marks_.size()) && !difference_) {
-    if (!batches_->get() || (next_mark_ < marks_.size() && is_due(marks_[next_mark_]))) {
+    const bool is_mark = !batches_->get() || (next_mark_ < marks_.size() && is_due(marks_[next_mark_]));
+    if (is_mark) {
       take(marks_[next_mark_++]);
     } else {
       check_batch();
@@ -138,6 +139,7 @@ void RunCheck::run() {
     if (!difference_ || !(is_doubtful_ || is_behind_hole_)) continue;
     difference_.reset();  // it is what the lost command or snapshot did
     run_.reset();
+    if (is_mark) ++extent_.commands_unknown;
   }
   if (difference_) return;
   check_without_friction();
@@ -229,7 +231,7 @@ void RunCheck::note_beginning(const Mark& mark) {
   if (extent_.epochs == 0 || mark.number.start != start_ || mark.epoch() != applied_.epoch) ++extent_.epochs;
   start_ = mark.number.start;
   has_begun_ = true;
-  is_behind_hole_ = false;
+  is_behind_hole_ = mark.is_repeated;
   last_.reset();
 }
 
@@ -283,7 +285,7 @@ void RunCheck::check_batch() {
   const bool follows = batches_->lost() == 0 && !has_begun_;
   lose("messages of " + recording_.topic<afm_emulator::Friction>(), batches_->lost());
   check_without_friction();
-  is_behind_hole_ |= is_hole();
+  if (is_hole()) is_behind_hole_ = true;
   const auto deflection = of_batch(deflections_.get());
   const auto impacts = of_batch(impacts_.get());
   batches_->next();
@@ -308,6 +310,7 @@ void RunCheck::check_batch() {
     ++extent_.batches_unknown;
     return;
   }
+  if (impacts && !impacts->impacts.empty()) is_behind_hole_ = false;  // an impact hides no last digit
   last_ = recorded;
   ++extent_.batches;
   extent_.model_seconds += (batch_.end - batch_.begin) * units.time();
@@ -321,10 +324,7 @@ void RunCheck::check_batch() {
 // shows by the next alone.
 bool RunCheck::is_hole() const {
   const auto is_lost = [](const auto& messages) { return !messages || !messages->get() || messages->lost() > 0; };
-  if (has_begun_ ? !run_ || !(run_->now() < from_message(batches_->get()->begin))
-                 : batches_->lost() == 0 || !is_lost(deflections_) || !is_lost(impacts_)) {
-    return false;
-  }
+  if (batches_->lost() == 0 || !is_lost(deflections_) || !is_lost(impacts_)) return false;
   return std::none_of(marks_.begin() + static_cast<std::ptrdiff_t>(next_mark_), marks_.end(),
                       [&](const Mark& c) { return c.snapshot && c.number.start == batches_->number().start; });
 }

@@ -65,6 +65,7 @@ class RunCheck {
     Number number;
     boost::shared_ptr<afm_emulator::Applied> applied;
     boost::shared_ptr<afm_emulator::Snapshot> snapshot;
+    bool is_repeated = false;                             // and others may have come between
     std::uint64_t lost_commands = 0, lost_snapshots = 0;  // between this one and the next
 
     std::uint32_t epoch() const { return applied ? applied->epoch : snapshot->epoch; }
@@ -125,7 +126,7 @@ class RunCheck {
   boost::shared_ptr<afm_emulator::Friction> last_;  // batch compared since something was applied
   bool has_begun_ = false;                          // and no batch was compared since
   bool is_doubtful_ = false;                        // a command or a snapshot is lost: a difference is what it did
-  bool is_behind_hole_ = false;                     // where a snapshot may be lost: likewise
+  bool is_behind_hole_ = false;                     // in which a snapshot may be lost: likewise
 
   std::optional<Difference> difference_;
   Extent extent_;

@@ -19,8 +19,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from ..connection import Connection
 from ..impacts import read_impacts
+from ..subscription import ASK_AGAIN_S, Subscription
 
-ASK_AGAIN_S = 2.0     # rospy may miss a publisher that comes back, and a master that comes back knows nobody
 PAIRING_S = 0.1       # that a batch waits for its impacts, which come on another topic
 SERVICE_S = 5.0       # that a service is waited for
 ANSWER_S = 35.0       # and then its answer: a step may take 8 s, and closing a bag half a minute
@@ -41,31 +41,37 @@ class Link:
         self.diagnostics = {}           # status by its name
         self.notes = collections.deque(maxlen=1)  # what a service answered, for the operator
         self._batches, self._impacts = (collections.deque(maxlen=WAITING_BATCHES) for _ in range(2))
-        self._heard = self._asked = -math.inf
-        self._subscribers, self._jobs, self._wanted = [], queue.Queue(), {}
-        self._lock, self._asking = threading.Lock(), threading.Lock()
-        self._commands = {}
+        self._heard = -math.inf
+        self._jobs, self._wanted = queue.Queue(), {}
+        self._lock = threading.Lock()
+        self._commands, self._is_closed = {}, False
         self._advertise()
+        takers = [(topic, kind, self._keep) for topic, kind in LATEST.items()]
+        takers += [('deflection', Deflection, self._keep_batch), ('impacts', ImpactArray, self._keep_impacts)]
+        self._subscriptions = [Subscription('/diagnostics', DiagnosticArray, self._keep_diagnostics)]
+        self._subscriptions += [Subscription('%s/%s' % (name, topic), rospy.AnyMsg, take, (topic, kind),
+                                             buff_size=1 << 20) for topic, kind, take in takers]
         threading.Thread(target=self._work, daemon=True).start()
 
     # what comes
 
     def close(self):
-        self._asked = math.inf
         self._jobs.put(None)
+        for subscription in self._subscriptions:
+            subscription.close()
         with self._lock:
-            for subscriber in self._subscribers:
-                subscriber.unregister()
-        for publisher in self._commands.values():
-            publisher.unregister()
+            self._is_closed = True
+            for publisher in self._commands.values():
+                publisher.unregister()
 
     def silence(self):
-        """Seconds of wall time since anything came. Asks for the emulator again when that is long."""
-        now = time.monotonic()
-        if now - max(self._heard, self._asked) > ASK_AGAIN_S:
-            self._asked = now
-            threading.Thread(target=self._subscribe, daemon=True).start()  # a master that is gone lets one wait
-        return now - self._heard
+        """Seconds of wall time since anything came. Asks again for what is not connected."""
+        for subscription in self._subscriptions:
+            subscription.ask_again()
+        if time.monotonic() > self._advertised + ASK_AGAIN_S and not self.takes_commands():
+            self._advertised = math.inf
+            threading.Thread(target=self._advertise, daemon=True).start()  # a master that is gone lets one wait
+        return time.monotonic() - self._heard
 
     def latest(self, topic):
         """The newest message, decoded now, or None."""
@@ -77,7 +83,7 @@ class Link:
     def takes_commands(self):
         """Else it is a recording that is played."""
         try:
-            return self._commands['drag_velocity'].get_num_connections() > 0
+            return all(publisher.get_num_connections() > 0 for publisher in self._commands.values())
         except AttributeError:  # it is just advertised anew
             return False
 
@@ -98,34 +104,15 @@ class Link:
 
     def _advertise(self):
         """Anew while nobody is connected: a master that comes back knows no publisher."""
-        for topic in ('drag_velocity', 'rest_height'):
-            former = self._commands.get(topic)
-            if former is None or former.get_num_connections() == 0:
-                if former is not None:
-                    former.unregister()
-                self._commands[topic] = rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
-                                                        tcp_nodelay=True)
-
-    def _subscribe(self):
-        if not self._asking.acquire(blocking=False):
-            return  # the master has not answered yet
-        try:
-            self._subscribe_again()
-        finally:
-            self._asking.release()
-
-    def _subscribe_again(self):
         with self._lock:
-            for subscriber in self._subscribers:
-                subscriber.unregister()
-            self._advertise()
-            fast = {'tcp_nodelay': True, 'buff_size': 1 << 20}
-            self._subscribers = [rospy.Subscriber('%s/%s' % (self.name, topic), rospy.AnyMsg, keep, (topic, kind),
-                                                  **fast)
-                                 for topic, kind, keep in [(topic, kind, self._keep) for topic, kind in LATEST.items()]
-                                 + [('deflection', Deflection, self._keep_batch),
-                                    ('impacts', ImpactArray, self._keep_impacts)]]
-            self._subscribers.append(rospy.Subscriber('/diagnostics', DiagnosticArray, self._keep_diagnostics))
+            for topic in ('drag_velocity', 'rest_height') if not self._is_closed else ():
+                former = self._commands.get(topic)
+                if former is None or former.get_num_connections() == 0:
+                    if former is not None:
+                        former.unregister()
+                    self._commands[topic] = rospy.Publisher('%s/%s' % (self.name, topic), Float64, queue_size=10,
+                                                            tcp_nodelay=True)
+            self._advertised = time.monotonic()
 
     def _keep(self, message, subject):
         topic, kind = subject
