@@ -177,7 +177,8 @@ bool is_identical(const std::string& path) {
       bags::RunCheck check(
           recording, [](std::size_t, std::size_t) {}, kMostGap);
       check.run();
-      identical = identical && !check.difference() && check.missing().empty() && check.extent().batches_unknown == 0;
+      identical = identical && !check.difference() && check.missing().empty() && check.extent().batches_unknown == 0 &&
+                  check.extent().commands_unknown == 0;
     }
     return identical;
   } catch (const std::exception&) {

@@ -231,7 +231,8 @@ void RunCheck::note_beginning(const Mark& mark) {
   if (extent_.epochs == 0 || mark.number.start != start_ || mark.epoch() != applied_.epoch) ++extent_.epochs;
   start_ = mark.number.start;
   has_begun_ = true;
-  is_behind_hole_ = mark.is_repeated;
+  has_begun_at_repeated_ = mark.is_repeated;
+  is_behind_hole_ = false;
   last_.reset();
 }
 
@@ -323,6 +324,8 @@ void RunCheck::check_batch() {
 // Whether whole batches are missing before this one, and after the last snapshot of its start: the number of a lost one
 // shows by the next alone.
 bool RunCheck::is_hole() const {
+  const bool begins_later = has_begun_ && run_ && run_->now() < from_message(batches_->get()->begin);
+  if (begins_later && has_begun_at_repeated_) return true;
   const auto is_lost = [](const auto& messages) { return !messages || !messages->get() || messages->lost() > 0; };
   if (batches_->lost() == 0 || !is_lost(deflections_) || !is_lost(impacts_)) return false;
   return std::none_of(marks_.begin() + static_cast<std::ptrdiff_t>(next_mark_), marks_.end(),
