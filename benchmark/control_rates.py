@@ -20,7 +20,8 @@ def measure_python(duration, periods):
     if not rospy.core.is_initialized():
         rospy.init_node('control_rates', anonymous=True, disable_rostime=True)
     tip = Client('/afm')
-    tip.control(duration)
+    for _ in range(periods // 4):
+        tip.control(duration)
     begin = time.monotonic()
     for _ in range(periods):
         tip.control(duration)
