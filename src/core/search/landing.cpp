@@ -1,5 +1,6 @@
 #include "afm/landing.h"
 
+#include "core/release_noise.h"
 #include "finer_landing.h"
 #include "impact_search.h"
 
@@ -21,11 +22,18 @@ SearchOutcome without_end(const Landing<double>& landing) {
   return landing.s >= kMinProgress ? SearchOutcome::clear : SearchOutcome::cap;
 }
 
+// Whether so early a landing may be one of rounding of the gap's acceleration, as that of a launch in balance.
+bool is_of_rounding(const Flight<double>& flight, const Landing<double>& landing) {
+  const GapJet<double>& start = flight.start();
+  return landing.outcome == SearchOutcome::impact && landing.s < kEarlyLanding && start.g1 > 0.0 &&
+         start.g2 > -release_noise(flight.springs(), flight.eta() + start.state.U, start.state.X);
+}
+
 }  // namespace
 
 Landing<double> find_landing(const Model& model, const Flight<double>& flight, double horizon) {
   Landing<double> landing = find_impact(flight, horizon);
-  const bool early = landing.outcome == SearchOutcome::impact && landing.s < kEarlyLanding && flight.start().g1 > 0.0;
+  const bool early = is_of_rounding(flight, landing);
   if (early || landing.outcome == SearchOutcome::undecided) {
     landing = find_finer_landing(model, flight, horizon, early ? 0.0 : landing.s);
   }
