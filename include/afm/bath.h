@@ -36,9 +36,9 @@ constexpr double kMaxKickRate = 1000.0;     // [1/tau]
 std::vector<ParameterError> find_faults(const Bath& bath);
 
 // Whether the kicks lock, because from kick to kick the lateral spring makes nearly a whole or half number of turns, or
-// the holder passes nearly a whole or half number of cells. K_f may then be wrong by a fifth (docs/levers.md), or depend
-// on the start (docs/temperature.md). eta: drag velocity [a/tau]; 0: whatever it is. False without a bath. The hammer
-// has no lateral spring. Precondition of this and of the next two: a model and a bath without faults.
+// the holder passes nearly a whole or half number of cells. K_f may then be wrong by a fifth (docs/levers.md), or
+// depend on the start (docs/temperature.md). eta: drag velocity [a/tau]; 0: whatever it is. False without a bath. The
+// hammer has no lateral spring. Precondition of this and of the next two: a model and a bath without faults.
 bool kicks_lock(const Model& model, const Bath& bath, double eta = 0.0);
 
 // A rate of kicks [1/tau] for this model and these quality factors; the rate that the bath has does not count.

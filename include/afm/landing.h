@@ -26,11 +26,11 @@ struct Landing {
 // and the turns stay small.
 constexpr double kSearchHorizon = 8.0;
 
-// [tau] So soon after a launch rounding of the gap's acceleration, 1e-15 a/tau^2 and more, may make a root.
+// [tau] So soon after a launch rounding of the gap's acceleration may make a root.
 constexpr double kEarlyLanding = 1e-14;
 
 // Searches from the start of the flight to the horizon [tau], in double precision. If rounding leaves the result
-// undecided, or the landing is an early one, the search is repeated in double-double from the same start (Lemma 7).
+// undecided, or may have made an early landing, the search is repeated in double-double from the same start (Lemma 7).
 // Guarantee: an impact or a miss is that of exact arithmetic on the given doubles, down to the rounding of
 // double-double, about 2e-31 (|y0| + 1) a. If double-double cannot decide either, or the evaluations run out, the
 // outcome is: an impact if the gap is at most 1e-17 a, clear if at least 0.1 tau are certified, otherwise cap.

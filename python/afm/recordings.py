@@ -329,13 +329,14 @@ class Recording:
         """Batch by batch, with what the bag holds."""
         for seq, m in self._digests[kind].items():
             begin, end = m.first - first, m.first - first + m.length
-            if not 0 <= begin <= end <= len(simulated[0]) or m.values != _hash([v[begin:end] * unit for v in simulated]):
+            is_there = 0 <= begin <= end <= len(simulated[0])
+            if not is_there or m.values != _hash([v[begin:end] * unit for v in simulated]):
                 self._refuse('message %d of %s' % (seq, kind))
 
     @staticmethod
     def _refuse(by: str) -> None:
-        raise ValueError('the run is not as recorded, by %s: messages of Applied or Snapshot are missing, or the bag is '
-                         'damaged' % by)
+        raise ValueError('the run is not as recorded, by %s: messages of Applied or Snapshot are missing, or the bag '
+                         'is damaged' % by)
 
 
 def from_bag(path: Paths, epoch: Optional[int] = None, namespace: Optional[str] = None) -> Recording:

@@ -33,8 +33,8 @@ double resonant_drag(double eta, double kicks_per_tau) {
   return 0.5 * std::round(2.0 * std::abs(eta) / kicks_per_tau) * kicks_per_tau;
 }
 
-// At it a kick meets the same one or two phases of the surface, and the start decides which. Beside it these phases move
-// on by the difference. A choice: as slow as a cell in 100 tau.
+// At it a kick meets the same one or two phases of the surface, and the start decides which. Beside it these phases
+// move on by the difference. A choice: as slow as a cell in 100 tau.
 bool locks_to_drag(double eta, double kicks_per_tau) {
   constexpr double kNear = 0.01;  // [a/tau]
   const double drag = resonant_drag(eta, kicks_per_tau);

@@ -378,8 +378,9 @@ void await_signals() {
 }
 
 // glibc gives each thread a heap of its own, and each keeps back freed memory: 10 MB after some recordings. We allow
-// one heap. The running thread need not wait for it, as it allocates nothing. Large buffers, as of bags and of messages,
-// come from the system each time. Otherwise glibc raises its threshold when the first is freed, and keeps all of them.
+// one heap. The running thread need not wait for it, as it allocates nothing. Large buffers, as of bags and of
+// messages, come from the system each time. Otherwise glibc raises its threshold when the first is freed, and keeps all
+// of them.
 void keep_memory_flat() {
   mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, kLargeBuffer);

@@ -22,7 +22,7 @@ SearchOutcome without_end(const Landing<double>& landing) {
   return landing.s >= kMinProgress ? SearchOutcome::clear : SearchOutcome::cap;
 }
 
-// Whether so early a landing may be one of rounding of the gap's acceleration, as that of a launch in balance.
+// Whether rounding of the gap's acceleration may have made it, as where a tip is launched in balance.
 bool is_of_rounding(const Flight<double>& flight, const Landing<double>& landing) {
   const GapJet<double>& start = flight.start();
   return landing.outcome == SearchOutcome::impact && landing.s < kEarlyLanding && start.g1 > 0.0 &&

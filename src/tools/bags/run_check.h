@@ -127,7 +127,7 @@ class RunCheck {
   bool has_begun_ = false;                          // and no batch was compared since
   bool has_begun_at_repeated_ = false;              // at a latched message that rosbag record repeats
   bool is_doubtful_ = false;                        // a command or a snapshot is lost: a difference is what it did
-  bool is_behind_hole_ = false;                     // in which a snapshot may be lost: likewise
+  bool is_behind_hole_ = false;                     // where a snapshot may be lost: the same
 
   std::optional<Difference> difference_;
   Extent extent_;
