@@ -87,8 +87,8 @@ class Tip {
 
   // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay, in a chatter
   // sequence to the contact tolerance, as it ends at once, a part of a bounce early. Lifting the holder does work on
-  // the spring. Contact goes on if the surface still presses. Precondition: a model without faults that differs in
-  // gamma, v_c and y0 at most.
+  // the spring. Contact goes on if the surface still presses. Setting the current values has no effect. Precondition: a
+  // model without faults that differs in gamma, v_c and y0 at most.
   void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change
@@ -102,7 +102,8 @@ class Tip {
   // includes its kicks (docs/temperature.md). A kick splits the phase under way at its time. In contact, a kick into
   // the surface is an impact at once, and a kick away from it starts a flight. Where the bounces after a kick, or with
   // a temperature after an impact, hardly move the tip, they are one event, and the tip is in contact. A chatter
-  // sequence ends at once, a part of a bounce early. Precondition: a bath without faults.
+  // sequence ends at once, a part of a bounce early. Setting the current bath has no effect, nor has a change of one
+  // that is off to another that is. Precondition: a bath without faults.
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 
@@ -162,6 +163,7 @@ class Tip {
   bool is_on_slide() const { return in_contact() || in_chatter(); }
   void jump_holder_velocity(double eta);
   void end_slide_now();
+  bool releases_now() const;
   void leave_now();
   void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;

@@ -9,8 +9,9 @@
 namespace afm::detail {
 
 // The smallest pull that counts as a release [a/tau^2]; a smaller one is rounding. Without it the glide at eta = 1,
-// whose reaction is zero for ever, would be released and caught at every rounding. It delays a release by 1e-11 tau. If
-// the terms of the reaction exceed 1e4, as with mica's springs above 50 a/tau, it is a part of them.
+// whose reaction is zero for ever, would be released and caught at every rounding. A release waits until the pull has
+// grown to it: 1e-11 tau where the reaction falls by 100 a/tau^2 in a tau, 2e-8 tau where it falls slowly. If the terms
+// of the reaction exceed 1e4, as with mica's springs above 50 a/tau, it is a part of them.
 constexpr double kReleaseNoise = 1e-9;
 
 inline double release_noise(const SpringConstants<double>& m, double u, double X) {

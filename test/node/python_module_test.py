@@ -182,7 +182,9 @@ class PythonModule(NodeTest):
             with self.subTest(words=words):
                 self.assertRaisesRegex(ValueError, words, afm.from_bag, self.filtered(path, keeps))
         longer = self.filtered(path, altered('applied', 2, sample_period_tau=0.15))
-        self.assertRaisesRegex(ValueError, 'by message [0-9]+ of Deflection', afm.from_bag(longer).simulate)
+        # the mean of the last samples may show it first: their times are rounded otherwise from the next command on
+        by = 'by (message [0-9]+ of Deflection|the mean_normal_force at its end)'
+        self.assertRaisesRegex(ValueError, by, afm.from_bag(longer).simulate)
         spoiled = self.directory / 'spoiled.bag'
         spoiled.write_bytes(Path(path).read_bytes().replace(b'ModelTime time', b'ModelTime tim='))
         self.assertEqual(afm.from_bag(spoiled).end, afm.from_bag(path).end)

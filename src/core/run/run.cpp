@@ -142,7 +142,8 @@ double Run::apply(const LiveSettings& live) {
   set_live(live, settings_);
   double dropped = 0.0;
   const bool new_model = live.gamma != old.gamma || live.v_c != old.v_c || live.y0 != old.y0;
-  const bool new_level = !(live.level == old.level), new_bath = live.bath != old.bath;
+  const bool new_level = !(live.level == old.level);
+  const bool new_bath = live.bath != old.bath, acts = new_bath && (live.bath.is_on() || old.bath.is_on());
   if (new_model) {
     Model model = settings_.model;
     model.kind = old.level.kind;
@@ -155,7 +156,7 @@ double Run::apply(const LiveSettings& live) {
     tip_.drag(live.eta);
   }
   if (live.friction_window != old.friction_window) friction_.set_window(now(), live.friction_window);
-  if (new_model || new_level || new_bath || live.eta != old.eta) friction_.restart(now(), live.eta);
+  if (new_model || new_level || acts || live.eta != old.eta) friction_.restart(now(), live.eta);
   if (live.sample_period != old.sample_period) grid_ = {live.sample_period, next_sample_, now()};
   return dropped;
 }

@@ -80,11 +80,18 @@ void Tip::set_laws(const Model& model) {
 
 // --- A phase begins now ---
 
-// A pull within rounding is no release (release_noise.h): on the glide at eta = 1 the reaction is zero for ever.
+// A pull within rounding is no release (release_noise.h): on the glide at eta = 1 the reaction is zero for ever. Nor is
+// a gap rate within rounding a flight there: it would bounce at every rounding.
 bool Tip::rests(const Flight<double>& flight, Leaves leaves) const {
+  constexpr double kGapRateRounding = 1e-15;  // of the velocities that it is the difference of
   const TipState& start = flight.launch();
-  const double rounding = leaves == Leaves::above_rounding ? release_noise(springs_, start.u, start.X) : 0.0;
-  return start.g == 0.0 && start.g1 == 0.0 && flight.start().g2 < rounding;
+  if (start.g != 0.0) return false;
+  const double g2 = flight.start().g2;
+  if (leaves == Leaves::under_any_pull) return start.g1 == 0.0 && g2 < 0.0;
+  const double noise = release_noise(springs_, start.u, start.X);
+  if (start.g1 == 0.0) return g2 < noise;
+  const double slope = surface_jet(model_.H, start.phase).h1;
+  return std::fabs(g2) < noise && std::fabs(start.g1) < kGapRateRounding * (1.0 + std::fabs(slope * start.u));
 }
 
 void Tip::fly(const TipState& start, Leaves leaves) {
@@ -104,7 +111,7 @@ void Tip::find_landing(Flying& flying) {
 }
 
 void Tip::touch(const TipState& state) {
-  phase_ = Touching{state};
+  phase_ = Touching{{state.phase, state.X, state.u, 0.0, 0.0}};
   start_ = now_;
   end_ = 0.0;
 }

@@ -49,6 +49,7 @@ void Tip::split_record() {
 }
 
 void Tip::set_parameters(const Model& model) {
+  if (model.gamma == model_.gamma && model.v_c == model_.v_c && model.y0 == model_.y0) return;
   if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
     const Chatter chatter = chatter_now(*chattering);
     const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
@@ -60,10 +61,17 @@ void Tip::set_parameters(const Model& model) {
     end_ = 0.0;
     return split_record();
   }
+  if (releases_now()) leave_now();
   const TipState state = tip_state();
   set_laws(model);
   if (in_contact()) return slide({state.phase, state.X, state.u});
   fly(state, Leaves::above_rounding);
+}
+
+// As after a jump of the hammer's holder: a slide that began anew would forget it.
+bool Tip::releases_now() const {
+  const Sliding* sliding = std::get_if<Sliding>(&phase_);
+  return sliding != nullptr && sliding->releases && start_ + end_ <= now_;
 }
 
 // Ends the chatter sequence or contact at once. The next advance reports the event.
@@ -75,9 +83,7 @@ void Tip::leave_now() {
 
 double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
-  const Sliding* sliding = std::get_if<Sliding>(&phase_);
-  const bool jumped = sliding != nullptr && sliding->releases && start_ + end_ <= now_;
-  if (in_chatter() || jumped || (in_contact() && drops)) leave_now();
+  if (in_chatter() || releases_now() || (in_contact() && drops)) leave_now();
   const TipState state = tip_state();
   const double spring = springs_.omega_h * state.X;
   Model model = model_;

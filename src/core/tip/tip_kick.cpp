@@ -23,7 +23,9 @@ constexpr double kDisplacedByKick = 10.0, kDisplacedByNoise = 30.0;
 }  // namespace
 
 void Tip::set_bath(const Bath& bath) {
+  const Bath before = thermostat_.bath();
   thermostat_.set(bath, model_.frequency_ratio, now_);
+  if (bath == before || !(bath.is_on() || before.is_on())) return;
   // a search ends at the next kick
   if (Flying* flying = std::get_if<Flying>(&phase_)) return now_ == start_ ? find_landing(*flying) : fly(tip_state());
   split_record();

@@ -38,6 +38,24 @@ TEST(RunChange, ToTheSameIsNoChange) {
   expect_first_of(recorded, truth);
 }
 
+TEST(RunChange, OfABathThatIsOffIsNoChange) {
+  afm::Run plain(settings_at(3.4, 500)), changed(settings_at(3.4, 500));
+  RecordedRun truth, recorded;
+  Batch a, b;
+  for (int i = 0; i < 50; ++i) {
+    plain.advance(a);
+    LiveSettings live = live_settings(changed.settings());
+    live.bath.kicks_per_tau = 10.0 + i;
+    live.bath.temperature = i;
+    changed.apply(live);
+    changed.advance(b);
+    truth.append(a);
+    recorded.append(b);
+    ASSERT_EQ(a.friction.K_f, b.friction.K_f);
+  }
+  expect_first_of(recorded, truth);
+}
+
 // The tip does not know when it is looked at: with periods that are powers of 2 a finer grid holds the coarser one.
 TEST(RunChange, OfTheSampleRateChangesTheSamplesAlone) {
   afm::Run fine(settings_at(3.4, 6400, 1.0 / 64)), changed(settings_at(3.4, 160, 1.0 / 16));
