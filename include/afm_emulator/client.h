@@ -81,7 +81,11 @@ class Client {
     connect();
   }
 
-  Configuration configuration() const { return *configuration_; }
+  // Of the epoch under way: the latest message.
+  Configuration configuration() const {
+    queue_.callAvailable();
+    return *configuration_;
+  }
   // What is in force: the latest message, none older than what held at the end of the latest control().
   Applied applied() const {
     queue_.callAvailable();

@@ -76,18 +76,19 @@ std::string find_step_fault(double tau, std::uint32_t impacts) {
   return text.str();
 }
 
-// Throws if another node publishes /clock.
+// Throws if another node publishes /clock, or what it is remapped to.
 void check_clock() {
-  const std::string name = ros::this_node::getName();
+  const std::string name = ros::this_node::getName(), clock = ros::names::resolve("/clock");
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = name;
   if (!ros::master::execute("getSystemState", request, response, state, false)) return;
   XmlRpc::XmlRpcValue& publishers = state[0];
   for (int i = 0; i < publishers.size(); ++i) {
     const std::string topic = publishers[i][0];
-    for (int j = 0; topic == "/clock" && j < publishers[i][1].size(); ++j) {
+    for (int j = 0; topic == clock && j < publishers[i][1].size(); ++j) {
       const std::string other = publishers[i][1][j];
-      if (other != name) throw std::runtime_error("publish_clock = true: " + other + " publishes /clock already");
+      if (other != name)
+        throw std::runtime_error("publish_clock = true: " + other + " publishes " + clock + " already");
     }
   }
 }
@@ -128,11 +129,11 @@ class EmulatorNode {
       if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
     }
     report_speed(parameters);
-    live_server_.emplace(node, parameters, refusals_, [this](const Live& shown, const Live& wanted) {
+    live_server_.emplace(node, parameters, refusals_, [this](const Live& before, const Live& wanted) {
       Request change(Kind::change);
       change.live = wanted;
       // a command may have moved the holder since
-      if (wanted.si.rest_height_m != shown.si.rest_height_m) change.rest_height = wanted.si.rest_height_m;
+      if (wanted.si.rest_height_m != before.si.rest_height_m) change.rest_height = wanted.si.rest_height_m;
       Answer unused;
       return ask(change, unused);
     });

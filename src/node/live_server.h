@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,14 +23,22 @@
 
 namespace afm::node {
 
-// The live parameters, all of them numbers. They are written to the parameter server by a call that does not repeat.
+// The live parameters, all of them numbers. What a request names is asked for: what clients were shown may be a moment
+// old, so a value that equals it may still be a change. They are written to the parameter server by a call that does not repeat.
 // roscpp's own call holds the lock of all parameters, and without a master it tries for ever. Diagnostics wait for that
 // lock, and on ROS Noetic so does the message that the master is missing.
 struct LiveConfig : afm_emulator::EmulatorConfig {
   LiveConfig() = default;
   LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // NOLINT: the server makes it of these
 
-  // In place of that of EmulatorConfig.
+  std::set<std::string> named;  // in the last message
+
+  // These two are in place of those of EmulatorConfig.
+  bool __fromMessage__(dynamic_reconfigure::Config& message) {
+    named.clear();
+    for (const dynamic_reconfigure::DoubleParameter& parameter : message.doubles) named.insert(parameter.name);
+    return EmulatorConfig::__fromMessage__(message);
+  }
   void __toServer__(const ros::NodeHandle& node) const {
     dynamic_reconfigure::Config values;
     __toMessage__(values);
@@ -44,8 +54,8 @@ struct LiveConfig : afm_emulator::EmulatorConfig {
 
 class LiveServer {
  public:
-  // From what is shown to what is wanted. Returns why the change did not take effect, or nothing when it has.
-  using Apply = std::function<std::string(const Live& shown, const Live& wanted)>;
+  // From what was in force to what is wanted. Returns why the change did not take effect, or nothing when it has.
+  using Apply = std::function<std::string(const Live& before, const Live& wanted)>;
 
   // The server begins with the values of the parameter server; its first call puts those in force back. It holds its
   // mutex whenever it calls.
@@ -122,15 +132,13 @@ class LiveServer {
     return in_force_;
   }
 
-  // A value that the client did not change is as it was shown. Another value may be in force.
   void change(const Config& config) {
-    const std::vector<double> not_asked = values_of(shown_);
-    auto other = not_asked.begin();
     Parameters changed = start_;
     const Live before = in_force();
     live_of(changed) = before;
+    auto name = std::begin(kLiveNames);
     for_each_live(config, changed, [&](double asked, double& value) {
-      if (asked != *other++) value = asked;
+      if (config.named.count(*name++) > 0) value = asked;
     });
     if (values_of(to_config(changed)) == values_of(to_config(before))) return;
     std::string fault = describe(find_faults(changed));

@@ -1,5 +1,5 @@
 // Calls the client as it reads from its input, a call a line: control, command_and_wait or mean_force with their
-// arguments, "-" for what is not given; tau; in_force; stale_reads of so many commands; another, which makes a second
+// arguments, "-" for what is not given; tau; epoch; in_force; stale_reads of so many commands; another, which makes a second
 // client. Prints an answer for each. client_calls.py is the same in Python.
 // usage: client_calls TIMEOUT
 #include <afm_emulator/client.h>
@@ -40,6 +40,8 @@ std::string answer(Client& tip, std::istream& line) {
     text << m.number << ' ' << m.drag_velocity << ' ' << m.rest_height_m;
   } else if (name == "tau") {
     text << tip.tau();
+  } else if (name == "epoch") {
+    text << tip.configuration().epoch;
   } else if (name == "in_force") {
     text << tip.applied().number;
   } else if (name == "another") {

@@ -42,6 +42,8 @@ def answer(tip, name, *words):
         return control_in_threads(tip, *map(argument, words))
     if name == 'tau':
         return '%g' % tip.tau_s
+    if name == 'epoch':
+        return '%d' % tip.configuration.epoch
     if name == 'in_force':
         return '%d' % tip.applied.number
     if name == 'another':

@@ -139,6 +139,8 @@ class Claims:
         for pace in ('lockstep', 'real_time'):
             tip = self.start_both(pace)
             self.assertEqual(tip.call('stale_reads 100'), '0')
+            self.emulator.call('reset', Trigger)
+            wait_until(lambda: tip.call('epoch') == '1', 'the configuration of the new epoch')  # without another call
             self.emulator.stop()
 
     def test_a_command_is_found_among_those_of_others(self):

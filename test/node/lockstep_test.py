@@ -12,7 +12,7 @@ from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, find
-from topics import Topic, key, tau_between, wait_until
+from topics import PATIENCE, Topic, key, tau_between, wait_until
 
 K_H = 408e-12 * 250e3 ** 2  # [N/m]
 
@@ -94,6 +94,8 @@ class Lockstep(EmulatorTest):
         second = self.start(Process([binary, '__name:=second']))
         self.assertEqual(second.wait(), 1)
         self.assertIn('/afm publishes /clock already', second.output())
+        self.start(Process([binary, '__name:=second', '/clock:=/another']))  # that one is free
+        Topic('/another', Clock).wait_for(what='its clock')
 
 
 class Commanded(NodeTest):
@@ -144,6 +146,19 @@ class Waiting(NodeTest):
             friction.wait_for(lambda m: m.drag_velocity == (2.0 + 0.01 * i) * SPEED_UNIT, 'a batch for the command')
         self.assertEqual([m.drag_velocity for m in friction.messages if m.drag_velocity > 0][-19:],
                          [(2.0 + 0.01 * i) * SPEED_UNIT for i in range(1, 20)])
+        emulator.assert_alive()
+
+    def test_a_period_is_a_command_too(self):
+        """A batch came by itself between the periods of a controller that used the service alone."""
+        wait_s = 2.0 * PATIENCE
+        emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': wait_s}))
+        answers, begin = [emulator.control(0.01, 2.0 * SPEED_UNIT)], time.monotonic()
+        while time.monotonic() < begin + 1.5 * wait_s:
+            last = time.monotonic()
+            wait_until(lambda: time.monotonic() > last + wait_s / 4, 'a part of the wait')
+            answers.append(emulator.control(0.01))
+        for one, next_one in zip(answers, answers[1:]):
+            self.assertEqual(key(one.end), key(next_one.begin))
         emulator.assert_alive()
 
     def test_it_does_not_wait_for_ever_and_a_pause_is_not_part_of_the_wait(self):

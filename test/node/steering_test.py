@@ -7,7 +7,7 @@ import time
 
 import dynamic_reconfigure.client
 from dynamic_reconfigure.msg import Config
-from std_srvs.srv import SetBool
+from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest
 from topics import NAMESPACE, Topic, key, tau_between, wait_until
@@ -86,6 +86,18 @@ class Steering(EmulatorTest):
         self.begin(paused=True)
         self.emulator.set(restitution_gamma=0.5)
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.5, 'reported')
+
+    def test_a_change_right_after_a_reset_or_a_height_is_obeyed(self):
+        """What clients are shown is a moment old: a value that equalled it was passed over, without a word."""
+        for _ in range(10):
+            self.emulator.call('reset', Trigger)
+            type(self).epoch += 1
+            self.assertEqual(self.emulator.set(restitution_gamma=0.6)['restitution_gamma'], 0.6)
+        for _ in range(10):
+            self.assertTrue(self.emulator.control(0.0, rest_height=-3e-11).success)
+            self.assertEqual(self.emulator.set(rest_height_m=-1e-11)['rest_height_m'], -1e-11)
+        applied = self.applied.wait_for(lambda m: m.epoch == self.epoch and m.number == 21, 'the last change')
+        self.assertEqual((applied.rest_height_m, applied.restitution_gamma), (-1e-11, 0.6))
 
     def test_a_faulty_combination_puts_the_old_values_back_and_says_why(self):
         updates = Topic('parameter_updates', Config)

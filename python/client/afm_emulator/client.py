@@ -69,8 +69,8 @@ class Client:
 
     `configuration` is the latest message of that topic, there from the beginning. Every call raises a
     rospy.ROSInterruptException when this node is shut down, by Ctrl-C or its launch file. Calls from several threads,
-    such as callbacks of rospy, take turns. `applied` is not for a callback of the topics applied and configuration:
-    it may wait for the message that comes after it.
+    such as callbacks of rospy, take turns. `applied` and command_and_wait() are not for a callback of the topics
+    applied and configuration: they wait for messages that come after it.
     """
 
     def __init__(self, name='afm', timeout=15.0):

@@ -80,15 +80,16 @@ void Runner::wait_for_work() {
   }
 }
 
-Runner::Time Runner::command_wait() const { return Time(std::llround(parameters_.command_wait_s * 1e9)); }
-
 // In lockstep: a batch for every command, or after the time in which none came.
 bool Runner::may_advance() {
-  const Time now = monotonic_now();
-  if (parameters_.wait_for != kCommand || (!command_came_ && now < command_deadline_)) return false;
+  if (parameters_.wait_for != kCommand || (!command_came_ && monotonic_now() < command_deadline_)) return false;
   command_came_ = false;
-  command_deadline_ = now + command_wait();
+  await_command();
   return true;
+}
+
+void Runner::await_command() {
+  command_deadline_ = monotonic_now() + Time(std::llround(parameters_.command_wait_s * 1e9));
 }
 
 // A stop is a command like any other, applied and reported at a batch boundary: a replay needs no clock.
@@ -179,6 +180,7 @@ void Runner::begin_epoch() {
 }
 
 void Runner::command(const Request& request) {
+  await_command();
   Live live = parameters_;
   if (!std::isnan(request.drag_velocity)) {
     live.drag_velocity = request.drag_velocity;
@@ -228,7 +230,7 @@ void Runner::pause(bool paused) {
     return;
   }
   last_command_ = std::min(last_command_ + (now - paused_at_), now);
-  command_deadline_ = now + command_wait();
+  await_command();
   pacer_.resume(now);
 }
 
@@ -248,6 +250,7 @@ Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
   const bool is_done = impacts == kNoLimit ? !(run_.now() < limit) : taken >= impacts;
   Answer reached = answer(is_done ? "" : fault[0] != '\0' ? fault : kModelTimeRanOut);
   reached.impacts = taken;
+  await_command();  // whoever steps it steers it
   return reached;
 }
 

@@ -50,8 +50,8 @@ class Runner {
 
   void loop();
   void wait_for_work();
-  Time command_wait() const;
   bool may_advance();
+  void await_command();
   void stop_drag_without_commands();
   void play_commands();
   double samples(double count) const;  // the time of so many [tau]
