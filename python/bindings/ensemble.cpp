@@ -19,13 +19,20 @@ using namespace py::literals;
 class PyEnsemble {
  public:
   PyEnsemble(const std::vector<Tip>& tips, int threads)
-      : ensemble_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
+      : threads_(threads),
+        ensemble_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
     require(threads >= 0 && threads <= 1024, "threads", threads, "must be within 0 and 1024");
     ensemble_.reserve(tips.size());
     for (const Tip& tip : tips) ensemble_.add(tip);
   }
 
   std::size_t size() const { return ensemble_.size(); }
+  int threads() const { return threads_; }  // as given
+  std::vector<Tip> tips() const {
+    std::vector<Tip> copies;
+    for (std::size_t i = 0; i < size(); ++i) copies.push_back(ensemble_.tip(i));
+    return copies;
+  }
 
   // In chunks of time and of events, so that signals are seen. No bit depends on them.
   py::array advance(const py::object& time) {
@@ -77,6 +84,7 @@ class PyEnsemble {
     }
   }
 
+  const int threads_;
   Ensemble ensemble_;
 };
 
@@ -94,7 +102,11 @@ number, ensemble[i] a copy of the i-th Tip as it is now.)")
            "(n,).")
       .def("drag", &PyEnsemble::drag, "eta"_a, "A new drag velocity of all tips [a/tau] from now on.")
       .def("__len__", &PyEnsemble::size)
-      .def("__getitem__", &PyEnsemble::tip, "i"_a);
+      .def("__getitem__", &PyEnsemble::tip, "i"_a)
+      .def("__reduce__", [](const py::object& self) {  // to pickle it
+        const auto& ensemble = self.cast<const PyEnsemble&>();
+        return py::make_tuple(self.attr("__class__"), py::make_tuple(ensemble.tips(), ensemble.threads()));
+      });
 }
 
 }  // namespace afm::python

@@ -168,7 +168,8 @@ Returns the energy that a change to the hammer drops [m a^2/tau^2].)")
            R"(The state of the run between two batches, as a dict of values and arrays in natural units.
 
 Its names are those of the message Snapshot and of the arguments of Run; initial_*: the start.
-It splits the motion under way: this run goes on with the bits of Run.from_snapshot() of it.)")
+It splits the motion under way: this run goes on with the bits of Run.from_snapshot() of it. Throws ValueError while an
+event at the present is still to be reported; advance(now) reports it.)")
       .def(
           "copy", [](const Run& self) { return self; }, "Another run in the same state; copy.copy() does the same.")
       .def("__copy__", [](const Run& self) { return self; })

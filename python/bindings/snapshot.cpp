@@ -172,7 +172,7 @@ Snapshot to_snapshot(const py::dict& dict) {
 }
 
 void require_settled(bool settled) {
-  if (!settled) throw py::value_error("a command has left an event to report: advance to the present first");
+  if (!settled) throw py::value_error("an event at the present is still to be reported: advance to the present first");
 }
 
 }  // namespace afm::python

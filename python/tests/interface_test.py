@@ -286,6 +286,22 @@ class Arrays(unittest.TestCase):
                 self.assertEqual(other, value)
         self.assertEqual(copy.deepcopy(units).model, units.model)
         self.assertEqual(copy.deepcopy(units).force, units.force)
+        ensemble = afm.Ensemble([afm.Tip(eta=2.0), afm.Tip(eta=3.4)], threads=2)
+        ensemble.advance(10)
+        other = pickle.loads(pickle.dumps(ensemble))
+        np.testing.assert_array_equal([tip.eta for tip in other], [2.0, 3.4])
+        for tip, same in zip(ensemble, other):
+            np.testing.assert_allclose(same.state, tip.state, rtol=0, atol=1e-12)
+        self.assertGreater(other.advance(20).min(), 0)
+
+    def test_what_stands_in_the_way_of_a_snapshot_is_said(self):
+        tip = afm.Tip(afm.Model(kind='hammer', rest_height=-1.0), eta=0.0, phase=0.5, y=-0.05 / 0.52)
+        tip.advance(2)
+        tip.drag(0.2)
+        with self.assertRaisesRegex(ValueError, 'still to be reported'):
+            pickle.dumps(tip)
+        tip.advance(tip.now)
+        pickle.dumps(tip)
 
     def test_a_copy_of_a_tip_goes_on_with_the_same_bits(self):
         for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=afm.Bath(0.926, 100)),
