@@ -284,7 +284,9 @@ class Recording:
     def _parts(self) -> Iterator[Batch]:
         """The run from one command or snapshot to the next."""
         def run_to(end: ModelTime, impacts: int) -> Iterator[Batch]:
-            if run.now < end:  # otherwise it would report an event that is due, before the command
+            if run.now < end and run.impacts < impacts:  # an event that is due there too may come after the command
+                yield run.advance(end, impacts=impacts - run.impacts)
+            if run.now < end:
                 yield run.advance(end)
             while run.now == end and run.impacts < impacts:  # of those at this very time
                 yield run.advance(end.after(_JUST_AFTER), impacts=impacts - run.impacts)
@@ -301,8 +303,11 @@ class Recording:
                 break
             yield from run_to(*place)
             if is_snapshot:
-                yield run.advance(run.now)  # an event that is due comes first
-                run.snapshot()
+                try:
+                    run.snapshot()
+                except ValueError:  # an event that is due comes first
+                    yield run.advance(run.now)
+                    run.snapshot()
             else:
                 run.apply(**self._settings(m))
         yield from run_to(_model_time(last.time), last.first_impact + last.impact_limit)

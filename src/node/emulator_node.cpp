@@ -129,11 +129,9 @@ class EmulatorNode {
       if (!reply.success) throw std::runtime_error("record = true: " + reply.message);
     }
     report_speed(parameters);
-    live_server_.emplace(node, parameters, refusals_, [this](const Live& before, const Live& wanted) {
+    live_server_.emplace(node, parameters, refusals_, [this](const Live& asked) {
       Request change(Kind::change);
-      change.live = wanted;
-      // a command may have moved the holder since
-      if (wanted.si.rest_height_m != before.si.rest_height_m) change.rest_height = wanted.si.rest_height_m;
+      change.live = asked;
       Answer unused;
       return ask(change, unused);
     });

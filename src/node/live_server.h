@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <set>
 #include <string>
@@ -33,12 +34,13 @@ struct LiveConfig : afm_emulator::EmulatorConfig {
 
   std::set<std::string> named;  // in the last message
 
-  // These two are in place of those of EmulatorConfig.
+  // These three are in place of those of EmulatorConfig.
   bool __fromMessage__(dynamic_reconfigure::Config& message) {
     named.clear();
     for (const dynamic_reconfigure::DoubleParameter& parameter : message.doubles) named.insert(parameter.name);
     return EmulatorConfig::__fromMessage__(message);
   }
+  void __clamp__() const {}  // a value is taken or refused as it is
   void __toServer__(const ros::NodeHandle& node) const {
     dynamic_reconfigure::Config values;
     __toMessage__(values);
@@ -54,8 +56,8 @@ struct LiveConfig : afm_emulator::EmulatorConfig {
 
 class LiveServer {
  public:
-  // From what was in force to what is wanted. Returns why the change did not take effect, or nothing when it has.
-  using Apply = std::function<std::string(const Live& before, const Live& wanted)>;
+  // What is asked for, and NaN where nothing is. Returns why the change did not take effect, or nothing when it has.
+  using Apply = std::function<std::string(const Live& asked)>;
 
   // The server begins with the values of the parameter server; its first call puts those in force back. It holds its
   // mutex whenever it calls.
@@ -132,17 +134,24 @@ class LiveServer {
     return in_force_;
   }
 
+  // Judged beside what was in force last: what waits for its batch may change that before it acts.
   void change(const Config& config) {
+    if (config.named.empty()) return;
+    const auto take = [&](Live& live) {
+      auto name = std::begin(kLiveNames);
+      for_each_live(config, live, [&](double asked, double& value) {
+        if (config.named.count(*name++) > 0) value = asked;
+      });
+    };
+    Live asked;
+    for_each_live(config, asked, [](double, double& value) { value = std::numeric_limits<double>::quiet_NaN(); });
+    take(asked);
     Parameters changed = start_;
     const Live before = in_force();
     live_of(changed) = before;
-    auto name = std::begin(kLiveNames);
-    for_each_live(config, changed, [&](double asked, double& value) {
-      if (config.named.count(*name++) > 0) value = asked;
-    });
-    if (values_of(to_config(changed)) == values_of(to_config(before))) return;
+    take(changed);
     std::string fault = describe(find_faults(changed));
-    if (fault.empty()) fault = apply_(before, changed);
+    if (fault.empty()) fault = apply_(asked);
     if (fault.empty()) return give_new_warnings(before, changed);
     refusals_.add(Refusal::faulty_change, fault);
     ROS_WARN_STREAM("change of parameters refused: " << fault);

@@ -105,6 +105,18 @@ class PythonModule(NodeTest):
         Topic('deflection').wait_for_more(5)
         self.assertGreater(self.assert_repeats(self.end(emulator), 0)[1], 0)
 
+    def test_a_command_behind_a_step_to_an_impact(self):
+        """At an impact after which the tip rests its contact begins, too: in the run, behind the command."""
+        for parameters in {'rest_height_m': -1.56e-10}, {'restitution_gamma': 0.0, 'cutoff_speed': 0.0}:
+            emulator = self.record(record=True, pace='lockstep', drag_velocity=2e-6, **parameters)
+            for i in range(60):
+                emulator.call('step', Step, impacts=1)
+                emulator.control(0.0, 2e-6 * (1 + 0.01 * (i % 2)))
+            emulator.control(0.005)
+            path, = self.end(emulator)
+            checks.assert_identical(self, path)
+            afm.from_bag(path).simulate()
+
     def test_the_model_and_the_bath_of_a_recording(self):
         """Of a hammer it was an oscillator."""
         emulator = self.record(record=True, model='hammer', quality_factor=50.0, temperature_k=300.0,

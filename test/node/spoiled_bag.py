@@ -63,6 +63,7 @@ class SpoiledBag(NodeTest):
             emulator.drag(2.0 * SPEED_UNIT)
             applied.wait_for(lambda m: m.drag_velocity == 2.0 * SPEED_UNIT, 'a command')
             deflection.wait_for(lambda m: m.first_sample > 90000, 'one and a half seconds')
+            deflection.wait_for_more(30)  # behind the command, however late it came
             emulator.assert_alive()
             assert emulator.stop() == 0
         finally:

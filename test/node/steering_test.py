@@ -65,7 +65,7 @@ class Steering(EmulatorTest):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.applied.wait_for(lambda m: m.restitution_gamma == 0.55, 'dynparam is obeyed')
         self.assertEqual(client.update_configuration({'friction_window_tau': 640.0})['restitution_gamma'], 0.55)
-        for quality in (50000.0, 20000.0, 1000.0):  # beyond the slider, and back to its end
+        for quality in (1e13, 50000.0, 20000.0, 1000.0):  # beyond the slider, and back to its end
             self.assertEqual(client.update_configuration({'quality_factor': quality})['quality_factor'], quality)
         client.close()
 
@@ -99,11 +99,28 @@ class Steering(EmulatorTest):
         applied = self.applied.wait_for(lambda m: m.epoch == self.epoch and m.number == 21, 'the last change')
         self.assertEqual((applied.rest_height_m, applied.restitution_gamma), (-1e-11, 0.6))
 
+    def test_a_change_takes_back_nothing_that_it_does_not_name(self):
+        """Behind a reset that waited for its batch, it once brought the old values back."""
+        self.change(restitution_gamma=0.5)
+        self.pause(True)
+        calls = [threading.Thread(target=lambda: self.step(tau=10000.0)),
+                 threading.Thread(target=lambda: self.emulator.call('reset', Trigger))]
+        for call in calls:  # each waits behind the one before
+            call.start()
+            time.sleep(0.005)
+        self.emulator.set(friction_window_tau=500.0)
+        for call in calls:
+            call.join()
+        type(self).epoch += 1
+        epoch = self.applied.wait_for(lambda m: m.epoch == self.epoch and m.number == 0, 'the reset')
+        self.assertEqual(epoch.restitution_gamma, 0.7)
+        self.assertEqual(self.emulator.set()['restitution_gamma'], 0.7)
+
     def test_a_faulty_combination_puts_the_old_values_back_and_says_why(self):
         updates = Topic('parameter_updates', Config)
         in_force = self.emulator.set()
         faults = (('cutoff_speed', math.nan, 'finite'), ('rest_height_m', 6e-11, 'never touches'),
-                  ('quality_factor', 0.05, 'at least 0.1'))
+                  ('quality_factor', 0.05, 'at least 0.1'), ('quality_factor', math.inf, 'finite'))
         for name, value, reason in faults:
             before = len(updates.messages)
             # the good part of a faulty change is not taken either

@@ -1,5 +1,7 @@
 // Commands: drag velocity, parameters and level of the model. A command splits the phase of motion under way (flight,
 // chatter sequence or contact) at the present time.
+#include <cmath>
+
 #include "afm/tip.h"
 
 namespace afm {
@@ -33,7 +35,8 @@ void Tip::jump_holder_velocity(double eta) {
 
 // Lets the next advance end the chatter sequence or contact at now().
 void Tip::end_slide_now() {
-  const double s = now_ - start_;
+  double s = now_ - start_;
+  while (now_ < start_ + s) s = std::nextafter(s, 0.0);  // a sum that is rounded up would end it later
   if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->releases = true;
   if (Chattering* chattering = std::get_if<Chattering>(&phase_)) {
     chattering->run = {ChatterEnd::exits, s, chatter_now(*chattering)};

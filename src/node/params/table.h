@@ -62,6 +62,7 @@ namespace afm::node {
 #define AFM_NAME(name, place) #name,
 #define AFM_VISIT(name, place) visit(#name, p.place);
 #define AFM_COPY(name, place) copy(message.name, p.place);
+#define AFM_MERGE(name, place) merge(from.place, to.place);
 
 // But for the drag velocity, which has a topic of its own.
 constexpr const char* kLiveNames[] = {AFM_PARAMETERS(AFM_NO, AFM_NO, AFM_NAME)};
@@ -84,10 +85,17 @@ void for_each_live(Message& message, P& p, Copy copy) {
   AFM_PARAMETERS(AFM_NO, AFM_NO, AFM_COPY)
 }
 
+// merge(value, value), likewise.
+template <class P, class Merge>
+void for_each_live_pair(const P& from, P& to, Merge merge) {
+  AFM_PARAMETERS(AFM_NO, AFM_NO, AFM_MERGE)
+}
+
 #undef AFM_NO
 #undef AFM_NAME
 #undef AFM_VISIT
 #undef AFM_COPY
+#undef AFM_MERGE
 #undef AFM_PARAMETERS
 
 constexpr auto kToMessage = [](auto& field, const auto& value) { field = value; };

@@ -59,10 +59,10 @@ struct Request {
 
   Kind kind;
   const char* cause = "";                                 // of a command, as `applied` reports it
-  double drag_velocity = kAsItIs, rest_height = kAsItIs;  // [m/s], [m]; of a command, a control period, a change
+  double drag_velocity = kAsItIs, rest_height = kAsItIs;  // [m/s], [m]; of a command, a control period
   double tau = 0.0;                                       // to advance, by a step or in a control period
   std::uint64_t impacts = 0;                              // of a step, if tau is 0
-  Live live;                                              // of a change: all but drag velocity and rest height
+  Live live;                                              // of a change: kAsItIs but for what is asked for
   Reply reply;                                            // empty: nobody waits
 };
 

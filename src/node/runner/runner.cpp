@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node/params/table.h"
+
 namespace afm::node {
 namespace {
 
@@ -134,13 +136,9 @@ Answer Runner::serve(Request& request) {
       command(request);
       command_came_ = true;
       break;
-    case Kind::change: {
-      Live live = request.live;
-      live.drag_velocity = parameters_.drag_velocity;
-      live.si.rest_height_m = std::isnan(request.rest_height) ? parameters_.si.rest_height_m : request.rest_height;
-      apply(live, "parameters");
+    case Kind::change:
+      change(request);
       break;
-    }
     case Kind::pause:
     case Kind::resume:
       pause(request.kind == Kind::pause);
@@ -189,6 +187,18 @@ void Runner::command(const Request& request) {
   }
   if (!std::isnan(request.rest_height)) live.si.rest_height_m = request.rest_height;
   apply(live, request.cause);
+}
+
+// What is in force may be another than whoever asked for it knows. The current values change nothing.
+void Runner::change(const Request& request) {
+  Live live = parameters_;
+  bool changes = false;
+  for_each_live_pair(request.live, live, [&](double asked, double& value) {
+    if (std::isnan(asked) || asked == value) return;
+    value = asked;
+    changes = true;
+  });
+  if (changes) apply(live, "parameters");
 }
 
 void Runner::apply(const Live& live, const char* cause) {

@@ -60,6 +60,7 @@ class Runner {
   Answer serve(Request& request);
   void begin_epoch();
   void command(const Request& request);
+  void change(const Request& request);
   void apply(const Live& live, const char* cause);
   void take_snapshot();
   void pause(bool paused);

@@ -53,6 +53,23 @@ TEST(Hammer, ThrownOffByACommandItIsThrownThenAndNoUlpSooner) {
   EXPECT_GT(thrown, 300);
 }
 
+// In 2 of 1000 the sum of the contact's beginning and the time since was an ulp later: another command at the same time
+// then took the tip for one that rests.
+TEST(Hammer, ThrownOffByACommandItLeavesAtOnce) {
+  RandomLaunches random(3);
+  Model model = hammer();
+  model.y0 = -1.0;
+  Tip tip(model, 0.0, FreeState{0.5, 0.0, -model.H, 0.0, 0.0});
+  for (int i = 0; i < 20000; ++i) {
+    const ModelTime command = tip.now() + random.within(0.0, 0.01);
+    while (tip.advance(command) != Outcome::time_limit) continue;
+    ASSERT_TRUE(tip.in_contact());
+    Tip thrown = tip;
+    thrown.drag(3.4);
+    ASSERT_FALSE(thrown.is_settled()) << i;
+  }
+}
+
 // The second takes back what the first has done, before any time has passed; a blow alone is not taken back.
 TEST(Hammer, OfTwoCommandsAtOneTimeTheLastCounts) {
   RandomLaunches random(4);
