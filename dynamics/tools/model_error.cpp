@@ -32,9 +32,9 @@ const char kDescription[] =
     "tracking_error, the rms difference over one tau from the same height and vertical velocity; rms and largest\n"
     "stretch of the reference's horizontal spring; and the time of this thread for a tau of each (median of\n"
     "alternated runs), with the ratio of reference to level: above 1 the level is cheaper. With --scene, and no\n"
-    "other option but --duration: every level at the parameters of these scenes (config/scenes, or files), at\n"
-    "their drag velocities, against the finest: errors of K_f and of the deflection, both relative, cost over\n"
-    "that of the default level, and whether it is the one that the scene uses.";
+    "other option but --duration: the levels at the parameters of these scenes (config/scenes, or files), at\n"
+    "their drag velocities, against the finest that keeps time there: errors of K_f and of the deflection, both\n"
+    "relative, cost over that of the default level, and whether it is the one that the scene uses.";
 
 const char kHeader[] =
     "eta,gamma,cutoff,frequency_ratio,model,contact_tolerance,reference_tolerance,start,k_f,k_f_std_error,attractor,"

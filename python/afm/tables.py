@@ -166,7 +166,8 @@ def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase
     """The Lyapunov exponents [1/tau] of the orbit that a start leads to; see afm.Lyapunov.
 
     The start as of Tip; transient and duration: before and of the measurement [tau]; most_events: allowed to both
-    together.
+    together. The errors are of chance alone: where the tip comes to lie on the surface, as at eta = 5, the exponents
+    depend on contact_tolerance by more.
     """
     return _laboratory('lyapunov')(
         _model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u,

@@ -4,8 +4,10 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/lexical_cast.hpp>
 #include <boost/program_options.hpp>
+#include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -18,6 +20,19 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
+// Also a whole number that is written like 1e8.
+template <class T>
+bool convert(const std::string& text, T& value) {
+  if (boost::conversion::try_lexical_convert(text, value)) return true;
+  double number = 0.0;
+  if (!std::is_integral<T>::value || !boost::conversion::try_lexical_convert(text, number)) return false;
+  const double most = std::min(0x1p53, static_cast<double>(std::numeric_limits<T>::max()));
+  const double least = std::is_unsigned<T>::value ? 0.0 : -most;
+  if (!(number >= least && number <= most) || number != std::floor(number)) return false;
+  value = static_cast<T>(number);
+  return true;
+}
+
 template <class T>
 T parse(const std::string& name, const std::string& text, Within range) {
   const auto require = [&](bool is_so, const std::string& what) {
@@ -25,7 +40,7 @@ T parse(const std::string& name, const std::string& text, Within range) {
   };
   const std::string kind = std::is_integral<T>::value ? "a whole number" : "a number";
   T value{};
-  require(boost::conversion::try_lexical_convert(text, value), kind);
+  require(convert(text, value), kind);
   // it takes a minus for an unsigned number, which is huge then
   if (std::is_unsigned<T>::value) require(text[0] != '-', kind + ", not below 0");
   const double size = static_cast<double>(value);

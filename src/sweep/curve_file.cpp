@@ -25,6 +25,10 @@ std::runtime_error cannot(const std::string& verb, const std::string& path) {
                             (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
 }
 
+std::runtime_error taken(const std::string& reason) {
+  return std::runtime_error(reason + "\n  (choose another name, or remove it to begin again)");
+}
+
 bool is_stream(const std::string& path) {
   struct stat status {};
   return path == "-" || (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode));
@@ -56,6 +60,7 @@ bool are_of_one_point(const std::string& a, const std::string& b) {
 CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, const SweepGrid& grid,
                      const TableUnits& units)
     : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, kCurveColumns, units) {
+  if (path.empty()) throw std::runtime_error("must not be empty");
   errno = 0;
   if (!is_stream(path)) {
     claim(with_units(identity(settings), units));
@@ -75,7 +80,7 @@ void CurveFile::claim(const std::string& identity) {
   const std::string path = path_ + ".settings";
   const bool begun = has_content(path_);
   if (begun && !has_content(path)) {
-    throw std::runtime_error("it is there already, without " + path + ", which says what it was made with");
+    throw taken("it is there already, without " + path + ", which says what it was made with");
   }
   lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) throw cannot("open", path);
@@ -89,7 +94,7 @@ void CurveFile::claim(const std::string& identity) {
   std::ifstream file(path);
   std::getline(file, there);
   if (there != identity) {
-    throw std::runtime_error("it belongs to other settings.\n  there: " + there + "\n  asked: " + identity);
+    throw taken("it belongs to other settings.\n  there: " + there + "\n  asked: " + identity);
   }
 }
 
@@ -104,13 +109,13 @@ void CurveFile::keep_whole_chains(const TableUnits& units) {
   std::size_t lines = 0;
   off_t size = 0, kept = 0;
   while (std::getline(file, line) && !file.eof()) {
-    if (lines == 0 && line != header) throw std::runtime_error("it has other columns");
-    if (lines > grid_.size()) throw std::runtime_error("it has more rows than points");
+    if (lines == 0 && line != header) throw taken("it has other columns");
+    if (lines > grid_.size()) throw taken("it has more rows than points");
     if (lines > 0) {
       expected.str("");
       write_row(grid_.at(lines - 1), {}, writer);
       if (!are_of_one_point(expected.str(), line)) {
-        throw std::runtime_error("line " + std::to_string(lines + 1) + " is not the row of its point");
+        throw taken("line " + std::to_string(lines + 1) + " is not the row of its point");
       }
     }
     size += static_cast<off_t>(line.size() + 1);

@@ -40,9 +40,7 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
     table = std::make_unique<CurveFile>(output, settings, grid, units);
   } catch (const std::exception& fault) {
     std::cerr << "friction_curve: output = " << output << ": " << fault.what() << std::endl;
-    if (output == "-") return 1;
-    std::cerr << "  (choose another name, or remove it to begin again)" << std::endl;
-    return 2;
+    return output == "-" ? 1 : 2;
   }
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);

@@ -32,7 +32,7 @@ const char kDescription[] =
 struct Options {
   std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", rest_height = "0", amplitude, frequency_ratio,
               sweep = "fresh", model = "oscillator", output = "-", drag_velocity;
-  std::int64_t seed = 1;
+  std::uint64_t seed = 1;
   int threads = 0;
   afm::CurveSettings settings;
   afm::SiOptions si;
@@ -119,8 +119,7 @@ void check(const afm::CommandLine& app, Options& o) {
 #endif
   if (o.threads < 0 || o.threads > 1024)
     refuse("threads = " + std::to_string(o.threads) + ": must be within 0 and 1024");
-  if (o.seed < 0) refuse("seed = " + std::to_string(o.seed) + ": must not be negative");
-  s.sweep.seed = s.sweep.bath.seed = static_cast<std::uint64_t>(o.seed);
+  s.sweep.seed = s.sweep.bath.seed = o.seed;
   const std::vector<afm::ParameterError> faults = afm::as_given(app, o.si, afm::find_faults(s));
   if (!faults.empty()) refuse(afm::describe(faults));
   for (const afm::ParameterError& warning : afm::as_given(app, o.si, afm::find_warnings(s))) app.warn(warning.what());

@@ -76,9 +76,16 @@ TEST(CommandLine, KeepsDefaults) {
   EXPECT_FALSE(values.quick);
 }
 
+TEST(CommandLine, TakesEverySpellingOfAWholeNumber) {
+  EXPECT_EQ(run({"--seed", "1e8"}).values.seed, 100000000U);
+  EXPECT_EQ(run({"--seed", "18446744073709551615"}).values.seed, 18446744073709551615U);
+}
+
 TEST(CommandLine, RefusesWithNameValueAndReason) {
   expect_refused({"--eta", "3.4x"}, "--eta = 3.4x: must be a number");
   expect_refused({"--starts", "2.5"}, "--starts = 2.5: must be a whole number");
+  expect_refused({"--starts", "1e-1"}, "--starts = 1e-1: must be a whole number");
+  expect_refused({"--starts", "1e300"}, "--starts = 1e300: must be a whole number");
   expect_refused({"--starts", "11"}, "--starts = 11: must be between 1 and 10");
   expect_refused({"--seed", "-1"}, "--seed = -1: must be a whole number, not below 0");
 }
