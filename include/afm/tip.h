@@ -87,8 +87,9 @@ class Tip {
 
   // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay, in a chatter
   // sequence to the contact tolerance, as it ends at once, a part of a bounce early. Lifting the holder does work on
-  // the spring. Contact goes on if the surface still presses. Setting the current values has no effect. Precondition: a
-  // model without faults that differs in gamma, v_c and y0 at most.
+  // the spring. Contact goes on if the surface still presses; a hammer that was dragged just now leaves it, which is an
+  // event at now(). Setting the current values has no effect. Precondition: a model without faults that differs in
+  // gamma, v_c and y0 at most.
   void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change
@@ -163,7 +164,7 @@ class Tip {
   bool is_on_slide() const { return in_contact() || in_chatter(); }
   void jump_holder_velocity(double eta);
   void end_slide_now();
-  bool releases_now() const;
+  bool has_jumped() const;
   void leave_now();
   void split_record();
   TipState kicked(const Kick& kick, const TipState& state) const;

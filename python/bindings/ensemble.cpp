@@ -46,10 +46,10 @@ class PyEnsemble {
     }
     std::vector<std::int64_t> events(size(), 0);
     const double chunk = kAtATime / static_cast<double>(std::max<std::size_t>(1, size()));
-    while (now < end) {
+    do {  // also to the present, where an event may be due
       now = end - now > chunk ? now + chunk : end;
       advance_to(now, events);
-    }
+    } while (now < end);
     return to_array(std::move(events), py::dtype::of<std::int64_t>());
   }
 

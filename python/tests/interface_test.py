@@ -302,6 +302,12 @@ class Arrays(unittest.TestCase):
             pickle.dumps(tip)
         tip.advance(tip.now)
         pickle.dumps(tip)
+        ensemble = afm.Ensemble([afm.Tip(afm.Model(kind='hammer', rest_height=-1.0), eta=0.0, phase=0.5, y=-0.05 / 0.52)])
+        ensemble.advance(2)
+        ensemble.drag(0.2)
+        self.assertRaisesRegex(ValueError, 'still to be reported', pickle.dumps, ensemble)
+        np.testing.assert_array_equal(ensemble.advance(2) > 0, [True])
+        pickle.dumps(ensemble)
 
     def test_a_copy_of_a_tip_goes_on_with_the_same_bits(self):
         for tip in (afm.Tip(eta=0.5, contact_tolerance=1e-4), afm.Tip(eta=3.4, bath=afm.Bath(0.926, 100)),

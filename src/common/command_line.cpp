@@ -20,7 +20,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-// Also a whole number that is written like 1e8.
+// Also a whole number that is written like 1e8, up to 2^53: above it a double is not every whole number.
 template <class T>
 bool convert(const std::string& text, T& value) {
   if (boost::conversion::try_lexical_convert(text, value)) return true;
@@ -40,9 +40,11 @@ T parse(const std::string& name, const std::string& text, Within range) {
   };
   const std::string kind = std::is_integral<T>::value ? "a whole number" : "a number";
   T value{};
+  // lexical_cast takes a minus for an unsigned number, which is huge then
+  double number = 0.0;
+  if (std::is_unsigned<T>::value && boost::conversion::try_lexical_convert(text, number))
+    require(text[0] != '-', kind + ", not below 0");
   require(convert(text, value), kind);
-  // it takes a minus for an unsigned number, which is huge then
-  if (std::is_unsigned<T>::value) require(text[0] != '-', kind + ", not below 0");
   const double size = static_cast<double>(value);
   if (range.least == kPositive.least) require(size > 0.0, "above 0");
   if (range.least > kAny.least || range.most < kAny.most) {

@@ -24,15 +24,16 @@
 
 namespace afm::node {
 
-// The live parameters, all of them numbers. What a request names is asked for: what clients were shown may be a moment
-// old, so a value that equals it may still be a change. They are written to the parameter server by a call that does not repeat.
+// The live parameters, all of them numbers. They are written to the parameter server by a call that does not repeat.
 // roscpp's own call holds the lock of all parameters, and without a master it tries for ever. Diagnostics wait for that
 // lock, and on ROS Noetic so does the message that the master is missing.
 struct LiveConfig : afm_emulator::EmulatorConfig {
   LiveConfig() = default;
   LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // NOLINT: the server makes it of these
 
-  std::set<std::string> named;  // in the last message
+  // In the last message: it asks for these. What clients were shown may be a moment old, so that a value which equals it
+  // may still be a change.
+  std::set<std::string> named;
 
   // These three are in place of those of EmulatorConfig.
   bool __fromMessage__(dynamic_reconfigure::Config& message) {

@@ -1,6 +1,6 @@
 // Calls the client as it reads from its input, a call a line: control, command_and_wait or mean_force with their
-// arguments, "-" for what is not given; tau; epoch; in_force; stale_reads of so many commands; another, which makes a second
-// client. Prints an answer for each. client_calls.py is the same in Python.
+// arguments, "-" for what is not given; tau; epoch; in_force; stale_reads of so many commands; another, which makes
+// a second client. Prints an answer for each. client_calls.py is the same in Python.
 // usage: client_calls TIMEOUT
 #include <afm_emulator/client.h>
 

@@ -100,7 +100,8 @@ class Steering(EmulatorTest):
         self.assertEqual((applied.rest_height_m, applied.restitution_gamma), (-1e-11, 0.6))
 
     def test_a_change_takes_back_nothing_that_it_does_not_name(self):
-        """Behind a reset that waited for its batch, it once brought the old values back."""
+        """Behind a reset that waited for its batch, it once brought the old values back. Where a busy machine lets the
+        step end before the others come, nothing waits, and the test is of an ordinary change."""
         self.change(restitution_gamma=0.5)
         self.pause(True)
         calls = [threading.Thread(target=lambda: self.step(tau=10000.0)),

@@ -29,14 +29,15 @@ void Tip::drag(double eta) {
 // impact.
 void Tip::jump_holder_velocity(double eta) {
   end_slide_now();
+  // A sum that is rounded up would end it later. The ulp of a phase may be far above that of the time.
+  while (now_ < start_ + end_) end_ = std::fmax(0.0, std::fmin(std::nextafter(end_, 0.0), end_ - 0x1p-53));
   eta_ = eta;
   split_record();
 }
 
 // Lets the next advance end the chatter sequence or contact at now().
 void Tip::end_slide_now() {
-  double s = now_ - start_;
-  while (now_ < start_ + s) s = std::nextafter(s, 0.0);  // a sum that is rounded up would end it later
+  const double s = now_ - start_;
   if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->releases = true;
   if (Chattering* chattering = std::get_if<Chattering>(&phase_)) {
     chattering->run = {ChatterEnd::exits, s, chatter_now(*chattering)};
@@ -64,17 +65,17 @@ void Tip::set_parameters(const Model& model) {
     end_ = 0.0;
     return split_record();
   }
-  if (releases_now()) leave_now();
+  if (has_jumped()) leave_now();
   const TipState state = tip_state();
   set_laws(model);
   if (in_contact()) return slide({state.phase, state.X, state.u});
   fly(state, Leaves::above_rounding);
 }
 
-// As after a jump of the hammer's holder: a slide that began anew would forget it.
-bool Tip::releases_now() const {
+// A hammer whose holder has jumped leaves its contact with the next advance; a slide that began anew would forget it.
+bool Tip::has_jumped() const {
   const Sliding* sliding = std::get_if<Sliding>(&phase_);
-  return sliding != nullptr && sliding->releases && start_ + end_ <= now_;
+  return sliding != nullptr && sliding->step.eta() != eta_;
 }
 
 // Ends the chatter sequence or contact at once. The next advance reports the event.
@@ -86,7 +87,7 @@ void Tip::leave_now() {
 
 double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const bool drops = kind == ModelKind::hammer && model_.kind == ModelKind::oscillator;
-  if (in_chatter() || releases_now() || (in_contact() && drops)) leave_now();
+  if (in_chatter() || has_jumped() || (in_contact() && drops)) leave_now();
   const TipState state = tip_state();
   const double spring = springs_.omega_h * state.X;
   Model model = model_;

@@ -24,8 +24,9 @@ constexpr double kDisplacedByKick = 10.0, kDisplacedByNoise = 30.0;
 
 void Tip::set_bath(const Bath& bath) {
   const Bath before = thermostat_.bath();
+  if (bath == before) return;
   thermostat_.set(bath, model_.frequency_ratio, now_);
-  if (bath == before || !(bath.is_on() || before.is_on())) return;
+  if (!bath.is_on() && !before.is_on()) return;
   // a search ends at the next kick
   if (Flying* flying = std::get_if<Flying>(&phase_)) return now_ == start_ ? find_landing(*flying) : fly(tip_state());
   split_record();

@@ -62,7 +62,7 @@ struct Request {
   double drag_velocity = kAsItIs, rest_height = kAsItIs;  // [m/s], [m]; of a command, a control period
   double tau = 0.0;                                       // to advance, by a step or in a control period
   std::uint64_t impacts = 0;                              // of a step, if tau is 0
-  Live live;                                              // of a change: kAsItIs but for what is asked for
+  Live live;                                              // of a change: live parameters, or kAsItIs
   Reply reply;                                            // empty: nobody waits
 };
 

@@ -70,6 +70,24 @@ TEST(Hammer, ThrownOffByACommandItLeavesAtOnce) {
   }
 }
 
+// Where the contact begins just before a whole tau, the ulp of the phase is many ulp of the time since.
+TEST(Hammer, ThrownOffRightAfterAWholeTauItLeavesAtOnce) {
+  RandomLaunches random(5);
+  Model model = hammer();
+  model.y0 = -1.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double before = std::pow(10.0, random.within(-9.0, -3.0));
+    const Tip resting(model, 0.0, FreeState{0.5, 0.0, -model.H, 0.0, 0.0});
+    Tip tip = resting;
+    while (tip.advance({0, 1.0 - before}) != Outcome::time_limit) continue;
+    tip.set_model(ModelKind::hammer, 0.5 * kDefaultContactTolerance);  // a new slide begins there
+    const ModelTime command{1, random.within(0.0, 1e-12)};
+    while (tip.advance(command) != Outcome::time_limit) continue;
+    tip.drag(3.4);
+    ASSERT_FALSE(tip.is_settled()) << before;
+  }
+}
+
 // The second takes back what the first has done, before any time has passed; a blow alone is not taken back.
 TEST(Hammer, OfTwoCommandsAtOneTimeTheLastCounts) {
   RandomLaunches random(4);

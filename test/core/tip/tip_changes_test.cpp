@@ -91,6 +91,23 @@ TEST(SetParameters, BehindADragOfAHammerInContactLeavesTheTipUnderItsHolder) {
   }
 }
 
+// Lifted off and put back before any time has passed, it lies on.
+TEST(SetParameters, TakenBackAtOneTimeAreNoEvent) {
+  for (const ModelKind kind : {ModelKind::oscillator, ModelKind::hammer}) {
+    Model low;
+    low.kind = kind;
+    low.y0 = -1.0;
+    Model high = low;
+    high.y0 = 0.09;
+    Tip tip(low, 0.0, FreeState{0.5, 0.0, -low.H, 0.0, 0.0});
+    advance_to(tip, {2, 0.0});
+    tip.set_parameters(high);
+    tip.set_parameters(low);
+    EXPECT_TRUE(tip.is_settled());
+    EXPECT_EQ(tip.advance({4, 0.0}), Outcome::time_limit);
+  }
+}
+
 TEST(SetParameters, AndSetBathToTheSameChangeNoBit) {
   for (const double quality_factor : {0.0, 100.0}) {
     Bath bath;
