@@ -295,14 +295,15 @@ class Arrays(unittest.TestCase):
         self.assertGreater(other.advance(20).min(), 0)
 
     def test_what_stands_in_the_way_of_a_snapshot_is_said(self):
-        tip = afm.Tip(afm.Model(kind='hammer', rest_height=-1.0), eta=0.0, phase=0.5, y=-0.05 / 0.52)
+        held = afm.Model(kind='hammer', rest_height=-1.0)
+        tip = afm.Tip(held, eta=0.0, phase=0.5, y=-held.amplitude)
         tip.advance(2)
         tip.drag(0.2)
         with self.assertRaisesRegex(ValueError, 'still to be reported'):
             pickle.dumps(tip)
         tip.advance(tip.now)
         pickle.dumps(tip)
-        ensemble = afm.Ensemble([afm.Tip(afm.Model(kind='hammer', rest_height=-1.0), eta=0.0, phase=0.5, y=-0.05 / 0.52)])
+        ensemble = afm.Ensemble([afm.Tip(held, eta=0.0, phase=0.5, y=-held.amplitude)])
         ensemble.advance(2)
         ensemble.drag(0.2)
         self.assertRaisesRegex(ValueError, 'still to be reported', pickle.dumps, ensemble)

@@ -31,8 +31,8 @@ struct LiveConfig : afm_emulator::EmulatorConfig {
   LiveConfig() = default;
   LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // NOLINT: the server makes it of these
 
-  // In the last message: it asks for these. What clients were shown may be a moment old, so that a value which equals it
-  // may still be a change.
+  // In the last message, which asks for these. What clients were shown may be a moment old: a value that equals it may
+  // still be a change.
   std::set<std::string> named;
 
   // These three are in place of those of EmulatorConfig.

@@ -67,7 +67,8 @@ int run_curve(const CurveSettings& settings, const std::string& output, int thre
     watch();
   };
   in_order(grid.size() / length - first, static_cast<std::size_t>(threads), compute, take, watch);
-  if (failures > 0) std::cerr << "friction_curve: warning: " << failures << " failed searches of an impact" << std::endl;
+  if (failures > 0)
+    std::cerr << "friction_curve: warning: " << failures << " failed searches of an impact" << std::endl;
   return 0;
 }
 
