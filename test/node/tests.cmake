@@ -27,7 +27,7 @@ foreach(suite IN LISTS node_tests)
   add_rostest(${CMAKE_CURRENT_BINARY_DIR}/node/${name}.test DEPENDENCIES ${needed})
   get_property(test DIRECTORY PROPERTY TESTS)  # sorted; the name of the new one depends on where the build directory is
   list(REMOVE_ITEM test ${before})
-  set_tests_properties(${test} PROPERTIES TIMEOUT 180)
+  set_tests_properties(${test} PROPERTIES TIMEOUT 300)
   if(name STREQUAL load)  # keeps every core busy: what ran beside it would starve
     set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
   endif()
