@@ -85,7 +85,7 @@ void for_each_live(Message& message, P& p, Copy copy) {
   AFM_PARAMETERS(AFM_NO, AFM_NO, AFM_COPY)
 }
 
-// merge(value, value), likewise.
+// The same from one set of parameters to another: merge(value, value).
 template <class P, class Merge>
 void for_each_live_pair(const P& from, P& to, Merge merge) {
   AFM_PARAMETERS(AFM_NO, AFM_NO, AFM_MERGE)
