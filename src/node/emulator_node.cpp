@@ -302,7 +302,7 @@ class EmulatorNode {
     std::future<Answer> future = request.reply->get_future();
     if (!runner_.submit(request)) {
       if (request.cause[0] != '\0') refusals_.add(Refusal::overload, std::string("control: ") + kTooMany);
-      return "too many requests are waiting";
+      return kTooMany;
     }
     const auto begin = std::chrono::steady_clock::now();
     while (is_lockstep() && future.wait_for(std::chrono::seconds(0)) != std::future_status::ready &&
@@ -395,7 +395,7 @@ void run(const ros::NodeHandle& handle, const Parameters& parameters) {
 }  // namespace afm::node
 
 int main(int argc, char** argv) {
-  using namespace afm::node;  // NOLINT: it is the program
+  using namespace afm::node;  // it is the program
   if (argc > 1 && (std::string(argv[1]) == "--help" || std::string(argv[1]) == "-h")) {
     std::cout << kHelp;
     return 0;

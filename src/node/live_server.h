@@ -29,7 +29,7 @@ namespace afm::node {
 // lock, and on ROS Noetic so does the message that the master is missing.
 struct LiveConfig : afm_emulator::EmulatorConfig {
   LiveConfig() = default;
-  LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // NOLINT: the server makes it of these
+  LiveConfig(const EmulatorConfig& config) : EmulatorConfig(config) {}  // the server makes it of these
 
   // In the last message, which asks for these. What clients were shown may be a moment old: a value that equals it may
   // still be a change.

@@ -227,8 +227,16 @@ TEST_F(RecorderTest, LeavesNoBagWhereNothingCame) {
   EXPECT_TRUE(recorder.start("run").success);
 }
 
+TEST_F(RecorderTest, DoesNotStartWhereOnlyItsFirstPartFindsRoom) {
+  write_file("run_002.bag");
+  Recorder splitting(settings(5'000'000), can_be_asked), whole(settings(), can_be_asked);
+  EXPECT_NE(splitting.start("run").message.find("run_002.bag"), std::string::npos);
+  EXPECT_TRUE(splitting.start("other").success);
+  EXPECT_TRUE(whole.start("run").success);
+  EXPECT_TRUE(is_untouched("run_002.bag"));
+}
+
 TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
-  write_file("run_001.bag");
   Recorder* self = nullptr;
   Recorder recorder(settings(5'000'000), [&] {
     self->record(topic_, bytes_, Role::snapshot, false);
@@ -236,6 +244,7 @@ TEST_F(RecorderTest, EndsWhereTheNameOfItsNextPartIsTaken) {
   });
   self = &recorder;
   begin(recorder);
+  write_file("run_001.bag");
   EXPECT_NE(record_until_it_ends(recorder).find("run_001.bag"), std::string::npos);
   EXPECT_TRUE(is_untouched("run_001.bag"));
   EXPECT_GT(messages_in_bag(), 3u);

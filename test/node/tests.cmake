@@ -43,7 +43,7 @@ foreach(arguments "hold_force.test language:=python" "hold_force.test language:=
 endforeach()
 
 # node/NAME_test.cpp: parts of the node that need no master
-foreach(name diagnosis messages parameters recorder)
+foreach(name diagnosis messages parameters recorder runner)
   afm_add_gtest(${name}_test node/${name}_test.cpp)
   target_include_directories(afm_${name}_test SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
   target_link_libraries(afm_${name}_test afm_emulator_ros)

@@ -89,7 +89,7 @@ void check_recording(const Parameters& p, Check& check) {
 }
 
 void check_drag(const Parameters& p, Check& check) {
-  const double most = kMaxEta * Units(p.si).velocity();
+  const double most = most_drag_velocity(p.si);
   const bool limited = p.max_drag_velocity > 0.0 && p.max_drag_velocity <= most;
   check.require(limited, "max_drag_velocity", p.max_drag_velocity,
                 "must be above 0 and at most " + number_text(most) + " m/s, a thousand lattice spacings per tau");
@@ -109,10 +109,11 @@ void check_drag(const Parameters& p, Check& check) {
 void check_scene(const Parameters& p, Check& check) {
   check.require(p.command_timeout_s == 0.0 || p.commands_eta.empty(), "command_timeout_s", p.command_timeout_s,
                 "must be 0 with commands_eta: what the emulator plays itself is no command");
-  const double most = to_eta(p.max_drag_velocity, p.si), batch = batch_of_model_time(p);
+  const double velocity = Units(p.si).velocity(), batch = batch_of_model_time(p);
   for (const double eta : p.commands_eta) {
-    check.require(std::abs(eta) <= most, "commands_eta", eta,
-                  "is beyond max_drag_velocity, which is " + number_text(most) + " a/tau");
+    // in m/s, as it will be commanded
+    check.require(std::abs(eta * velocity) <= p.max_drag_velocity, "commands_eta", eta,
+                  "is beyond max_drag_velocity, which is " + number_text(p.max_drag_velocity / velocity) + " a/tau");
   }
   check.require(p.commands_eta.empty() || (p.commands_hold_s >= batch && p.commands_hold_s <= kMaxTimeout),
                 "commands_hold_s", p.commands_hold_s, "must be " + from_a_batch_on(batch));

@@ -91,7 +91,7 @@ void set_initial_state(Parameters& p) {
 // A slow lever cannot be dragged as fast: the default of the limit gives way.
 void set_most_drag(Parameters& p) {
   const double usual = Parameters().max_drag_velocity;
-  if (p.max_drag_velocity == usual) p.max_drag_velocity = std::min(usual, kMaxEta * Units(p.si).velocity());
+  if (p.max_drag_velocity == usual) p.max_drag_velocity = std::min(usual, most_drag_velocity(p.si));
 }
 
 // ~ and ~/... A service of the system has no HOME.

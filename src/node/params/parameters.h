@@ -96,5 +96,7 @@ LevelChoice choose_level(const Parameters& parameters, const RunSettings& settin
 
 // The one place that turns a drag velocity into natural units, as its bits decide those of a run.
 double to_eta(double drag_velocity, const SiModel& si);
+// The largest that is at most kMaxEta in lattice spacings per tau [m/s].
+double most_drag_velocity(const SiModel& si);
 
 }  // namespace afm::node

@@ -29,6 +29,12 @@ std::chrono::nanoseconds batch_period(const Parameters& p) {
 
 double to_eta(double drag_velocity, const SiModel& si) { return drag_velocity / Units(si).velocity(); }
 
+double most_drag_velocity(const SiModel& si) {
+  double most = kMaxEta * Units(si).velocity();
+  while (to_eta(most, si) > kMaxEta) most = std::nextafter(most, 0.0);
+  return most;
+}
+
 RunSettings run_settings(const Parameters& p) {
   const Units units(p.si);
   RunSettings settings;

@@ -90,6 +90,7 @@ class Publisher {
       epoch_begin_ = latest_clock_ + ros::Duration(0, 1);
     const Label label{stamp_of(report), report.state.epoch};
     status_tracker_.observe(report);
+    unhurried_ = report.unhurried;
     live_of(parameters_) = report.in_force.live;
     // nobody who is slow holds up the end; the recording is made whole
     const bool for_subscribers = report.unhurried && !stopping_;
@@ -158,7 +159,7 @@ class Publisher {
           status_tracker_.update_status(sources_.recorder.status(), sources_.refusals.summary(),
                                         deflection_.lost() + impacts_.lost() + friction_.lost());
       if (clock_) status.header.stamp = latest_clock_;
-      status_.send(std::move(status), false, false);
+      status_.send(std::move(status), false, unhurried_);
     }
     if (is_due(diagnostics_due_, kDiagnosticsPeriod)) {
       status_tracker_.check(sources_.recorder.status(), sources_.refusals.summary(), std::chrono::steady_clock::now());
@@ -189,6 +190,7 @@ class Publisher {
   Channel<afm_emulator::EmulatorStatus> status_;
   afm_emulator::Configuration latest_configuration_;
   afm_emulator::Applied latest_applied_;
+  bool unhurried_ = false;  // the latest report: a status may fall out of a recording no more than a batch
   // model time, if it is to be published: it goes on where the epoch before ended
   ros::Publisher clock_;
   ros::Time epoch_begin_{1, 0}, latest_clock_;

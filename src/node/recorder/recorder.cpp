@@ -75,6 +75,15 @@ std::string Recorder::part_path(std::uint32_t part) const {
   return base_ + number + ".bag";
 }
 
+// Of a recording that splits: it would end there.
+std::string Recorder::taken_part() const {
+  constexpr std::uint32_t kParts = 1000;  // a choice: what is left of an older recording has the first numbers
+  for (std::uint32_t part = 1; splits() && part < kParts; ++part) {
+    if (fs::exists(part_path(part))) return part_path(part);
+  }
+  return {};
+}
+
 Recorder::Reply Recorder::start(const std::string& name) {
   const std::lock_guard<std::mutex> one_at_a_time(orders_);
   {
@@ -86,6 +95,8 @@ Recorder::Reply Recorder::start(const std::string& name) {
   try {
     std::filesystem::create_directories(std::filesystem::absolute(settings_.directory));
     base_ = bag_base(settings_.directory, name);
+    const std::string taken = taken_part();
+    if (!taken.empty()) return {false, taken + ": there is such a bag already, and the recording would split", ""};
     auto bag = std::make_unique<BagFile>(part_path(0), settings_.reserve_bytes, settings_.compression);
     const std::lock_guard<std::mutex> lock(mutex_);
     bag_ = std::move(bag);

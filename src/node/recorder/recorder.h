@@ -75,7 +75,9 @@ class Recorder {
   bool is_full(const ros::Time& stamp) const;
   void begin_next_bag();
   void finish(std::unique_lock<std::mutex>& lock, std::string error);
+  bool splits() const { return settings_.split_bytes > 0 || settings_.split_seconds > 0.0; }
   std::string part_path(std::uint32_t part) const;
+  std::string taken_part() const;
   std::string summary() const;  // of a recording that has ended
 
   const Settings settings_;

@@ -2,6 +2,7 @@
 // for an answer waits on a future, which the publisher fulfils when all that the answer stands for is published.
 #pragma once
 
+#include <atomic>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <boost/lockfree/stack.hpp>
 #include <chrono>
@@ -84,7 +85,7 @@ struct InForce {
   Live live;  // to the bit as it was commanded
   Level level;
   double expected_error = std::numeric_limits<double>::quiet_NaN();  // of the level; NaN: not known, or not asked for
-  double energy_dropped = 0.0;                                       // on the way to the level [m a^2/tau^2]
+  double energy_dropped = 0.0;                                       // on the way to the level [m_tip a^2/tau^2]
   const char* cause = "";    // epoch, parameters, scene, timeout, or that of a command
   std::uint64_t number = 0;  // of the report in its epoch
 };
@@ -124,9 +125,11 @@ class BatchQueue {
   // The running side.
   Batch* acquire() {  // null: none is free
     Batch* batch = nullptr;
-    free_.pop(batch);
+    if (free_.pop(batch)) ++acquired_;
     return batch;
   }
+  // All batches are: whoever listens may have seen them.
+  bool is_published() const { return released_.load(std::memory_order_acquire) == acquired_; }
   bool offer(const Report& report) {
     if (!reports_.push(report)) return false;
     available_.post();
@@ -139,7 +142,10 @@ class BatchQueue {
   // The publishing side.
   void wait_for(std::chrono::milliseconds timeout) { available_.wait_for(timeout); }
   bool take(Report& report) { return reports_.pop(report); }
-  void release(Batch* batch) { free_.bounded_push(batch); }
+  void release(Batch* batch) {
+    free_.bounded_push(batch);
+    released_.fetch_add(1, std::memory_order_release);
+  }
 
  private:
   static constexpr std::size_t kReportsPerRequest = 5;  // a reset: epoch, applied, snapshot, batch, answer
@@ -149,6 +155,8 @@ class BatchQueue {
   std::vector<Batch> batches_;
   boost::lockfree::stack<Batch*> free_;  // last in, first out: memory that is seldom needed stays untouched
   boost::lockfree::spsc_queue<Report> reports_;
+  std::uint64_t acquired_ = 0;  // of the running side
+  std::atomic<std::uint64_t> released_{0};
   Semaphore available_;
 };
 

@@ -84,7 +84,9 @@ void Runner::wait_for_work() {
 
 // In lockstep: a batch for every command, or after the time in which none came.
 bool Runner::may_advance() {
-  if (parameters_.wait_for != kCommand || (!command_came_ && monotonic_now() < command_deadline_)) return false;
+  if (parameters_.wait_for != kCommand) return false;
+  if (!command_came_ && !queue_.is_published()) await_command();  // nobody can answer what he has not seen
+  if (!command_came_ && monotonic_now() < command_deadline_) return false;
   command_came_ = false;
   await_command();
   return true;
@@ -112,9 +114,10 @@ double Runner::samples(double count) const {
 // The scene's list of commands, in model time: so a scene repeats to the last bit.
 void Runner::play_commands() {
   const auto& eta = parameters_.commands_eta;
-  if (eta.empty() || !queue_.has_room_for_request()) return;
+  if (eta.empty()) return;
   const Units units(parameters_.si);
   if (run_.now() + samples(kDueNow) < multiply(commands_played_, parameters_.commands_hold_s / units.time())) return;
+  while (!queue_.has_room_for_request() && !stopping_) sleep_until(monotonic_now() + kRoomPoll);
   Live live = parameters_;
   live.drag_velocity = eta[commands_played_ % eta.size()] * units.velocity();
   ++commands_played_;
@@ -166,7 +169,9 @@ Answer Runner::serve(Request& request) {
 void Runner::begin_epoch() {
   live_of(parameters_) = start_;
   in_force_.live = start_;
-  run_ = Run(run_settings(parameters_));
+  const RunSettings settings = run_settings(parameters_);
+  in_force_.level = choose_level(parameters_, settings).level;
+  run_ = Run(settings);
   last_command_ = monotonic_now();
   pacer_.resume(last_command_);
   state_.timed_out = false;
