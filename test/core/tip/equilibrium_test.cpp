@@ -88,6 +88,30 @@ std::vector<Setting> settings() {
   }
   return all;
 }
+
+TEST(Equilibrium, DoesNotDriftInAMillionTau) {
+  constexpr int kBlocks = 100, kSamples = 2000, kPause = 5;  // tau
+  constexpr double kTheta = 0.926, kQ = 5.0;
+  Tip tip(elastic(), 0.0, kStart);
+  tip.set_bath(bath_of(kTheta, kQ, 2.0));
+  std::vector<double> energies(kBlocks, 0.0);
+  for (int i = 0; i < kBlocks * kSamples; ++i) {
+    while (tip.advance(ModelTime{100 + std::int64_t{kPause} * i, 0.0}) != Outcome::time_limit) continue;
+    const FreeState s = tip.state();
+    energies[static_cast<std::size_t>(i / kSamples)] += 0.5 * (s.u * s.u + s.w * s.w) / kSamples;
+  }
+  double mean = 0.0, slope = 0.0, spread = 0.0, variance = 0.0;
+  for (const double energy : energies) mean += energy / kBlocks;
+  for (int i = 0; i < kBlocks; ++i) {
+    const double age = i - 0.5 * (kBlocks - 1), off = energies[static_cast<std::size_t>(i)] - mean;
+    slope += age * off;
+    spread += age * age;
+    variance += off * off / (kBlocks - 1);
+  }
+  EXPECT_LT(std::abs(slope / spread), 4.0 * std::sqrt(variance / spread));
+  EXPECT_LT(std::abs(mean - kTheta), 4.0 * std::sqrt(variance / kBlocks));
+}
+
 INSTANTIATE_TEST_SUITE_P(Temperatures, EquilibriumAt, testing::ValuesIn(settings()));
 
 }  // namespace

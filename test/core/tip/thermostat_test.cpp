@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <cstring>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include "afm/flight.h"
 #include "core/tip/normal_pair.h"
@@ -95,6 +97,7 @@ class FreeSprings {
     state_.U += kick.lateral.change(state_.U);
     state_.W += kick.vertical.change(state_.W);
   }
+  double Y() const { return state_.Y; }
   double lateral_energy() const { return 0.5 * (state_.U * state_.U + square(springs_.omega_h * state_.X)); }
   double vertical_energy() const { return 0.5 * (state_.W * state_.W + square(springs_.omega_v * state_.Y)); }
 
@@ -116,6 +119,39 @@ TEST(FreeSpring, WithoutTemperatureTheEnergyDecaysAsTheQualityFactorSays) {
   const double angle = kTwoPi * kSteps / 7.3;
   EXPECT_NEAR(std::log(vertical / springs.vertical_energy()), angle / 200.0, 0.02);
   EXPECT_NEAR(std::log(lateral / springs.lateral_energy()), angle * Model{}.frequency_ratio / 1000.0, 0.02);
+}
+
+// Periodograms of windows of 400 tau, twenty times the memory, against 2 Gamma theta / ((w0^2 - w^2)^2 + (Gamma w)^2).
+TEST(FreeSpring, TheSpectrumOfItsNoiseIsALorentzianOfWidthFOverQ) {
+  constexpr double kTheta = 0.926, kQ = 20.0, kKicks = 29.0, kStep = 1.0 / kKicks;
+  constexpr int kWindows = 500, kSteps = 400 * static_cast<int>(kKicks);
+  FreeSprings springs(bath_of(kTheta, kQ, kKicks), {});
+  for (int i = 0; i < kSteps; ++i) springs.step();
+  std::vector<double> hann(kSteps), power(9, 0.0);
+  double weight = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    hann[static_cast<std::size_t>(i)] = 1.0 - std::cos(kTwoPi * (i + 0.5) / kSteps);
+    weight += hann[static_cast<std::size_t>(i)] * hann[static_cast<std::size_t>(i)];
+  }
+  const auto frequency = [](std::size_t k) { return kTwoPi * (1.0 + (static_cast<double>(k) - 4.0) / (2.0 * kQ)); };
+  for (int window = 0; window < kWindows; ++window) {
+    std::vector<std::complex<double>> sums(power.size()), turns(power.size(), 1.0), turn(power.size());
+    for (std::size_t k = 0; k < power.size(); ++k) turn[k] = std::polar(1.0, -frequency(k) * kStep);
+    for (const double factor : hann) {
+      springs.step();
+      for (std::size_t k = 0; k < power.size(); ++k) {
+        sums[k] += factor * springs.Y() * turns[k];
+        turns[k] *= turn[k];
+      }
+    }
+    for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(sums[k]) * kStep / weight / kWindows;
+  }
+  const double gamma = kTwoPi / kQ;
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    const double w = frequency(k), detuning = kTwoPi * kTwoPi - w * w;
+    const double expected = 2.0 * gamma * kTheta / (detuning * detuning + gamma * gamma * w * w);
+    EXPECT_NEAR(power[k] / expected, 1.0, 4.0 / std::sqrt(kWindows)) << k;  // each is distributed exponentially
+  }
 }
 
 }  // namespace
