@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 Command = namedtuple("Command", "words sides may_fail")
 
-KELVIN = 0.926 / 300.0  # kT of mica's tip [m a^2/tau^2] for each kelvin; docs/temperature.md
+KELVIN = 0.926 / 300.0  # kT of mica's tip [m_tip a^2/tau^2] for each kelvin; docs/temperature.md
 TEMPERATURES = (0, 4, 77, 300)  # [K]
 QUALITIES = (500, 100, 20)
 THERMAL_FINE = (2, 4, 6, 8)  # eta of the peaks
@@ -25,13 +25,13 @@ LOCK_RATIOS, LOCK_QUALITIES, LOCK_KICKS = (11.1, 12.5, 14), (20, 100), (8.652, 1
 LIQUID_KICKS = {(6.25, 1): 357.618, (6.25, 2): 179.618, (6.25, 5): 122.99, (20, 2): 572.618, (20, 5): 229.618,
                 (20, 10): 122.99, (20, 20): 122.99, (41, 5): 469.618, (41, 10): 235.618, (41, 20): 122.99}
 LIQUID_MORE = (29.034, 843.618)
-# coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m a^2/tau^2])
+# coexisting attractors. eta: (K_f of the two without heat, window [tau], kT [m_tip a^2/tau^2])
 HOPS = {2: ((5.489, 5.646), 20, (0.0003, 0.0005, 0.0007, 0.001, 0.0014, 0.002)),
         6.5: ((0.4397, 0.5056), 50, (0.02, 0.025, 0.03, 0.04, 0.05, 0.065, 0.08, 0.1, 0.12))}
 HOPS_QUALITY, TRACES = 500, (0.025, 0.08, 0.2377, 0.926)
 MERGE_ETAS, MERGE_QUALITIES = (2, 3.75, 6.5), (500, 100)
 WINDOWS = ((1.9, 2.15), (3.6, 3.9), (6.2, 6.7))  # of eta, where attractors coexist
-LOAD_ETAS = (0.5, 2, 3.4)
+LOAD_ETAS = (0.5, 1.51, 2, 3.4)
 LEVERS, CRYSTALS = ("paper", "ppp_cont", "csc37_b"), ("mica", "nacl", "hopg")  # of the picture friction against load
 LEVER_SPEED, MOST_LOAD = 5e-6, 0.2e-9  # [m/s], [N]
 CUTOFF_SPEED = 1.66e-7  # [m/s]
@@ -56,7 +56,7 @@ def lever_scene(lever, crystal):
     spring, surface = values("config/levers/%s.yaml" % lever), values("config/surfaces/%s.yaml" % crystal)
     k, f0, a = spring["spring_constant_n_per_m"], spring["resonance_hz"], surface["lattice_spacing_m"]
     ratio = math.sqrt(spring["lateral_spring_constant_n_per_m"] / k)
-    theta = 1.380649e-23 * 300.0 * (2.0 * math.pi) ** 2 / (k * a * a)  # kT in m a^2/tau^2, with m = k / (2 pi f0)^2
+    theta = 1.380649e-23 * 300.0 * (2.0 * math.pi) ** 2 / (k * a * a)  # kT in m_tip a^2/tau^2, with m = k / (2 pi f0)^2
     most = MOST_LOAD / (k * a)
     words = ("--eta %.9g --cutoff %.9g --amplitude %.9g --frequency-ratio %.9g --temperature %.9g --quality-factor 100"
              % (LEVER_SPEED / (a * f0), CUTOFF_SPEED / (a * f0), surface["surface_amplitude_m"] / a, ratio, theta))

@@ -6,16 +6,17 @@ Parameters: emulator, vertical_v_per_nm, lateral_v_per_nm, noise_v_per_sqrt_hz, 
 from afm_emulator import ending  # before all else
 import numpy
 import rospy
+from afm_emulator import number_parameter
 from afm_emulator.msg import Deflection
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 
 class Detector:
     def __init__(self):
-        self.v_per_nm = numpy.array([[rospy.get_param('~vertical_v_per_nm', 0.05)],
-                                     [rospy.get_param('~lateral_v_per_nm', 0.01)]])
-        self.noise = rospy.get_param('~noise_v_per_sqrt_hz', 5e-6)  # 0.1 pm per root Hz of vertical deflection
-        self.range = rospy.get_param('~range_v', 10.0)
+        self.v_per_nm = numpy.array([[number_parameter('vertical_v_per_nm', 0.05)],
+                                     [number_parameter('lateral_v_per_nm', 0.01)]])
+        self.noise = number_parameter('noise_v_per_sqrt_hz', 5e-6)  # 0.1 pm per root Hz of vertical deflection
+        self.range = number_parameter('range_v', 10.0)
         self.step = 2 * self.range / 2 ** rospy.get_param('~bits', 16)
         self.random = numpy.random.default_rng(rospy.get_param('~seed', 1))
         self.volts = rospy.Publisher('~volts', Float64MultiArray, queue_size=100)

@@ -7,20 +7,16 @@ Friction is not monotonic in the load, so the height stays within limits between
 Parameters: emulator, force [N], gain [m/N], lowest and highest height [m], settle_s and window_s of model time."""
 from afm_emulator import ending  # before all else
 import rospy
-from afm_emulator import Client
+from afm_emulator import Client, number_parameter
 from std_msgs.msg import Float64
-
-
-def number(name, usual):
-    return float(rospy.get_param(name, usual))  # of a text too, as 8e-12 is in YAML
 
 
 def main():
     ending.init_node('hold_force')
-    setpoint = number('~force', 60e-12)
-    gain = number('~gain', 1.0)  # half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
-    lowest, highest = number('~lowest', -0.33e-9), number('~highest', -0.03e-9)
-    settle, window = number('~settle_s', 0.02), number('~window_s', 0.1)
+    setpoint = number_parameter('force', 60e-12)
+    gain = number_parameter('gain', 1.0)  # half of 1 / (dF / d height), which is 0.45 N/m at eta = 3.4
+    lowest, highest = number_parameter('lowest', -0.33e-9), number_parameter('highest', -0.03e-9)
+    settle, window = number_parameter('settle_s', 0.02), number_parameter('window_s', 0.1)
     measured = rospy.Publisher('~measured_force', Float64, queue_size=10)
     commanded = rospy.Publisher('~commanded_height', Float64, queue_size=10)
     tip = Client(rospy.get_param('~emulator', 'afm'))

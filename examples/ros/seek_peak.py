@@ -6,7 +6,7 @@ The step is proportional to the relative difference, so it vanishes at the peak.
 Parameters: emulator, start, dither, gain, lowest and highest speed [m/s], settle_s and window_s of model time."""
 from afm_emulator import ending  # before all else
 import rospy
-from afm_emulator import Client
+from afm_emulator import Client, number_parameter
 from std_msgs.msg import Float64
 
 ETA = 3.3104228e-6  # m/s of eta = 1 (mica), for the defaults
@@ -14,10 +14,10 @@ ETA = 3.3104228e-6  # m/s of eta = 1 (mica), for the defaults
 
 def main():
     ending.init_node('seek_peak')
-    speed = rospy.get_param('~start', 1.75 * ETA)
-    dither, gain = rospy.get_param('~dither', 0.05 * ETA), rospy.get_param('~gain', 0.2 * ETA)
-    lowest, highest = rospy.get_param('~lowest', 1.2 * ETA), rospy.get_param('~highest', 3.0 * ETA)
-    settle, window = rospy.get_param('~settle_s', 0.02), rospy.get_param('~window_s', 0.1)
+    speed = number_parameter('start', 1.75 * ETA)
+    dither, gain = number_parameter('dither', 0.05 * ETA), number_parameter('gain', 0.2 * ETA)
+    lowest, highest = number_parameter('lowest', 1.2 * ETA), number_parameter('highest', 3.0 * ETA)
+    settle, window = number_parameter('settle_s', 0.02), number_parameter('window_s', 0.1)
     published = rospy.Publisher('~speed', Float64, queue_size=10)
     tip = Client(rospy.get_param('~emulator', 'afm'))
     while not rospy.is_shutdown():

@@ -22,9 +22,10 @@ def fig1_friction(tables):
         for direction, line in style.SWEEPS.items():
             rows = swept(tables, direction)
             eta = [row["eta"] for row in rows]
-            axes.plot(eta, [row["k_f"] for row in rows], **line)
-            axes.fill_between(eta, *[[max(1e-12, row["k_f"] + sign * 1.96 * row["k_f_std_error"]) for row in rows]
-                                     for sign in (-1, 1)], color=line["color"], alpha=0.3, linewidth=0)
+            K, error = [[row[name] for row in rows] for name in ("k_f_work", "k_f_work_std_error")]
+            axes.plot(eta, K, **line)
+            axes.fill_between(eta, *[[max(1e-12, k + sign * 1.96 * e) for k, e in zip(K, error)] for sign in (-1, 1)],
+                              color=line["color"], alpha=0.3, linewidth=0)
         axes.plot([2, 4, 6, 8], [peak] * 4, "o", color="black", fillstyle="none", markersize=9,
                   label=r"closed form at even $\eta$: %.4f" % peak)
         axes.set_ylabel(style.K_F_LABEL)

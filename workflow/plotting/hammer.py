@@ -77,9 +77,9 @@ def hammer_ratio(tables):
     rows = tables.rows("hammer_error_ratio")
     figure, axes = style.new(6.4, 2, 2, sharex=True)
     panels = ((axes[0][0], "relative error of the hammer's $K_f$", lambda row: abs(row["k_f_error"])),
-              (axes[0][1], "largest lateral deflection [a]", lambda row: row["stretch_max"]),
+              (axes[0][1], "largest lateral deflection [a]", lambda row: row["extension_max"]),
               (axes[1][0], r"rms of the lateral velocity [$v_0$]",
-               lambda row: style.TWO_PI * row["frequency_ratio"] * row["stretch_rms"] / row["eta"]),
+               lambda row: style.TWO_PI * row["frequency_ratio"] * row["extension_rms"] / row["eta"]),
               (axes[1][1], "processor time: oscillator / hammer", lambda row: row["cost_ratio"]))
     for ax, label, value in panels:
         for eta, (colour, marker) in LOOKS.items():

@@ -5,7 +5,8 @@ from registry import picture, table
 from . import style
 
 # one a of the spring is so much force: k_v a and k_h a, k = m omega^2 (mica)
-NEWTON_V = 4.08e-10 * 4e4 ** 2 * 5.2e-10
+K_V = 4.08e-10 * 4e4 ** 2  # [N/m]
+NEWTON_V = K_V * 5.2e-10
 TAU = style.TWO_PI / 4e4
 CASES = (("no bath", style.BLUE, "o", "cold"), ("300 K, Q = 100", style.ORANGE, "s", "warm"))
 READ = tuple("load_%g_%s" % (eta, end) for eta in LOAD_ETAS for end in ("cold", "warm"))
@@ -32,7 +33,7 @@ def load(tables):
 def draw_load(tables):
     """A dot for each height of the holder: between two of them the attractor may change."""
     rows = tables.rows("load")
-    figure, axes = style.new(8.2, len(LOAD_ETAS), 1, sharex=True)
+    figure, axes = style.new(9.6, len(LOAD_ETAS), 1, sharex=True)
     for ax, eta in zip(axes, LOAD_ETAS):
         for name, colour, marker, _ in CASES:
             some = [row for row in rows if row["eta"] == eta and row["bath"] == name]
@@ -47,6 +48,8 @@ def draw_load(tables):
         ax.set_ylabel("mean lateral force [pN]")
         ax.set_title(r"$\eta$ = %g (%.3g $\mu$m/s)" % (eta, eta * 1e6 * 5.2e-10 / TAU), loc="left")
     handles, labels = axes[1].get_legend_handles_labels()
-    axes[0].legend(handles, labels, loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=3, borderaxespad=0.1)
+    axes[0].legend(handles, labels, loc="upper right")
+    height = axes[-1].secondary_xaxis(-0.32, functions=(lambda F: -F / K_V, lambda y: -K_V * y))
+    height.set_xlabel("height of the holder $y_0$ [nm]")
     axes[-1].set_xlabel(r"load $-k_v y_0$ [nN];  left of 0 the holder is above mid-surface")
     return figure

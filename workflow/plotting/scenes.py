@@ -105,7 +105,7 @@ def draw_path(axes, run):
 
 def draw_sweep(axes, run):
     """The last estimate of each command, by the direction it was come from."""
-    eta, K = np.array([(eta, friction['k_f']) for _, eta, friction in run.commands]).T
+    eta, K = np.array([(eta, friction['k_f_work']) for _, eta, friction in run.commands]).T
     top = int(np.argmax(eta))
     axes.plot(eta[:top + 1], K[:top + 1], '-^', ms=5, lw=1.0, color=style.BLUE, label='$\\eta$ rising')
     axes.plot(eta[top:], K[top:], '--v', ms=5, lw=1.0, color=style.ORANGE, label='$\\eta$ falling', **style.OPEN)

@@ -10,7 +10,7 @@ if not hasattr(threading.Thread, 'isAlive'):
 
 
 def __getattr__(name):
-    if name in ('Client', 'EmulatorError'):
+    if name in ('Client', 'EmulatorError', 'number_parameter'):
         from afm_emulator import client
         return getattr(client, name)
     raise AttributeError('afm_emulator has no %s' % name)

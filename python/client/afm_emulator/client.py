@@ -47,6 +47,16 @@ def not_negative(name, value):
     return number
 
 
+def number_parameter(name, usual):
+    """A private parameter of this node as a float: of a text too, as 60e-12 is in YAML. An EmulatorError names one that
+    is no number."""
+    given = rospy.get_param('~' + name, usual)
+    try:
+        return float(given)
+    except (TypeError, ValueError):
+        raise EmulatorError('%s = %r: must be a number' % (rospy.resolve_name('~' + name), given)) from None
+
+
 def name_fault(name):
     """Why no node can have this name, or nothing: who waits for one would wait in vain."""
     if isinstance(name, str) and name.strip('/') and rosgraph.names.is_legal_name(name):
