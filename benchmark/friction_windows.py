@@ -21,7 +21,7 @@ def windows(start, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--eta', type=float, default=3.75, help='drag velocity [a/tau]')
-    parser.add_argument('--temperature', type=float, default=0.0, help='kT of the heat bath [m a^2/tau^2]')
+    parser.add_argument('--temperature', type=float, default=0.0, help='kT of the heat bath [m_tip a^2/tau^2]')
     parser.add_argument('--quality-factor', type=float, default=0.0, help='of the cantilever; 0: no bath')
     parser.add_argument('--window', type=float, default=20.0, help='[tau]')
     parser.add_argument('--duration', type=float, default=2000.0, help='of each tip [tau]')

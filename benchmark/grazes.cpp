@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   app.option("ordinary", o.ordinary, "flights of ordinary runs, at each drag speed");
   app.option("kinds", o.kinds, "flight, start, tau: all by default");
   return app.run(argc, argv, [&] {
-    std::printf("graze,clearance,flights,touched,missed,in_twice_the_digits,wrong\n");
+    std::printf("graze,clearance,flights,touched,missed,in_double_double,wrong\n");
     const std::pair<const char*, Build> kinds[] = {{"flight", &afm::Grazes::after_a_flight},
                                                    {"start", &afm::Grazes::after_the_start},
                                                    {"tau", &afm::Grazes::every_tau}};

@@ -54,7 +54,7 @@ struct Figures {
 };
 
 struct Losses {
-  double energy = 0.0, impacts = 0.0;  // [m a^2/tau^2]; bounces
+  double energy = 0.0, impacts = 0.0;  // [m_tip a^2/tau^2]; bounces
 };
 
 // Up to the given time [tau].
@@ -185,7 +185,7 @@ void warn_of_heat(const afm::CommandLine& app, const Options& o, const afm::Unit
   const double hottest = *std::max_element(o.temperature.begin(), o.temperature.end());
   const double kelvin = hottest * units.temperature();
   if (!afm::LeverOptions::are_given(app) || kelvin < kHot) return;
-  app.warn("temperature = " + afm::number_text(hottest) + ": is kT in m a^2/tau^2 of this lever and crystal, " +
+  app.warn("temperature = " + afm::number_text(hottest) + ": is kT in m_tip a^2/tau^2 of this lever and crystal, " +
            afm::number_text(std::round(kelvin)) + " K; for 300 K give " +
            afm::rounded_text(kRoom / units.temperature(), kFew));
 }
@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   app.option("frequency-ratio", o.frequency_ratios, "omega_h/omega_v");
   app.option("amplitude", o.amplitudes, "of the surface [a]");
   app.option("rest-height", o.rest_heights, "of the holder above mid-surface [a]");
-  app.option("temperature", o.temperatures, "kT of the heat bath [m a^2/tau^2]");
+  app.option("temperature", o.temperatures, "kT of the heat bath [m_tip a^2/tau^2]");
   app.option("quality-factor", o.quality_factors, "of the cantilever; 0: neither damped nor heated");
   app.option("kicks-per-tau", o.bath.kicks_per_tau, "of the heat bath");
   app.option("tau", o.tau, "measured time each", {1.0, kLongest});

@@ -1,7 +1,6 @@
 #include "stress_scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "afm/run.h"
 

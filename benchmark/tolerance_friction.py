@@ -16,7 +16,7 @@ import afm
 
 FINER, SEEDS = 1e-9, 8  # of `collapse`: contact tolerance of the reference, pairs of runs
 AT_A_TIME = 100000  # events that are held in memory
-KELVIN_300, QUALITY = 0.926, 100.0  # kT of mica's tip [m a^2/tau^2]
+KELVIN_300, QUALITY = 0.926, 100.0  # kT of mica's tip [m_tip a^2/tau^2]
 
 
 def measure(model, eta, tolerance, bath, transient, tau, most_events=math.inf):

@@ -122,7 +122,7 @@ def grazes_kinds(tables):
     for row in tables.strings("grazes"):
         kind = "ordinary flights" if row["graze"].startswith("ordinary") else row["graze"]
         sums = kinds.setdefault(kind, [0, 0, 0])
-        for i, name in enumerate(("flights", "in_twice_the_digits", "wrong")):
+        for i, name in enumerate(("flights", "in_double_double", "wrong")):
             sums[i] += int(row[name] or 0)
     return [{"grazes": kind, "flights": flights, "decided in double-double": finer,
              "wrong": "" if kind == "ordinary flights" else wrong} for kind, (flights, finer, wrong) in kinds.items()]

@@ -17,7 +17,7 @@ struct Hit {
   Kind kind;
   double dt;             // [tau]
   TipState after;        // after the impact, or at the horizon
-  double energy_loss;    // [m a^2/tau^2]
+  double energy_loss;    // [m_tip a^2/tau^2]
   double contact = 0.0;  // an impact that takes time began so long before dt [tau]
 };
 

@@ -9,7 +9,7 @@
 
 namespace afm {
 
-// In the springs and in motion over the ground [m a^2/tau^2].
+// In the springs and in motion over the ground [m_tip a^2/tau^2].
 inline double stored_energy(const Model& m, const FreeState& s) {
   const double omega_h = kTwoPi * m.frequency_ratio, Y = s.y - m.y0;
   return 0.5 * (s.u * s.u + s.w * s.w + omega_h * omega_h * s.X * s.X + kTwoPi * kTwoPi * Y * Y);
@@ -59,7 +59,8 @@ class EnergyBalance {
  private:
   void add(const Segment& segment, const Tip& tip) {
     constexpr double kRounding = 1e-13;  // of the stored energy, as the steps in contact allow themselves
-    constexpr double kOfPlaces = 1e-15;  // [m a^2/tau^2] places are rounded as parts of a cell, however slow the tip
+    // [m_tip a^2/tau^2] places are rounded as parts of a cell, however slow the tip
+    constexpr double kOfPlaces = 1e-15;
     const double moved = std::abs(segment.loss) + std::abs(segment.heat) + std::abs(segment.work());
     const double stored = std::max(std::abs(stored_), std::abs(stored_ + segment.stored));
     double rounding = kOfPlaces + (kRounding + slope_rounding(tip.model(), stored)) * stored;

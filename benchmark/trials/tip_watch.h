@@ -86,7 +86,7 @@ class TipWatch {
  private:
   static constexpr double kMostImbalance = 1e-9;
   static constexpr double kLeastTurnover =
-      1e-9;  // [m a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
+      1e-9;  // [m_tip a^2/tau^2] to judge by: places are rounded as parts of a cell, however slow
   static constexpr double kMostDepth = 1e-15;  // [a], times what places are rounded with if that is more than 1 a
   static constexpr std::uint64_t kMostSegmentsInATau = 1000000;  // far more than any tau needs: a stall
 

@@ -143,7 +143,7 @@ class ModelErrors(unittest.TestCase):
         self.assertAlmostEqual(row['k_f_error'], SLOPE * SLOPE, delta=1e-9)  # 1 + s^2 times the oscillator's
         self.assertGreater(row['tracking_error'], 0.01)
         self.assertGreater(row['deflection_error'], 0.01)
-        self.assertGreater(row['stretch_max'], row['stretch_rms'])
+        self.assertGreater(row['extension_max'], row['extension_rms'])
 
     def test_of_bursts_is_within_their_tolerance(self):
         row, = self.errors('--model', 'oscillator', '--eta', '3', '--cutoff', '0.15', '--reference-tolerance', '0')

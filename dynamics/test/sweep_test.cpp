@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "afm/surface.h"
 #include "support/models.h"
 
 namespace afm {

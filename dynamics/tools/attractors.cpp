@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "afm/dynamics/basins.h"
+#include "afm/number_text.h"
 #include "common/in_order.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
@@ -55,7 +56,8 @@ std::vector<double> etas(const afm::CommandLine& app, const Options& o) {
 
 void check_duration(const char* name, double tau) {
   if (tau >= 1.0 && tau <= 1e9) return;
-  throw std::invalid_argument(std::string("--") + name + ": must be between 1 and 1e9 tau");
+  throw std::invalid_argument(std::string("--") + name + " = " + afm::number_text(tau) +
+                              " tau: must be between 1 and 1e9");
 }
 
 // A cutoff that is a share of eta has no unit.

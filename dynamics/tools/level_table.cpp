@@ -1,12 +1,10 @@
 // Makes the table from which `model: auto` takes its levels.
-#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "afm/number_text.h"
-#include "common/csv.h"
 #include "common/in_order.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"

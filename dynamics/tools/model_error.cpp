@@ -3,7 +3,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "afm/dynamics/sweep.h"
+#include "afm/number_text.h"
 #include "afm/units.h"
 #include "common/csv.h"
 #include "common/lever_options.h"
@@ -39,7 +39,8 @@ const char kDescription[] =
 const char kHeader[] =
     "eta,gamma,cutoff,frequency_ratio,model,contact_tolerance,reference_tolerance,start,k_f,k_f_std_error,attractor,"
     "reference_k_f,reference_k_f_std_error,reference_attractor,k_f_error,k_f_error_std_error,deflection_error,"
-    "deflection_noise,deflection_rms,tracking_error,stretch_rms,stretch_max,ns_per_tau,reference_ns_per_tau,cost_ratio";
+    "deflection_noise,deflection_rms,tracking_error,extension_rms,extension_max,ns_per_tau,reference_ns_per_tau,cost_"
+    "ratio";
 
 const char kSceneHeader[] = "scene,eta,model,contact_tolerance,k_f_error,deflection_error,cost,in_use";
 
@@ -154,7 +155,8 @@ std::vector<double> drag_velocities(const YAML::Node& p, const afm::Units& units
   constexpr std::size_t kMost = 5;
   std::set<double> sent;
   for (const double eta : p["commands_eta"].as<std::vector<double>>()) {
-    if (!std::isfinite(eta)) throw std::invalid_argument("commands_eta must be finite");
+    if (!std::isfinite(eta))
+      throw std::invalid_argument("commands_eta = " + afm::number_text(eta) + ": must be finite");
     sent.insert(std::abs(eta));
   }
   if (sent.empty()) sent.insert(std::abs(number(p, "drag_velocity")) / units.velocity());

@@ -1,6 +1,4 @@
 // The periodic orbits at given parameters.
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <string>

@@ -10,7 +10,7 @@ int main() {
   afm::Tip tip(mica, eta, start);
 
   int events = 0;
-  double energy_loss = 0.0;             // [m a^2/tau^2]
+  double energy_loss = 0.0;             // [m_tip a^2/tau^2]
   const afm::ModelTime end{1000, 0.0};  // whole tau, and a part of one
   while (tip.advance(end) != afm::Outcome::time_limit) {
     energy_loss += tip.last_impact().energy_loss;

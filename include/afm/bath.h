@@ -13,7 +13,7 @@ namespace afm {
 
 // Energy of a free spring decays like exp(-omega t / Q), the better the more kicks there are in the time Q / omega.
 struct Bath {
-  double temperature = 0.0;             // kT [m a^2/tau^2]; 0: damping alone
+  double temperature = 0.0;             // kT [m_tip a^2/tau^2]; 0: damping alone
   double quality_factor = 0.0;          // of the vertical spring; 0: neither damped nor heated
   double lateral_quality_factor = 0.0;  // of the horizontal spring; 0: as the vertical one
   double kicks_per_tau = 29.034;        // see suitable_kicks()
@@ -27,7 +27,7 @@ struct Bath {
 bool operator==(const Bath& a, const Bath& b);
 inline bool operator!=(const Bath& a, const Bath& b) { return !(a == b); }
 
-constexpr double kMaxTemperature = 1000.0;  // [m a^2/tau^2]: mica's tip at 324,000 K
+constexpr double kMaxTemperature = 1000.0;  // [m_tip a^2/tau^2]: mica's tip at 324,000 K
 constexpr double kMinQualityFactor = 0.1;   // overdamped; or 0
 constexpr double kMinKickRate = 0.01;       // [1/tau]
 constexpr double kMaxKickRate = 1000.0;     // [1/tau]

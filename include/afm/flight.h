@@ -27,9 +27,10 @@ class Flight {
   GapJet<T> gap(const T& s) const {
     return detail::is_small(bounds_, s) ? detail::advance_jet(m_, eta_, start_, s) : detail::jet_at(m_, eta_, at(s));
   }
+  // The state s tau after the start.
   FlightState<T> at(const T& s) const { return detail::state_after(m_, eta_, start_.state, s); }
 
-  TipState tip_state(const T& s) const;
+  TipState tip_state(const T& s) const;  // the same as that of a tip
 
   // Bound of the rounding error of gap(s).g [a] (Lemma 7).
   T gap_error(const T& s) const;

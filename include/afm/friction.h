@@ -14,23 +14,23 @@ namespace afm {
 
 // NaN: a figure is not defined (K_f at v0 = 0, errors with too few bins).
 struct FrictionEstimate {
-  double force = 0.0;  // [m a / tau^2], sign of the drag velocity
-  double force_std_error = 0.0;
-  double K_f = 0.0;  // [m_tip/tau]
-  double K_f_std_error = 0.0;
-  double energy_loss = 0.0;  // since the last restart [m a^2 / tau^2]
+  double force = 0.0;            // by impacts [m_tip a/tau^2], sign of the drag velocity; with a bath not the friction
+  double force_std_error = 0.0;  // [m_tip a/tau^2]
+  double K_f = 0.0;              // by impacts, force / eta [m_tip/tau]
+  double K_f_std_error = 0.0;    // [m_tip/tau]
+  double energy_loss = 0.0;      // since the last restart [m_tip a^2/tau^2]
   std::uint64_t impact_count = 0;
-  double window_force = 0.0;  // over the sliding window
-  double window_K_f = 0.0;
-  double window_K_f_std_error = 0.0;
-  double mean_lateral_force = 0.0;  // of the holder on the tip, exact since the last restart [m a / tau^2]
+  double window_force = 0.0;          // by impacts over the sliding window [m_tip a/tau^2]
+  double window_K_f = 0.0;            // [m_tip/tau]
+  double window_K_f_std_error = 0.0;  // [m_tip/tau]
+  double mean_lateral_force = 0.0;    // of the holder on the tip, exact since the last restart [m_tip a/tau^2]
   // Without a bath: that of K_f, and what the tip has stored since the last restart. With a bath, and at rest, it comes
   // from bins: too large in short runs, because the tip carries momentum across their ends.
   double mean_lateral_force_std_error = 0.0;
   double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;
-  double mean_normal_force = 0.0;  // of the holder on the tip towards the surface, mean of the samples [m a/tau^2]
-  double heat_to_bath = 0.0;       // since the last restart [m a^2/tau^2]
+  double mean_normal_force = 0.0;  // of the holder on the tip towards the surface, mean of the samples [m_tip a/tau^2]
+  double heat_to_bath = 0.0;       // since the last restart [m_tip a^2/tau^2]
 };
 
 // Energy or impulse in equal bins of time. Full bins merge in pairs, so a run of any length fits. The scatter of the

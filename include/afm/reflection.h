@@ -20,7 +20,7 @@ struct Reflection {
   TipState after;
   double normal_speed;         // |n.v| before the impact [a/tau]. For the hammer model: the gap rate |w - h' u|
   double tangential_velocity;  // t.v, which stays [a/tau]. For the hammer model: u
-  double energy_loss;          // (1 - gamma_eff^2) (n.v)^2 / 2 [m a^2/tau^2]
+  double energy_loss;          // (1 - gamma_eff^2) (n.v)^2 / 2 [m_tip a^2/tau^2]
 };
 
 // Precondition: `incident` is on the surface. A gap rate above 0 is rounding and counts as 0. Below the cutoff we

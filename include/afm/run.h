@@ -34,13 +34,14 @@ std::vector<ParameterError> find_faults(const RunSettings& settings);
 // The settings that may change while running.
 struct LiveSettings {
   double eta;             // [a/tau]
-  double gamma, v_c, y0;  // of the model
+  double gamma, v_c, y0;  // of the model [-], [a/tau], [a]
   double sample_period;   // [tau]
   std::uint64_t samples_per_batch;
   double friction_window;  // [tau]
   Bath bath;
   Level level;
 };
+// They as part of the settings, read and set.
 LiveSettings live_settings(const RunSettings& settings);
 void set_live(const LiveSettings& live, RunSettings& settings);
 
@@ -56,7 +57,7 @@ struct Batch {
   std::uint64_t impact_limit = 0;  // 0: it ends at its time; else it ended when it had spent so many impacts
   FrictionEstimate friction;       // at end
   double eta = 0.0;                // drag velocity throughout the batch
-  double impulse = 0.0;            // of the holder's lateral force on the tip, exact [m a/tau]
+  double impulse = 0.0;            // of the holder's lateral force on the tip, exact [m_tip a/tau]
   double holder = 0.0;             // position of the holder at first_sample_time [a]
 };
 
@@ -98,7 +99,8 @@ class Run {
 
   // All settings from now() on. The state of the tip stays. What stays the same has no effect. A new drag velocity,
   // model, level or bath restarts the friction estimate, a new window restarts its window. A new sample period takes
-  // its first sample at now(). Returns the energy that a change to the hammer drops [m a^2/tau^2] (see Tip::set_model).
+  // its first sample at now(). Returns the energy that a change to the hammer drops [m_tip a^2/tau^2], as set_model() of
+  // a Tip does.
   // Precondition: settings() with these have no faults.
   double apply(const LiveSettings& live);
 

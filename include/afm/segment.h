@@ -17,13 +17,13 @@ struct Segment {
   SegmentKind kind = SegmentKind::flight;
   ModelTime begin, end;     // equal for an impact and a kick
   double eta = 0.0;         // drag velocity throughout [a/tau]
-  double impulse = 0.0;     // of the holder's lateral force on the tip [m a/tau]
-  double loss = 0.0;        // energy lost in impacts [m a^2/tau^2]
-  double heat = 0.0;        // given to the bath [m a^2/tau^2]
-  double stored = 0.0;      // change of the energy in springs and motion, in the lab [m a^2/tau^2]
+  double impulse = 0.0;     // of the holder's lateral force on the tip [m_tip a/tau]
+  double loss = 0.0;        // energy lost in impacts [m_tip a^2/tau^2]
+  double heat = 0.0;        // given to the bath [m_tip a^2/tau^2]
+  double stored = 0.0;      // change of the energy in springs and motion, in the lab [m_tip a^2/tau^2]
   std::uint64_t count = 0;  // impacts
 
-  double work() const { return eta * impulse; }                       // of the drag [m a^2/tau^2]
+  double work() const { return eta * impulse; }                       // of the drag [m_tip a^2/tau^2]
   double imbalance() const { return work() - loss - heat - stored; }  // zero except for rounding
 };
 

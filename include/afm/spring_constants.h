@@ -18,8 +18,10 @@ struct SpringConstants {
         inverse_omega_v(T(1.0) / omega_v),
         inverse_omega_h(afm::is_free_along_x(model) > 0.0 ? T(1.0) / omega_h : T(0.0)) {}
 
-  T is_free_along_x;  // 1, or 0 for the hammer, whose horizontal spring then has no length and no force
-  T ratio, omega_v, omega_h, H, y0;
+  T is_free_along_x;   // 1, or 0 for the hammer, whose horizontal spring then has no length and no force
+  T ratio;             // omega_h / omega_v
+  T omega_v, omega_h;  // [rad/tau]
+  T H, y0;             // [a]
   T inverse_omega_v, inverse_omega_h;  // products are faster than quotients
 };
 

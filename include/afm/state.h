@@ -91,7 +91,7 @@ struct Impact {
   double surface_phase = 0.0;        // [a] in [0, 1)
   double normal_speed = 0.0;         // |n.v| [a/tau]. For the hammer model: the gap rate |w - h' u|
   double tangential_velocity = 0.0;  // t.v [a/tau]
-  double energy_loss = 0.0;          // [m a^2 / tau^2]
+  double energy_loss = 0.0;          // [m_tip a^2/tau^2]
   ImpactKind kind = ImpactKind::impact;
   std::uint32_t count = 1;  // bounces it stands for
 };

@@ -15,9 +15,10 @@
 namespace afm {
 
 struct SweepPoint {
-  double eta, gamma, v_c;
+  double eta, gamma, v_c;  // [a/tau], [-], [a/tau]
   ModelKind kind = ModelKind::oscillator;
-  double y0 = Model{}.y0, H = Model{}.H, frequency_ratio = Model{}.frequency_ratio;
+  double y0 = Model{}.y0, H = Model{}.H;  // [a]
+  double frequency_ratio = Model{}.frequency_ratio;
 };
 
 struct SweepSettings {
@@ -48,7 +49,7 @@ std::vector<ParameterError> find_warnings(const SweepPoint& point, const SweepSe
 // So named, if the holder passes fewer than so many lattice spacings in this duration [tau]; never without a drag.
 std::vector<ParameterError> find_short_drag(const char* name, double duration, double eta, double spacings);
 
-Model model_of(const SweepPoint& point);
+Model model_of(const SweepPoint& point);  // its parameters, without the drag
 
 // The start of the index-th point: above the surface, at a random phase, with velocities of the order of the drag
 // velocity. Guarantee: a function of seed and index, so points can be computed in any order.

@@ -25,7 +25,7 @@ struct Deflection {
 
 // The contact tolerance: error allowed in the state at the next impact when chatter is computed as a sequence [a,
 // a/tau]. At the default, and from eta = 0.2 on, 99 of 100 sequences have an error below it, and half of them one below
-// 2e-5 (docs/stability.md).
+// 2.2e-5 (docs/stability.md).
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
@@ -40,7 +40,7 @@ struct TipSnapshot {
   TipState state;  // gap and gap rate are 0 but in flight
   // of a chatter sequence
   double sequence_normal_speed = 0.0;  // after its first bounce [a/tau]
-  double sequence_gain = 0.0;          // energy lost beyond the fall of v^2/2 [m a^2/tau^2]
+  double sequence_gain = 0.0;          // energy lost beyond the fall of v^2/2 [m_tip a^2/tau^2]
   double chatter_speed = 0.0;          // normal speed after the last bounce [a/tau]
   double chatter_count = 0.0;          // bounces so far
 };
@@ -79,7 +79,7 @@ class Tip {
   // ends the segment, and no advance reports it. The energy that the command itself adds (a lifted holder) is in no
   // record.
   Segment segment() const;
-  double stored_energy() const { return account().energy; }  // in springs and motion, in the lab [m a^2/tau^2]
+  double stored_energy() const { return account().energy; }  // in springs and motion, in the lab [m_tip a^2/tau^2]
 
   // A new drag velocity from now() on. It splits the flight, chatter sequence or contact under way. Setting the current
   // drag velocity again has no effect. A hammer in contact has the new velocity from the next advance on.
@@ -94,7 +94,7 @@ class Tip {
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change
   // to the hammer moves the holder above the tip: extension and relative horizontal velocity are dropped, and their
-  // energy is returned [m a^2/tau^2] (0 otherwise). A change to the oscillator starts with a relaxed spring and the
+  // energy is returned [m_tip a^2/tau^2] (0 otherwise). A change to the oscillator starts with a relaxed spring and the
   // velocity of the holder. A chatter sequence ends at once, a part of a bounce early. Contact ends if the gap rate
   // changes. Both are reported as events at now().
   double set_model(ModelKind kind, double contact_tolerance);

@@ -93,9 +93,9 @@ class Client {
     return *applied_;
   }
   bool is_lockstep() const { return configuration_->pace == "lockstep"; }
-  double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }              // [s]
-  double lateral_stiffness() const { return stiffness(configuration_->omega_h_rad_per_s); }  // [N/m]
-  double vertical_stiffness() const { return stiffness(configuration_->omega_v_rad_per_s); }
+  double tau() const { return 2.0 * M_PI / configuration_->omega_v_rad_per_s; }               // [s]
+  double lateral_stiffness() const { return stiffness(configuration_->omega_h_rad_per_s); }   // [N/m]
+  double vertical_stiffness() const { return stiffness(configuration_->omega_v_rad_per_s); }  // [N/m]
 
   // Commands what is given [m/s, m], advances by `duration` [s of model time], and returns what was measured over it
   // (srv/Control.srv). In lockstep the duration is at most 10000 tau; in real time it is rounded up to whole batches.
@@ -180,6 +180,7 @@ class Client {
 
   static std::string text(double value) {
     std::ostringstream written;
+    written.precision(12);
     written << value;
     return written.str();
   }

@@ -225,12 +225,12 @@ class Recording:
         frictions, snapshot = list(read['Friction'].values()), next(iter(read['Snapshot'].values()))
         first, last = frictions[0], frictions[-1]
         if snapshot.epoch == first.epoch and _model_time(snapshot.time) < _model_time(first.begin):
-            raise ValueError('messages of Friction are missing at the beginning, as the first snapshot tells')
+            raise ValueError('messages of Friction are missing at the beginning, as the first snapshot says')
         for kind in ('EmulatorStatus', 'Applied', 'Snapshot'):
             for m in list(read[kind].values())[-1:]:
                 behind = _model_time(last.time) if m.epoch == last.epoch else ModelTime(0, 0.0)
                 if m.epoch >= last.epoch and _model_time(m.time) > behind:
-                    raise ValueError('messages of Friction are missing at the end, as the last message of %s tells' %
+                    raise ValueError('messages of Friction are missing at the end, as the last message of %s says' %
                                      kind)
 
     def _check_batches(self, frictions: List[Any]) -> None:

@@ -52,13 +52,13 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     model: 'oscillator', 'hammer', or a Model; duration and transient: of the measurement and before it [tau].
     sweep: 'fresh' from random starts; 'up', 'down' from where the point before ended, along eta, which must ascend.
     With 'down' the drag velocity falls, and so do the rows.
-    bath: a heat bath; or in place of it its numbers: temperature kT [m a^2/tau^2], quality_factor (above 0: there is a
-    bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's, or 1.
+    bath: a heat bath; or in place of it its numbers: temperature kT [m_tip a^2/tau^2], quality_factor (above 0: there is
+    a bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's, or 1.
     threads: 0 is one for each processor; no bit depends on it. progress(done, all) is called ten times a second.
 
     Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m_tip/tau],
-    impacts_per_tau, mean_energy_loss [m a^2/tau^2], mean_flight_time [tau], largest_lyapunov [1/tau], attractor (text),
-    rest_height, amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m_tip/tau].
+    impacts_per_tau, mean_energy_loss [m_tip a^2/tau^2], mean_flight_time [tau], largest_lyapunov [1/tau],
+    attractor (text), rest_height, amplitude, frequency_ratio, k_f_work, k_f_work_std_error [m_tip/tau].
     Plot k_f_work against eta: it is friction, from the work of the drag. k_f, from the energy lost in impacts, agrees
     with it without a bath alone.
     """
@@ -190,7 +190,8 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
     on_error: 'raise', or 'nan' for rows that have no next impact, and for those with a fault in an argument.
 
     Returns a structured array of the broadcast shape: the seven inputs, then dt [tau], phase_next, extension_next [a],
-    u_next, w_next (after the impact), normal_speed, tangential_velocity (before it) [a/tau], energy_loss [m a^2/tau^2].
+    u_next, w_next (after the impact), normal_speed, tangential_velocity (before it) [a/tau],
+    energy_loss [m_tip a^2/tau^2].
     """
     chosen = _model(model)
     given: Dict[str, Axis] = {'gamma': chosen.gamma, 'cutoff': chosen.cutoff}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "core/fault_list.h"
 
@@ -62,7 +61,10 @@ void warn(const std::vector<ParameterError>& warnings) {
   }
 }
 
-void throw_stuck() { throw std::runtime_error("the search of an impact cannot go on"); }
+void throw_stuck(double eta, const ModelTime& now) {
+  throw std::runtime_error("the search of an impact cannot go on at eta = " + number_text(eta) + ", model time " +
+                           number_text(static_cast<double>(now.tau) + now.phase) + " tau");
+}
 
 void require(bool holds, const char* name, double value, const char* reason) {
   if (!holds) refuse({ParameterError(name, value, reason)});

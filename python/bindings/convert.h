@@ -29,7 +29,7 @@ void refuse(const std::vector<ParameterError>& faults);
 // The same as warnings (RuntimeWarning), at the line of the user: each function of ours is called by one in Python.
 void warn(const std::string& text);
 void warn(const std::vector<ParameterError>& warnings);
-[[noreturn]] void throw_stuck();  // a tip that is at Outcome::search_failed
+[[noreturn]] void throw_stuck(double eta, const ModelTime& now);  // a tip that is at Outcome::search_failed
 void require(bool holds, const char* name, double value, const char* reason);
 void check_eta(double eta);
 

@@ -94,11 +94,11 @@ void add_bath(py::module& m) {
   const Bath none;
   py::class_<Bath> bath(m, "Bath", R"(A heat bath of the cantilever; temperature 0 is damping alone.
 
-temperature: kT [m a^2/tau^2]; quality_factor, lateral_quality_factor [-]; kicks_per_tau [1/tau];
+temperature: kT [m_tip a^2/tau^2]; quality_factor, lateral_quality_factor [-]; kicks_per_tau [1/tau];
 seed, stream: of its random numbers; tips with different streams are independent.)");
   bath.def(py::init(&to_bath), "temperature"_a = 0.0, "quality_factor"_a = 0.0, "lateral_quality_factor"_a = 0.0,
            "kicks_per_tau"_a = none.kicks_per_tau, "seed"_a = none.seed, "stream"_a = none.stream)
-      .def_readonly("temperature", &Bath::temperature, "kT [m a^2/tau^2]; 0: damping alone")
+      .def_readonly("temperature", &Bath::temperature, "kT [m_tip a^2/tau^2]; 0: damping alone")
       .def_readonly("quality_factor", &Bath::quality_factor, "of the vertical spring; 0: not damped, not heated")
       .def_readonly("lateral_quality_factor", &Bath::lateral_quality_factor,
                     "of the horizontal spring; 0: as the vertical one")

@@ -107,7 +107,7 @@ void advance_to(Run& run, Until until, const ModelTime& time, std::uint64_t impa
     const Outcome outcome =
         run.advance(time, std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
     const bool is_stuck = outcome == Outcome::budget_spent && batch.impacts.empty() && !(before < run.now());
-    if (is_stuck && impacts > 0) throw_stuck();
+    if (is_stuck && impacts > 0) throw_stuck(run.eta(), run.now());
     impacts -= std::min<std::uint64_t>(impacts, batch.impacts.size());
     joined.add(batch);
     const bool ended = until == Until::end_of_batch || !(run.now() < time);
@@ -163,7 +163,7 @@ friction (a dict with the fields of the topic, in natural units).)")
            R"(Other settings from now on; those that are not named stay.
 
 eta, gamma, cutoff, rest_height, sample_period, samples_per_batch, friction_window, bath, kind, contact_tolerance.
-Returns the energy that a change to the hammer drops [m a^2/tau^2].)")
+Returns the energy that a change to the hammer drops [m_tip a^2/tau^2].)")
       .def("snapshot", &snapshot,
            R"(The state of the run between two batches, as a dict of values and arrays in natural units.
 

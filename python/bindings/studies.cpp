@@ -5,7 +5,6 @@
 #include <atomic>
 #include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "afm/dynamics/basins.h"

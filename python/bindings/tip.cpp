@@ -50,7 +50,7 @@ py::array advance_tip(Tip& self, const py::object& time, const py::object& most_
       const ModelTime stop = next_stop(self, end);
       const Outcome outcome = self.advance(stop);
       if (outcome == Outcome::time_limit) return stop == end;
-      if (outcome == Outcome::search_failed) throw_stuck();
+      if (outcome == Outcome::search_failed) throw_stuck(self.eta(), self.now());
       events.push_back(self.last_impact());
       return events.size() == most;
     });
@@ -69,7 +69,7 @@ class Sampler {
     take(segment_end < stop ? segment_end : stop);
     const ModelTime before = tip_.now();
     const Outcome outcome = tip_.advance_segment(stop);
-    if (outcome == Outcome::search_failed && !(before < tip_.now())) throw_stuck();
+    if (outcome == Outcome::search_failed && !(before < tip_.now())) throw_stuck(tip_.eta(), tip_.now());
     if (outcome == Outcome::time_limit) return stop == end_;
     if (outcome == Outcome::impact || outcome == Outcome::contact || outcome == Outcome::released) {
       events_.push_back(tip_.last_impact());
@@ -158,7 +158,7 @@ An object serves one thread at a time. Throws ParameterError.)")
            R"(To a model time [tau] (a number, or a ModelTime), or until so many events have happened.
 
 Returns the events on the way, shape (n,), with the fields tau and phase (their sum is the model time [tau]),
-surface_phase [a], normal_speed and tangential_velocity before the impact [a/tau], energy_loss [m a^2/tau^2],
+surface_phase [a], normal_speed and tangential_velocity before the impact [a/tau], energy_loss [m_tip a^2/tau^2],
 kind (afm.Kind), and count, the bounces it stands for. No time is split: any sequence of calls gives the same bits.
 After Ctrl-C the tip stands where it had come to.)")
       .def("samples", &samples, "period"_a, "count"_a,
@@ -197,7 +197,8 @@ Returns Samples: time of the first, period, vertical and lateral of shape (count
       .def_property_readonly(
           "in_contact", &Tip::in_contact,
           "true while the surface presses on the tip: it slides without bouncing, after CONTACT_BEGUN")
-      .def_property_readonly("stored_energy", &Tip::stored_energy, "in springs and motion, in the lab [m a^2/tau^2]")
+      .def_property_readonly("stored_energy", &Tip::stored_energy,
+                             "in springs and motion, in the lab [m_tip a^2/tau^2]")
       .def_property_readonly(
           "search_failures", &Tip::search_failures,
           "must stay 0: searches that failed, since the start or unpickling; the motion goes on from a safe point");

@@ -66,7 +66,7 @@ std::vector<ParameterError> find_faults(const Bath& b) {
     list.faults.emplace_back(
         name, q, std::string("must be 0 (") + zero + "), or finite and at least " + number_text(kMinQualityFactor));
   };
-  list.require_between(0.0, kMaxTemperature, "temperature", b.temperature, "kT must be", " m a^2/tau^2");
+  list.require_between(0.0, kMaxTemperature, "temperature", b.temperature, "kT must be", " m_tip a^2/tau^2");
   require_quality("quality_factor", b.quality_factor, "no bath");
   require_quality("lateral_quality_factor", b.lateral_quality_factor, "as the vertical one");
   list.require_between(kMinKickRate, kMaxKickRate, "kicks_per_tau", b.kicks_per_tau, "must be");

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <stdexcept>
+#include <exception>
 #include <vector>
 
 #include "common/in_order.h"

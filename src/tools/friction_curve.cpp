@@ -53,7 +53,7 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("rest-height", o.rest_height, "height of the holder above mid-surface [a]; the load is -(2 pi)^2 of it");
   app.option("amplitude", o.amplitude, "of the surface [a]; mica: 0.05/0.52");
   app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v; mica: 6.25");
-  app.option("temperature", sweep.bath.temperature, "kT of the heat bath [m a^2/tau^2]; at 300 K 0.926");
+  app.option("temperature", sweep.bath.temperature, "kT of the heat bath [m_tip a^2/tau^2]; at 300 K 0.926");
   app.option("quality-factor", sweep.bath.quality_factor, "of the cantilever; 0: neither damped nor heated");
   app.option("lateral-quality-factor", sweep.bath.lateral_quality_factor,
              "of the horizontal spring; 0: as the vertical");

@@ -1,10 +1,10 @@
 // view_node: draws an emulator, live or replayed, as markers for rviz (~markers), thirty pictures a second.
 // Parameters: ~emulator, its name (default: afm, beside this node); ~cells, how much of the surface is seen.
+#include <afm_emulator/client.h>
 #include <ros/ros.h>
 
 #include <iostream>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -47,8 +47,7 @@ class Looking {
 int run(int argc, char** argv) {
   ros::init(argc, argv, "afm_view");
   ros::NodeHandle handle("~");
-  double cells = 6.0;
-  if (!handle.getParam("cells", cells) && handle.hasParam("cells")) throw std::runtime_error("cells: must be a number");
+  const double cells = afm_emulator::number_parameter(handle, "cells", 6.0);
   if (!(cells >= 1.0 && cells <= 100.0)) {
     ROS_FATAL("cells = %g: between 1 and 100 cells of the surface can be shown", cells);
     return 1;

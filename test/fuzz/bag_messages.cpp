@@ -31,7 +31,7 @@ __attribute__((noinline)) void operator delete(void* block, std::size_t) noexcep
 
 namespace {
 
-using namespace afm;  // NOLINT: a program of its own
+using namespace afm;  // a program of its own
 using fuzz::require;
 
 struct Entry {

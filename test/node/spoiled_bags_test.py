@@ -261,7 +261,7 @@ class SpoiledBags(SpoiledBag):
         """Each by itself; but where another program published both, nothing tells which topics belong together."""
         path = self.directory / 'two.bag'
         for callers, code, words in ((('/afm', '/other'), SOUND, '/other in'),
-                                     (('/play', '/play'), UNCHECKED, 'nothing tells')):
+                                     (('/play', '/play'), UNCHECKED, 'nothing says')):
             with rosbag.Bag(str(path), 'w') as bag:
                 for e in self.entries:
                     for space, caller in zip((NAMESPACE, '/other'), callers):

@@ -17,7 +17,7 @@ A, OMEGA_V, MASS, BOLTZMANN = 0.52e-9, 40e3, 408e-12, 1.380649e-23
 TAU = 2 * math.pi / OMEGA_V
 SPEED = A / TAU
 UNITS = {'_kg_per_s': MASS / TAU, '_m_per_s': SPEED, '_per_s': 1 / TAU, '_j': MASS * SPEED ** 2, '_m': A, '_s': TAU}
-KELVIN = BOLTZMANN / (MASS * SPEED ** 2)  # m a^2/tau^2
+KELVIN = BOLTZMANN / (MASS * SPEED ** 2)  # m_tip a^2/tau^2
 OTHER_NAMES = {'drag_velocity': 'eta'}
 QUICK = ['--trajectory', '20000', '--guesses', '200', '--quiet']
 
@@ -169,7 +169,7 @@ class Levers(unittest.TestCase):
         short = ['real_time', '--eta', 2, '--cutoff', 0.1, '--tau', 1, '--transient', 0, '--temperature']
         theta = BOLTZMANN * 300 / (self.K / (2 * math.pi) ** 2 * self.A ** 2)
         complaint = run(*short, 300, *self.GIVEN)[2]
-        self.assertIn('warning: temperature = 300: is kT in m a^2/tau^2', complaint)
+        self.assertIn('warning: temperature = 300: is kT in m_tip a^2/tau^2', complaint)
         self.assertIn('%d K; for 300 K give %.3g' % (round(300 / theta * 300), theta), complaint)
         self.assertEqual(run(*short, '%.3g' % theta, *self.GIVEN)[2], '')
         self.assertEqual(run(*short, 300, '--quality-factor', 100)[2], '')

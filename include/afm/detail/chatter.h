@@ -22,7 +22,7 @@ struct ChatterOf {
   T sigma = T(0.0);  // displacement from the reference slide along the surface, at a bounce [a]
   T p = T(0.0);      // speed along the surface beyond that of the reference slide [a/tau]
   T drift = T(0.0);  // time integral of x minus that of the reference slide, bounces included [a tau]
-  T loss = T(0.0);   // energy lost in the impacts; never falls [m a^2/tau^2]
+  T loss = T(0.0);   // energy lost in the impacts; never falls [m_tip a^2/tau^2]
 };
 using Chatter = ChatterOf<double>;
 

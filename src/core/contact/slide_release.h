@@ -3,7 +3,6 @@
 // rule of signs). Otherwise the interval is halved.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 

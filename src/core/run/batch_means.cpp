@@ -1,6 +1,5 @@
 #include "core/run/batch_means.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/not_numbers.h"

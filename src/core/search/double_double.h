@@ -12,7 +12,7 @@ namespace afm::detail {
 class DoubleDouble {
  public:
   DoubleDouble() = default;
-  DoubleDouble(double value) : high_(value) {}  // NOLINT: implicit, as every double is one
+  DoubleDouble(double value) : high_(value) {}  // implicit, as every double is one
   DoubleDouble(double high, double low) : high_(high), low_(low) {}
 
   explicit operator double() const { return high_; }

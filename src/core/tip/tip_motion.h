@@ -8,7 +8,7 @@
 
 namespace afm::detail {
 
-// Kinetic energy and that of the springs [m a^2/tau^2].
+// Kinetic energy and that of the springs [m_tip a^2/tau^2].
 double slide_energy(const SpringConstants<double>& m, const SlideState<double>& q);
 
 // The time integral of x - xc over the first s [a tau].

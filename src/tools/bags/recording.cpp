@@ -92,7 +92,7 @@ void add_topic(const rosbag::ConnectionInfo& connection, const std::string& path
   if (is_new || topic->second == connection.topic) return;
   throw Problem(path + ": " + topic->second + " and " + connection.topic + " are both of the type " +
                 connection.datatype + " and both by the node \"" + callerid(connection) +
-                "\", such as rosbag play: of several emulators, and nothing tells which topics are of the same one");
+                "\", such as rosbag play: of several emulators, and nothing says which topics are of the same one");
 }
 
 // The emulators of a bag, by the names of their nodes.

@@ -61,7 +61,7 @@ RunCheck::RunCheck(const Recording& recording, Progress progress, double most_ga
   if (!recording.holds<afm_emulator::Snapshot>()) throw Problem("it holds no snapshot to begin at");
   if (!recording.holds<afm_emulator::Applied>()) throw Problem("it holds no message of what was applied");
   if (!recording.holds<afm_emulator::Friction>()) {
-    throw Problem("it holds no message of friction, which tells where each batch ends");
+    throw Problem("it holds no message of friction, which says where each batch ends");
   }
   read_marks();
   batches_ = recording.read<afm_emulator::Friction>();

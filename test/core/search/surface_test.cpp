@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "afm/model.h"
 #include "trials/quad.h"
 
 namespace afm {

@@ -33,6 +33,7 @@ struct Basin {
 
 // The index-th start at this point: given, or random.
 TipState start_of(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings);
+// Where that start leads.
 Visit visit(const SweepPoint& point, std::uint64_t index, const BasinSettings& settings);
 
 // Two visits belong to one attractor if kind, impacts and cells agree, and K_f within five standard errors or 1e-6.

@@ -18,7 +18,7 @@ struct PeriodicOrbit {
   std::vector<double> times;     // of the flights from each to the next [tau]
   int cells = 0;                 // that the holder passes in a period; negative for a negative drag velocity
   double period = 0.0;           // [tau]: the sum of the times, which is cells / eta
-  double energy_loss = 0.0;      // in a period [m a^2/tau^2]
+  double energy_loss = 0.0;      // in a period [m_tip a^2/tau^2]
   double K_f = 0.0;              // [m_tip/tau]; NaN at eta = 0
   double residual = 0.0;         // largest |map(point) - next point| in any coordinate, of points that are rounded
   Multipliers multipliers{};

@@ -27,7 +27,7 @@ struct MapStep {
   double dt = 0.0;                                                  // [tau]
   double normal_speed = 0.0;                                        // [a/tau], incident
   double tangential_velocity = 0.0;                                 // [a/tau]
-  double energy_loss = 0.0;                                         // [m a^2/tau^2]
+  double energy_loss = 0.0;                                         // [m_tip a^2/tau^2]
   SectionJacobian<double> J = SectionJacobian<double>::Identity();  // of `after` by the start
 };
 
