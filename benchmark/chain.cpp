@@ -1,6 +1,5 @@
 #include "chain.h"
 
-
 #include "afm/tip.h"
 #include "common/cpu_clock.h"
 

@@ -22,10 +22,10 @@ constexpr double kHolder = 0.1;    // xc [a]: on a slope of the surface
 constexpr double kInterval = 0.1;  // between samples [tau]
 constexpr std::size_t kBatch = 200;
 
-constexpr double kTheta = 0.926;  // kT at 300 K [m_tip a^2/tau^2]
-constexpr double kQuality = 2.0;  // of both springs
-constexpr double kKicks[] = {0.5, 2.0, 8.0, 29.034};  // per tau
-constexpr double kStiffness[] = {1.0, 0.25};          // of the penalty spring, omega_p h
+constexpr double kTheta = 0.926;                                           // kT at 300 K [m_tip a^2/tau^2]
+constexpr double kQuality = 2.0;                                           // of both springs
+constexpr double kKicks[] = {0.5, 2.0, 8.0, 29.034};                       // per tau
+constexpr double kStiffness[] = {1.0, 0.25};                               // of the penalty spring, omega_p h
 constexpr double kSteps[] = {0.01, 0.005, 0.002, 0.001, 0.0005, 0.00025};  // of the integrators [tau]
 
 // Langevin dynamics of both springs: BAOAB, and Euler-Maruyama in its semi-implicit form (the explicit one diverges on

@@ -30,7 +30,7 @@ const char kDescription[] =
     "errors and kinds of attractor; k_f_error, relative; deflection_error, the mean distance of equal quantiles\n"
     "of the vertical deflection, beside that of two halves of one run (deflection_noise) and its rms;\n"
     "tracking_error, the rms difference over one tau from the same height and vertical velocity; rms and largest\n"
-    "stretch of the reference's horizontal spring; and the time of this thread for a tau of each (median of\n"
+    "extension of the reference's horizontal spring; and the time of this thread for a tau of each (median of\n"
     "alternated runs), with the ratio of reference to level: above 1 the level is cheaper. With --scene, and no\n"
     "other option but --duration: the levels at the parameters of these scenes (config/scenes, or files), at\n"
     "their drag velocities, against the finest that keeps time there: errors of K_f and of the deflection, both\n"

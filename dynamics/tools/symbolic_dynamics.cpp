@@ -19,7 +19,7 @@ const char kDescription[] =
     "Cuts the section of the hammer's attractor (surface phase, gap rate after an impact; units a, tau, tip mass)\n"
     "into bands and each band in two, and counts words of the letters. Rows: length; words that occur; the\n"
     "shortest words that do not, though all their parts do (pruning); the entropy of a letter given those before\n"
-    "it, to be compared with the exponent of an impact: a partition that determines everything reaches it, none can go\n"
+    "it, to be compared with the exponent of an impact: a partition that says everything reaches it, none can go\n"
     "beyond; and the spread of the gap rate at the middle of a word, over that of all, in the mean and of the\n"
     "word that says least. With --orbits the periodic orbits up to --max-length follow by their words; with\n"
     "--section the points and where the map takes them.";

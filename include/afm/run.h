@@ -99,8 +99,8 @@ class Run {
 
   // All settings from now() on. The state of the tip stays. What stays the same has no effect. A new drag velocity,
   // model, level or bath restarts the friction estimate, a new window restarts its window. A new sample period takes
-  // its first sample at now(). Returns the energy that a change to the hammer drops [m_tip a^2/tau^2], as set_model() of
-  // a Tip does.
+  // its first sample at now(). Returns the energy that a change to the hammer drops [m_tip a^2/tau^2], as
+  // set_model() of a Tip does.
   // Precondition: settings() with these have no faults.
   double apply(const LiveSettings& live);
 

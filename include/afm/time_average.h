@@ -13,9 +13,9 @@ namespace afm {
 struct FrictionAverage {
   double K_f = 0.0;  // [m_tip/tau]; NaN at eta = 0
   double K_f_std_error = 0.0;
-  double impacts_per_tau = 0.0;   // every bounce of a chatter sequence counts
-  double mean_energy_loss = 0.0;  // per impact [m_tip a^2/tau^2]; NaN without impacts
-  double mean_flight_time = 0.0;  // time out of contact per impact [tau]; NaN without impacts
+  double impacts_per_tau = 0.0;       // every bounce of a chatter sequence counts
+  double mean_energy_loss = 0.0;      // per impact [m_tip a^2/tau^2]; NaN without impacts
+  double mean_flight_time = 0.0;      // time out of contact per impact [tau]; NaN without impacts
   std::uint64_t search_failures = 0;  // Tip::search_failures() in this time
   // By definition (Eq. 1), from the work of the drag [m_tip/tau]; with a bath it differs from K_f.
   double K_f_work = 0.0;

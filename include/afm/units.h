@@ -1,4 +1,4 @@
-// SI <-> natural units (a, tau, m). Only this file knows the size of a lattice cell.
+// SI <-> natural units (a, tau, m_tip). Only this file knows the size of a lattice cell.
 #pragma once
 
 #include "bath.h"

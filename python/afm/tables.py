@@ -52,8 +52,9 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     model: 'oscillator', 'hammer', or a Model; duration and transient: of the measurement and before it [tau].
     sweep: 'fresh' from random starts; 'up', 'down' from where the point before ended, along eta, which must ascend.
     With 'down' the drag velocity falls, and so do the rows.
-    bath: a heat bath; or in place of it its numbers: temperature kT [m_tip a^2/tau^2], quality_factor (above 0: there is
-    a bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's, or 1.
+    bath: a heat bath; or in place of it its numbers: temperature kT [m_tip a^2/tau^2], quality_factor (above 0: there
+    is a bath), lateral_quality_factor, kicks_per_tau. seed: of the random starts and of the bath; None is the bath's,
+    or 1.
     threads: 0 is one for each processor; no bit depends on it. progress(done, all) is called ten times a second.
 
     Returns a structured array, a row for each point: eta, gamma, cutoff, k_f, k_f_std_error [m_tip/tau],

@@ -4,9 +4,9 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <memory>
-#include <exception>
 #include <vector>
 
 #include "common/in_order.h"

@@ -31,8 +31,8 @@ using afm::bags::Recording;
 using Q = afm::Quantity;
 
 const char kDescription[] =
-    "Writes one topic of a recording as CSV to the standard output, in SI, 17 digits. The names of the columns tell\n"
-    "their units. Topics:\n"
+    "Writes one topic of a recording as CSV to the standard output, in SI, 17 digits. The names of the columns have\n"
+    "the units. Topics:\n"
     "  impacts     epoch, model time (whole tau and a phase, exact; time: both together, rounded), running index,\n"
     "              surface phase, normal speed, tangential velocity, energy loss, kind (0 impact, 1 chatter sequence,\n"
     "              2 contact begun, 3 contact ended) and the count of bounces that it stands for\n"
@@ -245,7 +245,7 @@ afm::Units units_of(const Recording& recording) {
   if (recording.holds<afm_emulator::Snapshot>()) {
     for_each_message<afm_emulator::Snapshot>(recording, [&](const auto& s) { add(s.configuration); });
   }
-  if (!units) throw Problem(recording.name() + ": holds neither a configuration nor a snapshot, which tell the units");
+  if (!units) throw Problem(recording.name() + ": holds neither a configuration nor a snapshot, which have the units");
   return *units;
 }
 

@@ -50,9 +50,10 @@ class Examples(NodeTest):
         """The controller once held its default in place of 8e-12, which is a text in YAML."""
         rospy.set_param('/hold_force', {'force': '8e-12'})
         self.addCleanup(rospy.delete_param, '/hold_force')
-        controller = self.start(Process([find('hold_force')]))
-        self.assertEqual(controller.wait(60.0), 1)
-        self.assertIn('/hold_force/force = 8e-12: must be a number', controller.output())
+        for program, text in (('hold_force', '8e-12'), ('hold_force.py', "'8e-12'")):
+            controller = self.start(Process([find(program)]))
+            self.assertEqual(controller.wait(60.0), 1)
+            self.assertIn('/hold_force/force = %s: must be a number; YAML needs 1.0e-12' % text, controller.output())
 
     def test_the_loop_delay_is_measured(self):
         self.start(Emulator({'batch_rate_hz': 100.0}))

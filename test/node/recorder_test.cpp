@@ -229,8 +229,10 @@ TEST_F(RecorderTest, LeavesNoBagWhereNothingCame) {
 
 TEST_F(RecorderTest, DoesNotStartWhereOnlyItsFirstPartFindsRoom) {
   write_file("run_002.bag");
+  write_file("killed_001.bag.active");
   Recorder splitting(settings(5'000'000), can_be_asked), whole(settings(), can_be_asked);
   EXPECT_NE(splitting.start("run").message.find("run_002.bag"), std::string::npos);
+  EXPECT_NE(splitting.start("killed").message.find("killed_001.bag.active"), std::string::npos);
   EXPECT_TRUE(splitting.start("other").success);
   EXPECT_TRUE(whole.start("run").success);
   EXPECT_TRUE(is_untouched("run_002.bag"));

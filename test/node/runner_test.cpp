@@ -21,7 +21,7 @@ class RunnerTest : public testing::Test {
     p.model = "hammer";
     p.pace = kLockstep;
     p.wait_for = kCommand;
-    p.command_wait_s = 0.001;
+    p.command_wait_s = 0.3;
     return p;
   }
 
@@ -48,11 +48,13 @@ TEST_F(RunnerTest, ACommandIsWaitedForFromWhenTheBatchIsPublished) {
   do {
     ASSERT_TRUE(take());
   } while (report_.kind != Report::Kind::batch);
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // it polls every 10 ms
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // longer than a command is waited for
   Report early;
   EXPECT_FALSE(queue_.take(early));
+  const auto published = std::chrono::steady_clock::now();
   queue_.release(report_.batch);
   EXPECT_TRUE(take());
+  EXPECT_GE(std::chrono::steady_clock::now() - published, std::chrono::milliseconds(300));
 }
 
 }  // namespace

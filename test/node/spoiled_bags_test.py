@@ -258,7 +258,7 @@ class SpoiledBags(SpoiledBag):
         self.assert_reported(SOUND, 'IDENTICAL', sound=True)
 
     def test_two_emulators(self):
-        """Each by itself; but where another program published both, nothing tells which topics belong together."""
+        """Each by itself; but where another program published both, nothing says which topics belong together."""
         path = self.directory / 'two.bag'
         for callers, code, words in ((('/afm', '/other'), SOUND, '/other in'),
                                      (('/play', '/play'), UNCHECKED, 'nothing says')):

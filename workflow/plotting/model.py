@@ -112,8 +112,8 @@ def model_force(tables):
     speed, unit = LATTICE / TAU, TIP_MASS * LATTICE / TAU ** 2  # of eta [m/s], of a force [N]
     for direction, line in style.SWEEPS.items():
         rows = swept(tables, direction)
-        axes.plot([1e6 * speed * row["eta"] for row in rows], [1e9 * unit * row["k_f_work"] * row["eta"] for row in rows],
-                  **line)
+        axes.plot([1e6 * speed * row["eta"] for row in rows],
+                  [1e9 * unit * row["k_f_work"] * row["eta"] for row in rows], **line)
     even = range(2, 9, 2)
     axes.plot([1e6 * speed * eta for eta in even], [1e9 * unit * style.closed_form(0.7) * eta for eta in even], "o",
               color="black", fillstyle="none", markersize=9, label=r"even $\eta$, closed form")

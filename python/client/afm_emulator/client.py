@@ -48,13 +48,10 @@ def not_negative(name, value):
 
 
 def number_parameter(name, usual):
-    """A private parameter of this node as a float: of a text too, as 60e-12 is in YAML. An EmulatorError names one that
-    is no number."""
-    given = rospy.get_param('~' + name, usual)
-    try:
-        return float(given)
-    except (TypeError, ValueError):
-        raise EmulatorError('%s = %r: must be a number' % (rospy.resolve_name('~' + name), given)) from None
+    """A private parameter of this node, as a float. An EmulatorError names one that is no number, such as 60e-12, which
+    is a text in YAML."""
+    return finite(rospy.resolve_name('~' + name), rospy.get_param('~' + name, usual),
+                  'a number; YAML needs 1.0e-12 for 1e-12')
 
 
 def name_fault(name):

@@ -111,9 +111,10 @@ void check_scene(const Parameters& p, Check& check) {
                 "must be 0 with commands_eta: what the emulator plays itself is no command");
   const double velocity = Units(p.si).velocity(), batch = batch_of_model_time(p);
   for (const double eta : p.commands_eta) {
-    // in m/s, as it will be commanded
-    check.require(std::abs(eta * velocity) <= p.max_drag_velocity, "commands_eta", eta,
-                  "is beyond max_drag_velocity, which is " + number_text(p.max_drag_velocity / velocity) + " a/tau");
+    const double commanded = std::abs(eta * velocity);
+    check.require(commanded <= p.max_drag_velocity, "commands_eta", eta,
+                  "is " + number_text(commanded) +
+                      " m/s, beyond max_drag_velocity = " + number_text(p.max_drag_velocity) + " m/s");
   }
   check.require(p.commands_eta.empty() || (p.commands_hold_s >= batch && p.commands_hold_s <= kMaxTimeout),
                 "commands_hold_s", p.commands_hold_s, "must be " + from_a_batch_on(batch));

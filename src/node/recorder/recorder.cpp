@@ -79,7 +79,10 @@ std::string Recorder::part_path(std::uint32_t part) const {
 std::string Recorder::taken_part() const {
   constexpr std::uint32_t kParts = 1000;  // a choice: what is left of an older recording has the first numbers
   for (std::uint32_t part = 1; splits() && part < kParts; ++part) {
-    if (fs::exists(part_path(part))) return part_path(part);
+    for (const char* ending : {"", ".active"}) {
+      const std::string path = part_path(part) + ending;
+      if (fs::exists(fs::symlink_status(path))) return path;
+    }
   }
   return {};
 }
@@ -119,6 +122,7 @@ Recorder::Reply Recorder::stop() {
   if (!bag_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
   stopping_ = true;
   work_.notify_all();
+  room_.notify_all();
   if (!closed_.wait_for(lock, kCloseDeadline, [this] { return !bag_; })) {
     return {false, path_ + " is still being written to a slow disk", path_};
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "node/params/table.h"
 
@@ -82,13 +83,18 @@ void Runner::wait_for_work() {
   }
 }
 
-// In lockstep: a batch for every command, or after the time in which none came.
+// In lockstep: a batch for every command, or after the time in which none came since the last was published.
 bool Runner::may_advance() {
   if (parameters_.wait_for != kCommand) return false;
-  if (!command_came_ && !queue_.is_published()) await_command();  // nobody can answer what he has not seen
-  if (!command_came_ && monotonic_now() < command_deadline_) return false;
-  command_came_ = false;
-  await_command();
+  if (!command_came_) {
+    if (!queue_.is_published()) {  // nobody can answer what he has not seen
+      awaits_command_ = false;
+      return false;
+    }
+    if (!std::exchange(awaits_command_, true)) await_command();
+    if (monotonic_now() < command_deadline_) return false;
+  }
+  command_came_ = awaits_command_ = false;
   return true;
 }
 
@@ -170,7 +176,9 @@ void Runner::begin_epoch() {
   live_of(parameters_) = start_;
   in_force_.live = start_;
   const RunSettings settings = run_settings(parameters_);
-  in_force_.level = choose_level(parameters_, settings).level;
+  const LevelChoice choice = choose_level(parameters_, settings);
+  in_force_.level = choice.level;
+  in_force_.expected_error = choice.expected_error;
   run_ = Run(settings);
   last_command_ = monotonic_now();
   pacer_.resume(last_command_);

@@ -97,6 +97,7 @@ class Runner {
   boost::container::static_vector<Period, kMaxPeriods> periods_;
   const bool lockstep_;
   // in lockstep that waits for commands
+  bool awaits_command_ = false;  // the last batch is published: until command_deadline_
   bool command_came_ = false;
   Time command_deadline_{0};
 
