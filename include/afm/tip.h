@@ -189,6 +189,7 @@ class Tip {
   Segment collapse_segment(double slope, double gap_rate) const;
   Segment impact_segment(const Landing<double>& landing, const Flight<double>& after) const;
   Segment kick_segment(const TipState& before, const TipState& after) const;
+  void kick_in_contact(const TipState& before, const TipState& after, Segments* ended);
 
   Model model_;
   SpringConstants<double> springs_;

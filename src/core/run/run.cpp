@@ -21,8 +21,8 @@ std::vector<ParameterError> find_faults(const RunSettings& s) {
   };
   require_count("samples_per_batch", s.samples_per_batch);
   require_count("impact_budget", s.impact_budget);
-  require(s.friction_window > 0.0 && std::isfinite(s.friction_window), "friction_window", s.friction_window,
-          "must be positive and finite");
+  require(s.friction_window >= 1e-9 && s.friction_window <= 1e15, "friction_window", s.friction_window,
+          "must be between 1e-9 and 1e15 tau");
   require(has_valid_tolerance({s.model.kind, s.contact_tolerance}), "contact_tolerance", s.contact_tolerance,
           "must be 0 (every bounce by itself), or between 1e-9 and 0.01");
   const FreeState& i = s.initial;

@@ -46,15 +46,15 @@ Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, c
   sequence.loss += chatter.loss;
   if (springs_.is_free_along_x == 0.0) {
     const double along = slide_energy(springs_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
-    if (eta_ == 0.0) sequence.loss -= gain;  // a holder at rest gives nothing
+    if (slide.eta() == 0.0) sequence.loss -= gain;  // a holder at rest gives nothing
     const double pressure = slide.pressure(0.0);
-    sequence.impulse += held_impulse(springs_, eta_, slide.start(), pressure, s, along - start) +
-                        held_impulse(springs_, eta_, slide.start(), pressure, 0.0, gain);
+    sequence.impulse += held_impulse(springs_, slide.eta(), slide.start(), pressure, s, along - start) +
+                        held_impulse(springs_, slide.eta(), slide.start(), pressure, 0.0, gain);
     return {reference, v, along + 0.5 * v * v, sequence};
   }
   const double impulse = spring_impulse(springs_, extension_integral(slide, s) + chatter.drift);
   sequence.impulse += impulse;
-  const double wanted = start + 0.5 * v0 * v0 + eta_ * impulse - chatter.loss;
+  const double wanted = start + 0.5 * v0 * v0 + slide.eta() * impulse - chatter.loss;
   const BouncingSlide end = with_energy(springs_, {displaced_reference(model_, reference, chatter), v}, wanted);
   const double energy = slide_energy(springs_, end.slide) + 0.5 * end.v * end.v;
   // at rest on a crest no state near by has that energy: the loss has the rest, and is not below zero by rounding
@@ -79,13 +79,13 @@ Account Tip::contact_account(const Sliding& sliding, double s, const ContactPoin
   const double energy = slide_energy(springs_, to.state);
   if (springs_.is_free_along_x > 0.0) return {now_, spring_impulse(springs_, to.extension_integral), 0.0, energy, 0};
   const double work = energy - slide_energy(springs_, step.start()), pressure = step.pressure(step.start());
-  return {now_, held_impulse(springs_, eta_, step.start(), pressure, s, work), 0.0, energy, 0};
+  return {now_, held_impulse(springs_, step.eta(), step.start(), pressure, s, work), 0.0, energy, 0};
 }
 
 Account Tip::chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SequenceState r = sequence_state(chattering, s, chatter);
-  const double bounce = bounce_impulse(r.displaced, r.v), energy = r.energy + eta_ * bounce;
-  return {now_, r.sequence.impulse + bounce, r.sequence.loss, energy, static_cast<std::uint64_t>(chatter.n)};
+  const double bounce = bounce_impulse(r.displaced, r.v), energy = r.energy + chattering.reference.eta() * bounce;
+  return {now_, r.sequence.impulse + bounce, r.sequence.loss, energy, count_so_far(chatter.n)};
 }
 
 Account Tip::account_at_begin() const {

@@ -95,9 +95,24 @@ std::optional<Collapse> Tip::collapse_landing(const Flying& flying, const Impact
   return collapse(onto.reference, onto.normal_speed, 0.0, impact);
 }
 
+// A kick that does not lift the tip: the surface takes its normal velocity, as heat. The holder of a hammer gives the
+// impulse along x.
+void Tip::kick_in_contact(const TipState& before, const TipState& after, Segments* ended) {
+  const SlideState<double> along = project_onto_surface(model_, after).reference;
+  if (ended != nullptr) {
+    Segment record = kick_segment(before, {along.phase, along.X, along.u, after.g, 0.0});
+    if (springs_.is_free_along_x == 0.0) {
+      record.impulse = -surface_jet(model_.H, before.phase).h1 * after.g1;
+      record.heat = record.work() - record.stored;
+    }
+    ended->add(segment());
+    ended->add(record);
+  }
+  slide(along);
+}
+
 Outcome Tip::kick(Segments* ended) {
   const Kick kick = thermostat_.draw();
-  bool stays = false;
   if (in_contact()) {
     const TipState before = tip_state(), after = kicked(kick, before);
     if (const std::optional<Collapse> all = collapse_kick(before, after)) {
@@ -111,20 +126,21 @@ Outcome Tip::kick(Segments* ended) {
       return Outcome::impact;
     }
     // below the threshold at which chatter becomes contact, contact goes on without an event
-    stays = std::fabs(after.g1) < std::fmax(slowest_chatter_, kMinGapRate);
+    if (std::fabs(project_onto_surface(model_, after).normal_speed) < std::fmax(slowest_chatter_, kMinGapRate)) {
+      kick_in_contact(before, after, ended);
+      return Outcome::flying;
+    }
   }
   Outcome outcome = Outcome::flying;
-  if (is_on_slide() && !stays) {
+  if (is_on_slide()) {
     end_slide_now();
     outcome = end_phase(ended);
   } else if (ended != nullptr) {
     ended->add(segment());
   }
-  const TipState before = tip_state();
-  TipState after = kicked(kick, before);
-  if (stays) after.g1 = 0.0;
+  const TipState before = tip_state(), after = kicked(kick, before);
   if (ended != nullptr) ended->add(kick_segment(before, after));
-  stays ? slide({after.phase, after.X, after.u}) : fly(after);
+  fly(after);
   return outcome;
 }
 

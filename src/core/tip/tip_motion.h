@@ -29,9 +29,10 @@ inline Chatter settled(Chatter chatter) {
   return chatter;
 }
 
-// The count of a chatter sequence that has ended: at least its first bounce.
-inline std::uint32_t whole_count(double n) {
-  return static_cast<std::uint32_t>(std::fmax(1.0, std::fmin(std::floor(n), 4294967295.0)));
-}
+// The count of a chatter sequence under way. It stays at the largest that an event can have.
+inline std::uint32_t count_so_far(double n) { return static_cast<std::uint32_t>(std::fmin(n, 4294967295.0)); }
+
+// That of one that has ended: at least its first bounce.
+inline std::uint32_t whole_count(double n) { return count_so_far(std::fmax(1.0, n)); }
 
 }  // namespace afm::detail

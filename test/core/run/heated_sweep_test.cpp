@@ -91,9 +91,10 @@ double K_f_of(double contact_tolerance, std::uint64_t seed) {
   return batch.friction.K_f_work;
 }
 
-// At the default tolerance the bounces that a kick starts are one event. It once made K_f 9 % too high here.
+// At the default tolerance the bounces that a kick starts are one event. It once made K_f 9 % too high here. It is
+// 1.5 % in 96 runs, and the noise of a run with the same kicks 2.3 %.
 TEST(HeatedRun, HasTheFrictionOfAFinerTolerance) {
-  constexpr int kRuns = 8;
+  constexpr int kRuns = 32;
   double coarse = 0.0, fine = 0.0;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     coarse += K_f_of(kDefaultContactTolerance, seed) / kRuns;

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "afm/detail/chatter.h"
+#include "afm/surface.h"
 #include "afm/tip.h"
 #include "support/models.h"
 
@@ -171,6 +173,38 @@ TEST(Kick, OnAnElasticSurfaceEveryBounceIsMade) {
   while (tip.now() < ModelTime{200, 0.0}) {
     tip.advance({200, 0.0});
     ASSERT_EQ(tip.last_impact().kind, ImpactKind::impact);
+  }
+}
+
+// K_f by the work of the drag, of a tip that a load holds on the surface.
+double damped_friction(ModelKind kind, double eta, double Q, double kicks_per_tau) {
+  Model model;
+  model.kind = kind;
+  model.y0 = -0.5;
+  Tip tip(model, eta, lowered_tip(model.H));
+  tip.set_bath(bath_of(0.0, Q, kicks_per_tau));
+  double ended_work = 0.0;
+  const auto work_until = [&](const ModelTime& time) {
+    Segments ended;
+    while (tip.advance_segment(time, &ended) != Outcome::time_limit) {
+      for (const Segment& segment : ended) ended_work += segment.work();
+    }
+    return ended_work + tip.segment().work();
+  };
+  const ModelTime begin{300, 0.0}, end{600, 0.0};  // whole cells at the drag velocities below
+  const double before = work_until(begin);
+  return (work_until(end) - before) / (eta * eta * (end - begin));
+}
+
+// The slower the drag, or the more kicks there are, the weaker is each: none is too weak to act.
+TEST(Kick, InContactTheDampingIsWhatTheQualityFactorSaysAtAnyRateOfKicks) {
+  for (const auto& [eta, Q] : {std::pair(0.2, 100.0), std::pair(0.05, 1000.0)}) {
+    const double slope = kTwoPi * Model{}.H * std::sqrt(0.5), expected = kTwoPi / Q * slope * slope;
+    for (const double kicks : {29.034, 123.7, 843.618}) {
+      EXPECT_NEAR(damped_friction(ModelKind::hammer, eta, Q, kicks) / expected, 1.0, 3e-3) << eta << ' ' << kicks;
+      // its lateral spring is damped too, and it does not move as its holder does
+      EXPECT_NEAR(damped_friction(ModelKind::oscillator, eta, Q, kicks) / expected, 1.04, 0.02) << eta << ' ' << kicks;
+    }
   }
 }
 

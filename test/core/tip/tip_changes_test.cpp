@@ -47,6 +47,44 @@ TEST(SetParameters, InFlightTheTipIsAsIfLaunchedThere) {
   EXPECT_GT(flights, 1000);
 }
 
+// Its event once had the energy that the holder gave or took as well, and so less than none.
+TEST(Drag, AHammerThatIsStoppedInChatterHasLostWhatItsImpactsTook) {
+  Model model = hammer(1.0, 0.0);
+  model.y0 = -0.5;
+  int stopped = 0;
+  for (int i = 1; i <= 50; ++i) {
+    Tip tip(model, 3.0, TipState{0.02 * i, 0.0, 3.0, 0.0, 1e-3});
+    advance_to(tip, {0, 0.005});
+    if (!tip.in_chatter()) continue;
+    tip.drag(0.0);
+    ASSERT_EQ(tip.advance(tip.now()), Outcome::impact);
+    ASSERT_EQ(tip.last_impact().kind, ImpactKind::burst);
+    EXPECT_NEAR(tip.last_impact().energy_loss, 0.0, 1e-18) << i;
+    ++stopped;
+  }
+  EXPECT_GT(stopped, 10);
+}
+
+// A sequence that never dies, as gamma = 1 and a load holds the tip down: its count once wrapped at a command.
+TEST(Drag, ACountOfMoreBouncesThanAnEventCanHaveStaysAtThat) {
+  constexpr double kMost = 4294967295.0;
+  Model model = model_with(1.0, 0.0);
+  model.y0 = -0.5;
+  Tip tip(model, 0.2, TipState{0.5, 0.0, 0.2, 0.0, 2e-5});
+  double count = 0.0;
+  Segments ended;
+  for (const double eta : {0.1, 0.2}) {
+    const ModelTime limit = tip.now() + 20000.0;
+    while (tip.advance_segment(limit, &ended) != Outcome::time_limit) {
+      for (const Segment& segment : ended) count += static_cast<double>(segment.count);
+    }
+    EXPECT_TRUE(tip.in_chatter());
+    count += static_cast<double>(tip.segment().count);
+    EXPECT_EQ(count, kMost);
+    tip.drag(eta);
+  }
+}
+
 TEST(SetParameters, KeepsTheHammerAboveTheSurface) {
   RandomLaunches random(9);
   Tip tip(hammer(0.7, 0.005), 0.5, start_at(0.5));
