@@ -36,8 +36,8 @@ class Run:
     def __init__(self):
         self.close = []  # single samples of the last tau
         self.samples, self.impacts, self.friction, self.drag = [], [], [], []
-        self.epochs = []  # where they begin
-        self.configuration, self.unit, self.offset, self.last = None, None, 0.0, 0.0
+        self.epochs = {}  # where they begin
+        self.configuration, self.unit, self.last = None, None, 0.0
         self.numbers, self.lost = {}, {}  # of each kind of message
 
     def count_lost(self, kind, number):
@@ -50,20 +50,22 @@ class Run:
             if kind == 'Friction':
                 self.friction.append((self.last, NAN, NAN, NAN))
 
-    def begin_epoch(self, configuration):
+    def set_units(self, configuration):
         self.configuration = configuration
         self.unit = 2 * np.pi / configuration.omega_v_rad_per_s  # tau [s]
         self.speed = configuration.lattice_spacing_m / self.unit
-        self.offset = self.last
-        self.epochs.append(self.offset)
 
-    def seconds(self, time):
-        moment = self.offset + (time.tau + time.phase) * self.unit
+    def moment(self, epoch, tau, phase):
+        """[s] An epoch begins where the one before it ended."""
+        return self.epochs.setdefault(epoch, self.last) + (tau + phase) * self.unit
+
+    def seconds(self, message):
+        moment = self.moment(message.epoch, message.time.tau, message.time.phase)
         self.last = max(self.last, moment)
         return moment
 
     def add_deflection(self, message, every):
-        begin = self.seconds(message.time)
+        begin = self.seconds(message)
         values = np.array([message.vertical, message.lateral]) * 1e9
         times = begin + message.sample_period * np.arange(values.shape[1])
         if not len(times):
@@ -76,19 +78,19 @@ class Run:
             self.close.pop(0)
 
     def add_impacts(self, data):
-        _, _, impacts = read_impacts(data)
+        epoch, _, impacts = read_impacts(data)
         if len(impacts):
-            times = self.offset + (impacts['tau'] + impacts['phase']) * self.unit
+            times = self.moment(epoch, impacts['tau'], impacts['phase'])
             self.last = max(self.last, times[-1])
             self.impacts.append(np.column_stack([times, impacts['normal_speed'] * 1e6, impacts['kind']]))
 
     def add_friction(self, message):
         per_unit = message.k_f_work_natural / message.k_f_work if message.k_f_work else NAN
-        self.friction.append((self.seconds(message.time), message.k_f_work_natural,
+        self.friction.append((self.seconds(message), message.k_f_work_natural,
                               message.k_f_work_std_error * per_unit, message.window_k_f_natural))
 
     def add_drag(self, message):
-        moment = self.offset + (message.time.tau + message.time.phase) * self.unit
+        moment = self.moment(message.epoch, message.time.tau, message.time.phase)
         self.drag.append((moment, message.drag_velocity * 1e6))
 
 
@@ -114,12 +116,27 @@ def count_samples(paths):
     return count
 
 
+def find_configuration(paths, node):
+    """The first one, for the units of all: also of what was before it, as in a bag that is cut."""
+    for path in paths:
+        with open_bag(path) as bag:
+            for m in read_raw(bag, ['Configuration', 'Snapshot']):
+                if node in (None, m.node):
+                    message = m.of_type().deserialize(m.data)
+                    return message if m.kind == 'Configuration' else message.configuration
+    return None
+
+
 def read(paths, node):
     run = Run()
+    configuration = find_configuration(paths, node)
+    if configuration is not None:
+        run.set_units(configuration)
     every = max(1, 2 * count_samples(paths) // MOST_POINTS)
     known, sources, others = {}, {}, set()
-    add = {'Configuration': run.begin_epoch, 'Deflection': lambda m: run.add_deflection(m, every),
-           'ImpactArray': run.add_impacts, 'Friction': run.add_friction, 'Applied': run.add_drag}
+    add = {'Configuration': lambda m: run.epochs.setdefault(m.epoch, run.last),
+           'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
+           'Friction': run.add_friction, 'Applied': run.add_drag}
     for path in paths:
         with open_bag(path) as bag:
             for m in read_raw(bag, add):
@@ -136,7 +153,7 @@ def read(paths, node):
                 if is_new:
                     run.count_lost(*number)
                 known[number] = said
-                if is_new and (m.kind == 'Configuration' or run.configuration is not None):
+                if is_new and run.configuration is not None:
                     add[m.kind](m.data if m.kind == 'ImpactArray' else m.of_type().deserialize(m.data))
     if run.configuration is None or not run.samples:
         named = '' if node is None else ' %s, but of %s' % (node, ' and '.join(sorted(others)) or 'no other')
@@ -228,7 +245,7 @@ def draw(run, paths):
     draw_zoom(figure.add_subplot(grid[4]), run)
     for axes in rows:
         axes.grid(alpha=0.3)
-        for epoch in run.epochs[1:]:
+        for epoch in sorted(run.epochs.values())[1:]:
             axes.axvline(epoch, c='k', lw=0.8, ls=':')
     rows[3].set_xlim(times[0], times[-1])
     c = run.configuration

@@ -64,7 +64,7 @@ void RunView::take(const afm_emulator::Deflection& message) {
 void RunView::take(const afm_emulator::ImpactArray& message) {
   if (message.epoch != impacts_epoch_ || message.first_index != next_impact_) {
     impacts_.clear();
-    contact_before_ = false;
+    contact_before_.reset();
   }
   impacts_epoch_ = message.epoch;
   next_impact_ = message.first_index + message.impacts.size();
@@ -89,9 +89,13 @@ bool RunView::complete() const {
          impacts_epoch_ == configuration_->epoch;
 }
 
-bool RunView::in_contact(const ModelTime& time) const {
-  const auto next = after(impacts_, time);
-  return next == impacts_.begin() ? contact_before_ : begins_contact(*std::prev(next));
+// Who begins to look at a tip that rests for good hears of no event.
+bool RunView::in_contact(const Place& sample) const {
+  constexpr double kTouches = 1e-6;  // [a] a choice: far above rounding, and far below what a picture shows
+  const auto next = after(impacts_, sample.time);
+  if (next != impacts_.begin()) return begins_contact(*std::prev(next));
+  if (contact_before_) return *contact_before_;
+  return sample.y - surface_jet(model_.H, sample.x - std::floor(sample.x)).h < kTouches;
 }
 
 // The surface phase is exact; the cell is that of the samples around it.
@@ -111,7 +115,7 @@ Place RunView::place(const Impact& impact) const {
 
 std::vector<Place> RunView::samples_since(const ModelTime& from, std::size_t most) const {
   return evenly(after(samples_, from), samples_.end(), most, [&](Place sample) {
-    sample.contact = in_contact(sample.time);
+    sample.contact = in_contact(sample);
     return sample;
   });
 }

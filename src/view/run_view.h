@@ -57,7 +57,7 @@ class RunView {
   std::vector<Place> impacts_since(const ModelTime& from, std::size_t most) const;
 
  private:
-  bool in_contact(const ModelTime& time) const;
+  bool in_contact(const Place& sample) const;
   Place place(const afm_emulator::Impact& impact) const;
   void forget_old();
 
@@ -72,7 +72,7 @@ class RunView {
   std::deque<afm_emulator::Impact> impacts_;
   std::uint32_t samples_epoch_ = 0, impacts_epoch_ = 0;
   std::uint64_t next_sample_ = 0, next_impact_ = 0;
-  bool contact_before_ = false;  // the first impact kept
+  std::optional<bool> contact_before_;  // the first impact kept; empty: that is not known
 };
 
 }  // namespace afm::view

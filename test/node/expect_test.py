@@ -1,5 +1,6 @@
 """The test nodes expect, expect_sound and expect_repeats judge what they say, and refuse with a sentence what they
 cannot judge."""
+import math
 import os
 import runpy
 import subprocess
@@ -9,7 +10,7 @@ from unittest import mock
 
 import rospy
 from afm_emulator import Client, expectations
-from afm_emulator.msg import EmulatorStatus
+from afm_emulator.msg import Configuration, EmulatorStatus, ModelTime
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -143,6 +144,36 @@ class Expect(NodeTest):
         self.assert_fails(node, 'refused_commands = 1 more at model time')
         node = self.node('expect_sound', '/sound_3', for_s=0.1)
         self.assert_fails(node, 'refused_commands = 2 more at model time')
+
+    def sound_of(self, name, *statuses, **parameters):
+        """expect_sound, of an emulator that says this."""
+        configuration = rospy.Publisher('/said/configuration', Configuration, queue_size=1, latch=True)
+        configuration.publish(Configuration(omega_v_rad_per_s=2.0 * math.pi, lattice_spacing_m=5e-10, pace='real_time'))
+        status = rospy.Publisher('/said/status', EmulatorStatus, queue_size=10)
+        node = self.node('expect_sound', name, emulator='/said', for_s=2.0, **parameters)
+        wait_until(lambda: status.get_num_connections(), 'it listens')
+        for epoch, tau, numbers in statuses:
+            status.publish(EmulatorStatus(epoch=epoch, time=ModelTime(tau=tau), real_time_factor=1.0, **numbers))
+        wait_until(lambda: node.child.poll() is not None, 'it has judged')
+        configuration.unregister()
+        status.unregister()
+        return node
+
+    def test_what_failed_before_a_reset_counts(self):
+        """The counters of an epoch begin anew. With after_s later than 0 the latest epoch alone is judged."""
+        said = (0, 1, {'search_failures': 1}), (1, 0, {}), (1, 2, {}), (1, 4, {})
+        self.assert_fails(self.sound_of('/sound_4', *said), 'search_failures = 1 more at model time')
+        code, text = self.end(self.sound_of('/sound_5', *said, after_s=1.0))
+        self.assertEqual(code, 0, text)
+
+    def test_real_time_is_kept_by_the_run_while_it_goes(self):
+        """The factor is 1 until it is measured for the first time, and 0 in a pause."""
+        paused = {'paused': True}
+        self.assert_fails(self.sound_of('/sound_6', (0, 0, {}), (0, 2, {'lag': 0.7})), 'real time is not kept')
+        late = (0, 1, {'lag': 0.7}), (0, 2, paused)
+        self.assert_fails(self.sound_of('/sound_7', *late), 'lag 0.7 s, at model time 1 s: real time is not kept')
+        code, text = self.end(self.sound_of('/sound_8', (0, 1, {}), (0, 2, dict(paused, lag=0.7))))
+        self.assertEqual(code, 0, text)
 
     def test_a_mean_is_one_over_time(self):
         def advance():

@@ -73,10 +73,15 @@ class Recording(NodeTest):
             paths.append(emulator.call('start_recording', StartRecording, name='step%d' % i).path)
             self.assertTrue(emulator.call('step', Step, impacts=1).success)
             self.assertTrue(emulator.call('stop_recording', Trigger).success)
+        self.assertTrue(emulator.call('reset', Trigger).success)  # it publishes a snapshot that no recording holds
+        paths.append(emulator.call('start_recording', StartRecording, name='after').path)
+        self.assertTrue(emulator.call('step', Step, impacts=1).success)
+        self.assertTrue(emulator.call('stop_recording', Trigger).success)
         self.end(emulator)
         for path in paths:
             checks.assert_identical(self, path)
-        checks.assert_identical(self, *paths[1:])  # the status goes on between them
+        checks.assert_identical(self, *paths[1:-1])  # the status goes on between them
+        checks.assert_identical(self, *paths[-2:])  # two recordings: no batch lies between them, but more than batches
 
     def test_under_way_and_killed(self):
         """The first is read from a copy: to reindex what is written would destroy the rest."""

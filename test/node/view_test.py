@@ -7,7 +7,7 @@ import rospy
 from afm_emulator.msg import Impact
 from visualization_msgs.msg import MarkerArray
 
-from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, EmulatorTest, NodeTest
+from emulator_under_test import FRICTION_UNIT, SPEED_UNIT, Emulator, EmulatorTest, NodeTest
 from pictures import CELLS, CONTACT_RED, Picture, Reported, View, luminance, open_rviz, surface
 from topics import Topic, wait_until
 
@@ -212,6 +212,14 @@ class Launched(NodeTest):
         wait_until(lambda: 'so there is no window' in play.output(), 'why there is no window')
         deflection.wait_for_next()
         play.stop()
+
+    def test_a_tip_that_rests_for_good_is_in_contact(self):
+        """Who begins to look hears of no event."""
+        self.start(Emulator({'drag_velocity': 0.0, 'load_n': 1e-9}))
+        Topic('deflection').wait_for(lambda m: m.first_sample > 20000, 'a tenth of a second')
+        view = self.start(View())
+        drawn = view.markers.wait_for(lambda m: Picture(m).has('tip'), 'the tip')
+        self.assertEqual(Picture(drawn).text('contact'), 'contact')
 
     def test_a_replay_looks_the_same(self):
         emulator = self.record(record=True)

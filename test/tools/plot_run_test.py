@@ -75,6 +75,19 @@ class PlotRun(unittest.TestCase):
             return len(re.findall('[ "]M ', (self.directory / name).read_text()))
         self.assertEqual(strokes('gap.svg'), strokes('whole.svg') + 2)  # vertical and lateral
 
+    def test_what_comes_before_the_first_configuration_is_drawn_too(self):
+        """It was left out without a word."""
+        whole, cut = self.bag(20), self.directory / 'cut.bag'
+        with rosbag.Bag(str(whole)) as source, rosbag.Bag(str(cut), 'w') as bag:
+            for topic, raw, stamp, header in source.read_messages(raw=True, return_connection_header=True):
+                message = raw[4]().deserialize(raw[1])
+                if topic != '/tip/configuration' or message.epoch == 1:
+                    bag.write(topic, message, stamp, connection_header=header)
+        for path in (whole, cut):
+            done = plot(path, '--output', path.with_suffix('.svg'))
+            self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(*(len(re.findall('[ "][ML] ', path.with_suffix('.svg').read_text())) for path in (whole, cut)))
+
     def test_says_what_is_wrong(self):
         text = self.directory / 'text.bag'
         text.write_text('no bag')

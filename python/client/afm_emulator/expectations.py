@@ -90,15 +90,17 @@ def seconds_of(stamp, tau_s):
 
 class Follower:
     """Follows a topic of the emulator until a condition on its messages holds or the wall clock says that it is
-    enough. The messages are those of the latest epoch: after a reset it begins again."""
+    enough. The messages are those of the latest epoch: after a reset it begins again. `earlier` has the last of each
+    epoch before it."""
 
     def __init__(self, topic, kind):
-        self.messages, self.news = [], threading.Condition()
+        self.messages, self.earlier, self.news = [], [], threading.Condition()
         self.subscription = Subscription(topic, kind, self._take, buff_size=1 << 22)
 
     def _take(self, message):
         with self.news:
             if self.messages and message.epoch != self.messages[-1].epoch:
+                self.earlier.append(self.messages[-1])
                 self.messages.clear()
             self.messages.append(message)
             self.news.notify_all()
