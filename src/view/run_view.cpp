@@ -89,7 +89,7 @@ bool RunView::complete() const {
          impacts_epoch_ == configuration_->epoch;
 }
 
-// Who begins to look at a tip that rests for good hears of no event.
+// Who begins to look at a tip that rests for good hears of no event. Until the first one chatter counts as contact.
 bool RunView::in_contact(const Place& sample) const {
   constexpr double kTouches = 1e-6;  // [a] a choice: far above rounding, and far below what a picture shows
   const auto next = after(impacts_, sample.time);

@@ -23,7 +23,7 @@ def read_raw(bag, kinds):
     types = ['afm_emulator/' + kind for kind in kinds]
     # rosbag record repeats latched messages without the name of their node: it is that of its namespace
     named = {c.topic.rpartition('/')[0]: c.header['callerid'] for c in bag._get_connections()
-             if c.datatype in types and 'callerid' in c.header}
+             if c.datatype.startswith('afm_emulator/') and 'callerid' in c.header}
     for topic, raw, stamp, header in bag.read_messages(
             raw=True, return_connection_header=True, connection_filter=lambda _, datatype, *__: datatype in types):
         node = header.get('callerid', named.get(topic.rpartition('/')[0], b''))

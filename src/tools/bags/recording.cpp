@@ -122,7 +122,8 @@ bool is_part(const std::string& path, const std::string& first) {
          std::regex_match(part.substr(name.size()), std::regex("_[0-9]{3,}\\.bag(\\.active)?"));
 }
 
-// False where the node published more between them, without a batch: as at a reset after a recording was stopped.
+// False where the node published more between them, without a batch: as at a reset after a recording was stopped. The
+// parts of rosbag record may lack a message.
 template <class Message>
 bool may_go_on(const Recording& before, const Recording& after) {
   const std::string topic = after.topic<Message>();
@@ -134,13 +135,14 @@ bool may_go_on(const Recording& before, const Recording& after) {
 std::optional<std::uint32_t> batches_between(const Recording& before, const Recording& after) {
   const std::string topic = before.topic<afm_emulator::Friction>();
   if (topic.empty() || topic != after.topic<afm_emulator::Friction>()) return std::nullopt;
-  const Recording last_part(before.node(), {}, {before.files().back()});
-  const auto begin = after.ends_of(topic), end = last_part.ends_of(topic);
+  const auto begin = after.ends_of(topic), end = Recording(before.node(), {}, {before.files().back()}).ends_of(topic);
   if (!begin || !end) return std::nullopt;
   const std::uint32_t first = begin->first.seq, last = end->second.seq;
   const bool is_named_so = is_part(after.files().front().path, before.files().front().path);
-  const bool follows = first == last + 1 && (is_named_so || (may_go_on<afm_emulator::Snapshot>(last_part, after) &&
-                                                             may_go_on<afm_emulator::Applied>(last_part, after)));
+  const bool follows =
+      first == last + 1 &&
+      (is_named_so || !after.is_by_node() ||
+       (may_go_on<afm_emulator::Snapshot>(before, after) && may_go_on<afm_emulator::Applied>(before, after)));
   if (!follows && (first <= last || !is_named_so)) return std::nullopt;
   return first - last - 1;
 }

@@ -198,10 +198,10 @@ class Recording {
   }
   // 0 or 1: the node writes the command in force before the first snapshot; 1 if that message is missing.
   std::uint64_t commands_missing_at_beginning() const;
+  bool is_by_node() const;  // not by rosbag record
 
  private:
   Missing missing_at_ends(const std::string& type) const;
-  bool is_by_node() const;
   // Batches before the first or after the last one that the bag holds. Other messages of the node prove them.
   std::uint64_t batches_proved_at_beginning() const;
   std::uint64_t batches_proved_at_end() const;
