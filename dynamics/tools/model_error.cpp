@@ -39,8 +39,8 @@ const char kDescription[] =
 const char kHeader[] =
     "eta,gamma,cutoff,frequency_ratio,model,contact_tolerance,reference_tolerance,start,k_f,k_f_std_error,attractor,"
     "reference_k_f,reference_k_f_std_error,reference_attractor,k_f_error,k_f_error_std_error,deflection_error,"
-    "deflection_noise,deflection_rms,tracking_error,extension_rms,extension_max,ns_per_tau,reference_ns_per_tau,cost_"
-    "ratio";
+    "deflection_noise,deflection_rms,tracking_error,extension_rms,extension_max,ns_per_tau,reference_ns_per_tau,"
+    "cost_ratio";
 
 const char kSceneHeader[] = "scene,eta,model,contact_tolerance,k_f_error,deflection_error,cost,in_use";
 

@@ -171,7 +171,8 @@ class Tip {
   Outcome kick(Segments* ended);
   std::optional<detail::Collapse> collapse(const detail::SlideState<double>& from, double v, double kick,
                                            const Impact& first) const;
-  std::optional<detail::Collapse> collapse_kick(const TipState& before, const TipState& after) const;
+  std::optional<detail::Collapse> collapse_kick(const TipState& before, const TipState& after,
+                                                const detail::Projection& onto) const;
   std::optional<detail::Collapse> collapse_landing(const Flying& flying, const Impact& impact) const;
 
   // energy balance (tip_account.cpp)
@@ -189,7 +190,8 @@ class Tip {
   Segment collapse_segment(double slope, double gap_rate) const;
   Segment impact_segment(const Landing<double>& landing, const Flight<double>& after) const;
   Segment kick_segment(const TipState& before, const TipState& after) const;
-  void kick_in_contact(const TipState& before, const TipState& after, Segments* ended);
+  void kick_in_contact(const TipState& before, const TipState& after, const detail::SlideState<double>& along,
+                       Segments* ended);
 
   Model model_;
   SpringConstants<double> springs_;

@@ -86,7 +86,8 @@ class PlotRun(unittest.TestCase):
         for path in (whole, cut):
             done = plot(path, '--output', path.with_suffix('.svg'))
             self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertEqual(*(len(re.findall(r'[\s"][ML] ', path.with_suffix('.svg').read_text())) for path in (whole, cut)))
+        drawn = [path.with_suffix('.svg').read_text() for path in (whole, cut)]
+        self.assertEqual(*(len(re.findall(r'[\s"][ML] ', text)) for text in drawn))
 
     def test_says_what_is_wrong(self):
         text = self.directory / 'text.bag'

@@ -31,15 +31,22 @@ def read_raw(bag, kinds):
                   raw[4], stamp)
 
 
+def first_batch(path):
+    """The emulator whose batch is the first, and when it came; without one, when the bag begins, 0 if it is empty."""
+    with rosbag.Bag(str(path)) as bag:
+        batch = next(read_raw(bag, ['Friction']), None)
+        if batch:
+            return batch.node, batch.stamp.to_sec()
+        return '', bag.get_start_time() if bag.get_message_count() else 0.0
+
+
 def in_order(paths):
     """Bags in the order of their batches: a shell may list the parts of a recording in another one."""
     if len(paths) < 2:  # the index of a long recording takes seconds to read
         return paths
     def begin(path):
         try:
-            with rosbag.Bag(str(path)) as bag:
-                batch = next(read_raw(bag, ['Friction']), None)
-                return batch.stamp.to_sec() if batch else bag.get_start_time()
+            return first_batch(path)[1]
         except Exception:  # whoever reads it says why
             return 0.0
     return sorted(paths, key=begin)

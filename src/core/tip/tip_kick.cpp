@@ -75,8 +75,8 @@ std::optional<Collapse> Tip::collapse(const SlideState<double>& from, double v, 
 }
 
 // A kick into the surface begins with an impact, one away from it with a bounce.
-std::optional<Collapse> Tip::collapse_kick(const TipState& before, const TipState& after) const {
-  const Projection onto = project_onto_surface(model_, after);
+std::optional<Collapse> Tip::collapse_kick(const TipState& before, const TipState& after,
+                                           const Projection& onto) const {
   const double kick = std::fabs(onto.normal_speed);
   Impact first{now_, before.phase, kick, onto.tangential_velocity, 0.0, ImpactKind::impact, 0};
   double v = kick;
@@ -95,10 +95,10 @@ std::optional<Collapse> Tip::collapse_landing(const Flying& flying, const Impact
   return collapse(onto.reference, onto.normal_speed, 0.0, impact);
 }
 
-// A kick that does not lift the tip: the surface takes its normal velocity, as heat. The holder of a hammer gives the
-// impulse along x.
-void Tip::kick_in_contact(const TipState& before, const TipState& after, Segments* ended) {
-  const SlideState<double> along = project_onto_surface(model_, after).reference;
+// A kick that does not lift the tip, which goes on `along` the surface: its normal velocity becomes heat. The holder of
+// a hammer gives the impulse along x.
+void Tip::kick_in_contact(const TipState& before, const TipState& after, const SlideState<double>& along,
+                          Segments* ended) {
   if (ended != nullptr) {
     Segment record = kick_segment(before, {along.phase, along.X, along.u, after.g, 0.0});
     if (springs_.is_free_along_x == 0.0) {
@@ -115,7 +115,8 @@ Outcome Tip::kick(Segments* ended) {
   const Kick kick = thermostat_.draw();
   if (in_contact()) {
     const TipState before = tip_state(), after = kicked(kick, before);
-    if (const std::optional<Collapse> all = collapse_kick(before, after)) {
+    const Projection onto = project_onto_surface(model_, after);
+    if (const std::optional<Collapse> all = collapse_kick(before, after, onto)) {
       last_impact_ = all->impact;
       if (ended != nullptr) {
         ended->add(segment());
@@ -126,8 +127,8 @@ Outcome Tip::kick(Segments* ended) {
       return Outcome::impact;
     }
     // below the threshold at which chatter becomes contact, contact goes on without an event
-    if (std::fabs(project_onto_surface(model_, after).normal_speed) < std::fmax(slowest_chatter_, kMinGapRate)) {
-      kick_in_contact(before, after, ended);
+    if (std::fabs(onto.normal_speed) < std::fmax(slowest_chatter_, kMinGapRate)) {
+      kick_in_contact(before, after, onto.reference, ended);
       return Outcome::flying;
     }
   }

@@ -32,6 +32,14 @@ std::string find_name_fault(const std::string& name) {
   return "must be of letters, digits and _ . + - only, and begin and end with a letter or digit";
 }
 
+// The file or link in the way of a bag, of a recording that is closed or under way; or nothing.
+std::string taken_by(const std::string& bag) {
+  for (const std::string& path : {bag, bag + ".active"}) {
+    if (fs::exists(fs::symlink_status(path))) return path;
+  }
+  return {};
+}
+
 // directory/NAME without .bag; of an empty name that of the node with the local time, afm_2024-05-31-12-00-00, or what
 // follows if that is taken. Two nodes may begin in the same moment.
 std::string bag_base(const std::string& directory, const std::string& name) {
@@ -46,11 +54,8 @@ std::string bag_base(const std::string& directory, const std::string& name) {
   node.erase(0, node.find_first_not_of('/'));
   std::replace(node.begin(), node.end(), '/', '_');
   const std::string base = place / (node + text);
-  const auto is_taken = [](const std::string& path) {
-    return fs::exists(path + ".bag") || fs::exists(path + ".bag.active");
-  };
   std::string free = base;
-  for (int i = 1; is_taken(free); ++i) free = base + "-" + std::to_string(i);
+  for (int i = 1; !taken_by(free + ".bag").empty(); ++i) free = base + "-" + std::to_string(i);
   return free;
 }
 
@@ -78,13 +83,9 @@ std::string Recorder::part_path(std::uint32_t part) const {
 // Of a recording that splits: it would end there.
 std::string Recorder::taken_part() const {
   constexpr std::uint32_t kParts = 1000;  // a choice: what is left of an older recording has the first numbers
-  for (std::uint32_t part = 1; splits() && part < kParts; ++part) {
-    for (const char* ending : {"", ".active"}) {
-      const std::string path = part_path(part) + ending;
-      if (fs::exists(fs::symlink_status(path))) return path;
-    }
-  }
-  return {};
+  std::string taken;
+  for (std::uint32_t part = 1; splits() && taken.empty() && part < kParts; ++part) taken = taken_by(part_path(part));
+  return taken;
 }
 
 Recorder::Reply Recorder::start(const std::string& name) {
