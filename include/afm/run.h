@@ -121,6 +121,7 @@ class Run {
   double eta() const { return settings_.eta; }
   FreeState state() const { return tip_.state(); }         // at now()
   std::uint64_t samples() const { return next_sample_; }   // number due so far
+  const SampleGrid& sample_grid() const { return grid_; }  // in force
   std::uint64_t impacts() const { return impact_index_; }  // so far
   const Counters& counters() const { return counters_; }
   const RunSettings& settings() const { return settings_; }  // in force; `initial` is of the start

@@ -1,6 +1,7 @@
 // The times of samples (and of kicks): equally spaced from an origin on. A new sample period begins a new grid.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "state.h"
@@ -27,7 +28,15 @@ struct SampleGrid {
     return phase < 1.0 ? ModelTime{origin.tau + since.tau, phase} : ModelTime{origin.tau + since.tau + 1, phase - 1.0};
   }
 
-  // The same without a precondition, for numbers read from elsewhere: kEndOfTime for a sample that is not on the grid.
+  // The sample that is less than `part` of a period from `time`, or `time` itself.
+  ModelTime rounded(const ModelTime& time, double part) const {
+    constexpr double kMostSamples = 1e15;  // as exact as a double can count
+    const double count = (time - origin) / period, whole = std::round(count);
+    const bool is_near = std::fabs(count - whole) < part && whole >= 0.0 && whole < kMostSamples;
+    return is_near ? this->time(first + static_cast<std::uint64_t>(whole)) : time;
+  }
+
+  // As time() without a precondition, for numbers read from elsewhere: kEndOfTime for a sample that is not on the grid.
   ModelTime time_or_end(std::uint64_t n) const {
     const double since = static_cast<double>(n - first) * period;
     const bool reached = n >= first && since >= 0.0 && since < 0.5 * static_cast<double>(kEndOfTime.tau);

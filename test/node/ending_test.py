@@ -36,6 +36,17 @@ lock = threading.Lock()
 lock.acquire()
 lock.acquire()
 '''
+# its children are not as deaf to signals as it is
+PARENT = '''
+from afm_emulator import ending
+import multiprocessing
+import subprocess
+with multiprocessing.Pool(2) as pool:
+    print(pool.map(abs, [-1, -2]), flush=True)
+child = subprocess.Popen(['sleep', '1000'], preexec_fn=ending.unblock)
+child.terminate()
+print(child.wait(), flush=True)
+'''
 
 
 def blocks_sigint(process):
@@ -67,6 +78,12 @@ class Ending(NodeTest):
             os.kill(int(node.output()), number)  # the early thread gets it
             self.assertEqual(node.wait(LIMIT_S), 0)
             self.assertEqual(node.output().count('\n'), 1)
+
+    def test_children_end_when_they_are_asked_to(self):
+        """The end of the pool hung for ever."""
+        node = self.start(Process(['/usr/bin/python3', '-c', PARENT]))
+        self.assertEqual(node.wait(60.0), 0)
+        self.assertEqual(node.output(), '[1, 2]\n%d\n' % -signal.SIGTERM)
 
     def start_node(self, name):
         return self.start(Process([find(name), '__name:=' + name.split('.')[0], *NODES[name]],

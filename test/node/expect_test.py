@@ -15,7 +15,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, find
-from topics import PATIENCE, wait_until
+from topics import PATIENCE, Topic, wait_until
 
 NAME = '/expect_under_test'
 SPEED = 2.0 * SPEED_UNIT
@@ -153,7 +153,7 @@ class Expect(NodeTest):
         node = self.node('expect_sound', name, emulator='/said', for_s=2.0, **parameters)
         wait_until(lambda: status.get_num_connections(), 'it listens')
         for epoch, tau, numbers in statuses:
-            status.publish(EmulatorStatus(epoch=epoch, time=ModelTime(tau=tau), real_time_factor=1.0, **numbers))
+            status.publish(EmulatorStatus(epoch=epoch, time=ModelTime(tau=tau), **dict({'real_time_factor': 1.0}, **numbers)))
         wait_until(lambda: node.child.poll() is not None, 'it has judged')
         configuration.unregister()
         status.unregister()
@@ -174,6 +174,38 @@ class Expect(NodeTest):
         self.assert_fails(self.sound_of('/sound_7', *late), 'lag 0.7 s, at model time 1 s: real time is not kept')
         code, text = self.end(self.sound_of('/sound_8', (0, 1, {}), (0, 2, dict(paused, lag=0.7))))
         self.assertEqual(code, 0, text)
+
+    def test_a_recording_that_ended_early(self):
+        full = {'recorder_error': 'the disk is full'}
+        self.assert_fails(self.sound_of('/sound_9', (0, 1, {}), (0, 2, full)), 'ended early: the disk is full')
+
+    def test_a_delay_that_was_made_up_is_none(self):
+        """It may lower the factor of the second in which it was."""
+        node = self.sound_of('/sound_10', (0, 1, {}), (0, 2, {'real_time_factor': 0.94, 'lag': 0.01}))
+        self.assertEqual(self.end(node)[0], 0)
+        node = self.sound_of('/sound_11', (0, 1, {}), (0, 2, {'real_time_factor': 0.94, 'lag': 0.2}))
+        self.assert_fails(node, 'real time is not kept')
+
+    def test_an_emulator_that_is_started_again(self):
+        """Its counters begin at zero, and so does its time."""
+        first = self.start(Emulator())
+        nodes = [self.node('expect_sound', '/again_sound', for_s=1e6),
+                 self.node('expect', '/again', field='friction/eta', least=0.0, for_s=1e6)]
+        for node, topic in zip(nodes, ('status', 'friction')):
+            wait_until(lambda: node.child.args[1].split('=')[1] in ''.join(connected_to('/afm/' + topic)), 'it listens')
+        Topic('status').wait_for_more(3)
+        first.child.kill()
+        self.start(Emulator())
+        for node in nodes:
+            self.assert_fails(node, 'the emulator was started again')
+
+    def test_a_batch_counts_where_it_lies_wholly_within_the_time(self):
+        """That before it was judged too, as it ends where the time begins, and the samples at its end."""
+        self.start_emulator()
+        for topic in ('friction', 'deflection'):
+            rospy.ServiceProxy('/afm/reset', Trigger)()
+            self.judged(lambda: self.advance(SPEED, SPEED, 2 * SPEED, 2 * SPEED, SPEED), topic + '/drag_velocity',
+                        value=2 * SPEED, within=1e-9, after_s=0.1, for_s=0.1)
 
     def test_a_mean_is_one_over_time(self):
         def advance():

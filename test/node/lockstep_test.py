@@ -30,6 +30,16 @@ class Lockstep(EmulatorTest):
             answer = self.advance(duration)
             self.assertAlmostEqual(tau_between(answer.begin, answer.end) * TAU_S, duration, delta=1e-12)
 
+    def test_a_period_of_whole_batches_is_no_more_than_these(self):
+        """One of a rounding's length followed it, or came after the next command with a force of one moment."""
+        friction, periods = self.topics['friction'], (0.01, 0.03, 0.05) * 8
+        first = self.advance(0.01).end
+        for i, duration in enumerate(periods):
+            end = self.advance(duration, (2 + i % 2) * SPEED_UNIT).end
+        friction.wait_for(lambda m: key(m.time) == key(end), 'the end of the last period')
+        lengths = [tau_between(m.begin, m.time) * TAU_S for m in friction.messages if key(m.time) > key(first)]
+        self.assertEqual([round(length, 9) for length in lengths], [0.01] * round(sum(periods) / 0.01))
+
     def test_an_answer_holds_what_was_published(self):
         self.advance(0.02)
         answer = self.advance(0.03, 2.0 * SPEED_UNIT, -1e-11)

@@ -34,7 +34,7 @@ def _end():
 
 
 def unblock():
-    """For a child, which would inherit that signals are blocked."""
+    """For a child, which would inherit that signals are blocked: subprocess.Popen(..., preexec_fn=ending.unblock)."""
     signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
 
 
@@ -49,6 +49,7 @@ def _leave():
     signal.set_wakeup_fd(-1)
     for number in SIGNALS:
         signal.signal(number, signal.SIG_DFL)
+    unblock()
 
 
 def _begin():

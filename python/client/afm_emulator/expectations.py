@@ -91,14 +91,16 @@ def seconds_of(stamp, tau_s):
 class Follower:
     """Follows a topic of the emulator until a condition on its messages holds or the wall clock says that it is
     enough. The messages are those of the latest epoch: after a reset it begins again. `earlier` has the last of each
-    epoch before it."""
+    epoch before it. An emulator that is started anew fails the test."""
 
     def __init__(self, topic, kind):
         self.messages, self.earlier, self.news = [], [], threading.Condition()
+        self.topic, self.begins_anew = topic, False
         self.subscription = Subscription(topic, kind, self._take, buff_size=1 << 22)
 
     def _take(self, message):
         with self.news:
+            self.begins_anew |= bool(self.messages) and message.header.seq < self.messages[-1].header.seq
             if self.messages and message.epoch != self.messages[-1].epoch:
                 self.earlier.append(self.messages[-1])
                 self.messages.clear()
@@ -110,6 +112,8 @@ class Follower:
         end = time.monotonic() + timeout_s
         while True:
             with self.news:
+                if self.begins_anew:
+                    raise AssertionError('%s: the emulator was started again while it was tested' % self.topic)
                 came_true = bool(condition(self.messages))
                 if came_true or time.monotonic() > end or rospy.is_shutdown():
                     return came_true, list(self.messages)

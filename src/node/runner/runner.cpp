@@ -23,7 +23,8 @@ constexpr std::chrono::seconds kStepPatience{8};
 
 // [sample periods] Model times are rounded by less than both. A command of the scene is due if its time is less than
 // kDueNow ahead, so a run that is advanced in other parts plays it at the same time. A control period is over if less
-// than kRounding is left of it.
+// than kRounding is left of it. A period or step that ends so near a sample ends there: as whole batches, with no batch
+// of a rounding's length behind them.
 constexpr double kDueNow = 0.5, kRounding = 1e-3;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
@@ -113,6 +114,11 @@ void Runner::stop_drag_without_commands() {
   apply(live, "timeout");
 }
 
+ModelTime Runner::time_after(double tau) const {
+  const ModelTime end = run_.now() + tau, rounded = run_.sample_grid().rounded(end, kRounding);
+  return run_.now() < rounded ? rounded : end;
+}
+
 double Runner::samples(double count) const {
   return count / (parameters_.sample_rate_hz * Units(parameters_.si).time());
 }
@@ -162,7 +168,7 @@ Answer Runner::serve(Request& request) {
       break;
     case Kind::step:
       if (!is_held()) return answer("the emulator is running: pause it first");
-      return request.tau > 0.0 ? step(run_.now() + request.tau, kNoLimit)
+      return request.tau > 0.0 ? step(time_after(request.tau), kNoLimit)
                                : step(run_.now() + kMaxStepTau, request.impacts);
     case Kind::control:
       return control(request);
@@ -290,7 +296,7 @@ Answer Runner::control(Request& request) {
   Period period;
   period.measured.begin = run_.now();
   period.measured.drag_velocity = parameters_.drag_velocity;
-  period.end = run_.now() + request.tau;
+  period.end = time_after(request.tau);
   if (!takes_time) return answer_of(period, answer());
   periods_.push_back(period);
   if (!lockstep_) {
