@@ -43,7 +43,7 @@ bool kicks_lock(const Model& model, const Bath& bath, double eta = 0.0);
 
 // A rate of kicks [1/tau] for this model and these quality factors; the rate that the bath has does not count.
 // Guarantee: it does not lock, and takes at most 0.11 of a velocity at once, or 0.123 where 0.11 needs more than 1000 a
-// tau, or find_warnings() reports it.
+// tau or omega_h/omega_v is above 389, or find_warnings() reports it.
 double suitable_kicks(const Model& model, const Bath& bath, double eta = 0.0);
 
 // What can be run, but is seldom meant, with the remedy: kicks that lock or are too few, and a bath that acts on no

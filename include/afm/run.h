@@ -45,7 +45,7 @@ struct LiveSettings {
 LiveSettings live_settings(const RunSettings& settings);
 void set_live(const LiveSettings& live, RunSettings& settings);
 
-// The result of one advance: the samples and impacts of [begin, end).
+// The result of one advance: the samples of [begin, end), and the impacts up to the end.
 struct Batch {
   ModelTime begin, end;
   ModelTime first_sample_time;

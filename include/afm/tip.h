@@ -46,7 +46,7 @@ struct TipSnapshot {
 };
 
 // Every fault; a tip without any ends its phase.
-std::vector<ParameterError> find_faults(const TipSnapshot& tip);
+std::vector<ParameterError> find_faults(const TipSnapshot& tip, const Model& model);
 
 class Tip {
  public:
@@ -85,26 +85,26 @@ class Tip {
   // drag velocity again has no effect. A hammer in contact has the new velocity from the next advance on.
   void drag(double eta);
 
-  // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay, in a chatter
-  // sequence to the contact tolerance, as it ends at once, a part of a bounce early. Lifting the holder does work on
-  // the spring. Contact goes on if the surface still presses; a hammer that was dragged just now leaves it, which is an
-  // event at now(). Setting the current values has no effect. Precondition: a model without faults that differs in
-  // gamma, v_c and y0 at most.
+  // Another restitution, cutoff or rest height from now() on. Position and velocity of the tip stay. A chatter sequence
+  // ends at once: the tip is in the flight after its last bounce. Lifting the holder does work on the spring. Contact
+  // goes on if the surface still presses; a hammer that was dragged just now leaves it, which is an event at now().
+  // Setting the current values has no effect. Precondition: a model without faults that differs in gamma, v_c and y0 at
+  // most.
   void set_parameters(const Model& model);
 
   // Another level of the model from now() on. The tip keeps its surface phase, height and vertical velocity. A change
   // to the hammer moves the holder above the tip: extension and relative horizontal velocity are dropped, and their
   // energy is returned [m_tip a^2/tau^2] (0 otherwise). A change to the oscillator starts with a relaxed spring and the
-  // velocity of the holder. A chatter sequence ends at once, a part of a bounce early. Contact ends if the gap rate
-  // changes. Both are reported as events at now().
+  // velocity of the holder. A chatter sequence ends at once, as above. Contact ends with a change to the hammer. Both
+  // are reported as events at now().
   double set_model(ModelKind kind, double contact_tolerance);
 
   // Another heat bath from now() on; a new tip has none. It splits the flight or the record under way. Every advance
   // includes its kicks (docs/temperature.md). A kick splits the phase under way at its time. In contact, a kick into
-  // the surface is an impact at once, and a kick away from it starts a flight. Where the bounces after a kick, or with
-  // a temperature after an impact, hardly move the tip, they are one event, and the tip is in contact. A chatter
-  // sequence ends at once, a part of a bounce early. Setting the current bath has no effect, nor has a change of one
-  // that is off to another that is. Precondition: a bath without faults.
+  // the surface is an impact at once, and a kick away from it starts a flight; one too weak to lift the tip damps it
+  // without an event. Where the bounces after a kick, or with a temperature after an impact, hardly move the tip, they
+  // are one event, and the tip is in contact. A chatter sequence ends at once, as above. Setting the current bath has
+  // no effect, nor has a change of one that is off to another that is. Precondition: a bath without faults.
   void set_bath(const Bath& bath);
   const Thermostat& thermostat() const { return thermostat_; }
 
@@ -182,7 +182,8 @@ class Tip {
   Account account() const;
   Account account_at_begin() const;
   Account account_at_end() const;
-  Account flight_account(const Flying& flying, const FlightState<double>& state) const;
+  Flight<double> last_flight(const Chattering& chattering) const;
+  Account flight_account(const Flight<double>& flight, const FlightState<double>& state) const;
   Account contact_account(const Sliding& sliding, double s, const detail::ContactPoint& to) const;
   Account chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const;
   Segment segment_to(const Account& end) const;

@@ -101,11 +101,12 @@ std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, 
                            "has no effect: the hammer has no lateral spring; give a quality factor")};
   }
   constexpr double kEnough = 0.9;  // of the rate that was measured
-  const double suitable = suitable_kicks(model, bath), kicks = bath.kicks_per_tau;
+  const double advised = suitable_kicks(model, bath, eta), suitable = std::fmin(suitable_kicks(model, bath), advised);
+  const double kicks = bath.kicks_per_tau;
   const auto warning = [&](const std::string& reason) {
     return std::vector<ParameterError>{ParameterError("kicks_per_tau", kicks, reason)};
   };
-  const std::string give = "; give " + number_text(suitable_kicks(model, bath, eta));
+  const std::string give = "; give " + number_text(advised);
   const std::string remedy = ": K_f may be wrong by a fifth and more" + give;
   if (locks(model, bath, kicks)) {
     return warning("locks to the swing of the lateral spring, as omega_h/omega_v = " +

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace afm {
@@ -67,6 +68,13 @@ TEST(Bath, KicksLockToTheDragWhereTheyMeetTheSamePhasesOfTheSurface) {
   EXPECT_TRUE(find_warnings(Model{}, with(100.0, 11.09)).empty());
   // the golden section itself may lock; 11.09 are too few for these springs
   EXPECT_EQ(suitable_kicks(with_ratio(21.0), with(100.0), 12.979), 29.034);
+}
+
+TEST(Bath, TheRateThatAWarningNamesIsWarnedOfByNone) {
+  for (const auto& [ratio, Q, eta] : {std::tuple(21.0, 200.0, 6.489), std::tuple(30.0, 300.0, 9.2705)}) {
+    const double kicks = suitable_kicks(with_ratio(ratio), with(Q), eta);
+    EXPECT_TRUE(find_warnings(with_ratio(ratio), with(Q, kicks), eta).empty()) << ratio;
+  }
 }
 
 TEST(Bath, SuitableKicksNeverLock) {

@@ -153,7 +153,8 @@ class Expect(NodeTest):
         node = self.node('expect_sound', name, emulator='/said', for_s=2.0, **parameters)
         wait_until(lambda: status.get_num_connections(), 'it listens')
         for epoch, tau, numbers in statuses:
-            status.publish(EmulatorStatus(epoch=epoch, time=ModelTime(tau=tau), **dict({'real_time_factor': 1.0}, **numbers)))
+            numbers = dict({'real_time_factor': 1.0}, **numbers)
+            status.publish(EmulatorStatus(epoch=epoch, time=ModelTime(tau=tau), **numbers))
         wait_until(lambda: node.child.poll() is not None, 'it has judged')
         configuration.unregister()
         status.unregister()

@@ -71,6 +71,9 @@ class ChatterLaw {
   // From the start of the reference slide to a time s before the end of the sequence.
   Chatter at(const SlideSegment<double>& reference, double s, const Chatter& start) const;
 
+  // The last bounce before that time, at a whole n. If none is found: that time itself.
+  ChatterRun last_bounce(const SlideSegment<double>& reference, double s, const Chatter& start) const;
+
   // The end of a sequence that begins with the normal speed v on a slide from `at`, as if it took no time. Nothing if
   // it moves the tip by more than `allowed` [a/tau], lasts longer than `time` [tau], or outlasts the reaction.
   std::optional<Chatter> collapsed(const SpringConstants<double>& springs, double eta, const SlideState<double>& at,

@@ -56,7 +56,7 @@ struct Chattering {
   SlideSegment<double> reference;
   bool releases = false;  // at its end the surface no longer presses
   Chatter chatter{};      // at the start of the reference slide
-  ChatterRun run{};       // to the end
+  ChatterRun run{};       // to the end, or to the last bounce before it
   Sequence sequence{};
   Account begin;  // of the record under way
 };

@@ -106,6 +106,12 @@ Chatter ChatterLaw::at(const SlideSegment<double>& reference, double s, const Ch
   return ChatterIntegration<double>(constants_, reference).follow(s, start, false).chatter;
 }
 
+ChatterRun ChatterLaw::last_bounce(const SlideSegment<double>& reference, double s, const Chatter& start) const {
+  const ChatterIntegration<double> law(constants_, reference);
+  const ChatterPoint<double> now = law.begin(s, law.follow(s, start, false).chatter);
+  return law.exit_at(now, std::floor(now.y.n));
+}
+
 // The averaged law at its lowest order (docs/algorithm.md, "Collapse").
 std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& springs, double eta,
                                              const SlideState<double>& at, double v, double allowed,

@@ -51,8 +51,9 @@ void RateBins::spread(double begin, double end, double part) {
 }
 
 double RateBins::std_error(double age) const {
-  const double completed = std::min(age / width, static_cast<double>(kBins));
-  return standard_error(amount.data(), static_cast<std::size_t>(completed), width);
+  RateBins now = *this;  // nothing was added for a time: that counts as well
+  while (age >= now.width * static_cast<double>(kBins)) now.merge();
+  return standard_error(now.amount.data(), static_cast<std::size_t>(age / now.width), now.width);
 }
 
 namespace {

@@ -52,7 +52,7 @@ bool is_next(const SampleGrid& grid, std::uint64_t n, const ModelTime& now) {
 
 std::vector<ParameterError> find_faults(const Snapshot& s) {
   std::vector<ParameterError> faults = find_faults(s.settings);
-  for (const ParameterError& fault : find_faults(s.tip)) faults.push_back(fault);
+  for (const ParameterError& fault : find_faults(s.tip, s.settings.model)) faults.push_back(fault);
   const auto require = [&](bool holds, const char* name, double value, const char* reason) {
     if (!holds) faults.emplace_back(name, value, reason);
   };
@@ -86,7 +86,7 @@ const Settings& checked(const Settings& settings) {
 Run::Run(const RunSettings& settings)
     : settings_(checked(settings)),
       tip_(settings.model, settings.eta, settings.initial, settings.contact_tolerance),
-      holder_{{}, settings.initial.phase - settings.initial.X},
+      holder_{{}, settings.initial.phase - tip_.tip_state().X},  // a hammer has no extension
       friction_(settings.friction_window),
       grid_{settings.sample_period, 0, {}} {
   tip_.set_bath(settings.bath);

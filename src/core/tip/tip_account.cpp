@@ -68,9 +68,15 @@ double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
   return springs_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
 }
 
+// The flight from the last bounce of a chatter sequence that ends.
+Flight<double> Tip::last_flight(const Chattering& chattering) const {
+  const SequenceState at = sequence_state(chattering, chattering.run.s, chattering.run.chatter);
+  return {springs_, chattering.reference.eta(), leave_surface(model_, at.displaced, at.v)};
+}
+
 // In a flight the impulse is the change of the lateral velocity.
-Account Tip::flight_account(const Flying& flying, const FlightState<double>& q) const {
-  return {now_, q.U - flying.flight.start().state.U, 0.0, energy_of(springs_, eta_, q), 0};
+Account Tip::flight_account(const Flight<double>& flight, const FlightState<double>& q) const {
+  return {now_, q.U - flight.start().state.U, 0.0, energy_of(springs_, flight.eta(), q), 0};
 }
 
 // `to`: the point of the step at s.
@@ -102,7 +108,7 @@ Account Tip::account_at_begin() const {
 
 Account Tip::account() const {
   const double s = now_ - start_;
-  if (const Flying* flying = std::get_if<Flying>(&phase_)) return flight_account(*flying, flying->flight.at(s));
+  if (const Flying* flying = std::get_if<Flying>(&phase_)) return flight_account(flying->flight, flying->flight.at(s));
   if (const Sliding* sliding = std::get_if<Sliding>(&phase_)) {
     return contact_account(*sliding, s, sliding->step.point(s));
   }
@@ -116,13 +122,21 @@ Account Tip::account() const {
 Account Tip::account_at_end() const {
   if (const Flying* flying = std::get_if<Flying>(&phase_)) {
     const bool lands = flying->landing.outcome == SearchOutcome::impact;
-    return flight_account(*flying, lands ? flying->landing.jet.state : flying->flight.at(end_));
+    return flight_account(flying->flight, lands ? flying->landing.jet.state : flying->flight.at(end_));
   }
   if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
     const ChatterRun& run = chattering->run;
     const Chatter chatter = run.end == ChatterEnd::died ? settled(run.chatter) : run.chatter;
-    Account end = chatter_account(*chattering, end_, chatter);
-    end.count = whole_count(chatter.n);
+    Account end = chatter_account(*chattering, run.s, chatter);
+    const double flown = end_ - run.s;
+    if (flown > 0.0) {
+      const Flight<double> flight = last_flight(*chattering);
+      const Account flew = flight_account(flight, flight.at(flown));
+      end.impulse += flew.impulse;
+      end.energy = flew.energy;
+    } else {
+      end.count = whole_count(chatter.n);
+    }
     return end;
   }
   return account_at_begin();

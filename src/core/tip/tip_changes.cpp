@@ -35,14 +35,17 @@ void Tip::jump_holder_velocity(double eta) {
   split_record();
 }
 
-// Lets the next advance end the chatter sequence or contact at now().
+// Lets the next advance end the chatter sequence or contact at now(). The tip is then in the flight that the last bounce
+// began. Where that flight is over already, by the error of the law, it begins now.
 void Tip::end_slide_now() {
-  const double s = now_ - start_;
+  end_ = now_ - start_;
   if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->releases = true;
-  if (Chattering* chattering = std::get_if<Chattering>(&phase_)) {
-    chattering->run = {ChatterEnd::exits, s, chatter_now(*chattering)};
-  }
-  end_ = s;
+  Chattering* chattering = std::get_if<Chattering>(&phase_);
+  if (chattering == nullptr) return;
+  chattering->run = law_.last_bounce(chattering->reference, end_, chattering->chatter);
+  const double flown = end_ - chattering->run.s;
+  if (flown > 0.0 && last_flight(*chattering).gap(flown).g > 0.0) return;
+  chattering->run = {ChatterEnd::exits, end_, chatter_now(*chattering)};
 }
 
 // A command that leaves the tip on the surface ends the record within the phase.
@@ -54,18 +57,7 @@ void Tip::split_record() {
 
 void Tip::set_parameters(const Model& model) {
   if (model.gamma == model_.gamma && model.v_c == model_.v_c && model.y0 == model_.y0) return;
-  if (const Chattering* chattering = std::get_if<Chattering>(&phase_)) {
-    const Chatter chatter = chatter_now(*chattering);
-    const SequenceState sequence = sequence_state(*chattering, now_ - start_, chatter);
-    set_laws(model);
-    Chattering& last = refer_to(sequence.displaced, kSlideBits);
-    last.chatter = {sequence.v, chatter.n};
-    last.sequence = sequence.sequence;
-    last.run = {ChatterEnd::exits, 0.0, last.chatter};
-    end_ = 0.0;
-    return split_record();
-  }
-  if (has_jumped()) leave_now();
+  if (in_chatter() || has_jumped()) leave_now();
   const TipState state = tip_state();
   set_laws(model);
   if (in_contact()) return slide({state.phase, state.X, state.u});
@@ -78,11 +70,10 @@ bool Tip::has_jumped() const {
   return sliding != nullptr && sliding->step.eta() != eta_;
 }
 
-// Ends the chatter sequence or contact at once. The next advance reports the event.
+// Ends the chatter sequence or contact at once. The next advance reports the event, if it is one.
 void Tip::leave_now() {
   end_slide_now();
-  end_phase(nullptr);
-  pending_ = last_impact_;
+  if (end_phase(nullptr) != Outcome::flying) pending_ = last_impact_;
 }
 
 double Tip::set_model(ModelKind kind, double contact_tolerance) {

@@ -98,7 +98,8 @@ void Tip::begin_chatter(TipState bounce) {
   if (run.end == ChatterEnd::exits && run.chatter.n == 0.0) fly(bounce);
 }
 
-// It goes on along the next reference slide, dies, or exits into a flight.
+// It goes on along the next reference slide, dies, or exits into a flight. That flight may be under way, and the first
+// one: then no bounce has ended.
 Outcome Tip::end_chatter(const Chattering& chattering) {
   const ChatterRun run = chattering.run;
   const bool died = run.end == ChatterEnd::died;
@@ -108,6 +109,12 @@ Outcome Tip::end_chatter(const Chattering& chattering) {
     return Outcome::flying;
   }
   const TipState bounce = leave_surface(model_, end.displaced, end.v);
+  const double flown = end_ - run.s;
+  const TipState left = flown > 0.0 ? last_flight(chattering).tip_state(flown) : bounce;
+  if (flown > 0.0 && run.chatter.n == 0.0) {
+    fly(left);
+    return Outcome::flying;
+  }
   last_impact_ = {now_,
                   bounce.phase,
                   end.sequence.normal_speed,
@@ -115,7 +122,7 @@ Outcome Tip::end_chatter(const Chattering& chattering) {
                   end.sequence.loss,
                   ImpactKind::burst,
                   whole_count(run.chatter.n)};
-  died ? touch(constrained(bounce)) : fly(bounce);
+  died ? touch(constrained(bounce)) : fly(left);
   return Outcome::impact;
 }
 

@@ -14,7 +14,7 @@ double fall_of_energy(double first, double v) { return 0.5 * (first - v) * (firs
 
 }  // namespace
 
-std::vector<ParameterError> find_faults(const TipSnapshot& s) {
+std::vector<ParameterError> find_faults(const TipSnapshot& s, const Model& model) {
   std::vector<ParameterError> faults;
   const auto require = [&](bool holds, const char* name, double value, const char* reason) {
     if (!holds) faults.emplace_back(name, value, reason);
@@ -27,7 +27,7 @@ std::vector<ParameterError> find_faults(const TipSnapshot& s) {
     require(std::abs(value) <= most, name, value, "no run reaches it");
   };
   constexpr double kMost = 1000.0 * kMaxEta;
-  require_within("extension", s.state.X, kMost);
+  require_within("extension", s.state.X, kMost + longest_extension(model));
   require_within("u", s.state.u, kMost);
   require(s.state.g >= 0.0 && s.state.g <= kMost, "gap", s.state.g, "must not be negative, or beyond every run");
   require_within("gap_rate", s.state.g1, 10.0 * kMost);

@@ -165,6 +165,7 @@ TEST(Snapshot, OfTheWildestRunsHasNoFault) {
     settings.initial.u = -kMaxEta;
     settings.initial.X = 10.0;
     settings.initial.y = chance.within(1.0, 100.0);
+    if (chance.one_in(4.0)) settings.model.frequency_ratio = kMinFrequencyRatio, settings.model.y0 = -1e5;
     settings.bath.temperature = kMaxTemperature;
     settings.bath.quality_factor = chance.one_in(2.0) ? 0.0 : kMinQualityFactor;
     settings.sample_period = 0.01;

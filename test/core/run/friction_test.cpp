@@ -88,6 +88,16 @@ TEST(Friction, SaysNothingBeforeThereIsAnythingToSay) {
   EXPECT_TRUE(std::isnan(e.window_K_f));
 }
 
+// Whose error was that of the time with impacts for ever.
+TEST(Friction, AfterTheLastImpactItsErrorFallsAsItDoes) {
+  Friction friction = started(10.0, 1.0);
+  for (int i = 0; i < 100; ++i) friction.add(impact_at(i + 0.5, 1.0));
+  const FrictionEstimate e = friction.estimate(time_of(1e5), Segment());
+  EXPECT_NEAR(e.K_f, 1e-3, 1e-12);
+  EXPECT_GT(e.K_f_std_error, 0.3 * e.K_f);
+  EXPECT_LT(e.K_f_std_error, 3.0 * e.K_f);
+}
+
 TEST(Friction, ABurstCountsItsBounces) {
   Friction friction = started(10.0, 1.0);
   friction.add(impact_at(1.0, 0.5));

@@ -166,6 +166,16 @@ TEST(RunChange, OfTheBathOrTheDragVelocityBeginsTheBalanceAnew) {
   }
 }
 
+TEST(Run, TheHolderOfAHammerBeginsAboveItsTip) {
+  RunSettings settings = settings_at(0.5, 100);
+  settings.model.kind = ModelKind::hammer;
+  settings.initial.X = 0.07;
+  afm::Run run(settings);
+  Batch batch;
+  run.advance(batch);
+  EXPECT_EQ(batch.holder, settings.initial.phase);
+}
+
 // The holder is where its spring says, also after a change to the hammer, which moves it above the tip.
 TEST(RunChange, LeavesTheHolderWhereTheSpringOfTheTipEnds) {
   for (const double eta : {0.5, 3.4, -5.0}) {
