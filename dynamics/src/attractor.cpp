@@ -2,9 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "afm/dynamics/periodic_orbit.h"
@@ -61,7 +61,7 @@ class Observer {
   Mark mark() const { return {tip_.tip_state(), tip_.now(), impacts_}; }
   bool stopped() const { return failed_ || left_ == 0; }
   std::uint64_t left() const { return left_; }
-  double take_contact_time() { return std::exchange(in_contact_, 0.0); }
+  double contact_time() const { return in_contact_; }  // so far [tau]
 
  private:
   Tip& tip_;
@@ -73,9 +73,12 @@ class Observer {
 
 constexpr double kMostEventsPerTau = 2000.0;  // a choice: a tip that bounces has some tens
 
-// Counts of one period; zero if the orbit does not return.
+// Counts of one period; zero if the orbit does not return. It is seen twice from `begin` on; the tip was in contact for
+// `contact_before` until then [tau].
 struct Period {
   int marks = 0, impacts = 0, cells = 0;
+  ModelTime begin;
+  double contact_before = 0.0;
 };
 
 // Cells that the holder passes up to the nth mark. A bounce without speed returns within none.
@@ -97,6 +100,7 @@ int smallest_period(const std::vector<Mark>& marks, int n, double eta, double to
 Period find_period(Observer& observer, double eta, const ModelTime& limit, const AttractorSettings& settings) {
   if (!observer.next(limit)) return {};
   std::vector<Mark> marks{observer.mark()};
+  const double contact_before = observer.contact_time();
   int found = 0;
   while (static_cast<int>(marks.size()) <= 2 * settings.longest && observer.next(limit)) {
     marks.push_back(observer.mark());
@@ -106,39 +110,57 @@ Period find_period(Observer& observer, double eta, const ModelTime& limit, const
     if (n < 2 * found) continue;
     const int period = smallest_period(marks, found, eta, settings.tolerance);
     const int impacts = marks[static_cast<std::size_t>(period)].impacts - marks[0].impacts;
-    return {period, impacts, cells_until(marks, period, eta)};
+    return {period, impacts, cells_until(marks, period, eta), marks[0].time, contact_before};
   }
   return {};
 }
 
-// The exponents of a periodic orbit follow from the multipliers of one period.
+// A period of a periodic orbit, from one mark to the same one.
+struct Passage {
+  Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
+  std::array<double, 4> logarithms{};  // growth of the tangents that are kept orthonormal
+  double volume = 0.0;
+};
+
+Passage pass(Tip& tip, Tangents& tangents, const Period& period, const ModelTime& end, std::uint64_t& events) {
+  Passage p;
+  for (int marks = 0; marks < period.marks && tip.now() < end;) {
+    const Outcome outcome = tangents.advance(end);
+    if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
+    if (outcome != Outcome::flying) ++events;
+    p.J = tangents.jacobian() * p.J;
+    for (std::size_t i = 0; i < 4; ++i) p.logarithms[i] += tangents.growth().logarithms[i];
+    p.volume += tangents.growth().volume;
+    const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
+    if (single || outcome == Outcome::released) ++marks;
+  }
+  return p;
+}
+
+// The exponents of a periodic orbit follow from the multipliers of one period. Rounding hides small ones in the product
+// of many Jacobians; the tangents, which the first period turns into its directions, grow by them in the second.
 LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period) {
+  constexpr double kHidden = 1e-8;  // over the largest: half of the digits are left
   LyapunovSpectrum s;
   Tangents tangents(model, tip);
   const double duration = period.cells / std::abs(tip.eta());
   if (!tangents.start(2.0 * duration)) return s;
-  const ModelTime begin = tip.now(), end = begin + 1.5 * duration;
-  Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
-  double volume = 0.0;
-  for (int marks = 0; marks < period.marks && tip.now() < end;) {
-    const Outcome outcome = tangents.advance(end);
-    if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
-    if (outcome != Outcome::flying) ++s.events;
-    J = tangents.jacobian() * J;
-    volume += tangents.growth().volume;
-    const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
-    if (single || outcome == Outcome::released) ++marks;
-  }
-  s.outcome = J.allFinite() ? LyapunovOutcome::measured : LyapunovOutcome::no_number;
+  const ModelTime latest = tip.now() + 2.0 * duration;
+  while (tip.in_contact() && tip.now() < latest) tangents.advance(latest);  // a period begins at its end
+  pass(tip, tangents, period, tip.now() + 1.5 * duration, s.events);
+  const Passage p = pass(tip, tangents, period, tip.now() + 1.5 * duration, s.events);
+  s.outcome = p.J.allFinite() ? LyapunovOutcome::measured : LyapunovOutcome::no_number;
   if (s.outcome != LyapunovOutcome::measured) return s;
   s.rank = tangents.rank();
   s.duration = duration;
-  s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume / duration;
-  Eigen::Vector4d sizes = J.eigenvalues().cwiseAbs();
+  s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : p.volume / duration;
+  Eigen::Vector4d sizes = p.J.eigenvalues().cwiseAbs();
   std::sort(sizes.data(), sizes.data() + 4, std::greater<double>());
-  for (int i = 0; i < 4; ++i) {
-    s.exponents[static_cast<std::size_t>(i)] = i < s.rank ? std::log(sizes[i]) / duration : -kInfinity;
+  for (int i = 0; i < s.rank; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    s.exponents[k] = (sizes[i] > kHidden * sizes[0] ? std::log(sizes[i]) : p.logarithms[k]) / duration;
   }
+  for (int i = s.rank; i < 4; ++i) s.exponents[static_cast<std::size_t>(i)] = -kInfinity;
   return s;
 }
 
@@ -182,29 +204,57 @@ bool find_slow_period(const Model& model, Observer& observer, Tip& tip, const Mo
   return false;
 }
 
-// Turns per impact about the centre of the section, in the plane of extension and gap rate. For the hammer, whose
-// extension is 0, the phase replaces the extension.
+// Turns per impact about the centre of the points, in the plane of two coordinates, and by how much the turn of one
+// impact differs from that of another. A spread near 1 says that the centre is not within the curve in this plane.
+struct Turns {
+  double mean = kNaN, spread = kInfinity;
+};
+
+Turns turns_in_plane(const std::vector<Eigen::Vector4d>& points, int a, int b) {
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero(), square = Eigen::Vector4d::Zero();
+  const double n = static_cast<double>(points.size());
+  for (const Eigen::Vector4d& p : points) mean += p / n;
+  for (const Eigen::Vector4d& p : points) square += (p - mean).cwiseAbs2();
+  std::vector<double> steps;
+  double before = kNaN, cosine = 0.0, sine = 0.0;
+  for (const Eigen::Vector4d& p : points) {
+    const double angle = std::atan2((p[b] - mean[b]) / std::sqrt(square[b]), (p[a] - mean[a]) / std::sqrt(square[a]));
+    if (!std::isnan(before)) {
+      steps.push_back((angle - before) / kTwoPi);
+      cosine += std::cos(angle - before), sine += std::sin(angle - before);
+    }
+    before = angle;
+  }
+  const double middle = std::atan2(sine, cosine) / kTwoPi;
+  double sum = 0.0, least = 0.0, most = 0.0;
+  for (const double step : steps) {
+    const double beside = std::remainder(step - middle, 1.0);
+    sum += beside, least = std::min(least, beside), most = std::max(most, beside);
+  }
+  return {middle + sum / (n - 1.0), most - least};
+}
+
+// In the plane in which the points go round most evenly; NaN if they go round in none. The hammer has one.
 double rotation_number(const Model& model, Observer& observer, const ModelTime& limit) {
   constexpr std::size_t kRotationImpacts = 4000;  // a choice: the error of the mean is below 1/4000
-  std::vector<TipState> run;
-  while (run.size() < kRotationImpacts && observer.next(limit)) run.push_back(observer.mark().state);
-  if (run.size() < 2) return 0.0;
-  if (model.kind == ModelKind::hammer) {
-    for (TipState& s : run) s.X = section_difference(s, run.front())[0];
+  constexpr double kMostSpread = 0.9;             // a choice: 0.54 was the largest of a curve that goes round
+  constexpr int kPhase = 0, kExtension = 1, kVelocity = 2, kGapRate = 3;
+  std::vector<Eigen::Vector4d> points;
+  TipState first;
+  while (points.size() < kRotationImpacts && observer.next(limit)) {
+    const TipState state = observer.mark().state;
+    if (points.empty()) first = state;
+    points.push_back(section_difference(state, first));
   }
-  const double n = static_cast<double>(run.size());
-  double X = 0.0, g = 0.0, XX = 0.0, gg = 0.0, turns = 0.0;
-  for (const TipState& s : run) X += s.X / n, g += s.g1 / n;
-  for (const TipState& s : run) XX += (s.X - X) * (s.X - X), gg += (s.g1 - g) * (s.g1 - g);
-  const auto angle = [&](const TipState& s) {
-    return std::atan2((s.g1 - g) / std::sqrt(gg), (s.X - X) / std::sqrt(XX));
-  };
-  for (std::size_t i = 1; i < run.size(); ++i) {
-    const double step = (angle(run[i]) - angle(run[i - 1])) / kTwoPi;
-    turns += step - std::floor(step);
+  if (points.size() < 2) return kNaN;
+  Turns best = turns_in_plane(points, kPhase, kGapRate);
+  if (model.kind == ModelKind::oscillator) {
+    for (const int other : {kGapRate, kVelocity}) {
+      const Turns turns = turns_in_plane(points, kExtension, other);
+      if (turns.spread < best.spread) best = turns;
+    }
   }
-  const double mean = turns / (n - 1.0);
-  return std::min(mean, 1.0 - mean);
+  return best.spread < kMostSpread ? std::abs(std::remainder(best.mean, 1.0)) : kNaN;
 }
 
 // An exponent is zero, as on a torus or at a bifurcation, within 0.01/tau or within four standard errors. A choice: in
@@ -251,9 +301,9 @@ void describe_unrepeated(const Model& model, Observer& observer, Tip& tip, const
                          Attractor& found) {
   found.lyapunov = lyapunov(model, tip, {0.0, settings.duration, observer.left(), 0.0});
   found.kind = kind_of(found.lyapunov);
+  measure_longer(model, observer, tip, settings.duration, found);
   if (found.lyapunov.outcome != LyapunovOutcome::measured || found.kind == AttractorKind::chaotic) return;
   if (find_slow_period(model, observer, tip, tip.now() + settings.duration, found)) return;
-  measure_longer(model, observer, tip, settings.duration, found);
   if (found.kind == AttractorKind::quasi_periodic) {
     found.rotation_number = rotation_number(model, observer, tip.now() + settings.duration);
     return;
@@ -283,13 +333,14 @@ Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& 
     found.contact_share = kNaN;
     return found;
   }
-  observer.take_contact_time();
-  const ModelTime begin = tip.now();
+  ModelTime begin = tip.now();
+  double contact_before = observer.contact_time();
   const int impacts_before = observer.mark().impacts;
   const Period period = search_period(observer, tip, settings);
   const double seen = tip.now() - begin;
   if (observer.stopped() || !(seen > 0.0)) return found;
-  found.contact_share = observer.take_contact_time() / seen;
+  if (period.marks > 0) begin = period.begin, contact_before = period.contact_before;  // whole periods
+  found.contact_share = (observer.contact_time() - contact_before) / (tip.now() - begin);
   const int impacts = observer.mark().impacts - impacts_before;
   found.cells_per_impact = impacts > 0 ? std::abs(tip.eta()) * seen / impacts : 0.0;
   if (period.marks > 0) {

@@ -46,7 +46,8 @@ int bifurcation_sign(BifurcationKind kind, const PeriodicOrbit& orbit, double v_
   const Multipliers& m = orbit.multipliers;
   switch (kind) {
     case BifurcationKind::corner:
-      return orbit.slowest_impact < v_c ? -1 : 1;
+      return static_cast<int>(
+          std::count_if(orbit.speeds.begin(), orbit.speeds.end(), [&](double speed) { return speed < v_c; }));
     case BifurcationKind::saddle_node:
       return characteristic(m, 1.0) < 0.0 ? -1 : 1;
     case BifurcationKind::period_doubling:

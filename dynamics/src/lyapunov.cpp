@@ -79,7 +79,11 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
   }
   s.duration = tangents.carried_to() - begin;
   s.rank = tangents.rank();
-  if (s.duration > 0.0) growth.finish(model, s);
+  if (!(s.duration > 0.0)) {
+    if (s.outcome == LyapunovOutcome::measured) s.outcome = LyapunovOutcome::no_event;
+    return s;
+  }
+  growth.finish(model, s);
   if (s.outcome == LyapunovOutcome::measured && !has_numbers(s)) s.outcome = LyapunovOutcome::no_number;
   return s;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,6 +77,42 @@ Multipliers eigenvalues(const SectionJacobian<double>& J) {
     return equal ? a.imag() != b.imag() ? a.imag() > b.imag() : a.real() > b.real() : difference > 0.0;
   });
   return sorted;
+}
+
+// The eigenvalues of the product around the orbit. Rounding hides small ones in it: they follow from the factors of its
+// QR decomposition, in the frame that the iteration turns into the directions of the multipliers. Of a hidden pair that
+// is the modulus.
+Multipliers multipliers_of(const std::vector<MapStep>& steps) {
+  constexpr double kHidden = 1e-8;  // over the largest: half of the digits are left
+  constexpr int kRounds = 20;       // a choice: each turns the frame by the ratio of two multipliers
+  constexpr double kPair = 1.5;     // a choice: with less between two logarithms they are taken for a pair
+  SectionJacobian<double> J = SectionJacobian<double>::Identity();  // from the first point
+  for (const MapStep& step : steps) J = step.J * J;
+  Multipliers found = eigenvalues(J);
+  if (!J.allFinite() || std::abs(found[3]) > kHidden * std::abs(found[0])) return found;
+  Eigen::Matrix4d frame = Eigen::Matrix4d::Identity(), before = frame;
+  Eigen::Vector4d logarithms, signs;
+  for (int round = 0; round < kRounds; ++round) {
+    before = frame;
+    logarithms.setZero();
+    signs.setOnes();
+    for (const MapStep& step : steps) {
+      const Eigen::HouseholderQR<Eigen::Matrix4d> qr(step.J * frame);
+      frame = qr.householderQ();
+      const Eigen::Vector4d diagonal = qr.matrixQR().diagonal();
+      logarithms += diagonal.cwiseAbs().array().log().matrix();
+      signs = signs.cwiseProduct(diagonal.cwiseSign());
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    if (std::abs(found[k]) > kHidden * std::abs(found[0])) continue;
+    const double sign = signs[i] * (before.col(i).dot(frame.col(i)) < 0.0 ? -1.0 : 1.0);
+    const bool is_first = i < 3 && logarithms[i] - logarithms[i + 1] < kPair;
+    if (is_first) logarithms[i] = logarithms[i + 1] = 0.5 * (logarithms[i] + logarithms[i + 1]);
+    found[k] = sign * std::exp(logarithms[i]);
+  }
+  return found;
 }
 
 using Fine = DoubleDouble;
@@ -182,15 +219,14 @@ void measure(const PoincareMap& map, PeriodicOrbit& orbit) {
   orbit.residual = shot.residual();
   orbit.cells = static_cast<int>(std::lround(map.eta() * orbit.period));
   orbit.slowest_impact = orbit.clearance = std::numeric_limits<double>::infinity();
-  SectionJacobian<double> J = SectionJacobian<double>::Identity();  // around the orbit from its first point
   for (const MapStep& step : shot.steps) {
+    orbit.speeds.push_back(step.normal_speed);
     orbit.slowest_impact = std::min(orbit.slowest_impact, step.normal_speed);
-    J = step.J * J;
   }
   for (std::size_t i = 0; i < orbit.points.size(); ++i) {
     orbit.clearance = std::min(orbit.clearance, map.clearance(orbit.points[i], orbit.times[i]));
   }
-  orbit.multipliers = eigenvalues(J);
+  orbit.multipliers = multipliers_of(shot.steps);
 }
 
 PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot& shot) {

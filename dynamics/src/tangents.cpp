@@ -69,17 +69,19 @@ void Tangents::carry_bounce(double dt) {
   GapJet<double> landing = flight.gap(dt);
   landing.g1 = std::fmin(landing.g1, -std::numeric_limits<double>::min());
   const Reflection bounce = reflect(model_, tip_.eta(), landing);
-  carry(section_jacobian(model_, flight, dt, landing));
   const RestitutionJet<double> law = restitution_jet(model_, bounce.normal_speed);
-  growth_.volume = std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounce.after.g1);
+  const bool is_plastic = law.slope == 0.0;  // all gap rates become one
+  if (is_plastic) rank_ = std::min(rank_, section_dimension(model_) - 1);
+  carry(section_jacobian(model_, flight, dt, landing));
+  growth_.volume = is_plastic ? -std::numeric_limits<double>::infinity()
+                              : std::log(std::abs(law.slope) * law.restitution * start_.g1 / bounce.after.g1);
   restart(bounce.after);
 }
 
 // From the state of the tip: that of `bounce` differs by rounding, which an unstable orbit would amplify. A tip that
 // has begun a chatter sequence shows only its reference slide; then we use `bounce`.
 void Tangents::restart(const TipState& bounce) {
-  start_ = tip_.tip_state();
-  if (!(start_.g1 > 0.0)) start_ = bounce;
+  start_ = tip_.in_flight() ? tip_.tip_state() : bounce;
   since_ = tip_.now();
 }
 

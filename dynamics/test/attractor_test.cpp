@@ -38,6 +38,55 @@ TEST(Attractor, ExponentsOfAPeriodicOrbitAreThoseOfItsMultipliers) {
   EXPECT_NEAR(a.lyapunov.volume_rate, 4.0 * std::log(0.7), 1e-9);
 }
 
+// By the spectrum of the run, too. In the plane of extension and gap rate the first seems to have 0.494.
+TEST(Attractor, ARotationNumberIsThatOfEveryPlane) {
+  const double tori[][3] = {{2.5, 0.7, 0.46786}, {1.766, 0.459, 0.4165}, {3.738, 0.799, 0.4675}};
+  for (const auto& [eta, gamma, turns] : tori) {
+    BasinSettings settings;
+    settings.starts = 20;
+    settings.friction_duration = 10.0;
+    int seen = 0;
+    for (const Basin& basin : find_basins({eta, gamma, 0.05}, settings)) {
+      const Attractor& a = basin.first.attractor;
+      if (a.kind != AttractorKind::quasi_periodic) continue;
+      EXPECT_NEAR(a.rotation_number, turns, 4e-4) << eta;
+      ++seen;
+    }
+    EXPECT_GT(seen, 0) << eta;
+  }
+}
+
+// The product of 74 Jacobians has lost the least: it gave -1.265.
+TEST(Attractor, OfALongPeriodTheExponentsSumUpToTheVolumeToo) {
+  BasinSettings settings;
+  settings.starts = 6;
+  settings.friction_duration = 10.0;
+  int seen = 0;
+  for (const Basin& basin : find_basins({2.1139, 0.548, 0.05}, settings)) {
+    const Attractor& a = basin.first.attractor;
+    if (a.name() != "period-74") continue;
+    const auto& x = a.lyapunov.exponents;
+    EXPECT_NEAR(x[0] + x[1] + x[2] + x[3], a.lyapunov.volume_rate, 1e-3);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 1);
+}
+
+// It counted from the end of the transient on, so one orbit was "contact" or not by chance.
+TEST(Attractor, TheContactShareOfAPeriodIsThatOfTheOrbit) {
+  const Model model = model_with_cutoff(0.05);
+  AttractorSettings settings;
+  settings.transient = 500.0;
+  const Attractor first = find_attractor(model, 0.3, to_tip_state(model.H, start_at(0.3)), settings);
+  ASSERT_EQ(first.kind, AttractorKind::periodic);
+  for (const double later : {3.0, 7.0, 11.0}) {
+    settings.transient = 500.0 + later;
+    const Attractor a = find_attractor(model, 0.3, to_tip_state(model.H, start_at(0.3)), settings);
+    EXPECT_NEAR(a.contact_share, first.contact_share, 1e-6);
+    EXPECT_NEAR(a.lyapunov.exponents[1], first.lyapunov.exponents[1], 1e-3);
+  }
+}
+
 TEST(Attractor, ChaosHasAPositiveExponent) {
   for (const double eta : {0.5, 2.75, 3.4, 5.0, 7.0}) {
     const Attractor a = from_above(eta, 0.1 * eta);

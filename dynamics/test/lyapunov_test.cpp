@@ -48,6 +48,18 @@ TEST(Lyapunov, SumsUpToNothingInContact) {
   }
 }
 
+// After an impact that takes all of the gap rate the tip flies on, or rests. It followed an orbit of its own before.
+TEST(Lyapunov, OfPlasticImpactsIsTheLimit) {
+  for (const double eta : {26.4, 40.5, 78.1}) {
+    const LyapunovSpectrum plastic = lyapunov(model_with(0.0, 0.05), eta, start_at(eta));
+    const LyapunovSpectrum nearly = lyapunov(model_with(1e-13, 0.05), eta, start_at(eta));
+    ASSERT_EQ(plastic.outcome, LyapunovOutcome::measured) << eta;
+    EXPECT_EQ(plastic.rank, 3);
+    EXPECT_EQ(plastic.volume_rate, -INFINITY);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(plastic.exponents[i], nearly.exponents[i], 0.02) << eta;
+  }
+}
+
 // How far a neighbour is after a time, in parts of how far it was.
 double growth_of(const Tip& tip, const Model& model, double duration) {
   constexpr double kApart = 1e-11;

@@ -67,6 +67,23 @@ TEST(PeriodicOrbit, MultipliersMultiplyToTheRestitutions) {
   }
 }
 
+// Rounding hides the least in the product of so many Jacobians: it was 4e8 times as large.
+TEST(PeriodicOrbit, TheLeastMultiplierOfALongOrbitIsKnownToo) {
+  OrbitSearchSettings settings;
+  settings.longest = 23;
+  settings.trajectory = 20000;
+  settings.guesses = 30;
+  const Model model = model_with_cutoff(0.05);
+  int seen = 0;
+  for (const FoundOrbit& found : search_orbits(PoincareMap(model, 3.4), settings).orbits) {
+    if (found.orbit.length() < 13) continue;
+    const double volume = std::pow(model.gamma, 2.0 * static_cast<double>(found.orbit.length()));
+    EXPECT_NEAR(product(found.orbit.multipliers).real() / volume, 1.0, 1e-4) << found.orbit.length();
+    ++seen;
+  }
+  EXPECT_GT(seen, 10);
+}
+
 TEST(PeriodicOrbit, IsTheSameFromAnyOfItsPoints) {
   OrbitSearchSettings settings;
   settings.longest = 3;

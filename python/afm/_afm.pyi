@@ -1,4 +1,4 @@
-from typing import Any, Callable, Dict, Final, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Final, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -79,6 +79,7 @@ class Ensemble:
     def drag(self, eta: float) -> None: ...
     def __len__(self) -> int: ...
     def __getitem__(self, index: int) -> Tip: ...
+    def __iter__(self) -> Iterator[Tip]: ...
 
 class Run:
     def __init__(self, model: Model = ..., eta: float = ..., phase: float = ..., extension: float = ..., y: float = ...,

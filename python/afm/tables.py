@@ -1,5 +1,5 @@
 """What the tools of these names compute, as structured arrays with the tools' columns."""
-from typing import Callable, Dict, Optional, Union
+from typing import Callable, Dict, Optional, Sequence, Union
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from ._afm import Bath, Model
 from .arguments import array, count, number, numbers, seed_of, thread_count
 from .errors import ArgumentTypeError, ParameterError
 
-Axis = Union[float, np.ndarray]
+Axis = Union[float, Sequence[float], np.ndarray]
 _NAME = 'U16'  # of an attractor
 
 
@@ -96,7 +96,7 @@ def _laboratory(name):
 def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optional[Axis] = None,
                rest_height: Optional[Axis] = None, amplitude: Optional[Axis] = None,
                frequency_ratio: Optional[Axis] = None, model: Union[str, Model] = 'oscillator',
-               starts: Union[int, np.ndarray] = 200, seed: int = 1, transient: float = 500.0, duration: float = 500.0,
+               starts: Union[int, Sequence[Sequence[float]], np.ndarray] = 200, seed: int = 1, transient: float = 500.0, duration: float = 500.0,
                friction_duration: float = 1000.0, labels: bool = False, threads: int = 0):
     """What attractors there are, and from which starts.
 

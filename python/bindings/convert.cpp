@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/fault_list.h"
 
@@ -77,7 +78,9 @@ void check_eta(double eta) {
 double real(const char* name, const py::handle& value) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() == nullptr) return number;
+  const bool overflows = PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
   PyErr_Clear();
+  if (overflows) return std::numeric_limits<double>::infinity();
   refuse_type(name, value, "must be a number");
 }
 

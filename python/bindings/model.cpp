@@ -170,11 +170,17 @@ An object cannot be changed. Throws ParameterError.)");
   add_call(model);
   add_bath(m);
   add_units(m);
+  const auto of_eta = [](auto* function) {
+    return [function](const Model& of, const Bath& bath, double eta) {
+      check_eta(eta);
+      return function(of, bath, eta);
+    };
+  };
   m.def(
-      "kicks_lock", &kicks_lock, "model"_a, "bath"_a, "eta"_a = 0.0,
+      "kicks_lock", of_eta(&kicks_lock), "model"_a, "bath"_a, "eta"_a = 0.0,
       "Whether the kicks of the bath lock to the swing of the lateral spring: K_f may then be wrong by a fifth. Or to\n"
       "the drag at eta [a/tau]: K_f then depends on the start.");
-  m.def("suitable_kicks", &suitable_kicks, "model"_a, "bath"_a, "eta"_a = 0.0,
+  m.def("suitable_kicks", of_eta(&suitable_kicks), "model"_a, "bath"_a, "eta"_a = 0.0,
         "A rate of kicks [1/tau] that does not lock, for the model, the quality factors of the bath and eta [a/tau].");
 }
 

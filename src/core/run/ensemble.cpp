@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <system_error>
 #include <thread>
 
 namespace afm {
@@ -21,7 +22,10 @@ void on_threads(int threads, std::size_t n, const Work& work) {
     }
   };
   std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < all && i * share < n; ++i) helpers.emplace_back(take_shares);
+  try {
+    for (std::size_t i = 1; i < all && i * share < n; ++i) helpers.emplace_back(take_shares);
+  } catch (const std::system_error&) {  // the machine allows no more: those that there are take all
+  }
   take_shares();
   for (std::thread& helper : helpers) helper.join();
 }

@@ -22,7 +22,8 @@ struct PeriodicOrbit {
   double K_f = 0.0;              // [m_tip/tau]; NaN at eta = 0
   double residual = 0.0;         // largest |map(point) - next point| in any coordinate, of points that are rounded
   Multipliers multipliers{};
-  double slowest_impact = 0.0;  // normal speed [a/tau]; at the cutoff the law has a corner
+  std::vector<double> speeds;   // normal speeds of the impacts at their ends [a/tau]; at the cutoff the law has a corner
+  double slowest_impact = 0.0;  // the least of them
   double clearance = 0.0;       // smallest gap at a minimum on the way [a]; at 0 the orbit grazes
 
   std::size_t length() const { return points.size(); }
@@ -41,7 +42,8 @@ struct OrbitResult {
 };
 
 // From a first estimate of each point, in order. Guarantee: points, period and K_f of an orbit found are exact to the
-// last digit, by refinement in double-double. The multipliers have the accuracy of the Jacobians in double.
+// last digit, by refinement in double-double. The multipliers have the accuracy of the Jacobians in double, the small
+// ones of a long orbit too.
 OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess);
 
 // An orbit from known points, which stay as they are; its residual measures their error. Empty if a flight has no
