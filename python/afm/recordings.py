@@ -129,6 +129,10 @@ def _model_time(message: Any) -> ModelTime:
     return ModelTime(message.tau, message.phase)
 
 
+def _tau_between(begin: ModelTime, end: ModelTime) -> float:
+    return end.tau - begin.tau + (end.phase - begin.phase)
+
+
 def _of_epoch(kind: str, messages: Dict[int, Any], epoch: int) -> List[Any]:
     """Without a gap, up to the next epoch."""
     numbers = [seq for seq, m in messages.items() if m.epoch == epoch]
@@ -167,8 +171,7 @@ class Recording:
             if max(read[kind], default=0) > last:
                 warnings.warn('the run ends with its last message of Friction: %d batches of %s are behind it' %
                               (max(read[kind]) - last, kind), RuntimeWarning, stacklevel=3)
-        if by_node:
-            self._check_ends(read)
+        self._check_ends(read, by_node)
         begun = sorted({m.epoch for m in read['Snapshot'].values()})
         with_batches = {m.epoch for m in read['Friction'].values()}
         self.epochs: List[int] = sorted({*begun, *with_batches})
@@ -219,17 +222,19 @@ class Recording:
                                  [('tau', 'i8'), ('phase', 'f8'), ('eta', 'f8'), ('drag_velocity', 'f8')])
 
     @staticmethod
-    def _check_ends(read: Dict[str, Dict[int, Any]]) -> None:
+    def _check_ends(read: Dict[str, Dict[int, Any]], by_node: bool) -> None:
         """The node publishes a snapshot before the first batch, and whatever tells a model time after the batch up to
         which it tells."""
         frictions, snapshot = list(read['Friction'].values()), next(iter(read['Snapshot'].values()))
         first, last = frictions[0], frictions[-1]
-        if snapshot.epoch == first.epoch and _model_time(snapshot.time) < _model_time(first.begin):
+        if by_node and snapshot.epoch == first.epoch and _model_time(snapshot.time) < _model_time(first.begin):
             raise ValueError('messages of Friction are missing at the beginning, as the first snapshot says')
         for kind in ('EmulatorStatus', 'Applied', 'Snapshot'):
             for m in list(read[kind].values())[-1:]:
                 behind = _model_time(last.time) if m.epoch == last.epoch else ModelTime(0, 0.0)
-                if m.epoch >= last.epoch and _model_time(m.time) > behind:
+                waiting = 0.0 if by_node else _MOST_WAITING * _tau_between(_model_time(last.begin),
+                                                                           _model_time(last.time))
+                if m.epoch >= last.epoch and _tau_between(behind, _model_time(m.time)) > waiting:
                     raise ValueError('messages of Friction are missing at the end, as the last message of %s says' %
                                      kind)
 

@@ -208,6 +208,24 @@ TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
   EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
 }
 
+// More commands than messages that it waits for kept a recording from splitting.
+TEST_F(RecorderTest, ManyCommandsWithinABatchAreNoPause) {
+  std::promise<void> asked;
+  Recorder recorder(settings(1), [&, calls = 0]() mutable {
+    if (calls++ == 0) asked.set_value();
+    return true;
+  });
+  begin(recorder);
+  recorder.record(topic_, bytes_, Role::batch_end, true);
+  ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
+  recorder.record(topic_, bytes_, Role::snapshot, true);
+  for (int i = 0; i < 300; ++i) recorder.record(topic_, bytes_, Role::applied, true);
+  recorder.record(topic_, bytes_, Role::batch_end, true);
+  EXPECT_TRUE(recorder.stop().success);
+  EXPECT_EQ(messages_in_bag(), 4u);
+  EXPECT_EQ(messages_in_bag("run_001.bag"), 304u);
+}
+
 TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
   std::promise<void> asked;
   Recorder recorder(settings(1), [&, calls = 0]() mutable {

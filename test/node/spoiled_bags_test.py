@@ -176,6 +176,15 @@ class SpoiledBags(SpoiledBag):
                         (SOUND, ('IDENTICAL',), None, lambda: lose_by_rosbag(99)),
                         (UNCHECKED, ('101 messages of /afm/deflection',), None, lambda: lose_by_rosbag(101)))
 
+    def test_rosbag_record_lost_more_than_waits_in_a_queue(self):
+        """Other messages show up to which model time there were batches. Both checks once called it whole."""
+        def lose_by_rosbag(count, *others):
+            self.of('snapshot')[0].stamp += genpy.Duration(0, 1)
+            self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[-count:]),
+                        *(e for topic in others for e in self.of(topic)))
+        self.spoil_each((UNCHECKED, ('messages of /afm/friction at the end',), False, lambda: lose_by_rosbag(115)),
+                        (SOUND, ('IDENTICAL',), True, lambda: lose_by_rosbag(20)))
+
     def test_two_starts_on_simulated_time(self):
         """Their messages may have the same numbers and stamps, or stand between those of the other start."""
         def start_again(back, **values):
@@ -194,6 +203,9 @@ class SpoiledBags(SpoiledBag):
         for entry in self.entries[:2]:
             entry.edit(header__stamp=entry.message().header.stamp + genpy.Duration(3600))
         self.of('snapshot')[0].edit(header__seq=1)  # that of the recording, which begins later than the node
+        self.assert_reported(SOUND, 'IDENTICAL', sound=True)
+        for entry in self.entries:  # a part of a split one, whose stamps in the bag go on
+            entry.stamp += genpy.Duration(3600)
         self.assert_reported(SOUND, 'IDENTICAL', sound=True)
 
     def test_two_starts(self):
@@ -245,6 +257,8 @@ class SpoiledBags(SpoiledBag):
 
     def test_physics_alone_is_left(self):
         """Without a configuration or a snapshot the units are not known: bag_check once gave up."""
+        self.remove(*self.of('configuration'), *self.of('snapshot'), *self.of('applied'))
+        self.assertEqual(checks.bag_check(self.write()).code, SOUND)
         self.remove(*(entry for entry in self.entries if entry.topic not in ('friction', 'impacts')))
         self.assertEqual(checks.bag_check(self.write()).code, SOUND)
 

@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 // 134 MB: 7.7 s at 1 MHz of samples (docs/data/recording_cost.csv), longer than a disk stalls to flush its caches.
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
-constexpr std::size_t kMostHeld = 100;  // messages: a batch has three, and ten seconds of a pause have as many as this
+// Messages: a batch has three, and ten seconds of a pause have as many as this. Commands do not count: many may come
+// within a batch.
+constexpr std::size_t kMostHeld = 100;
 
 // The fault of a name that a user asks for, or nothing. A good one stays in its directory.
 std::string find_name_fault(const std::string& name) {
@@ -106,6 +108,7 @@ Recorder::Reply Recorder::start(const std::string& name) {
     bag_ = std::move(bag);
     path_ = bag_->path();
     error_.clear();
+    last_stamp_ = {};
     messages_ = 0;
     part_ = 0;
     full_ = begun_ = false;
@@ -153,7 +156,7 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const ros::S
     begun_ = true;
     push(lock, {message, {}, configuration_, applied_}, unhurried);
   } else if (begun_) {
-    push(lock, {message, {}, {}, {}, role == Role::batch_end}, unhurried);
+    push(lock, {message, {}, {}, {}, role == Role::batch_end, role == Role::applied}, unhurried);
   }
 }
 
@@ -214,7 +217,7 @@ std::string Recorder::take(const Item& item) {
       if (item.ends_batch) {
         begin_next_bag();
         write_held();
-      } else if (held_.size() >= kMostHeld) {
+      } else if (!item.is_command && ++held_others_ >= kMostHeld) {
         write_held();
         full_ = ask_for_snapshot_();
       }
@@ -222,7 +225,7 @@ std::string Recorder::take(const Item& item) {
   } catch (const std::exception& error) {
     return error.what();
   }
-  if (!full_ && item.ends_batch && is_full(item.stamp)) full_ = ask_for_snapshot_();  // this bag has a batch, too
+  if (!full_ && item.ends_batch && is_full()) full_ = ask_for_snapshot_();  // this bag has a batch, too
   return {};
 }
 
@@ -231,7 +234,7 @@ void Recorder::write(const Item& item) {
   const std::string trouble = bag_->check_space(item.message.bytes.num_bytes);
   if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
   if (item.is_snapshot() && bag_->messages() == 0) {
-    begin_stamp_ = item.stamp;
+    begin_ = std::chrono::steady_clock::now();
     write(item.configuration, item.stamp - ros::Duration(0, 2));
     write(item.applied, item.stamp - ros::Duration(0, 1));
   }
@@ -239,12 +242,15 @@ void Recorder::write(const Item& item) {
 }
 
 void Recorder::write_held() {
+  held_others_ = 0;
   for (const Item& item : std::exchange(held_, {})) write(item);
 }
 
-bool Recorder::is_full(const ros::Time& stamp) const {
+// Stamps would stand still while a wall clock that was set back catches up.
+bool Recorder::is_full() const {
   const bool is_large = settings_.split_bytes > 0 && bag_->bytes() >= settings_.split_bytes;
-  return is_large || (settings_.split_seconds > 0.0 && (stamp - begin_stamp_).toSec() >= settings_.split_seconds);
+  const double age = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return is_large || (settings_.split_seconds > 0.0 && age >= settings_.split_seconds);
 }
 
 void Recorder::begin_next_bag() {

@@ -2,6 +2,7 @@
 // every bag of a split one. A disk that fills up or fails ends the recording, never the node.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -62,7 +63,7 @@ class Recorder {
     Message message;
     ros::Time stamp;
     Message configuration, applied;  // of a snapshot: what a bag that begins with it holds before it
-    bool ends_batch = false;
+    bool ends_batch = false, is_command = false;
     bool is_snapshot() const { return configuration.topic != nullptr; }
   };
 
@@ -72,7 +73,7 @@ class Recorder {
   void write(const Message& message, const ros::Time& stamp);
   void write(const Item& item);
   void write_held();
-  bool is_full(const ros::Time& stamp) const;
+  bool is_full() const;
   void begin_next_bag();
   void finish(std::unique_lock<std::mutex>& lock, std::string error);
   bool splits() const { return settings_.split_bytes > 0 || settings_.split_seconds > 0.0; }
@@ -99,9 +100,10 @@ class Recorder {
   bool stopping_ = false, quitting_ = false;
   // of the thread alone
   std::uint32_t part_ = 0;
-  ros::Time begin_stamp_;
-  bool full_ = false;       // a snapshot was asked for
-  std::vector<Item> held_;  // from this snapshot on, until the end of a batch
+  std::chrono::steady_clock::time_point begin_;  // of the bag
+  bool full_ = false;                            // a snapshot was asked for
+  std::vector<Item> held_;                       // from this snapshot on, until the end of a batch
+  std::size_t held_others_ = 0;                  // of these, those that are no commands
   std::thread thread_;
 };
 

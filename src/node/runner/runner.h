@@ -55,7 +55,7 @@ class Runner {
   void stop_drag_without_commands();
   void play_commands();
   ModelTime time_after(double tau) const;  // from now(), at a sample if one is as near as rounding
-  double samples(double count) const;  // the time of so many [tau]
+  double samples(double count) const;      // the time of so many [tau]
 
   void serve_requests();
   Answer serve(Request& request);

@@ -4,6 +4,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <limits>
+#include <map>
 
 #include "afm/fingerprint.h"
 #include "afm/units.h"
@@ -112,16 +113,18 @@ void RunCheck::check_number(const Mark& before, const afm_emulator::Applied& app
 // Each stands in the snapshots of its epoch too. There is one an epoch, so its number is that of the epoch.
 void RunCheck::check_configurations() {
   if (!recording_.holds<afm_emulator::Configuration>()) return;
+  std::map<std::pair<std::uint64_t, std::uint32_t>, const Mark*> first;  // snapshot of an epoch
+  for (const Mark& c : marks_) {
+    if (c.snapshot) first.emplace(std::make_pair(c.number.start, c.snapshot->epoch), &c);
+  }
   const auto messages = recording_.read<afm_emulator::Configuration>();
   for (; messages->get() && !difference_; messages->next()) {
-    const auto same = [&](const Mark& c) {
-      return c.snapshot && c.number.start == messages->number().start && c.snapshot->epoch == messages->number().seq;
-    };
-    const auto found = std::find_if(marks_.begin(), marks_.end(), same);
-    if (found != marks_.end()) compare(*messages->get(), found->snapshot->configuration);
+    const auto found = first.find({messages->number().start, messages->number().seq});
+    if (found == first.end()) continue;
+    compare(*messages->get(), found->second->snapshot->configuration);
     if (difference_) {
-      difference_->time = "the beginning; \"simulated\" is what message " + std::to_string(found->number.seq) + " of " +
-                          recording_.topic<afm_emulator::Snapshot>() + " holds, and either may be wrong";
+      difference_->time = "the beginning; \"simulated\" is what message " + std::to_string(found->second->number.seq) +
+                          " of " + recording_.topic<afm_emulator::Snapshot>() + " holds, and either may be wrong";
     }
   }
 }
@@ -284,7 +287,8 @@ void RunCheck::check_batch() {
   const auto recorded = batches_->get();
   const Number number = batches_->number();
   const bool follows = batches_->lost() == 0 && !has_begun_;
-  lose("messages of " + recording_.topic<afm_emulator::Friction>(), batches_->lost());
+  lose("messages of " + recording_.topic<afm_emulator::Friction>(), batches_->lost(), batches_end_);
+  batches_end_ = to_text(recorded->time, recorded->epoch);
   check_without_friction();
   if (is_hole()) is_behind_hole_ = true;
   const auto deflection = of_batch(deflections_.get());
@@ -441,13 +445,14 @@ void RunCheck::compare(const Message& recorded, Message simulated) {
                            run_ ? to_text(applied_) : "none"};
 }
 
-void RunCheck::lose(const std::string& what, std::uint64_t count) {
+void RunCheck::lose(const std::string& what, std::uint64_t count, const std::string& after) {
   if (count == 0) return;
   const auto known = std::find_if(missing_.begin(), missing_.end(), [&](const Missing& m) { return m.what == what; });
   if (known != missing_.end()) {
     known->count += count;
   } else {
-    missing_.push_back({what, run_ ? to_text(to_message(run_->now()), applied_.epoch) : "the beginning", count});
+    const std::string now = run_ ? to_text(to_message(run_->now()), applied_.epoch) : "the beginning";
+    missing_.push_back({what, after.empty() ? now : after, count});
   }
 }
 

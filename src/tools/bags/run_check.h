@@ -104,7 +104,8 @@ class RunCheck {
   void take_next(Cursor<Message>* messages);
   template <class Message>
   void compare(const Message& recorded, Message simulated);
-  void lose(const std::string& what, std::uint64_t count);
+  // `after`: the model time of the first; empty: now
+  void lose(const std::string& what, std::uint64_t count, const std::string& after = "");
 
   const Recording& recording_;
   const Progress progress_;
@@ -132,6 +133,7 @@ class RunCheck {
   std::optional<Difference> difference_;
   Extent extent_;
   std::vector<Missing> missing_;
+  std::string batches_end_;  // model time up to which there were batches
 };
 
 }  // namespace afm::bags
