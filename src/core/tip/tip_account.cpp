@@ -144,11 +144,12 @@ Account Tip::account_at_end() const {
 
 Segment Tip::segment_to(const Account& end) const {
   const Account begin = account_at_begin();
+  const Chattering* chattering = std::get_if<Chattering>(&phase_);
   Segment s;
-  s.kind = in_chatter() ? SegmentKind::chatter : in_contact() ? SegmentKind::contact : SegmentKind::flight;
+  s.kind = chattering != nullptr ? SegmentKind::chatter : in_contact() ? SegmentKind::contact : SegmentKind::flight;
   s.begin = begin.time;
   s.end = end.time;
-  s.eta = eta_;
+  s.eta = chattering != nullptr ? chattering->reference.eta() : eta_;  // a holder that has jumped leaves it now
   s.impulse = end.impulse - begin.impulse;
   s.loss = end.loss - begin.loss;
   s.stored = end.energy - begin.energy;

@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "afm/detail/chatter.h"
 #include "support/random_runs.h"
 #include "support/recorded_run.h"
 #include "trials/energy_balance.h"
@@ -96,7 +97,8 @@ Impact next_event(double slowest, afm::Run& run) {
   return {};
 }
 
-// A flight by rounding, contact and chatter within their tolerance.
+// A flight by rounding, contact and chatter within their tolerance. A kick of the bath meets a tip that chatters within
+// its bounce, where two sequences may differ by all of it.
 TEST_P(Snapshots, ChangeTheNextEventLittle) {
   Chance chance(12);
   RunSettings settings = settings_of(GetParam());
@@ -122,10 +124,14 @@ TEST_P(Snapshots, ChangeTheNextEventLittle) {
     } else if (distances.size() >= 20) {  // the few that meet a crest differently are further off than any bound
       // in chatter as in docs/stability.md
       const bool chatters = phase.first == Phase::chatter;
-      if (chatters) {
-        EXPECT_LE(distances[distances.size() / 2], 4e-6);
+      const double typical = distances[distances.size() / 2], most = distances[distances.size() * 95 / 100];
+      if (chatters && settings.bath.is_on()) {
+        EXPECT_LE(typical, GetParam().contact_tolerance);
+        EXPECT_LE(most, 2.0 * detail::chatter_entry_speed(GetParam().contact_tolerance));
+      } else {
+        EXPECT_LE(typical, chatters ? 4e-6 : GetParam().contact_tolerance);
+        EXPECT_LE(most, chatters ? 2e-4 : GetParam().contact_tolerance);
       }
-      EXPECT_LE(distances[distances.size() * 95 / 100], chatters ? 2e-4 : GetParam().contact_tolerance);
     }
   }
 }
