@@ -42,10 +42,11 @@ void Tip::end_slide_now() {
   if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->releases = true;
   Chattering* chattering = std::get_if<Chattering>(&phase_);
   if (chattering == nullptr) return;
-  chattering->run = law_.last_bounce(chattering->reference, end_, chattering->chatter);
-  const double flown = end_ - chattering->run.s;
+  ChatterRun& run = chattering->run = law_.last_bounce(chattering->reference, end_, chattering->chatter);
+  if (run.chatter.n == 0.0) run.chatter.loss = -chattering->sequence.loss;  // none so far, not by a rounding either
+  const double flown = end_ - run.s;
   if (flown > 0.0 && last_flight(*chattering).gap(flown).g > 0.0) return;
-  chattering->run = {ChatterEnd::exits, end_, chatter_now(*chattering)};
+  run = {ChatterEnd::exits, end_, chatter_now(*chattering)};
 }
 
 // A command that leaves the tip on the surface ends the record within the phase.
