@@ -1,10 +1,7 @@
 #include "afm/dynamics/attractor.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "afm/dynamics/periodic_orbit.h"
@@ -115,52 +112,40 @@ Period find_period(Observer& observer, double eta, const ModelTime& limit, const
   return {};
 }
 
-// A period of a periodic orbit, from one mark to the same one.
-struct Passage {
-  Eigen::Matrix4d J = Eigen::Matrix4d::Identity();
-  std::array<double, 4> logarithms{};  // growth of the tangents that are kept orthonormal
-  double volume = 0.0;
-};
-
-Passage pass(Tip& tip, Tangents& tangents, const Period& period, const ModelTime& end, std::uint64_t& events) {
-  Passage p;
-  for (int marks = 0; marks < period.marks && tip.now() < end;) {
-    const Outcome outcome = tangents.advance(end);
-    if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
-    if (outcome != Outcome::flying) ++events;
-    p.J = tangents.jacobian() * p.J;
-    for (std::size_t i = 0; i < 4; ++i) p.logarithms[i] += tangents.growth().logarithms[i];
-    p.volume += tangents.growth().volume;
-    const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
-    if (single || outcome == Outcome::released) ++marks;
-  }
-  return p;
-}
-
-// The exponents of a periodic orbit follow from the multipliers of one period. Rounding hides small ones in the product
-// of many Jacobians; the tangents, which the first period turns into its directions, grow by them in the second.
+// The exponents of a periodic orbit follow from the multipliers of one period.
 LyapunovSpectrum exponents_of(const Model& model, Tip& tip, const Period& period) {
-  constexpr double kHidden = 1e-8;  // over the largest: half of the digits are left
   LyapunovSpectrum s;
   Tangents tangents(model, tip);
   const double duration = period.cells / std::abs(tip.eta());
   if (!tangents.start(2.0 * duration)) return s;
   const ModelTime latest = tip.now() + 2.0 * duration;
-  while (tip.in_contact() && tip.now() < latest) tangents.advance(latest);  // a period begins at its end
-  pass(tip, tangents, period, tip.now() + 1.5 * duration, s.events);
-  const Passage p = pass(tip, tangents, period, tip.now() + 1.5 * duration, s.events);
-  s.outcome = p.J.allFinite() ? LyapunovOutcome::measured : LyapunovOutcome::no_number;
+  while (tip.in_contact() && tip.now() < latest) {  // a period begins at its end
+    if (tangents.advance(latest) == Outcome::search_failed) return s;
+  }
+  const ModelTime end = tip.now() + 1.5 * duration;
+  std::vector<SectionJacobian<double>> jacobians;
+  double volume = 0.0;
+  bool are_finite = true;
+  for (int marks = 0; marks < period.marks && tip.now() < end;) {
+    const Outcome outcome = tangents.advance(end);
+    if (outcome == Outcome::search_failed || outcome == Outcome::time_limit) break;
+    if (outcome != Outcome::flying) ++s.events;
+    jacobians.push_back(tangents.jacobian());
+    are_finite = are_finite && jacobians.back().allFinite();
+    volume += tangents.growth().volume;
+    const bool single = outcome == Outcome::impact && tip.last_impact().kind == ImpactKind::impact;
+    if (single || outcome == Outcome::released) ++marks;
+  }
+  s.outcome = are_finite ? LyapunovOutcome::measured : LyapunovOutcome::no_number;
   if (s.outcome != LyapunovOutcome::measured) return s;
   s.rank = tangents.rank();
   s.duration = duration;
-  s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : p.volume / duration;
-  Eigen::Vector4d sizes = p.J.eigenvalues().cwiseAbs();
-  std::sort(sizes.data(), sizes.data() + 4, std::greater<double>());
-  for (int i = 0; i < s.rank; ++i) {
+  s.volume_rate = s.rank < section_dimension(model) ? -kInfinity : volume / duration;
+  const Multipliers multipliers = multipliers_of(jacobians);
+  for (int i = 0; i < 4; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    s.exponents[k] = (sizes[i] > kHidden * sizes[0] ? std::log(sizes[i]) : p.logarithms[k]) / duration;
+    s.exponents[k] = i < s.rank ? std::log(std::abs(multipliers[k])) / duration : -kInfinity;
   }
-  for (int i = s.rank; i < 4; ++i) s.exponents[static_cast<std::size_t>(i)] = -kInfinity;
   return s;
 }
 
@@ -225,6 +210,8 @@ Turns turns_in_plane(const std::vector<Eigen::Vector4d>& points, int a, int b) {
     }
     before = angle;
   }
+  constexpr std::size_t kFewest = 200;  // a choice: fewer do not show the spread
+  if (steps.size() < kFewest || steps.size() + 1 < points.size()) return {};
   const double middle = std::atan2(sine, cosine) / kTwoPi;
   double sum = 0.0, least = 0.0, most = 0.0;
   for (const double step : steps) {
@@ -246,7 +233,6 @@ double rotation_number(const Model& model, Observer& observer, const ModelTime& 
     if (points.empty()) first = state;
     points.push_back(section_difference(state, first));
   }
-  if (points.size() < 2) return kNaN;
   Turns best = turns_in_plane(points, kPhase, kGapRate);
   if (model.kind == ModelKind::oscillator) {
     for (const int other : {kGapRate, kVelocity}) {
@@ -274,8 +260,10 @@ void measure_longer(const Model& model, const Observer& observer, const Tip& tip
   for (int i = 0; i < kMost && found.kind == AttractorKind::undecided && found.lyapunov.exponents[0] > kNoGrowth; ++i) {
     duration *= kLonger;
     Tip copy = tip;
-    found.lyapunov = lyapunov(model, copy, {0.0, duration, observer.left(), 0.0});
-    found.kind = kind_of(found.lyapunov);
+    const LyapunovSpectrum longer = lyapunov(model, copy, {0.0, duration, observer.left(), 0.0});
+    if (longer.outcome != LyapunovOutcome::measured) return;
+    found.lyapunov = longer;
+    found.kind = kind_of(longer);
   }
 }
 

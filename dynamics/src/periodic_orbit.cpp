@@ -79,42 +79,6 @@ Multipliers eigenvalues(const SectionJacobian<double>& J) {
   return sorted;
 }
 
-// The eigenvalues of the product around the orbit. Rounding hides small ones in it: they follow from the factors of its
-// QR decomposition, in the frame that the iteration turns into the directions of the multipliers. Of a hidden pair that
-// is the modulus.
-Multipliers multipliers_of(const std::vector<MapStep>& steps) {
-  constexpr double kHidden = 1e-8;  // over the largest: half of the digits are left
-  constexpr int kRounds = 20;       // a choice: each turns the frame by the ratio of two multipliers
-  constexpr double kPair = 1.5;     // a choice: with less between two logarithms they are taken for a pair
-  SectionJacobian<double> J = SectionJacobian<double>::Identity();  // from the first point
-  for (const MapStep& step : steps) J = step.J * J;
-  Multipliers found = eigenvalues(J);
-  if (!J.allFinite() || std::abs(found[3]) > kHidden * std::abs(found[0])) return found;
-  Eigen::Matrix4d frame = Eigen::Matrix4d::Identity(), before = frame;
-  Eigen::Vector4d logarithms, signs;
-  for (int round = 0; round < kRounds; ++round) {
-    before = frame;
-    logarithms.setZero();
-    signs.setOnes();
-    for (const MapStep& step : steps) {
-      const Eigen::HouseholderQR<Eigen::Matrix4d> qr(step.J * frame);
-      frame = qr.householderQ();
-      const Eigen::Vector4d diagonal = qr.matrixQR().diagonal();
-      logarithms += diagonal.cwiseAbs().array().log().matrix();
-      signs = signs.cwiseProduct(diagonal.cwiseSign());
-    }
-  }
-  for (int i = 0; i < 4; ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    if (std::abs(found[k]) > kHidden * std::abs(found[0])) continue;
-    const double sign = signs[i] * (before.col(i).dot(frame.col(i)) < 0.0 ? -1.0 : 1.0);
-    const bool is_first = i < 3 && logarithms[i] - logarithms[i + 1] < kPair;
-    if (is_first) logarithms[i] = logarithms[i + 1] = 0.5 * (logarithms[i] + logarithms[i + 1]);
-    found[k] = sign * std::exp(logarithms[i]);
-  }
-  return found;
-}
-
 using Fine = DoubleDouble;
 
 struct FinePoint {
@@ -226,7 +190,9 @@ void measure(const PoincareMap& map, PeriodicOrbit& orbit) {
   for (std::size_t i = 0; i < orbit.points.size(); ++i) {
     orbit.clearance = std::min(orbit.clearance, map.clearance(orbit.points[i], orbit.times[i]));
   }
-  orbit.multipliers = multipliers_of(shot.steps);
+  std::vector<SectionJacobian<double>> jacobians;
+  for (const MapStep& step : shot.steps) jacobians.push_back(step.J);
+  orbit.multipliers = multipliers_of(jacobians);
 }
 
 PeriodicOrbit describe(const PoincareMap& map, const Points& points, const Shot& shot) {
@@ -248,6 +214,45 @@ double damped_step(const PoincareMap& map, const Points& points, const Eigen::Ve
 }
 
 }  // namespace
+
+// The small ones follow from the factors of the QR decomposition, in a frame that the iteration turns into the
+// directions of the multipliers. Of a pair the frame turns for ever, and the modulus alone is known.
+Multipliers multipliers_of(const std::vector<SectionJacobian<double>>& jacobians) {
+  constexpr double kHidden = 1e-8;  // over the largest: half of the digits are left
+  constexpr int kRounds = 20;       // a choice: each turns the frame by the ratio of two multipliers
+  constexpr double kTurns = 0.999;  // a choice: the cosine of the last turn of a direction that is found
+  SectionJacobian<double> J = SectionJacobian<double>::Identity();
+  for (const SectionJacobian<double>& step : jacobians) J = step * J;
+  Multipliers found = eigenvalues(J);
+  if (!J.allFinite() || std::abs(found[3]) > kHidden * std::abs(found[0])) return found;
+  Eigen::Matrix4d frame = Eigen::Matrix4d::Identity(), before;
+  frame.col(1).swap(frame.col(3));  // the hammer has phase and gap rate alone
+  Eigen::Vector4d logarithms, signs;
+  for (int round = 0; round < kRounds; ++round) {
+    before = frame;
+    logarithms.setZero();
+    signs.setOnes();
+    for (const SectionJacobian<double>& step : jacobians) {
+      const Eigen::HouseholderQR<Eigen::Matrix4d> qr(step * frame);
+      frame = qr.householderQ();
+      const Eigen::Vector4d diagonal = qr.matrixQR().diagonal();
+      logarithms += diagonal.cwiseAbs().array().log().matrix();
+      signs = signs.cwiseProduct(diagonal.cwiseSign());
+    }
+  }
+  const auto is_hidden = [&](int i) {
+    return std::abs(found[static_cast<std::size_t>(i)]) <= kHidden * std::abs(found[0]);
+  };
+  for (int i = 0; i < 4; ++i) {
+    if (!is_hidden(i)) continue;
+    const double turn = before.col(i).dot(frame.col(i));
+    const bool is_pair = i < 3 && std::isfinite(logarithms[i + 1]) && std::abs(turn) < kTurns;
+    const double logarithm = is_pair ? 0.5 * (logarithms[i] + logarithms[i + 1]) : logarithms[i];
+    found[static_cast<std::size_t>(i)] = signs[i] * (turn < 0.0 ? -1.0 : 1.0) * std::exp(logarithm);
+    if (is_pair) found[static_cast<std::size_t>(++i)] = std::exp(logarithm);
+  }
+  return found;
+}
 
 OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& guess) {
   Points points = guess;

@@ -67,6 +67,25 @@ TEST(PeriodicOrbit, MultipliersMultiplyToTheRestitutions) {
   }
 }
 
+// Two of its four directions are held.
+TEST(PeriodicOrbit, TheLeastMultiplierOfALongOrbitOfTheHammerIsKnownToo) {
+  OrbitSearchSettings settings;
+  settings.longest = 11;
+  settings.trajectory = 20000;
+  settings.guesses = 30;
+  const Model model = hammer();
+  int seen = 0;
+  for (const FoundOrbit& found : search_orbits(PoincareMap(model, 3.2), settings).orbits) {
+    const Multipliers& m = found.orbit.multipliers;
+    if (found.orbit.length() < 9 || found.orbit.slowest_impact < model.v_c) continue;
+    const double volume = std::pow(model.gamma, 2.0 * static_cast<double>(found.orbit.length()));
+    EXPECT_NEAR(m[0].real() * m[1].real() / volume, 1.0, 1e-6) << found.orbit.length();
+    EXPECT_EQ(m[2], 0.0);
+    ++seen;
+  }
+  EXPECT_GT(seen, 3);
+}
+
 // Rounding hides the least in the product of so many Jacobians: it was 4e8 times as large.
 TEST(PeriodicOrbit, TheLeastMultiplierOfALongOrbitIsKnownToo) {
   OrbitSearchSettings settings;

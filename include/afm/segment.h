@@ -18,7 +18,9 @@ struct Segment {
   ModelTime begin, end;     // equal for an impact and a kick
   double eta = 0.0;         // drag velocity throughout [a/tau]
   double impulse = 0.0;     // of the holder's lateral force on the tip [m_tip a/tau]
-  double loss = 0.0;        // energy lost in impacts [m_tip a^2/tau^2]
+  // energy lost in impacts [m_tip a^2/tau^2]; below zero by a part of a bounce where a record of chatter began within
+  // the bounce in which the sequence is cut
+  double loss = 0.0;
   double heat = 0.0;        // given to the bath [m_tip a^2/tau^2]
   double stored = 0.0;      // change of the energy in springs and motion, in the lab [m_tip a^2/tau^2]
   std::uint64_t count = 0;  // impacts

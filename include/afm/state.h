@@ -82,10 +82,11 @@ FreeState to_free_state(double H, const TipState& state);
 inline FreeState lowered_tip(double H) { return {0.5, 0.0, -H, 0.0, 0.0}; }
 
 // One entry of the impact log. Velocities are those before the impact. A burst is the event of a whole chatter sequence
-// and happens at its end: time, place and tangential velocity are those there. Its normal speed is the one with which
-// the sequence begins, after the impact that was reported before. Loss and count are those of all its bounces. A
-// collapse (docs/algorithm.md) includes the impact before them: its normal speed is that before this impact, or right
-// after the kick that starts it.
+// and happens at its end: time, place and tangential velocity are those there. Where a kick or a change cuts it, place
+// and tangential velocity are those of its last bounce. Its normal speed is the one with which the sequence begins,
+// after the impact that was reported before. Loss and count are those of all its bounces. A collapse
+// (docs/algorithm.md) includes the impact before them: its normal speed is that before this impact, or right after the
+// kick that starts it.
 struct Impact {
   ModelTime time;
   double surface_phase = 0.0;        // [a] in [0, 1)

@@ -229,11 +229,13 @@ class Recording:
         first, last = frictions[0], frictions[-1]
         if by_node and snapshot.epoch == first.epoch and _model_time(snapshot.time) < _model_time(first.begin):
             raise ValueError('messages of Friction are missing at the beginning, as the first snapshot says')
+        applied = list(read['Applied'].values())[-1]
+        whole = max(applied.samples_per_batch * applied.sample_period_tau,
+                    _tau_between(_model_time(last.begin), _model_time(last.time)))
         for kind in ('EmulatorStatus', 'Applied', 'Snapshot'):
             for m in list(read[kind].values())[-1:]:
                 behind = _model_time(last.time) if m.epoch == last.epoch else ModelTime(0, 0.0)
-                waiting = 0.0 if by_node else _MOST_WAITING * _tau_between(_model_time(last.begin),
-                                                                           _model_time(last.time))
+                waiting = 0.0 if by_node else (_MOST_WAITING + 0.5) * whole
                 if m.epoch >= last.epoch and _tau_between(behind, _model_time(m.time)) > waiting:
                     raise ValueError('messages of Friction are missing at the end, as the last message of %s says' %
                                      kind)

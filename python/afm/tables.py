@@ -96,8 +96,9 @@ def _laboratory(name):
 def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optional[Axis] = None,
                rest_height: Optional[Axis] = None, amplitude: Optional[Axis] = None,
                frequency_ratio: Optional[Axis] = None, model: Union[str, Model] = 'oscillator',
-               starts: Union[int, Sequence[Sequence[float]], np.ndarray] = 200, seed: int = 1, transient: float = 500.0, duration: float = 500.0,
-               friction_duration: float = 1000.0, labels: bool = False, threads: int = 0):
+               starts: Union[int, Sequence[Sequence[float]], np.ndarray] = 200, seed: int = 1,
+               transient: float = 500.0, duration: float = 500.0, friction_duration: float = 1000.0,
+               labels: bool = False, threads: int = 0):
     """What attractors there are, and from which starts.
 
     Points and models as of friction_curve(); transient, duration, friction_duration [tau]. Several points share the

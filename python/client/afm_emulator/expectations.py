@@ -91,29 +91,37 @@ def seconds_of(stamp, tau_s):
 class Follower:
     """Follows a topic of the emulator until a condition on its messages holds or the wall clock says that it is
     enough. The messages are those of the latest epoch: after a reset it begins again. `earlier` has the last of each
-    epoch before it. An emulator that is started anew fails the test."""
+    epoch before it. An emulator that is started anew fails the test; of a latched topic another one must tell, as what
+    was published before comes after the latest message."""
 
-    def __init__(self, topic, kind):
+    def __init__(self, topic, kind, is_latched=False):
         self.messages, self.earlier, self.news = [], [], threading.Condition()
-        self.topic, self.begins_anew = topic, False
+        self.topic, self.is_latched, self.last, self.begins_anew = topic, is_latched, None, False
         self.subscription = Subscription(topic, kind, self._take, buff_size=1 << 22)
 
     def _take(self, message):
         with self.news:
-            self.begins_anew |= bool(self.messages) and message.header.seq < self.messages[-1].header.seq
+            comes_again = self.last is not None and message.header.seq <= self.last.header.seq
+            if comes_again and self.is_latched:
+                return
+            self.begins_anew |= comes_again
+            self.last = message
             if self.messages and message.epoch != self.messages[-1].epoch:
                 self.earlier.append(self.messages[-1])
                 self.messages.clear()
             self.messages.append(message)
             self.news.notify_all()
 
+    def check(self):
+        if self.begins_anew:
+            raise AssertionError('%s: the emulator was started again while it was tested' % self.topic)
+
     def wait_for(self, condition, timeout_s):
         """Whether it came true of the messages so far in that time, and these."""
         end = time.monotonic() + timeout_s
         while True:
             with self.news:
-                if self.begins_anew:
-                    raise AssertionError('%s: the emulator was started again while it was tested' % self.topic)
+                self.check()
                 came_true = bool(condition(self.messages))
                 if came_true or time.monotonic() > end or rospy.is_shutdown():
                     return came_true, list(self.messages)
@@ -123,7 +131,7 @@ class Follower:
 
 def configuration_of(emulator, timeout_s):
     """The emulator's Configuration, once it is there."""
-    follower = Follower(emulator + '/configuration', Configuration)
+    follower = Follower(emulator + '/configuration', Configuration, is_latched=True)
     _, messages = follower.wait_for(bool, timeout_s)
     follower.subscription.close()
     if not messages:

@@ -134,6 +134,9 @@ Account Tip::account_at_end() const {
       const Account flew = flight_account(flight, flight.at(flown));
       end.impulse += flew.impulse;
       end.energy = flew.energy;
+    }
+    if (run.end != ChatterEnd::died && chatter.n == 0.0) {
+      end.loss = 0.0;  // no bounce has ended: not even a rounding is lost
     } else {
       end.count = whole_count(chatter.n);
     }

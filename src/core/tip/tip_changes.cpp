@@ -35,17 +35,20 @@ void Tip::jump_holder_velocity(double eta) {
   split_record();
 }
 
-// Lets the next advance end the chatter sequence or contact at now(). The tip is then in the flight that the last bounce
-// began. Where that flight is over already, by the error of the law, it begins now.
+// Lets the next advance end the chatter sequence or contact at now(). The tip is then in the flight that the last
+// bounce began. The flight begins now where that one is over already, by the error of the law, or where it would take
+// back what was counted as lost in the first bounce before a command.
 void Tip::end_slide_now() {
   end_ = now_ - start_;
   if (Sliding* sliding = std::get_if<Sliding>(&phase_)) sliding->releases = true;
   Chattering* chattering = std::get_if<Chattering>(&phase_);
   if (chattering == nullptr) return;
   ChatterRun& run = chattering->run = law_.last_bounce(chattering->reference, end_, chattering->chatter);
-  if (run.chatter.n == 0.0) run.chatter.loss = -chattering->sequence.loss;  // none so far, not by a rounding either
+  const bool is_first = run.chatter.n == 0.0;
+  if (is_first) run.chatter.loss = -chattering->sequence.loss;  // none so far, not by a rounding either
   const double flown = end_ - run.s;
-  if (flown > 0.0 && last_flight(*chattering).gap(flown).g > 0.0) return;
+  const bool takes_back = is_first && chattering->begin.loss != 0.0;
+  if (flown > 0.0 && !takes_back && last_flight(*chattering).gap(flown).g > 0.0) return;
   run = {ChatterEnd::exits, end_, chatter_now(*chattering)};
 }
 

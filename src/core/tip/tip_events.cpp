@@ -111,7 +111,7 @@ Outcome Tip::end_chatter(const Chattering& chattering) {
   const TipState bounce = leave_surface(model_, end.displaced, end.v);
   const double flown = end_ - run.s;
   const TipState left = flown > 0.0 ? last_flight(chattering).tip_state(flown) : bounce;
-  if (flown > 0.0 && run.chatter.n == 0.0) {
+  if (!died && run.chatter.n == 0.0) {
     fly(left);
     return Outcome::flying;
   }

@@ -27,7 +27,7 @@ class Recorder {
     std::string directory;
     std::uint64_t reserve_bytes;
     std::uint64_t split_bytes;  // a new bag after so much; 0: never
-    double split_seconds;       // of stamps; 0: never
+    double split_seconds;       // of wall time; 0: never
     rosbag::CompressionType compression;
   };
   struct Reply {

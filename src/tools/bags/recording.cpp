@@ -147,13 +147,16 @@ std::optional<std::uint32_t> batches_between(const Recording& before, const Reco
   return first - last - 1;
 }
 
-// About how many batches like this one lie between two model times; at least one, unless there is no time between.
+// About how many whole batches, or batches like this one, lie between two model times; at least one, unless there is no
+// time between.
 std::uint64_t batches_within(const afm_emulator::ModelTime& from, const afm_emulator::ModelTime& to,
-                             const afm_emulator::Friction& batch) {
+                             const afm_emulator::Friction& batch, const afm_emulator::Applied* applied) {
   const auto tau = [](const afm_emulator::ModelTime& a, const afm_emulator::ModelTime& b) {
     return static_cast<double>(b.tau - a.tau) + (b.phase - a.phase);
   };
-  const double time = tau(from, to), length = tau(batch.begin, batch.time);
+  const double whole =
+      applied == nullptr ? 0.0 : static_cast<double>(applied->samples_per_batch) * applied->sample_period_tau;
+  const double time = tau(from, to), length = std::max(tau(batch.begin, batch.time), whole);
   if (!(time > 0.0)) return 0;
   return length > 0.0 && time < kMostTold * length ? std::max(1LL, std::llround(time / length)) : 1;
 }
@@ -274,7 +277,7 @@ std::uint64_t Recording::batches_proved_at_beginning() const {
   const auto snapshot = first<afm_emulator::Snapshot>();
   if (!is_by_node() || !batch || !snapshot || batch->epoch != snapshot->epoch) return 0;
   if (starts()->of(batch->header.stamp) != starts()->of(snapshot->header.stamp)) return 0;
-  return batches_within(snapshot->time, batch->begin, *batch);
+  return batches_within(snapshot->time, batch->begin, *batch, &snapshot->applied);
 }
 
 // The node publishes a status, a command and a snapshot after the batch up to which they tell.
@@ -282,14 +285,16 @@ std::uint64_t Recording::batches_proved_at_end() const {
   const auto batch = last<afm_emulator::Friction>();
   if (!batch) return 0;
   std::uint64_t most = 0;
+  const auto applied = last<afm_emulator::Applied>();
   const auto hear = [&](const auto& message) {
     if (!message || starts()->of(batch->header.stamp) != starts()->of(message->header.stamp)) return;
     if (message->epoch < batch->epoch) return;
     const bool is_reset = message->epoch > batch->epoch;
-    most = std::max(most, batches_within(is_reset ? afm_emulator::ModelTime() : batch->time, message->time, *batch));
+    most = std::max(
+        most, batches_within(is_reset ? afm_emulator::ModelTime() : batch->time, message->time, *batch, applied.get()));
   };
   hear(last<afm_emulator::EmulatorStatus>());
-  hear(last<afm_emulator::Applied>());
+  hear(applied);
   hear(last<afm_emulator::Snapshot>());
   return most;
 }

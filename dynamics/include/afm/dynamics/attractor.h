@@ -38,7 +38,7 @@ struct Attractor {
   double cells_per_impact = 0.0;  // 0 without impacts
   // if quasi-periodic: turns per impact about the centre of the section, in [0, 1/2]; NaN if no plane shows them
   double rotation_number = 0.0;
-  LyapunovSpectrum lyapunov;      // if periodic: logarithms of the multipliers over the period
+  LyapunovSpectrum lyapunov;  // if periodic: logarithms of the multipliers over the period
 
   // period-N, quasi-periodic, chaotic, contact, rest, undecided
   std::string name() const;

@@ -13,6 +13,10 @@ namespace afm {
 
 using Multipliers = std::array<std::complex<double>, 4>;  // largest first; of a pair, that with positive imaginary part
 
+// The eigenvalues of the product J_n ... J_1 around an orbit. Guarantee: small ones too have the accuracy of the
+// Jacobians; rounding would hide them in the product. Of a small pair that is the modulus.
+Multipliers multipliers_of(const std::vector<SectionJacobian<double>>& jacobians);
+
 struct PeriodicOrbit {
   std::vector<TipState> points;  // just after each impact; the first has the smallest phase
   std::vector<double> times;     // of the flights from each to the next [tau]
@@ -22,8 +26,8 @@ struct PeriodicOrbit {
   double K_f = 0.0;              // [m_tip/tau]; NaN at eta = 0
   double residual = 0.0;         // largest |map(point) - next point| in any coordinate, of points that are rounded
   Multipliers multipliers{};
-  std::vector<double> speeds;   // normal speeds of the impacts at their ends [a/tau]; at the cutoff the law has a corner
-  double slowest_impact = 0.0;  // the least of them
+  std::vector<double> speeds;   // normal speeds of the impacts at their ends [a/tau]
+  double slowest_impact = 0.0;  // the least of them; the law has a corner at the cutoff
   double clearance = 0.0;       // smallest gap at a minimum on the way [a]; at 0 the orbit grazes
 
   std::size_t length() const { return points.size(); }
