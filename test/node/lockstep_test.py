@@ -140,13 +140,6 @@ class Commanded(NodeTest):
 
 
 class Waiting(NodeTest):
-    def test_a_period_is_one_of_its_own(self):
-        emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0}))
-        answers = [emulator.control(0.02, v * SPEED_UNIT) for v in (2.0, 2.1, 2.2)]
-        for one, next_one in zip(answers, answers[1:]):
-            self.assertEqual(key(one.end), key(next_one.begin))
-        emulator.assert_alive()
-
     def test_a_controller_that_knows_no_service_is_waited_for(self):
         emulator = self.start(Emulator({'pace': 'lockstep', 'wait_for': 'command', 'command_wait_s': 30.0}))
         friction = Topic('friction')
