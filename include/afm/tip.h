@@ -182,7 +182,6 @@ class Tip {
   Account account() const;
   Account account_at_begin() const;
   Account account_at_end() const;
-  Flight<double> last_flight(const Chattering& chattering) const;
   Account flight_account(const Flight<double>& flight, const FlightState<double>& state) const;
   Account contact_account(const Sliding& sliding, double s, const detail::ContactPoint& to) const;
   Account chatter_account(const Chattering& chattering, double s, const Chatter& chatter) const;

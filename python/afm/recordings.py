@@ -249,7 +249,7 @@ class Recording:
             applied = in_force[bisect.bisect(places, (begin, f.first_impact))]
             if f.drag_velocity != applied.drag_velocity:
                 raise ValueError('messages of Applied are missing: batch %d has another drag velocity' % f.header.seq)
-            length = f.time.tau - begin.tau + (f.time.phase - begin.phase)
+            length = _tau_between(begin, _model_time(f.time))
             most = applied.samples_per_batch * applied.sample_period_tau + 1e-6  # [tau]: phases are below 1
             if begin != end or not 0 <= length <= most or f.impact_limit > self.configuration.impact_budget:
                 raise ValueError('batch %d does not begin or end where it can: messages are damaged' % f.header.seq)

@@ -58,8 +58,9 @@ double apply(Run& self, const py::kwargs& what) {
   RunSettings settings = self.settings();
   set_live(live, settings);
   refuse(find_faults(settings));
-  if (what.contains("bath") || what.contains("eta") || what.contains("kind"))
+  if (what.contains("bath") || what.contains("eta") || what.contains("kind")) {
     warn(find_warnings(settings.model, settings.bath, settings.eta));
+  }
   return self.apply(live);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "afm/flight.h"
 #include "afm/landing.h"
@@ -57,6 +58,8 @@ struct Chattering {
   bool releases = false;  // at its end the surface no longer presses
   Chatter chatter{};      // at the start of the reference slide
   ChatterRun run{};       // to the end, or to the last bounce before it
+  // from that bounce, if the sequence is cut: the tip is in it at the end
+  std::optional<Flight<double>> last_flight;
   Sequence sequence{};
   Account begin;  // of the record under way
 };

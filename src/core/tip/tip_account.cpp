@@ -68,12 +68,6 @@ double Tip::bounce_impulse(const SlideState<double>& at, double v) const {
   return springs_.is_free_along_x > 0.0 ? 0.0 : surface_jet(model_.H, at.phase).h1 * v;
 }
 
-// The flight from the last bounce of a chatter sequence that ends.
-Flight<double> Tip::last_flight(const Chattering& chattering) const {
-  const SequenceState at = sequence_state(chattering, chattering.run.s, chattering.run.chatter);
-  return {springs_, chattering.reference.eta(), leave_surface(model_, at.displaced, at.v)};
-}
-
 // In a flight the impulse is the change of the lateral velocity.
 Account Tip::flight_account(const Flight<double>& flight, const FlightState<double>& q) const {
   return {now_, q.U - flight.start().state.U, 0.0, energy_of(springs_, flight.eta(), q), 0};
@@ -128,10 +122,8 @@ Account Tip::account_at_end() const {
     const ChatterRun& run = chattering->run;
     const Chatter chatter = run.end == ChatterEnd::died ? settled(run.chatter) : run.chatter;
     Account end = chatter_account(*chattering, run.s, chatter);
-    const double flown = end_ - run.s;
-    if (flown > 0.0) {
-      const Flight<double> flight = last_flight(*chattering);
-      const Account flew = flight_account(flight, flight.at(flown));
+    if (const auto& flight = chattering->last_flight) {
+      const Account flew = flight_account(*flight, flight->at(end_ - run.s));
       end.impulse += flew.impulse;
       end.energy = flew.energy;
     }

@@ -46,9 +46,15 @@ void Tip::end_slide_now() {
   ChatterRun& run = chattering->run = law_.last_bounce(chattering->reference, end_, chattering->chatter);
   const bool is_first = run.chatter.n == 0.0;
   if (is_first) run.chatter.loss = -chattering->sequence.loss;  // none so far, not by a rounding either
-  const double flown = end_ - run.s;
   const bool takes_back = is_first && chattering->begin.loss != 0.0;
-  if (flown > 0.0 && !takes_back && last_flight(*chattering).gap(flown).g > 0.0) return;
+  if (run.s < end_ && !takes_back) {
+    const SequenceState at = sequence_state(*chattering, run.s, run.chatter);
+    const Flight<double> flight(springs_, chattering->reference.eta(), leave_surface(model_, at.displaced, at.v));
+    if (flight.gap(end_ - run.s).g > 0.0) {
+      chattering->last_flight = flight;
+      return;
+    }
+  }
   run = {ChatterEnd::exits, end_, chatter_now(*chattering)};
 }
 

@@ -109,8 +109,8 @@ Outcome Tip::end_chatter(const Chattering& chattering) {
     return Outcome::flying;
   }
   const TipState bounce = leave_surface(model_, end.displaced, end.v);
-  const double flown = end_ - run.s;
-  const TipState left = flown > 0.0 ? last_flight(chattering).tip_state(flown) : bounce;
+  const std::optional<Flight<double>>& flight = chattering.last_flight;
+  const TipState left = flight ? flight->tip_state(end_ - run.s) : bounce;
   if (!died && run.chatter.n == 0.0) {
     fly(left);
     return Outcome::flying;
