@@ -18,7 +18,7 @@ def needs(test, outputs):
     # prefix
     words = re.split(r'[\s"=]+', ' '.join(test.get('command', ['afm_' + test['name'], 'afm_replay_' + test['name']])))
     if '_rostest_' in test['name']:
-        return ({'afm_emulator', 'afm_client_calls', 'afm_clock_jump', 'afm_examples_ros', 'afm_bag_to_csv'} |
+        return ({'afm_emulator', 'afm_client_calls', 'afm_disturbances', 'afm_examples_ros', 'afm_bag_to_csv'} |
                 ({'afm_python'} & outputs))
     if 'docs' in labels(test):
         return {'afm_python', 'afm_emulator_generate_messages_py'} & outputs

@@ -19,6 +19,7 @@ from own_master import own_master
 from tcpros import BareSubscriber
 from topics import NAMESPACE, PATIENCE, Topic, wait_until
 
+DISTURBANCES = str(Path(find('emulator_node')).parents[1] / 'libafm_disturbances.so')
 MODEL_RATE = 40e3 / (2 * 3.141592653589793)  # tau in a second
 
 
@@ -70,10 +71,9 @@ class Faults(NodeTest):
         halt."""
         rospy.set_param('/use_sim_time', True)
         self.addCleanup(rospy.delete_param, '/use_sim_time')
-        library = Path(find('emulator_node')).parents[1] / 'libafm_clock_jump.so'
         self.jump = Path(self.temporary_directory()) / 'jump'
         self.jump.write_bytes(struct.pack('d', 0.0))
-        self.emulator = self.recording_emulator(LD_PRELOAD=str(library), CLOCK_JUMP=str(self.jump))
+        self.emulator = self.recording_emulator(LD_PRELOAD=DISTURBANCES, CLOCK_JUMP=str(self.jump))
         for step in (self.time_without_a_clock, self.subscribers_are_killed, self.the_wall_clock_jumps,
                      self.it_jumps_in_a_pause):
             step()
@@ -86,6 +86,16 @@ class Faults(NodeTest):
         counted, seen = self.status.wait_for_next().dropped_messages, [m.header.seq for m in self.deflection.messages]
         self.assertEqual(seen[-1] - seen[0] + 1 - len(seen), counted)
         checks.assert_identical(self, *self.end(self.emulator))
+
+    def test_who_subscribes_while_a_command_is_published_gets_that(self):
+        """roscpp's own latch takes a message after it has sent it."""
+        emulator = self.start(Emulator(LD_PRELOAD=DISTURBANCES, HOLD_UP=NAMESPACE + '/applied'))
+        applied = Topic('applied')
+        for number, speed in enumerate((None, 1e-6, 2e-6)):
+            if speed:
+                emulator.drag(speed)
+            applied.wait_for(lambda m, n=number: m.number == n)
+            self.assertEqual(BareSubscriber('applied').read_message().number, number)
 
     def time_without_a_clock(self):
         self.assertLess(abs(self.status.wait_for_next().header.stamp.to_sec() - time.time()), 60.0)

@@ -52,8 +52,9 @@ endforeach()
 target_compile_definitions(afm_parameters_test PRIVATE AFM_CONFIG="${PROJECT_SOURCE_DIR}/config")
 
 # preloaded by the faults' test
-add_library(afm_clock_jump SHARED EXCLUDE_FROM_ALL node/clock_jump.c)
-add_dependencies(tests afm_clock_jump)
+add_library(afm_disturbances SHARED EXCLUDE_FROM_ALL node/disturbances.c)
+target_link_libraries(afm_disturbances ${CMAKE_DL_LIBS})
+add_dependencies(tests afm_disturbances)
 
 # driven by the test of the clients; beside the node's directory, where rosrun does not offer it
 afm_add_program(client_calls EXCLUDE_FROM_ALL node/client_calls.cpp)

@@ -1,17 +1,19 @@
 // One outgoing topic: what is sent goes to its subscribers and to the recorder as the same bytes.
 #pragma once
 
+#include <ros/callback_queue_interface.h>
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
+#include <ros/single_subscriber_publisher.h>
 #include <ros/this_node.h>
 #include <ros/topic_manager.h>
-#include <topic_tools/shape_shifter.h>
 
 #include <boost/make_shared.hpp>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -66,6 +68,33 @@ class Outstanding {
   const std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
+// The last message of a latched topic, for whoever subscribes. roscpp's own latch takes a message after it has sent it: a
+// subscriber that came between the two would have the one before, until the next.
+template <class Message>
+class Latch : private ros::CallbackQueueInterface {
+ public:
+  // Before the message is published.
+  void set(const Message& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_ = message;
+  }
+  void attach(ros::AdvertiseOptions& options) {
+    options.connect_cb = [this](const ros::SingleSubscriberPublisher& subscriber) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (last_) subscriber.publish(*last_);
+    };
+    options.callback_queue = this;
+  }
+
+ private:
+  // at once, in roscpp's own thread, which only then sends to this subscriber
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override { callback->call(); }
+  void removeByID(std::uint64_t) override {}
+
+  std::mutex mutex_;
+  std::optional<Message> last_;
+};
+
 template <class Message>
 class Channel {
  public:
@@ -73,28 +102,26 @@ class Channel {
       : latched_(role != Role::ordinary && role != Role::batch_end),
         queue_size_(queue_size),
         role_(role),
-        publisher_(advertise(node, name, queue_size, latched_)),
+        publisher_(advertise(node, name, queue_size)),
         bag_topic_(make_bag_topic(publisher_.getTopic(), latched_)),
-        recorder_(recorder) {
-    namespace traits = ros::message_traits;
-    raw_.morph(traits::md5sum<Message>(), traits::datatype<Message>(), traits::definition<Message>(), "1");
-  }
+        recorder_(recorder) {}
 
   // for_subscribers: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all.
   // for_recording: waits for room in the recording.
   void send(Message message, bool for_subscribers, bool for_recording) {
     message.header.seq = sequence_++;
     const ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
+    ros::SerializedMessage sent = bytes;
     if (latched_) {
-      copy(bytes, raw_);
-      publisher_.publish(raw_);
+      latch_.set(message);
     } else {
       if (for_subscribers) wait_for_subscribers();
-      ros::SerializedMessage unused;
-      ros::TopicManager::instance()->publish(
-          bag_topic_->name, [tracked = outstanding_.track(bytes)] { return tracked; }, unused);
-      lost();
+      sent = outstanding_.track(bytes);
     }
+    ros::SerializedMessage unused;
+    ros::TopicManager::instance()->publish(
+        bag_topic_->name, [sent = std::move(sent)] { return sent; }, unused);
+    if (!latched_) lost();
     recorder_.record(bag_topic_, bytes, role_, for_recording);
   }
 
@@ -110,10 +137,11 @@ class Channel {
  private:
   // roscpp counts by itself and would write over our numbers, unless it does not know of the header: what is on the
   // wire is what is in a bag, to the byte.
-  static ros::Publisher advertise(ros::NodeHandle& node, const char* name, unsigned queue_size, bool latched) {
+  ros::Publisher advertise(ros::NodeHandle& node, const char* name, unsigned queue_size) {
     ros::AdvertiseOptions options;
     options.init<Message>(name, queue_size);
-    options.latch = latched;
+    options.latch = latched_;
+    if (latched_) latch_.attach(options);
     options.has_header = false;
     return node.advertise(options);
   }
@@ -144,10 +172,10 @@ class Channel {
   const bool latched_;
   const std::size_t queue_size_;
   const Role role_;
+  Latch<Message> latch_;
   ros::Publisher publisher_;
   const std::shared_ptr<const BagTopic> bag_topic_;
   Recorder& recorder_;
-  topic_tools::ShapeShifter raw_;  // of a latched topic, which roscpp sends by itself to whoever comes later
   std::uint32_t sequence_ = 0;
   std::uint64_t lost_ = 0;
   std::uint32_t subscribers_ = 0;

@@ -17,12 +17,6 @@ struct BagTopic {
   boost::shared_ptr<ros::M_string> connection_header;
 };
 
-// The same bytes, as roscpp and rosbag take them of any type.
-inline void copy(const ros::SerializedMessage& from, topic_tools::ShapeShifter& to) {
-  ros::serialization::IStream bytes(from.message_start, static_cast<std::uint32_t>(from.num_bytes - 4));
-  to.read(bytes);  // behind their length
-}
-
 class BagFile {
  public:
   // Throws std::runtime_error with the reason.
@@ -33,7 +27,8 @@ class BagFile {
 
   // Throws rosbag::BagException.
   void write(const BagTopic& topic, const ros::Time& stamp, const ros::SerializedMessage& message) {
-    copy(message, message_);
+    ros::serialization::IStream bytes(message.message_start, static_cast<std::uint32_t>(message.num_bytes - 4));
+    message_.read(bytes);  // behind their length
     bag_->write(topic.name, stamp, message_, topic.connection_header);
     ++messages_;
   }
