@@ -26,7 +26,7 @@ REFUSED = {
                         ('to: eta = nan', '--to nan'), ('to: eta = 2000', '--to 2000'),
                         ('to: gamma = 1.5', '--vary gamma --to 1.5')],
     'model_error': [('eta = 0', '--eta 0'), ('eta = 1:2', '--eta 1:2'), ('gamma = 2', '--gamma 2'),
-                    ('frequency_ratio = -1', '--frequency-ratio -1'), ('--starts', '--starts 0'),
+                    ('frequency-ratio = -1', '--frequency-ratio -1'), ('--starts', '--starts 0'),
                     ('model = anvil', '--model anvil'), ('gamma: not with --scene', '--scene glide --gamma 0.5')],
     'periodic_orbits': [('gamma = 1.5', '--gamma 1.5'), ('cutoff = -1', '--cutoff -1'), ('eta = ', '--eta inf'),
                         ('eta = 0', '--eta 0'), ('--max-length', '--max-length 0'), ('model = anvil', '--model anvil')],

@@ -1,11 +1,10 @@
 #include "point_options.h"
 
-#include <cmath>
 #include <stdexcept>
 
+#include "afm/sweep.h"
 #include "common/csv.h"
 #include "common/decimal_range.h"
-#include "core/fault_list.h"
 
 namespace afm {
 namespace {
@@ -22,24 +21,10 @@ std::vector<double> values_of(const std::string& name, const std::string& text, 
   return values;
 }
 
-Model model_of(const PointOptions& o) {
-  Model model;
-  model.kind = checked_kind(o.model);
-  model.gamma = o.gamma;
-  model.v_c = o.cutoff;
-  model.frequency_ratio = o.frequency_ratio;
-  return model;
-}
-
-// By the names of the options.
-std::vector<ParameterError> find_faults(const PointOptions& o, const Model& model) {
-  std::vector<ParameterError> faults;
-  for (const ParameterError& fault : find_faults(model)) {
-    faults.emplace_back(detail::word_for(fault.name), fault.value, fault.reason);
-  }
-  if (!(std::abs(o.eta) <= kMaxEta))
-    faults.emplace_back("eta", o.eta, "the drag velocity must be finite and at most 1000");
-  return faults;
+SweepPoint point_of(const PointOptions& o) {
+  SweepPoint point{o.eta, o.gamma, o.cutoff, checked_kind(o.model)};
+  point.frequency_ratio = o.frequency_ratio;
+  return point;
 }
 
 }  // namespace
@@ -110,17 +95,17 @@ void take_si(const CommandLine& app, PointOptions& o) {
 }
 
 Model checked_model(const CommandLine& app, const PointOptions& o) {
-  const Model model = model_of(o);
-  const std::vector<ParameterError> faults = as_given(app, o.si, find_faults(o, model));
+  const SweepPoint point = point_of(o);
+  const std::vector<ParameterError> faults = as_given(app, o.si, find_faults(point));
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
-  return model;
+  return model_of(point);
 }
 
 Model checked_model(const PointOptions& o) {
-  const Model model = model_of(o);
-  const std::vector<ParameterError> faults = find_faults(o, model);
+  const SweepPoint point = point_of(o);
+  const std::vector<ParameterError> faults = find_faults(point);
   if (!faults.empty()) throw std::invalid_argument(describe(faults));
-  return model;
+  return model_of(point);
 }
 
 }  // namespace afm
