@@ -26,6 +26,7 @@ class Recorder:
     def take(self, batch):
         c = self.configuration
         if c is None or batch.epoch != c.epoch:
+            self.next_sample = None
             return
         if self.next_sample is not None and batch.first_sample > self.next_sample:
             self.lost += batch.first_sample - self.next_sample

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -49,7 +50,11 @@ constexpr char kTooMany[] = "too many commands are waiting";
 constexpr std::chrono::seconds kAnswerDeadline{12};
 // In lockstep an idle processor takes 50 to 100 us to wake a thread; in real time this would hold up the publisher.
 constexpr std::chrono::microseconds kSpin{300};
-constexpr std::chrono::milliseconds kClosingPoll{50};  // how soon whoever waits learns that the node ends
+constexpr std::chrono::milliseconds kClosingPoll{50};   // how soon whoever waits learns that the node ends
+constexpr std::chrono::milliseconds kShutdownPoll{20};  // how soon a shutdown is noticed
+constexpr std::chrono::seconds kLeave{2};               // from the master
+
+std::atomic<bool> g_running{false}, g_stop{false}, g_has_left{false};
 
 std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
   const double bytes = static_cast<double>(largest.vertical.capacity() + largest.lateral.capacity()) * sizeof(double) +
@@ -91,6 +96,15 @@ void check_clock() {
         throw std::runtime_error("publish_clock = true: " + other + " publishes " + clock + " already");
     }
   }
+}
+
+// Once all else is done: roscpp would wait for a master that hangs.
+void leave_soon() {
+  std::thread([end = std::chrono::steady_clock::now() + kLeave] {
+    for (; !g_has_left; std::this_thread::sleep_for(kShutdownPoll)) {
+      if (std::chrono::steady_clock::now() > end) std::_Exit(0);
+    }
+  }).detach();
 }
 
 // A run that cannot keep real time says so before it falls behind.
@@ -147,14 +161,16 @@ class EmulatorNode {
     control_spinner_.start();
   }
 
-  // In order: no more commands, the last batch, all published, the bag closed.
+  // In order: the last batch, all published, the bag closed, and only then the master, which may not answer.
   ~EmulatorNode() {
     closing_ = true;  // services that wait for an answer return, and can then be shut down
+    runner_.stop();
+    publisher_->stop();
+    recorder_.stop();
+    leave_soon();
     for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
     clients_timer_.stop();
     for (ros::ServiceServer& service : services_) service.shutdown();
-    runner_.stop();
-    publisher_->stop();
   }
 
  private:
@@ -351,15 +367,11 @@ constexpr char kHelp[] =
     "started by: roslaunch afm_emulator emulator.launch\n"
     "config/emulator.yaml describes every parameter, docs/interface.md the topics and services.\n";
 
-// How soon a shutdown is noticed.
-constexpr std::chrono::milliseconds kShutdownPoll{20};
 constexpr int kLargeBuffer =
     256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 
-std::atomic<bool> g_running{false}, g_stop{false};
-
 // roscpp handles SIGINT alone and tears the connections down at once; we end in our own order, on SIGTERM too. One
-// thread waits for both, and all others are spared: a signal would interrupt a call to the master, which would then
+// thread waits for them, and all others are spared: a signal would interrupt a call to the master, which would then
 // seem not to answer.
 void await_signals() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further ends a recording, as a full disk does
@@ -367,6 +379,9 @@ void await_signals() {
   sigemptyset(&signals);
   sigaddset(&signals, SIGINT);
   sigaddset(&signals, SIGTERM);
+  struct sigaction at_start {};
+  sigaction(SIGHUP, nullptr, &at_start);
+  if (at_start.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);  // its terminal is closed, and there is no nohup
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread([signals] {
     int unused = 0;
@@ -421,5 +436,7 @@ int main(int argc, char** argv) {
     ROS_FATAL("%s", error.what());
     return 1;
   }
+  ros::shutdown();
+  g_has_left = true;
   return 0;
 }

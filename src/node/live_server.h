@@ -72,6 +72,7 @@ class LiveServer {
       constexpr std::uint32_t kFirstCall = ~0u;
       if (level != kFirstCall) change(config);
       config = shown_ = to_config(in_force());
+      shown_twice_ = false;
     });
     show_ranges();
     // the height that was written beside it stands for it, also when the node starts again
@@ -84,13 +85,16 @@ class LiveServer {
     in_force_ = live;
   }
 
-  // Shows clients what was applied. Any other thread.
+  // Shows clients what was applied, now and then. Each message a second time, as roscpp's latch takes it after it has been
+  // sent: who subscribed between the two has the one before. Any other thread.
   void update_clients() {
     const boost::recursive_mutex::scoped_try_lock lock(server_mutex_);
     if (!lock) return;  // a change holds it until it has taken effect: after a step, which may take seconds
     const Config config = to_config(in_force());
-    if (values_of(config) == values_of(shown_)) return;
+    const bool is_shown = values_of(config) == values_of(shown_);
+    if (is_shown && shown_twice_) return;
     shown_ = config;
+    shown_twice_ = is_shown;
     server_.updateConfig(config);
   }
 
@@ -172,8 +176,9 @@ class LiveServer {
   const Apply apply_;
   std::mutex mutex_;  // of in_force_
   Live in_force_;
-  boost::recursive_mutex server_mutex_;  // also of shown_
+  boost::recursive_mutex server_mutex_;  // also of shown_ and shown_twice_
   Config shown_;                         // to the clients
+  bool shown_twice_ = false;
   dynamic_reconfigure::Server<Config> server_;
 };
 

@@ -1,6 +1,6 @@
 /* Preloaded into the node by a test: its wall clock is off by what stands in the file $CLOCK_JUMP, a double [s], and the
-   machine holds its publishing thread up for a second after each message on the topic $HOLD_UP. The clock that only
-   goes on is left alone. */
+   machine holds its publishing thread up for a second after each message on the topic $HOLD_UP, and with $SEND_LATE the
+   thread of roscpp that sends, after each round. The clock that only goes on is left alone. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -63,4 +63,12 @@ void publish(void* manager, const void* topic, const void* serialize, void* mess
   const char* held_up = getenv("HOLD_UP");
   next(manager, topic, serialize, message);
   if (held_up && strcmp(*(const char* const*)topic, held_up) == 0) sleep(1); /* a std::string begins with its text */
+}
+
+#define SEND "_ZN3ros12TopicManager20processPublishQueuesEv"
+void send_published(void* manager) __asm__(SEND);
+void send_published(void* manager) {
+  void (*next)(void*) = dlsym(RTLD_NEXT, SEND);
+  next(manager);
+  if (getenv("SEND_LATE")) usleep(30000);
 }

@@ -1,8 +1,10 @@
 """What happens around a running emulator: it goes on, or says what it did not do; and its recording stays whole."""
+import itertools
 import math
 import os
 import signal
 import struct
+import threading
 import time
 import xmlrpc.client
 from pathlib import Path
@@ -10,6 +12,7 @@ from unittest import mock
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.msg import Config
 from std_srvs.srv import SetBool
 
 import bags
@@ -38,14 +41,33 @@ class Faults(NodeTest):
         self.assertLess(time.monotonic() - since, 5.0)
         self.assertLess(end.lag, 1.0)
 
+    def recording_emulator_of(self, master):
+        self.directory = Path(self.temporary_directory())
+        master.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
+        emulator = self.start(Process([find('emulator_node'), '__name:=' + NAMESPACE[1:]]))
+        wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.getSystemState('test')[2]),
+                   'the last of it is registered')
+        return emulator
+
+    def assert_ends_soon(self, emulator):
+        asked = time.monotonic()
+        self.assertEqual(emulator.stop(), 0)
+        self.assertLess(time.monotonic() - asked, 5.0 * PATIENCE)
+        path, = self.directory.iterdir()
+        checks.assert_identical(self, str(path))
+
+    def test_the_master_hangs(self):
+        """The bag was closed after it had answered."""
+        with mock.patch.dict(os.environ), own_master() as master:  # for its children alone
+            emulator = self.recording_emulator_of(master)
+            _, _, pid = master.getPid('test')
+            os.kill(pid, signal.SIGSTOP)
+            self.assert_ends_soon(emulator)
+
     def test_the_master_dies(self):
         """The run, its subscribers and its recording do not need it."""
-        self.directory = Path(self.temporary_directory())
-        with mock.patch.dict(os.environ), own_master() as master:  # for its children alone
-            master.setParam('test', NAMESPACE, {'record': True, 'bag_directory': str(self.directory)})
-            emulator = self.start(Process([find('emulator_node'), '__name:=' + NAMESPACE[1:]]))
-            wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.getSystemState('test')[2]),
-                       'the last of it is registered')
+        with mock.patch.dict(os.environ), own_master() as master:
+            emulator = self.recording_emulator_of(master)
             heights = [-1e-11, -2e-11]
             for height in heights:  # one after the other: each changes a live parameter
                 self.start(Process(['rostopic', 'pub', '-r', '3', NAMESPACE + '/rest_height', 'std_msgs/Float64', '--',
@@ -60,11 +82,7 @@ class Faults(NodeTest):
         self.assertIsNone(emulator.child.poll())
         while listener.read_message().first_sample < before.first_sample + 400000:
             pass  # two seconds of the run
-        asked = time.monotonic()
-        self.assertEqual(emulator.stop(), 0)
-        self.assertLess(time.monotonic() - asked, 5.0 * PATIENCE)
-        path, = self.directory.iterdir()
-        checks.assert_identical(self, str(path))
+        self.assert_ends_soon(emulator)
 
     def test_what_happens_around_a_recording(self):
         """One after another, to one run: no time on /clock, subscribers that die, a wall clock that jumps, and a long
@@ -96,6 +114,41 @@ class Faults(NodeTest):
                 emulator.drag(speed)
             applied.wait_for(lambda m, n=number: m.number == n)
             self.assertEqual(BareSubscriber('applied').read_message().number, number)
+
+    def test_who_subscribes_while_commands_wait_to_be_sent_gets_them_in_order(self):
+        """The last was followed by those before it."""
+        emulator = self.start(Emulator(LD_PRELOAD=DISTURBANCES, SEND_LATE='1'))
+        Topic('applied').wait_for()
+        ended = threading.Event()
+
+        def command():
+            for i in itertools.count():
+                emulator.drag(1e-6 * (1 + i % 2))
+                if ended.wait(0.005):
+                    return
+        commands = threading.Thread(target=command)
+        commands.start()
+        try:
+            for _ in range(5):
+                subscriber = BareSubscriber('applied')
+                numbers = [subscriber.read_message().number for _ in range(20)]
+                self.assertEqual(numbers, list(range(numbers[0], numbers[0] + 20)))
+                subscriber.die()
+        finally:
+            ended.set()
+            commands.join()
+
+    def test_a_slider_shows_what_was_set_while_it_came(self):
+        emulator = self.start(Emulator(LD_PRELOAD=DISTURBANCES, HOLD_UP=NAMESPACE + '/parameter_updates'))
+        updates = Topic('parameter_updates', Config)
+
+        def gamma(message):
+            return next(value.value for value in message.doubles if value.name == 'restitution_gamma')
+        updates.wait_for(lambda m: gamma(m) == 0.7)
+        threading.Thread(target=emulator.set, kwargs={'restitution_gamma': 0.5}).start()
+        updates.wait_for(lambda m: gamma(m) == 0.5)
+        late = BareSubscriber('parameter_updates', Config)
+        wait_until(lambda: gamma(late.read_message()) == 0.5, 'the slider is set')
 
     def time_without_a_clock(self):
         self.assertLess(abs(self.status.wait_for_next().header.stamp.to_sec() - time.time()), 60.0)

@@ -12,6 +12,7 @@ from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 
 from emulator_under_test import ENERGY_UNIT, SPEED_UNIT, TAU_S, Emulator, EmulatorTest, NodeTest, Process, find
+from tcpros import BareSubscriber
 from topics import PATIENCE, Topic, key, tau_between, wait_until
 
 K_H = 408e-12 * 250e3 ** 2  # [N/m]
@@ -97,6 +98,20 @@ class Lockstep(EmulatorTest):
         begin = clock.wait_for().clock
         self.advance(0.05)
         clock.wait_for(lambda m: (m.clock - begin).to_nsec() >= 50000000, 'the end of five batches')
+
+    def test_who_takes_the_place_of_another_gets_the_time(self):
+        """The number of subscribers stayed the same. Nor is lost what waited for the one that left."""
+        clock = BareSubscriber('/clock', Clock)
+        slow = BareSubscriber('deflection')
+        for _ in range(3):
+            self.advance(1.5)
+            before, slow = slow, BareSubscriber('deflection')
+            before.die()
+            clock.die()
+            clock = BareSubscriber('/clock', Clock)
+            self.advance(0.0)
+            clock.read_message()
+        self.assertEqual(Topic('status').wait_for_next().dropped_messages, 0)
 
     def test_a_second_clock_is_refused(self):
         rospy.set_param('/second', {'publish_clock': True})

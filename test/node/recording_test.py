@@ -123,6 +123,13 @@ class Recording(NodeTest):
         self.assertEqual(emulator.wait(), 1)
         self.assertIn('/dev/null', emulator.output())
 
+    def test_a_terminal_that_is_closed_leaves_a_good_bag(self):
+        emulator = self.record(record=True)
+        Topic('deflection').wait_for_more(20)
+        self.assertEqual(emulator.stop(signal.SIGHUP), 0)
+        path, = self.directory.iterdir()
+        checks.assert_identical(self, path)
+
     def test_topics_may_be_remapped_and_sigterm_leaves_a_good_bag(self):
         directory = self.temporary_directory()
         set_parameters({'record': True, 'bag_directory': directory})

@@ -12,9 +12,9 @@ from topics import NAMESPACE, TOPICS
 
 
 class BareSubscriber:
-    def __init__(self, name, caller='/bare', master=None):
+    def __init__(self, name, kind=None, caller='/bare', master=None):
         _, _, node = master.lookupNode(caller, NAMESPACE) if master else rospy.get_master().lookupNode(NAMESPACE)
-        topic = NAMESPACE + '/' + name
+        topic = name if name.startswith('/') else NAMESPACE + '/' + name
         code, text, (_, host, port) = xmlrpc.client.ServerProxy(node).requestTopic(caller, topic, [['TCPROS']])
         assert code == 1, text
         # before it connects, so that the sender learns of a small window
@@ -22,7 +22,7 @@ class BareSubscriber:
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
         self.socket.settimeout(15.0)
         self.socket.connect((host, port))
-        self.kind = TOPICS[name]
+        self.kind = kind or TOPICS[name]
         write_ros_handshake_header(self.socket, {'callerid': caller, 'topic': topic, 'type': self.kind._type,
                                                  'md5sum': self.kind._md5sum, 'tcp_nodelay': '1'})
         self.read(struct.unpack('<I', self.read(4))[0])

@@ -268,6 +268,10 @@ class Client:
 
     def _keep_applied(self, message):
         with self._news:
+            # rospy may give a new subscription what is latched after what has come since
+            if 'applied' in self._heard and (message.header.seq < self._applied.header.seq and
+                                             message.header.stamp <= self._applied.header.stamp):
+                return
             self._applied = message
             self._heard.add('applied')
             self._commanded.append(message)

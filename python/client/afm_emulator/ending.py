@@ -10,7 +10,8 @@ import signal
 import sys
 import threading
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+# the last where the terminal is closed, unless nohup keeps it off
+SIGNALS = (signal.SIGINT, signal.SIGTERM) + (signal.SIGHUP,) * (signal.getsignal(signal.SIGHUP) != signal.SIG_IGN)
 LEAVE_S = 1  # to take leave of the master
 
 

@@ -5,7 +5,7 @@ import time
 
 import rospy
 
-ASK_AGAIN_S = 2.0
+ASK_AGAIN_S = 5.0  # an answer that is still on its way would be asked for twice, and a message lost
 
 
 class Subscription:

@@ -4,16 +4,18 @@
 #include <ros/callback_queue_interface.h>
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
+#include <ros/publication.h>
 #include <ros/single_subscriber_publisher.h>
 #include <ros/this_node.h>
 #include <ros/topic_manager.h>
 
+#include <atomic>
 #include <boost/make_shared.hpp>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -68,31 +70,44 @@ class Outstanding {
   const std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
-// The last message of a latched topic, for whoever subscribes. roscpp's own latch takes a message after it has sent it: a
-// subscriber that came between the two would have the one before, until the next.
+// Runs roscpp's callbacks about subscribers at once, in its thread that sends.
+class AtOnce : public ros::CallbackQueueInterface {
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override { callback->call(); }
+  void removeByID(std::uint64_t) override {}
+};
+
+// The last message of a latched topic, for whoever subscribes. roscpp's own latch takes a message after it has been sent:
+// a subscriber that came between the two would have the one before, until the next.
 template <class Message>
-class Latch : private ros::CallbackQueueInterface {
+class Latch {
  public:
+  void set_publication(ros::PublicationPtr publication) { publication_ = std::move(publication); }
+
   // Before the message is published.
   void set(const Message& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    last_ = message;
+    messages_.push_back(message);
+    forget_before_last_sent();
   }
-  void attach(ros::AdvertiseOptions& options) {
-    options.connect_cb = [this](const ros::SingleSubscriberPublisher& subscriber) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (last_) subscriber.publish(*last_);
-    };
-    options.callback_queue = this;
+
+  void send_last_to(const ros::SingleSubscriberPublisher& subscriber) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    forget_before_last_sent();
+    if (sent() > first_) subscriber.publish(messages_.front());
   }
 
  private:
-  // at once, in roscpp's own thread, which only then sends to this subscriber
-  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override { callback->call(); }
-  void removeByID(std::uint64_t) override {}
+  // roscpp counts a message when it takes it from its queue for the subscribers that there are. A new one gets those
+  // behind it from there.
+  std::uint32_t sent() const { return publication_ ? publication_->getSequence() : 0; }
+  void forget_before_last_sent() {
+    for (; first_ + 1 < sent(); ++first_) messages_.pop_front();
+  }
 
+  ros::PublicationPtr publication_;
   std::mutex mutex_;
-  std::optional<Message> last_;
+  std::deque<Message> messages_;
+  std::uint32_t first_ = 0;  // its number among all
 };
 
 template <class Message>
@@ -104,7 +119,9 @@ class Channel {
         role_(role),
         publisher_(advertise(node, name, queue_size)),
         bag_topic_(make_bag_topic(publisher_.getTopic(), latched_)),
-        recorder_(recorder) {}
+        recorder_(recorder) {
+    latch_.set_publication(ros::TopicManager::instance()->lookupPublication(publisher_.getTopic()));
+  }
 
   // for_subscribers: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all.
   // for_recording: waits for room in the recording.
@@ -128,9 +145,8 @@ class Channel {
   // Messages that a slow subscriber did not get, as its queue here was full. What waited for one that has left is not
   // lost.
   std::uint64_t lost() {
-    const std::uint32_t subscribers = publisher_.getNumSubscribers();
-    const std::uint64_t lost = outstanding_.take_lost();
-    if (subscribers >= std::exchange(subscribers_, subscribers)) lost_ += lost;
+    const std::uint64_t left = left_, lost = outstanding_.take_lost();
+    if (left == std::exchange(left_before_, left)) lost_ += lost;
     return lost_;
   }
 
@@ -141,7 +157,9 @@ class Channel {
     ros::AdvertiseOptions options;
     options.init<Message>(name, queue_size);
     options.latch = latched_;
-    if (latched_) latch_.attach(options);
+    if (latched_) options.connect_cb = [this](const auto& subscriber) { latch_.send_last_to(subscriber); };
+    options.disconnect_cb = [this](const auto&) { ++left_; };
+    options.callback_queue = &at_once_;
     options.has_header = false;
     return node.advertise(options);
   }
@@ -172,13 +190,15 @@ class Channel {
   const bool latched_;
   const std::size_t queue_size_;
   const Role role_;
+  AtOnce at_once_;
   Latch<Message> latch_;
+  std::atomic<std::uint64_t> left_{0};  // subscribers
   ros::Publisher publisher_;
   const std::shared_ptr<const BagTopic> bag_topic_;
   Recorder& recorder_;
   std::uint32_t sequence_ = 0;
   std::uint64_t lost_ = 0;
-  std::uint32_t subscribers_ = 0;
+  std::uint64_t left_before_ = 0;
   Outstanding outstanding_;
   // the message that a subscriber did not take in a whole wait: until it does, we do not wait for it again
   std::uint64_t stuck_at_ = std::numeric_limits<std::uint64_t>::max();

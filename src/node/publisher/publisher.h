@@ -45,7 +45,13 @@ class Publisher {
         friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize, Role::batch_end),
         status_(node, sources_.recorder, "status", kStatusQueueSize),
         status_tracker_(parameters) {
-    if (parameters.publish_clock) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", kBatchQueueSize);
+    if (parameters.publish_clock) {
+      ros::AdvertiseOptions options;
+      options.init<rosgraph_msgs::Clock>("/clock", kBatchQueueSize);
+      options.connect_cb = [this](const auto&) { somebody_lacks_the_clock_ = true; };
+      options.callback_queue = &at_once_;
+      clock_ = node.advertise(options);
+    }
     diagnostics_.setHardwareID("none");
     diagnostics_.add("emulation", [this](Diagnosis& out) { diagnose_pace(status_tracker_.health(), out); });
     diagnostics_.add("commands", [this](Diagnosis& out) { diagnose_commands(status_tracker_.health(), out); });
@@ -143,13 +149,10 @@ class Publisher {
   // rospy.Rate that began then is over when its batch is. Not latched: roscpp sends what is latched at once, and then
   // what it published before, so that the clock of a new subscriber could go back.
   void publish_clock_to_new_subscribers() {
-    const std::uint32_t subscribers = clock_ ? clock_.getNumSubscribers() : 0;
-    if (subscribers > clock_subscribers_ && !latest_clock_.isZero()) {
-      const ros::Duration step(0, 1);
-      epoch_begin_ += step;
-      publish_clock(latest_clock_ + step);
-    }
-    clock_subscribers_ = subscribers;
+    if (!somebody_lacks_the_clock_.exchange(false) || latest_clock_.isZero()) return;
+    const ros::Duration step(0, 1);
+    epoch_begin_ += step;
+    publish_clock(latest_clock_ + step);
   }
 
   void publish_status() {
@@ -192,9 +195,10 @@ class Publisher {
   afm_emulator::Applied latest_applied_;
   bool unhurried_ = false;  // the latest report: a status may fall out of a recording no more than a batch
   // model time, if it is to be published: it goes on where the epoch before ended
+  AtOnce at_once_;
+  std::atomic<bool> somebody_lacks_the_clock_{false};
   ros::Publisher clock_;
   ros::Time epoch_begin_{1, 0}, latest_clock_;
-  std::uint32_t clock_subscribers_ = 0;
   diagnostic_updater::Updater diagnostics_;
   StatusTracker status_tracker_;
   std::chrono::steady_clock::time_point status_due_, diagnostics_due_;
