@@ -45,8 +45,14 @@ void RunView::take(const afm_emulator::Configuration& message) {
   model_ = units_->to_natural(si);
 }
 
+void RunView::take(const afm_emulator::Applied& message) {
+  if (!applied_.empty() && applied_.back().epoch != message.epoch) applied_.clear();
+  applied_.push_back(message);
+}
+
 void RunView::take(const afm_emulator::Deflection& message) {
-  if (!units_ || !applied_ || applied_->epoch != message.epoch || message.vertical.empty()) return;
+  if (!units_ || applied_.empty() || applied_.front().epoch != message.epoch || message.vertical.empty()) return;
+  while (applied_.size() > 1 && applied_[1].first_sample <= message.first_sample) applied_.pop_front();
   if (message.epoch != samples_epoch_ || message.first_sample != next_sample_) samples_.clear();
   samples_epoch_ = message.epoch;
   next_sample_ = message.first_sample + message.vertical.size();
@@ -55,7 +61,7 @@ void RunView::take(const afm_emulator::Deflection& message) {
   eta_ = message.drag_velocity / units_->velocity();
   for (std::size_t i = 0; i < message.vertical.size(); ++i) {
     const double since = static_cast<double>(i) * period;
-    holder_ = {from_message(message.time) + since, begin + eta_ * since, applied_->rest_height_m / unit};
+    holder_ = {from_message(message.time) + since, begin + eta_ * since, applied_.front().rest_height_m / unit};
     samples_.push_back({holder_.time, holder_.x + message.lateral[i] / unit, holder_.y + message.vertical[i] / unit});
   }
   forget_old();
@@ -85,7 +91,7 @@ void RunView::forget_old() {
 }
 
 bool RunView::complete() const {
-  return configuration_ && applied_ && samples_.size() > 1 && samples_epoch_ == configuration_->epoch &&
+  return configuration_ && !applied_.empty() && samples_.size() > 1 && samples_epoch_ == configuration_->epoch &&
          impacts_epoch_ == configuration_->epoch;
 }
 

@@ -34,7 +34,7 @@ struct Place {
 class RunView {
  public:
   void take(const afm_emulator::Configuration& message);
-  void take(const afm_emulator::Applied& message) { applied_ = message; }
+  void take(const afm_emulator::Applied& message);
   // Samples before a gap are forgotten; those of an epoch of which nothing else is known yet are not taken.
   void take(const afm_emulator::Deflection& message);
   void take(const afm_emulator::ImpactArray& message);
@@ -44,7 +44,7 @@ class RunView {
   bool complete() const;
 
   const afm_emulator::Configuration& configuration() const { return *configuration_; }
-  const afm_emulator::Applied& applied() const { return *applied_; }
+  const afm_emulator::Applied& applied() const { return applied_.back(); }
   const std::optional<afm_emulator::Friction>& friction() const { return friction_; }
   const Units& units() const { return *units_; }
   const Model& model() const { return model_; }
@@ -62,7 +62,7 @@ class RunView {
   void forget_old();
 
   std::optional<afm_emulator::Configuration> configuration_;
-  std::optional<afm_emulator::Applied> applied_;
+  std::deque<afm_emulator::Applied> applied_;  // in force at the last sample, and what was applied after it
   std::optional<afm_emulator::Friction> friction_;
   std::optional<Units> units_;
   Model model_;
