@@ -1,4 +1,4 @@
-"""Import this early: from here on the node ends at SIGINT and SIGTERM, whenever they come.
+"""Import this early: from here on the node ends at SIGINT, SIGTERM and SIGHUP, whenever they come.
 
 rospy's own handler runs in the middle of what the main thread does, an import or a lock that it waits for, and the node
 may hang. Here a thread of its own waits for the signal. It asks rospy to shut down, and a second later the kernel ends
