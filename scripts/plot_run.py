@@ -70,7 +70,8 @@ class Run:
         times = begin + message.sample_period * np.arange(values.shape[1])
         if not len(times):
             return
-        edges = np.arange(0, len(times), every)
+        columns = max(1, round(len(times) / every))  # of one length: a short one would show less of the range
+        edges = np.arange(columns) * len(times) // columns
         low, high = np.minimum.reduceat(values, edges, axis=1), np.maximum.reduceat(values, edges, axis=1)
         self.samples.append(np.vstack([times[edges], low, high]))
         self.close.append(np.vstack([times, values]))
@@ -215,7 +216,8 @@ def draw_friction(axes, run):
     axes.plot(times, mean, lw=1.2, c=BLUE, label='by the work of the drag, since the last command')
     axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color=BLUE)
     positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
-    if len(positive) and positive.max() > 10 * positive.min():
+    often_negative = np.mean(mean < 0) > 0.1  # as friction by the work of a heated tip may be: it is shown too
+    if len(positive) and positive.max() > 10 * positive.min() and not often_negative:
         axes.set_yscale('log')
     axes.set_ylabel('$K_f$ [$m_{tip}/\\tau$]')
     put_legend(axes)

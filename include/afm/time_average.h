@@ -8,7 +8,7 @@
 namespace afm {
 
 // K_f +- 1.96 K_f_std_error holds the average over infinite time 95 times in 100, and so does K_f_work without a bath.
-// With a bath K_f_work_std_error also holds the energy stored at the ends of a batch: it is an upper bound. A tip that
+// With a bath K_f_work_std_error also holds the energy stored at the ends of batches: it is an upper bound. A tip that
 // cannot go on (Outcome::search_failed) has no averages: all are NaN.
 struct FrictionAverage {
   double K_f = 0.0;  // [m_tip/tau]; NaN at eta = 0

@@ -89,7 +89,8 @@ class Client {
   // What is in force: the latest message, none older than what held at the end of the latest control().
   Applied applied() const {
     queue_.callAvailable();
-    wait_for([this] { return reported_ <= std::make_pair(applied_->epoch, applied_->number); }, name_ + "/applied");
+    wait_for([this] { return reported_ <= std::make_pair(applied_->epoch, applied_->number); },
+             name_ + "/applied: nothing came");
     return *applied_;
   }
   bool is_lockstep() const { return configuration_->pace == "lockstep"; }
@@ -146,7 +147,7 @@ class Client {
       }
       return mine != nullptr;
     };
-    wait_for(has_come, name_ + "/applied");
+    wait_for(has_come, name_ + "/applied: nothing came");
     return *mine;
   }
 
@@ -209,7 +210,7 @@ class Client {
   // Subscribes anew: the latched messages are then those of the emulator that runs now.
   void connect() {
     const std::string service = name_ + "/control";
-    wait_for([&] { return ros::service::exists(service, false); }, service);
+    wait_for([&] { return ros::service::exists(service, false); }, service + ": was not there");
     subscribers_.clear();
     reported_ = {};
     const Configuration::ConstPtr former_configuration = configuration_;
@@ -224,8 +225,8 @@ class Client {
       recently_applied_.push_back(m);
       if (recently_applied_.size() > kKeptApplied) recently_applied_.pop_front();
     });
-    wait_for([&] { return configuration_ != former_configuration; }, name_ + "/configuration");
-    wait_for([&] { return applied_ != former_applied; }, name_ + "/applied");
+    wait_for([&] { return configuration_ != former_configuration; }, name_ + "/configuration: nothing came");
+    wait_for([&] { return applied_ != former_applied; }, name_ + "/applied: nothing came");
     control_.open(node_, service);
   }
 
@@ -263,7 +264,7 @@ class Client {
   void wait_for(Condition is_true, const std::string& what) const {
     const double end = steady_seconds() + timeout_;
     while (ros::ok() && !is_true()) {
-      if (steady_seconds() > end) throw EmulatorError(what + ": nothing came within " + text(timeout_) + " s");
+      if (steady_seconds() > end) throw EmulatorError(what + " within " + text(timeout_) + " s");
       queue_.callOne(ros::WallDuration(0.05));
     }
     if (!ros::ok()) throw Shutdown();

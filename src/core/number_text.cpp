@@ -23,6 +23,7 @@ bool reads_as(const std::string& text, double value) {
 }  // namespace
 
 std::string rounded_text(double value, int digits) {
+  if (std::isnan(value)) return "nan";  // whatever its sign
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(digits);

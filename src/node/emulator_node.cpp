@@ -271,19 +271,21 @@ class EmulatorNode {
     } else {
       refusals_.add(Refusal::faulty_command, fault);
     }
+    if (!fault.empty()) answer.measured.begin = answer.time;  // nothing was measured
     response = to_control(answer, parameters_.si);
     return respond(response, fault, "time reached");
   }
 
   std::string find_control_fault(const afm_emulator::Control::Request& request) const {
     const double v = request.drag_velocity, y = request.rest_height;
-    const double most = (is_lockstep() ? kMaxStepTau : kMaxPeriodTau) * Units(parameters_.si).time();
+    const double most_tau = is_lockstep() ? kMaxStepTau : kMaxPeriodTau, most = most_tau * Units(parameters_.si).time();
     std::string fault = std::isnan(v) ? "" : find_drag_fault(v);
     if (!fault.empty()) return "drag_velocity = " + number_text(v) + " m/s: " + fault;
     fault = std::isnan(y) ? "" : find_height_fault(y);
     if (!fault.empty()) return "rest_height = " + number_text(y) + " m: " + fault;
     if (request.duration >= 0.0 && request.duration <= most) return {};
-    return "duration = " + number_text(request.duration) + " s: must be between 0 and " + number_text(most);
+    return "duration = " + number_text(request.duration) + " s: must be between 0 and " + number_text(most) + " s, " +
+           number_text(most_tau) + " tau";
   }
 
   // The recording begins with a snapshot that is taken for it.

@@ -58,8 +58,8 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("lateral-quality-factor", sweep.bath.lateral_quality_factor,
              "of the horizontal spring; 0: as the vertical");
   app.option("kicks-per-tau", sweep.bath.kicks_per_tau, "of the heat bath");
-  app.option("duration", sweep.duration, "measured at each point [tau]");
-  app.option("transient", sweep.transient, "before it [tau]");
+  app.option("duration", sweep.duration, "measured at each point [tau]; with --si in s");
+  app.option("transient", sweep.transient, "before it [tau]; with --si in s");
   afm::add_model_option(app, o.model);
   app.option("sweep", o.sweep,
              "fresh: each point from a random start; up, down: each from where the eta before it ended");

@@ -41,6 +41,16 @@ class Lockstep(EmulatorTest):
         lengths = [tau_between(m.begin, m.time) * TAU_S for m in friction.messages if key(m.time) > key(first)]
         self.assertEqual([round(length, 9) for length in lengths], [0.01] * round(sum(periods) / 0.01))
 
+    def test_a_refused_period_has_no_force(self):
+        """In a pause it was 0 N."""
+        self.advance(0.01)
+        self.pause(True)
+        answer = self.emulator.control(0.01)
+        self.pause(False)
+        self.assertFalse(answer.success)
+        self.assertTrue(math.isnan(answer.mean_lateral_force))
+        self.assertEqual(key(answer.begin), key(answer.end))
+
     def test_an_answer_holds_what_was_published(self):
         self.advance(0.02)
         answer = self.advance(0.03, 2.0 * SPEED_UNIT, -1e-11)

@@ -20,7 +20,7 @@ class RealTime(unittest.TestCase):
                 ('step', '0', 'above 0'), ('step', '-1', 'above 0'), ('step', '1e-12', 'more than a million'),
                 ('tau', '0'), ('tau', '-1'), ('tau', '1e30'), ('tau', '9000000000000000000'), ('transient', '-1'),
                 ('tolerance', '5'), ('tolerance', 'nan'), ('tolerance', '-1'),
-                ('temperature', '1', 'needs a quality-factor'), ('quality-factor', '0.01'), ('kicks-per-tau', '0'),
+                ('temperature', '1', 'needs a quality factor'), ('quality-factor', '0.01'), ('kicks-per-tau', '0'),
                 ('rest-height', 'nan'), ('rest-height', '3', 'hovers'), ('amplitude', '5'), ('cutoff', '-1'),
                 ('frequency-ratio', '0')):
             with self.subTest(option=option, value=value):

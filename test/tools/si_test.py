@@ -240,7 +240,7 @@ class Refused(unittest.TestCase):
 
     def test_a_value_is_shown_as_it_was_given(self):
         curve = ['friction_curve', '--si']
-        self.refuse('temperature = 300: needs a quality-factor', *curve, '--temperature', 300)
+        self.refuse('temperature = 300: needs a quality factor', *curve, '--temperature', 300)
         self.refuse('temperature = -1: ', *curve, '--temperature', -1, '--quality-factor', 100)
         self.refuse('drag-velocity = 1: ', *curve, '--drag-velocity', 1)
         self.refuse('where 1 is 3.64e-06 m/s', *curve, '--drag-velocity', 1, '--lever', 'soft')

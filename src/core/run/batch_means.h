@@ -21,11 +21,11 @@ constexpr std::size_t kMinBatches = 16;  // a choice: Student's t of 16/3 degree
 // order 1/L from the correlation of neighbours; 2 S(L) - S(L/2) removes it (lugsail batch means).
 MeanError mean_error(std::vector<double> batches);
 
-// Without a bath the estimate from the work of the drag differs from the one from impacts by the change of the stored
-// energy, which is known.
-inline double work_std_error(double K_f_std_error, double K_f, double K_f_work) {
-  const double stored = K_f_work - K_f;
-  return std::sqrt(K_f_std_error * K_f_std_error + stored * stored);
+// The work of the drag also holds the energy that the tip has stored since the start. It is known, as a part of the
+// estimate: the work beyond what was lost in impacts and given to a bath. The scatter of batches that end where the
+// surface repeats does not show it.
+inline double work_std_error(double std_error, double stored) {
+  return std::sqrt(std_error * std_error + stored * stored);
 }
 
 // Quantile 0.975 of Student's t over that of the normal distribution, 1.959964; within 2e-3 from 2 degrees on.

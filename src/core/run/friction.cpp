@@ -155,11 +155,17 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   e.window_K_f_std_error = to_K_f(sums_.window.std_error(window_age));
   e.mean_lateral_force = age > 0.0 ? (sums_.impulse.value + open.impulse) / age : kNaN;
   e.K_f_work = moving ? e.mean_lateral_force / sums_.eta : kNaN;
-  const bool by_energy = moving && sums_.heat.value == 0.0;  // without a bath
-  e.mean_lateral_force_std_error =
-      by_energy ? detail::work_std_error(e.K_f_std_error, e.K_f, e.K_f_work) * std::abs(sums_.eta)
-                : sums_.impulse_bins.std_error(age);
-  e.K_f_work_std_error = moving ? e.mean_lateral_force_std_error / std::abs(sums_.eta) : kNaN;
+  const double impulse_error = sums_.impulse_bins.std_error(age);
+  if (moving) {
+    const bool has_bath = sums_.heat.value != 0.0;
+    const double stored = e.K_f_work - e.K_f - to_K_f(sums_.heat.value / age);
+    e.K_f_work_std_error =
+        detail::work_std_error(has_bath ? impulse_error / std::abs(sums_.eta) : e.K_f_std_error, stored);
+    e.mean_lateral_force_std_error = e.K_f_work_std_error * std::abs(sums_.eta);
+  } else {
+    e.K_f_work_std_error = kNaN;
+    e.mean_lateral_force_std_error = impulse_error;
+  }
   const double spring_constant = kTwoPi * kTwoPi;  // of the vertical spring: m omega_v^2
   e.mean_normal_force =
       sums_.samples > 0 ? spring_constant * (sums_.vertical.value / static_cast<double>(sums_.samples)) : kNaN;

@@ -66,7 +66,7 @@ std::vector<ParameterError> find_faults(const SweepSettings& settings) {
   }
   if (settings.bath.temperature > 0.0 && !settings.bath.is_on()) {
     faults.emplace_back("temperature", settings.bath.temperature,
-                        "needs a quality-factor above 0: without one no heat reaches the tip");
+                        "needs a quality factor above 0: without one no heat reaches the tip");
   }
   return faults;
 }

@@ -43,7 +43,7 @@ ModelTime quiet_time(Tip tip, double span) {
 
 // Sums over an interval of time.
 struct Totals {
-  CompensatedSum energy, impulse;  // energy lost in impacts; impulse of the holder
+  CompensatedSum energy, impulse, heat;  // energy lost in impacts; impulse of the holder; energy given to the bath
   double impacts = 0.0, contact_time = 0.0;
   bool has_bath = false;
   std::uint64_t search_failures = 0;
@@ -67,7 +67,9 @@ void follow(Tip& tip, const ModelTime& end, Totals& totals) {
     interruption_point();
     for (const Segment& segment : ended) {
       totals.impulse.add(segment.impulse);
-      if (segment.kind == SegmentKind::kick) totals.has_bath = true;
+      if (segment.kind != SegmentKind::kick) continue;
+      totals.has_bath = true;
+      totals.heat.add(segment.heat);
     }
     if (outcome == Outcome::search_failed) {
       ++totals.search_failures;
@@ -111,10 +113,15 @@ FrictionAverage average_over_time(Tip& tip, double duration) {
     impulses[i] = totals.impulse.value - impulse;
   }
   FrictionAverage a = average_of(totals, eta, tip.now() - begin);
-  a.K_f_std_error = eta == 0.0 ? kNaN : mean_error(std::move(energies)).std_error / (length * eta * eta);
-  a.K_f_work_std_error = eta == 0.0        ? kNaN
-                         : totals.has_bath ? mean_error(std::move(impulses)).std_error / (length * std::abs(eta))
-                                           : work_std_error(a.K_f_std_error, a.K_f, a.K_f_work);
+  if (eta == 0.0) {
+    a.K_f_std_error = a.K_f_work_std_error = kNaN;
+    return a;
+  }
+  a.K_f_std_error = mean_error(std::move(energies)).std_error / (length * eta * eta);
+  const double stored = a.K_f_work - a.K_f - totals.heat.value / (eta * eta * (tip.now() - begin));
+  const double scatter =
+      totals.has_bath ? mean_error(std::move(impulses)).std_error / (length * std::abs(eta)) : a.K_f_std_error;
+  a.K_f_work_std_error = work_std_error(scatter, stored);
   return a;
 }
 

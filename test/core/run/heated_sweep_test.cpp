@@ -6,6 +6,7 @@
 
 #include "afm/run.h"
 #include "afm/sweep.h"
+#include "support/models.h"
 
 namespace afm {
 namespace {
@@ -75,6 +76,29 @@ TEST(HeatedSweep, WhereKicksLockToTheDragTheStartDecides) {
   bath.quality_factor = 20.0;
   EXPECT_GT(spread_over_error(bath.kicks_per_tau), 20.0);
   EXPECT_LT(spread_over_error(suitable_kicks(Model{}, bath, eta)), 6.0);
+}
+
+// Bins of whole tau end where the surface repeats, so that their scatter was none: it was off by up to 170 errors.
+TEST(DampedRun, TheErrorInContactHoldsWhatTheTipHasStored) {
+  const SweepPoint point{1.0, 0.7, 0.05, ModelKind::oscillator, -3.0};
+  RunSettings settings;
+  settings.model = model_of(point);
+  settings.eta = point.eta;
+  settings.samples_per_batch = 2001;  // 63.7 tau
+  settings.bath.quality_factor = 100.0;
+  Tip tip(settings.model, settings.eta, lowered_tip(settings.model.H));
+  tip.set_bath(settings.bath);
+  average_over_time(tip, 2000.0);
+  const double K_f = average_over_time(tip, 6400.0).K_f_work;  // batches of 100 cells, and of 2903.4 kicks
+  afm::Run run(settings);
+  Batch batch;
+  int held = 0;
+  constexpr int kBatches = 100;
+  for (int i = 0; i < kBatches; ++i) {
+    run.advance(batch);
+    held += i >= 20 && std::abs(batch.friction.K_f_work - K_f) < 1.96 * batch.friction.K_f_work_std_error ? 1 : 0;
+  }
+  EXPECT_GT(held, 70);  // of 80
 }
 
 // Of a light tip under a load, which is mostly down.
