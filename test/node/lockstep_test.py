@@ -53,10 +53,14 @@ class Lockstep(EmulatorTest):
 
     def test_an_answer_holds_what_was_published(self):
         self.advance(0.02)
-        answer = self.advance(0.03, 2.0 * SPEED_UNIT, -1e-11)
+        for speed in (2.0 * SPEED_UNIT, -2.0 * SPEED_UNIT):
+            self.assert_holds_what_was_published(speed)
+
+    def assert_holds_what_was_published(self, speed):
+        answer = self.advance(0.03, speed, -1e-11)
         applied = self.topics['applied'].wait_for(lambda m: m.number == answer.applied, 'what is in force')
         self.assertEqual((applied.drag_velocity, applied.rest_height_m, key(applied.time)),
-                         (2.0 * SPEED_UNIT, -1e-11, key(answer.begin)))
+                         (speed, -1e-11, key(answer.begin)))
         self.topics['friction'].wait_for(lambda m: key(m.time) == key(answer.end), 'the end of the period')
         for name in ('deflection', 'impacts'):
             self.topics[name].wait_for(lambda m: m.header.seq == self.topics['friction'].messages[-1].header.seq,

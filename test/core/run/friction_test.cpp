@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -47,13 +49,38 @@ TEST(Friction, IsTheEnergyLostOverTheWayDragged) {
 }
 
 TEST(Friction, HasTheSignOfTheDrag) {
-  Friction friction = started(10.0, -2.0);
-  for (int i = 0; i < 100; ++i) friction.add(impact_at(0.5 + i, 1.0));
+  Friction friction = started(8.0, -2.0);
+  for (int i = 0; i < 100; ++i) friction.add(impact_at(0.5 + i, i % 4 < 2 ? 0.5 : 1.5));
   const FrictionEstimate e = friction.estimate(time_of(100.0), Segment());
   EXPECT_NEAR(e.force, -0.5, 1e-12);
   EXPECT_NEAR(e.window_force, -0.5, 1e-12);
   EXPECT_NEAR(e.K_f, 0.25, 1e-12);
-  EXPECT_GE(e.force_std_error, 0.0);
+  EXPECT_GT(e.K_f_std_error, 0.0);
+  EXPECT_DOUBLE_EQ(e.force_std_error, 2.0 * e.K_f_std_error);
+}
+
+TEST(Friction, ItsErrorsAreThoseOfWholeBinsThatAreIndependent) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> energy(0.0, 2.0);
+  Friction friction = started(32.0, 1.0);  // both have bins of a tau
+  std::vector<double> energies;
+  for (int n = 1; n <= 40; ++n) {
+    energies.push_back(energy(random));
+    friction.add(impact_at(n - 0.5, energies.back()));
+    Friction later = friction;
+    later.add(impact_at(n + 0.1, 100.0));  // of a bin that is being filled
+    const FrictionEstimate e = later.estimate(time_of(n + 0.2), Segment());
+    const auto expected = [&](int last) {
+      const std::vector<double> bins(energies.end() - last, energies.end());
+      const double mean = std::accumulate(bins.begin(), bins.end(), 0.0) / last;
+      double squares = 0.0;
+      for (const double bin : bins) squares += (bin - mean) * (bin - mean);
+      return std::sqrt(squares / (last - 1) / last);
+    };
+    if (n < 8) continue;
+    EXPECT_NEAR(e.K_f_std_error, expected(n), 1e-12) << n;
+    EXPECT_NEAR(e.window_K_f_std_error, expected(std::min(n, 32)), 1e-12) << n;
+  }
 }
 
 TEST(Friction, OfATipAtRestIsNoughtAndItsCoefficientUndefined) {
