@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -100,9 +101,12 @@ void check_clock() {
 
 // Once all else is done: roscpp would wait for a master that hangs.
 void leave_soon() {
+  std::fflush(nullptr);
   std::thread([end = std::chrono::steady_clock::now() + kLeave] {
     for (; !g_has_left; std::this_thread::sleep_for(kShutdownPoll)) {
-      if (std::chrono::steady_clock::now() > end) std::_Exit(0);
+      if (std::chrono::steady_clock::now() < end) continue;
+      std::fputs("the master does not answer: left without telling it\n", stderr);
+      std::_Exit(0);
     }
   }).detach();
 }
@@ -166,7 +170,7 @@ class EmulatorNode {
     closing_ = true;  // services that wait for an answer return, and can then be shut down
     runner_.stop();
     publisher_->stop();
-    recorder_.stop();
+    while (!recorder_.status().recording.empty()) recorder_.stop();  // a slow disk may take more than one wait
     leave_soon();
     for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
     clients_timer_.stop();
@@ -271,7 +275,6 @@ class EmulatorNode {
     } else {
       refusals_.add(Refusal::faulty_command, fault);
     }
-    if (!fault.empty()) answer.measured.begin = answer.time;  // nothing was measured
     response = to_control(answer, parameters_.si);
     return respond(response, fault, "time reached");
   }

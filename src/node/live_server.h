@@ -85,8 +85,8 @@ class LiveServer {
     in_force_ = live;
   }
 
-  // Shows clients what was applied, now and then. Each message a second time, as roscpp's latch takes it after it has been
-  // sent: who subscribed between the two has the one before. Any other thread.
+  // Shows clients what was applied; called now and then. It sends each message twice: roscpp's latch takes one after it
+  // has been sent, and who subscribed between the two has the one before. Any other thread.
   void update_clients() {
     const boost::recursive_mutex::scoped_try_lock lock(server_mutex_);
     if (!lock) return;  // a change holds it until it has taken effect: after a step, which may take seconds

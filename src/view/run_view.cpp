@@ -47,6 +47,7 @@ void RunView::take(const afm_emulator::Configuration& message) {
 
 void RunView::take(const afm_emulator::Applied& message) {
   if (!applied_.empty() && applied_.back().epoch != message.epoch) applied_.clear();
+  if (!applied_.empty() && applied_.back().first_sample == message.first_sample) applied_.pop_back();
   applied_.push_back(message);
 }
 

@@ -71,7 +71,8 @@ class Ending(NodeTest):
 
     def test_imported_after_rospy(self):
         """A signal that was ignored at the start too, as SIGINT is by the & of a script."""
-        for number, action in itertools.product((signal.SIGINT, signal.SIGTERM), (signal.SIG_DFL, signal.SIG_IGN)):
+        for number, action in (*itertools.product((signal.SIGINT, signal.SIGTERM), (signal.SIG_DFL, signal.SIG_IGN)),
+                               (signal.SIGHUP, signal.SIG_DFL)):
             node = self.start(Process(['/usr/bin/python3', '-c', LATE],
                                       preexec_fn=functools.partial(signal.signal, number, action)))
             wait_until(lambda: node.output().endswith('\n'), 'it waits')

@@ -114,6 +114,7 @@ class Faults(NodeTest):
                 emulator.drag(speed)
             applied.wait_for(lambda m, n=number: m.number == n)
             self.assertEqual(BareSubscriber('applied').read_message().number, number)
+        self.assertIn('held up', emulator.output())
 
     def test_who_subscribes_while_commands_wait_to_be_sent_gets_them_in_order(self):
         """The last was followed by those before it."""
@@ -134,6 +135,7 @@ class Faults(NodeTest):
                 numbers = [subscriber.read_message().number for _ in range(20)]
                 self.assertEqual(numbers, list(range(numbers[0], numbers[0] + 20)))
                 subscriber.die()
+            self.assertIn('sent late', emulator.output())
         finally:
             ended.set()
             commands.join()
@@ -147,8 +149,9 @@ class Faults(NodeTest):
         updates.wait_for(lambda m: gamma(m) == 0.7)
         threading.Thread(target=emulator.set, kwargs={'restitution_gamma': 0.5}).start()
         updates.wait_for(lambda m: gamma(m) == 0.5)
-        late = BareSubscriber('parameter_updates', Config)
+        late = BareSubscriber('parameter_updates', kind=Config)
         wait_until(lambda: gamma(late.read_message()) == 0.5, 'the slider is set')
+        self.assertIn('held up', emulator.output())
 
     def time_without_a_clock(self):
         self.assertLess(abs(self.status.wait_for_next().header.stamp.to_sec() - time.time()), 60.0)

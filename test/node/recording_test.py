@@ -6,6 +6,7 @@ import resource
 import shutil
 import signal
 import subprocess
+from pathlib import Path
 
 import rosbag
 from afm_emulator.msg import Friction
@@ -124,11 +125,21 @@ class Recording(NodeTest):
         self.assertIn('/dev/null', emulator.output())
 
     def test_a_terminal_that_is_closed_leaves_a_good_bag(self):
-        emulator = self.record(record=True)
-        Topic('deflection').wait_for_more(20)
-        self.assertEqual(emulator.stop(signal.SIGHUP), 0)
-        path, = self.directory.iterdir()
-        checks.assert_identical(self, path)
+        """Under nohup it goes on."""
+        for handler, goes_on in ((signal.SIG_DFL, False), (signal.SIG_IGN, True)):
+            directory, deflection = Path(self.temporary_directory()), Topic('deflection')
+            set_parameters({'record': True, 'bag_directory': str(directory)})
+            node = self.start(Process([find('emulator_node'), '__name:=afm'],
+                                      preexec_fn=lambda h=handler: signal.signal(signal.SIGHUP, h)))
+            deflection.wait_for_more(20)
+            node.child.send_signal(signal.SIGHUP)
+            if goes_on:
+                deflection.wait_for_more(50)
+                node.child.send_signal(signal.SIGINT)
+            self.assertEqual(node.wait(), 0)
+            path, = directory.iterdir()
+            checks.assert_identical(self, path)
+            Topic.close_all()
 
     def test_topics_may_be_remapped_and_sigterm_leaves_a_good_bag(self):
         directory = self.temporary_directory()

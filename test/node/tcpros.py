@@ -12,7 +12,7 @@ from topics import NAMESPACE, TOPICS
 
 
 class BareSubscriber:
-    def __init__(self, name, kind=None, caller='/bare', master=None):
+    def __init__(self, name, caller='/bare', master=None, kind=None):
         _, _, node = master.lookupNode(caller, NAMESPACE) if master else rospy.get_master().lookupNode(NAMESPACE)
         topic = name if name.startswith('/') else NAMESPACE + '/' + name
         code, text, (_, host, port) = xmlrpc.client.ServerProxy(node).requestTopic(caller, topic, [['TCPROS']])

@@ -82,7 +82,7 @@ class Topic:
             self.messages[:], self.raw[:] = [self.messages[i] for i in kept], [self.raw[i] for i in kept]
 
     def _take(self, message):
-        # who subscribes while a latched message is being published gets it twice from roscpp; ours are numbered
+        # rospy may hand on what is latched twice; ours are numbered
         twice = message._connection_header['latching'] == '1' and self.raw and self.raw[-1] == message._buff
         if twice and 'header' in self.kind.__slots__:
             return

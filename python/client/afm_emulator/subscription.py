@@ -5,7 +5,7 @@ import time
 
 import rospy
 
-ASK_AGAIN_S = 5.0  # an answer that is still on its way would be asked for twice, and a message lost
+ASK_AGAIN_S = 5.0  # twice at once would lose messages: a slow publisher has this long to answer
 
 
 class Subscription:

@@ -159,9 +159,9 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   if (moving) {
     const bool has_bath = sums_.heat.value != 0.0;
     const double stored = e.K_f_work - e.K_f - to_K_f(sums_.heat.value / age);
-    e.K_f_work_std_error =
-        detail::work_std_error(has_bath ? impulse_error / std::abs(sums_.eta) : e.K_f_std_error, stored);
-    e.mean_lateral_force_std_error = e.K_f_work_std_error * std::abs(sums_.eta);
+    const double scatter = has_bath ? impulse_error / std::abs(sums_.eta) : e.K_f_std_error;
+    e.mean_lateral_force_std_error = detail::work_std_error(scatter, stored) * std::abs(sums_.eta);
+    e.K_f_work_std_error = e.mean_lateral_force_std_error / std::abs(sums_.eta);
   } else {
     e.K_f_work_std_error = kNaN;
     e.mean_lateral_force_std_error = impulse_error;

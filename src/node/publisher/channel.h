@@ -9,7 +9,6 @@
 #include <ros/this_node.h>
 #include <ros/topic_manager.h>
 
-#include <atomic>
 #include <boost/make_shared.hpp>
 #include <cstdint>
 #include <deque>
@@ -31,11 +30,7 @@ class Outstanding {
  public:
   // The same message, whose bytes report when they are let go.
   ros::SerializedMessage track(ros::SerializedMessage message) {
-    const std::uint64_t number = next_++;
-    {
-      const std::lock_guard<std::mutex> lock(state_->mutex);
-      state_->held.insert(number);
-    }
+    const std::uint64_t number = state_->begin();
     message.buf = boost::shared_array<std::uint8_t>(
         message.buf.get(), [bytes = message.buf, state = state_, number](std::uint8_t*) { state->let_go(number); });
     return message;
@@ -44,44 +39,56 @@ class Outstanding {
   // How many, and the number of the oldest, or that of the next message.
   std::pair<std::size_t, std::uint64_t> held() const {
     const std::lock_guard<std::mutex> lock(state_->mutex);
-    return {state_->held.size(), state_->held.empty() ? next_ : *state_->held.begin()};
+    return {state_->held.size(), state_->held.empty() ? state_->next : *state_->held.begin()};
   }
-  // Since this was last asked.
-  std::uint64_t take_lost() {
+  // Messages that a slow subscriber did not get, as its queue here was full.
+  std::uint64_t lost() const {
     const std::lock_guard<std::mutex> lock(state_->mutex);
-    return std::exchange(state_->lost, 0);
+    return state_->lost;
+  }
+  // Before roscpp lets go of what waited for a subscriber that has left: that is not lost.
+  void forgive() {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    state_->forgiven = state_->next;
   }
 
  private:
   struct State {
+    std::uint64_t begin() {
+      const std::lock_guard<std::mutex> lock(mutex);
+      held.insert(next);
+      return next++;
+    }
     // Each subscriber gets its messages in order, and the one that is being sent is held: what is let go before an
     // older one was dropped.
     void let_go(std::uint64_t number) {
       const std::lock_guard<std::mutex> lock(mutex);
-      if (*held.begin() < number) ++lost;
+      if (*held.begin() < number && number >= forgiven) ++lost;
       held.erase(number);
     }
     std::mutex mutex;
     std::set<std::uint64_t> held;
-    std::uint64_t lost = 0;
+    std::uint64_t next = 0, lost = 0, forgiven = 0;  // forgiven: the messages before that number
   };
 
-  std::uint64_t next_ = 0;
   const std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
-// Runs roscpp's callbacks about subscribers at once, in its thread that sends.
+// Runs roscpp's callbacks about subscribers at once: over TCP in its thread that sends.
 class AtOnce : public ros::CallbackQueueInterface {
   void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override { callback->call(); }
   void removeByID(std::uint64_t) override {}
 };
 
-// The last message of a latched topic, for whoever subscribes. roscpp's own latch takes a message after it has been sent:
-// a subscriber that came between the two would have the one before, until the next.
+// The last message of a latched topic, for whoever subscribes. roscpp's own latch takes a message after it has been
+// sent: a subscriber that came between the two would have the one before, until the next.
 template <class Message>
 class Latch {
  public:
-  void set_publication(ros::PublicationPtr publication) { publication_ = std::move(publication); }
+  void set_publication(ros::PublicationPtr publication) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    publication_ = std::move(publication);
+  }
 
   // Before the message is published.
   void set(const Message& message) {
@@ -138,17 +145,10 @@ class Channel {
     ros::SerializedMessage unused;
     ros::TopicManager::instance()->publish(
         bag_topic_->name, [sent = std::move(sent)] { return sent; }, unused);
-    if (!latched_) lost();
     recorder_.record(bag_topic_, bytes, role_, for_recording);
   }
 
-  // Messages that a slow subscriber did not get, as its queue here was full. What waited for one that has left is not
-  // lost.
-  std::uint64_t lost() {
-    const std::uint64_t left = left_, lost = outstanding_.take_lost();
-    if (left == std::exchange(left_before_, left)) lost_ += lost;
-    return lost_;
-  }
+  std::uint64_t lost() const { return outstanding_.lost(); }  // to slow subscribers
 
  private:
   // roscpp counts by itself and would write over our numbers, unless it does not know of the header: what is on the
@@ -158,7 +158,7 @@ class Channel {
     options.init<Message>(name, queue_size);
     options.latch = latched_;
     if (latched_) options.connect_cb = [this](const auto& subscriber) { latch_.send_last_to(subscriber); };
-    options.disconnect_cb = [this](const auto&) { ++left_; };
+    options.disconnect_cb = [this](const auto&) { outstanding_.forgive(); };
     options.callback_queue = &at_once_;
     options.has_header = false;
     return node.advertise(options);
@@ -192,14 +192,11 @@ class Channel {
   const Role role_;
   AtOnce at_once_;
   Latch<Message> latch_;
-  std::atomic<std::uint64_t> left_{0};  // subscribers
+  Outstanding outstanding_;
   ros::Publisher publisher_;
   const std::shared_ptr<const BagTopic> bag_topic_;
   Recorder& recorder_;
   std::uint32_t sequence_ = 0;
-  std::uint64_t lost_ = 0;
-  std::uint64_t left_before_ = 0;
-  Outstanding outstanding_;
   // the message that a subscriber did not take in a whole wait: until it does, we do not wait for it again
   std::uint64_t stuck_at_ = std::numeric_limits<std::uint64_t>::max();
 };

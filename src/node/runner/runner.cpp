@@ -336,7 +336,7 @@ void Runner::offer_answer(const Answer& answer, Reply reply) {
 Answer Runner::answer(const char* fault) const {
   Answer answer;
   answer.fault = fault;
-  answer.time = run_.now();
+  answer.time = answer.measured.begin = run_.now();  // nothing was measured
   return answer;
 }
 
