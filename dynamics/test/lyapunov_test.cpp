@@ -92,6 +92,24 @@ TEST(Lyapunov, IsHowFastNeighboursPart) {
   EXPECT_NEAR(s.exponents[0], 0.6, 0.1);
 }
 
+// On a chaotic orbit.
+TEST(Lyapunov, TheErrorIsTheScatterFromStartToStart) {
+  constexpr int kStarts = 100;
+  LyapunovSettings settings;
+  settings.transient = 50.0;
+  settings.duration = 1000.0;
+  double sum = 0.0, squares = 0.0, error = 0.0;
+  for (int i = 0; i < kStarts; ++i) {
+    const FreeState start{0.25, 0.001 * i, 0.2, 3.4, 0.0};
+    const LyapunovSpectrum s = lyapunov(model_with_cutoff(0.34), 3.4, start, settings);
+    sum += s.exponents[0];
+    squares += s.exponents[0] * s.exponents[0];
+    error += s.std_errors[0] / kStarts;
+  }
+  const double scatter = std::sqrt((squares - sum * sum / kStarts) / (kStarts - 1));
+  EXPECT_NEAR(scatter / error, 1.0, 0.25);
+}
+
 // The exponents do not depend on the contact tolerance. The first case compares with every bounce by itself, where
 // chatter sequences are rare. The second compares with a hundredth of the tolerance, where many begin above the cutoff.
 TEST(Lyapunov, DoesNotDependOnTheToleranceOfBursts) {

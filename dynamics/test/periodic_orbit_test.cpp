@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "afm/dynamics/orbit_search.h"
+#include "afm/tip.h"
 #include "support/models.h"
 
 namespace afm {
@@ -47,6 +48,35 @@ TEST(PeriodicOrbit, AtEvenEtaIsTheClosedFormWhateverTheHorizontalFrequency) {
     EXPECT_NEAR(r.orbit.K_f, 4.0 * 1.7 / 0.3 * s * s / (1.0 + s * s), 4e-15) << eta << ' ' << ratio;
     EXPECT_EQ(r.orbit.period, 0.5);
     EXPECT_NEAR(r.orbit.slowest_impact, before, 1e-12);
+  }
+}
+
+TEST(PeriodicOrbit, DraggedBackwardsItIsMirrored) {
+  const Model model = model_with_cutoff(0.05);
+  const OrbitResult forth = find_orbit(PoincareMap(model, 3.4), {{0.53, 0.0, 3.2, 0.0, 2.5}});
+  const OrbitResult back = find_orbit(PoincareMap(model, -3.4), {{0.47, 0.0, -3.2, 0.0, 2.5}});
+  ASSERT_EQ(back.outcome, OrbitOutcome::found);
+  EXPECT_EQ(back.orbit.cells, -forth.orbit.cells);
+  EXPECT_NEAR(back.orbit.points[0].phase, 1.0 - forth.orbit.points[0].phase, 1e-15);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LE(std::abs(back.orbit.multipliers[i] - forth.orbit.multipliers[i]), 1e-12) << i;
+  }
+}
+
+// Whichever impact of the attractor at eta = 3.5 comes first.
+TEST(PeriodicOrbit, EachTimeIsThatOfTheFlightFromItsPoint) {
+  const PoincareMap map(model_with_cutoff(0.05), 3.5);
+  Tip tip(map.model(), map.eta(), start_at(map.eta()));
+  while (tip.advance({2000, 0.0}) != Outcome::time_limit) continue;
+  for (int first = 0; first < 4; ++first) {
+    std::vector<TipState> points;
+    for (Tip next = tip; points.size() < 4; points.push_back(next.tip_state())) next.advance(kEndOfTime);
+    const OrbitResult r = find_orbit(map, points);
+    ASSERT_EQ(r.outcome, OrbitOutcome::found);
+    EXPECT_TRUE(is_prime(r.orbit));
+    EXPECT_GT(r.orbit.clearance, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(r.orbit.times[i], map(r.orbit.points[i]).dt, 1e-13) << i;
+    tip.advance(kEndOfTime);
   }
 }
 

@@ -37,6 +37,14 @@ TEST(Bath, KicksLockWhereKfWasWrong) {
   for (const double kicks : {11.09, 29.034}) EXPECT_FALSE(kicks_lock(Model{}, with(100.0, kicks))) << kicks;
 }
 
+// A tip that forgets faster follows the swing within a wider range.
+TEST(Bath, ATenthOfATurnFromALockIsTooNearAtALowQualityFactorAlone) {
+  for (const double turns : {0.6, 0.9, 1.1, 1.4}) {
+    EXPECT_TRUE(kicks_lock(with_ratio(30.0 * turns), with(20.0, 30.0))) << turns;
+    EXPECT_FALSE(kicks_lock(with_ratio(30.0 * turns), with(100.0, 30.0))) << turns;
+  }
+}
+
 TEST(Bath, WithoutKicksOrWithoutALateralSpringNothingLocks) {
   EXPECT_FALSE(kicks_lock(with_ratio(14.0), with(0.0)));
   Model hammer = with_ratio(14.0);

@@ -158,6 +158,28 @@ TEST(ChatterLaw, TellsOneBounceToTheOrderOfItsSeries) {
   EXPECT_GT(compared, 1000);
 }
 
+TEST(ChatterLaw, WithoutACutoffCountsAndDisplacesAsTheBouncesDo) {
+  constexpr int kBounces = 3;
+  for (const double gamma : {0.9, 0.7, 0.3}) {
+    const Model model = model_with(gamma, 0.0);
+    const ChatterLaw law(model, kThreshold);
+    RandomLaunches random(8);
+    double displacement = 0.0, error = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      const RandomChatter chatter = random_chatter(model, law, random, -3.0, -2.3);
+      Tip tip = chatter.every_bounce();
+      for (int n = 0; n < kBounces; ++n) tip.advance(kEndOfTime);
+      const double t = tip.now() - ModelTime{};
+      const Chatter now = law.at(chatter.reference, t, {chatter.v, 0.0});
+      EXPECT_NEAR(now.n, kBounces, 0.05) << gamma << ' ' << i;
+      const SlideState<double> kept = chatter.reference.at(t), displaced = displaced_reference(model, kept, now);
+      displacement += std::abs(displaced.u - kept.u);
+      error += std::abs(displaced.u - project_onto_surface(model, tip.tip_state()).reference.u);
+    }
+    EXPECT_LT(error, 0.01 * displacement) << gamma;
+  }
+}
+
 TEST_P(Chatters, InOneRunTheGapRateIsGoodToTheThreshold) {
   RandomLaunches random(3);
   long bounces = 0;

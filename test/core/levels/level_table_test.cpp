@@ -71,6 +71,11 @@ TEST(LevelTable, BetweenPointsTheWorstCounts) {
   EXPECT_TRUE(choose(1.5, 0.02).level == kEvery);
   EXPECT_TRUE(choose(2.5, 0.5).level == kBursts) << "the table has no hammer at eta = 3";
   EXPECT_EQ(choose(2.0 + 1e-7, 0.05).expected_error, 0.03) << "the point itself but for rounding";
+  const LevelTable table = table_of(std::string(kHead) +
+                                    "1,oscillator,0.001,0.01,0.01,1\n1,hammer,0.001,0.1,0.1,0.5\n"
+                                    "2,oscillator,0.001,0.01,0.01,1\n2,hammer,0.001,0.1,0.1,2\n");
+  EXPECT_TRUE(table.choose(model_at(), 1.0, 0.5, ToleranceOf::friction, kFull).level == kHammer);
+  EXPECT_TRUE(table.choose(model_at(), 1.5, 0.5, ToleranceOf::friction, kFull).level == kBursts);
 }
 
 TEST(LevelTable, WhereNothingIsGoodEnoughTheBestIsTaken) {

@@ -47,6 +47,19 @@ TEST(BatchMeans, NineteenInTwentyIntervalsHoldTheMean) {
   EXPECT_NEAR(coverage(0.2, 64), 0.95, 0.02);
   EXPECT_NEAR(coverage(-0.2, 64), 0.95, 0.02);
   EXPECT_NEAR(coverage(0.5, 512), 0.95, 0.02);
+  EXPECT_NEAR(coverage(0.0, 16), 0.95, 0.01);
+}
+
+TEST(BatchMeans, TheVarianceOfTheMeanIsRightOnAverage) {
+  constexpr int kRuns = 4000;
+  constexpr double kBatches = 16.0;
+  std::mt19937_64 random(1);
+  double squares = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const double error = mean_error(correlated(random, 16, 0.0)).std_error / student_widening(kBatches / 3.0);
+    squares += error * error;
+  }
+  EXPECT_NEAR(squares / kRuns * kBatches, 1.0, 0.03);
 }
 
 TEST(BatchMeans, MergesWhatIsCorrelated) {

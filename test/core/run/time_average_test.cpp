@@ -52,6 +52,24 @@ TEST(AverageOverTime, ASlowDragHasItsFrictionByTheWorkToo) {
   EXPECT_LT(a.K_f_work_std_error, 0.005);
 }
 
+// The first contact begins before the interval, and its end is the first event.
+TEST(AverageOverTime, TheTipFliesWheneverItIsNotInContact) {
+  constexpr double kDuration = 100.0;
+  Tip tip(model_with_cutoff(0.01), 0.3, start_at(0.3));
+  while (tip.advance(kEndOfTime) != Outcome::contact) continue;
+  Tip watched = tip;
+  const ModelTime end = tip.now() + kDuration;
+  double contact = 0.0;
+  Segments ended;
+  while (watched.advance_segment(end, &ended) != Outcome::time_limit) {
+    for (const Segment& s : ended) contact += s.kind == SegmentKind::contact ? s.end - s.begin : 0.0;
+  }
+  if (watched.in_contact()) contact += end - watched.segment().begin;
+  const FrictionAverage a = average_over_time(tip, kDuration);
+  EXPECT_GT(contact, 1.0);
+  EXPECT_NEAR(a.mean_flight_time * a.impacts_per_tau * kDuration, kDuration - contact, 1e-9);
+}
+
 TEST(RandomStart, IsAboveTheSurfaceAndOfItsOwnNumber) {
   const SweepPoint point{3.4, 0.7, 0.05};
   for (std::uint64_t i = 0; i < 1000; ++i) {
