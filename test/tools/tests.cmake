@@ -45,6 +45,11 @@ foreach(name command_line decimal_range table_writer)
   set_tests_properties(${gtest_prefix}${name}_test PROPERTIES TIMEOUT 60)
 endforeach()
 
+# sweep/curve_test.cpp: the rows of curves and maps
+afm_add_gtest(curve_test sweep/curve_test.cpp)
+target_link_libraries(afm_curve_test afm_curves)
+set_tests_properties(${gtest_prefix}curve_test PROPERTIES TIMEOUT 60)
+
 # projects outside the tree
 if(NOT AFM_SANITIZE AND AFM_DYNAMICS)
   set(examples)

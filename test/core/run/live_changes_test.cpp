@@ -166,6 +166,23 @@ TEST(RunChange, OfTheBathOrTheDragVelocityBeginsTheBalanceAnew) {
   }
 }
 
+TEST(Run, AHammerThatIsDampedInContactHasItsBalanceToo) {
+  RunSettings settings = settings_at(0.05, 300);
+  settings.model.kind = ModelKind::hammer;
+  settings.model.y0 = -0.5;
+  settings.bath.quality_factor = 100.0;
+  settings.bath.kicks_per_tau = 843.618;  // too weak, each, to lift the tip
+  afm::Run run(settings);
+  const double stored = stored_energy(settings.model, run.state());
+  Batch batch;
+  for (int i = 0; i < 5; ++i) run.advance(batch);
+  EXPECT_TRUE(batch.impacts.empty());  // it slides
+  const FrictionEstimate& friction = batch.friction;
+  const double work = run.eta() * friction.mean_lateral_force * (run.now() - ModelTime{});
+  const double gain = stored_energy(settings.model, run.state()) - stored;
+  EXPECT_NEAR(work, friction.energy_loss + friction.heat_to_bath + gain, 1e-12);
+}
+
 TEST(Run, TheHolderOfAHammerBeginsAboveItsTip) {
   RunSettings settings = settings_at(0.5, 100);
   settings.model.kind = ModelKind::hammer;

@@ -33,8 +33,9 @@ TEST_P(RunAt, BatchesOfAnySizeAreOneLongRun) {
   for (const std::uint64_t size : {1u, 7u, 100u, 3000u}) {
     afm::Run run(settings(size));
     RecordedRun recorded;
-    while (recorded.vertical.size() < 12000 - size) {
+    for (double worst = 0.0; recorded.vertical.size() < 12000 - size; worst = run.counters().worst_penetration) {
       ASSERT_EQ(run.advance(batch), Outcome::time_limit);
+      ASSERT_GE(run.counters().worst_penetration, worst);
       ASSERT_EQ(batch.vertical.size(), size);
       ASSERT_TRUE(batch.first_sample_time == multiply(batch.first_sample, run.settings().sample_period));
       recorded.append(batch);

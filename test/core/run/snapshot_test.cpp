@@ -136,6 +136,22 @@ TEST_P(Snapshots, ChangeTheNextEventLittle) {
   }
 }
 
+TEST(Snapshot, InAChatterSequenceKeepsTheSpeedOfItsFirstBounce) {
+  constexpr double kSpeed = 1e-3;
+  for (const ModelKind kind : {ModelKind::oscillator, ModelKind::hammer}) {
+    Model model;
+    model.kind = kind;
+    model.y0 = -0.5;
+    Tip tip(model, 0.3, TipState{0.5, 0.0, 0.3, 0.0, kSpeed});  // in a valley: the gap rate is the normal speed
+    tip.advance({0, 1e-3});
+    ASSERT_TRUE(tip.in_chatter());
+    Tip again(model, 0.3, tip.snapshot(), kDefaultContactTolerance, tip.thermostat());
+    ASSERT_EQ(again.advance(kEndOfTime), Outcome::impact);
+    ASSERT_EQ(again.last_impact().kind, ImpactKind::burst);
+    EXPECT_DOUBLE_EQ(again.last_impact().normal_speed, kSpeed);
+  }
+}
+
 // Eq. 1 over splits and without: the work of the drag is what impacts and bath take, and what the tip stores.
 TEST_P(Snapshots, LeaveTheEnergyBalanceClosed) {
   if (GetParam().kind == ModelKind::hammer) return;  // the holder also takes energy across its constraint

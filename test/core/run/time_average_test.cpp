@@ -70,15 +70,31 @@ TEST(AverageOverTime, TheTipFliesWheneverItIsNotInContact) {
   EXPECT_NEAR(a.mean_flight_time * a.impacts_per_tau * kDuration, kDuration - contact, 1e-9);
 }
 
-TEST(RandomStart, IsAboveTheSurfaceAndOfItsOwnNumber) {
+// From a start that is not on the orbit yet.
+TEST(AverageOverPeriods, TheErrorsAreTheDifferencesFromTheFirstHalf) {
+  constexpr double kEta = 2.0, kHalf = 2.0;
+  Tip tip(model_with_cutoff(0.2), kEta, start_at(kEta)), again = tip;
+  const FrictionAverage second = average_over_periods(tip, 1, 2.0 * kHalf);
+  while (again.advance(tip.now() + -2.0 * kHalf) != Outcome::time_limit) continue;
+  const FrictionAverage first = average_over_time(again, kHalf);
+  const double change = std::abs(second.K_f - first.K_f), work_change = std::abs(second.K_f_work - first.K_f_work);
+  EXPECT_GT(std::abs(work_change - change), 1e-3);
+  EXPECT_NEAR(second.K_f_std_error, change, 1e-12);
+  EXPECT_NEAR(second.K_f_work_std_error, work_change, 1e-12);
+}
+
+TEST(SweepPoint, EndsWhereItsTipIs) {
   const SweepPoint point{3.4, 0.7, 0.05};
-  for (std::uint64_t i = 0; i < 1000; ++i) {
-    const TipState start = random_start(point, 7, i);
-    ASSERT_GE(start.g, 0.0);
-    ASSERT_EQ(random_start(point, 7, i).phase, start.phase);
-    ASSERT_NE(random_start(point, 8, i).phase, start.phase);
-    ASSERT_NE(random_start(point, 7, i + 1).phase, start.phase);
-  }
+  SweepSettings settings;
+  settings.duration = 16.0;
+  settings.transient = 4.0;
+  const TipState start = random_start(point, 1, 0);
+  Tip tip(model_of(point), point.eta, start);
+  while (tip.advance({20, 0.0}) != Outcome::time_limit) continue;
+  const TipState end = sweep_point(point, settings, start).end, expected = tip.tip_state();
+  EXPECT_EQ(end.phase, expected.phase);
+  EXPECT_EQ(end.X, expected.X);
+  EXPECT_EQ(end.g1, expected.g1);
 }
 
 }  // namespace

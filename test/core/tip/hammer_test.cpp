@@ -111,25 +111,26 @@ TEST(Hammer, OfTwoCommandsAtOneTimeTheLastCounts) {
   EXPECT_GT(commands, 80);
 }
 
-// Loss of the chatter in one valley, from its first bounce to the end of the pressure, and in how many
-// bursts.
+// Loss of the chatter in one valley, from its first bounce to the end of the pressure, in how many bursts, and the
+// normal speed of the first bounce.
 struct Loss {
-  double energy;
+  double energy, first_speed;
   int bursts;
 };
 Loss lost_in_a_valley(double gap_rate, double tolerance) {
   Tip tip(hammer(0.7, 1.4), 7.0, TipState{0.3, 0.0, 7.0, 0.0, gap_rate}, tolerance);
-  Loss lost{0.0, 0};
+  Loss lost{0.0, 0.0, 0};
   const ModelTime end{0, 0.1};
   for (Outcome o = tip.advance(end); o != Outcome::time_limit; o = tip.advance(end)) {
     if (o != Outcome::impact) continue;
+    if (lost.energy == 0.0) lost.first_speed = tip.last_impact().normal_speed;
     lost.energy += tip.last_impact().energy_loss;
     if (tip.last_impact().kind == ImpactKind::burst) ++lost.bursts;
   }
   return lost;
 }
 
-TEST(Hammer, BurstsLoseWhatTheirBouncesLose) {
+TEST(Hammer, BurstsLoseWhatTheirBouncesLoseAndAreAsFastAsTheFirst) {
   for (const double gap_rate : {0.002, 0.005, 0.01, 0.02}) {
     const Loss bounces = lost_in_a_valley(gap_rate, 0.0);
     const double tolerance = gap_rate > 0.01 ? kMaxContactTolerance : kDefaultContactTolerance;
@@ -137,6 +138,19 @@ TEST(Hammer, BurstsLoseWhatTheirBouncesLose) {
     ASSERT_EQ(bounces.bursts, 0);
     EXPECT_GT(burst.bursts, 0) << gap_rate;
     EXPECT_NEAR(burst.energy, bounces.energy, 1e-4 * bounces.energy) << gap_rate;
+    EXPECT_NEAR(burst.first_speed, bounces.first_speed, 0.02 * gap_rate) << gap_rate;
+  }
+}
+
+TEST(Hammer, AtRestItsImpactsLoseWhatItHasStored) {
+  for (const double phase : {0.1, 0.2, 0.85}) {  // where the surface presses
+    Tip tip(hammer(), 0.0, FreeState{phase, 0.0, 0.2, 0.0, 0.0});
+    const double stored = tip.stored_energy();
+    double lost = 0.0;
+    while (tip.advance(kEndOfTime) == Outcome::impact) lost += tip.last_impact().energy_loss;
+    ASSERT_TRUE(tip.in_contact());
+    EXPECT_EQ(tip.last_impact().kind, ImpactKind::contact_begun);
+    EXPECT_NEAR(lost, stored - tip.stored_energy(), 1e-14) << phase;
   }
 }
 

@@ -91,6 +91,24 @@ TEST(Kick, UnderALoadItsBouncesAreOneEventAndContactGoesOn) {
   EXPECT_NEAR(lost, brought, 0.01 * brought);  // the rest is that of the displacement
 }
 
+// Each bounce of a constant loss leaves the part gamma of the speed, down to the threshold of contact.
+TEST(Kick, IntoTheSurfaceOneEventCountsItsFirstImpactToo) {
+  constexpr double kGamma = 0.5;
+  Tip tip = tip_of(kGamma, 0.0, 0.3, -3.0);
+  tip.set_bath(bath_of(0.926, 100.0, 29.034));
+  int collapses = 0;
+  for (Outcome outcome = Outcome::flying; outcome != Outcome::time_limit;) {
+    const bool contact = tip.in_contact();
+    outcome = tip.advance({30, 0.0});
+    if (!contact || outcome != Outcome::impact || !tip.in_contact()) continue;
+    ++collapses;
+    const Impact& all = tip.last_impact();
+    const double bounces = std::log2(all.normal_speed / detail::chatter_threshold(kDefaultContactTolerance));
+    EXPECT_NEAR(all.count, bounces - 0.5, 0.5 + 1e-9);  // rounded down
+  }
+  EXPECT_GT(collapses, 100);
+}
+
 // A lever of omega_h = 21 omega_v under a small load flies off now and then.
 TEST(Kick, UnderALoadAFlightEndsInContactAtOnce) {
   Model model;

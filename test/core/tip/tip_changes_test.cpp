@@ -47,7 +47,8 @@ TEST(SetParameters, InFlightTheTipIsAsIfLaunchedThere) {
   EXPECT_GT(flights, 1000);
 }
 
-// Its event once had the energy that the holder gave or took as well, and so less than none.
+// Its event once had the energy that the holder gave or took as well, and so less than none. It is where the last of
+// its bounces is, made one by one.
 TEST(Drag, AHammerThatIsStoppedInChatterHasLostWhatItsImpactsTook) {
   Model model = hammer(1.0, 0.0);
   model.y0 = -0.5;
@@ -60,6 +61,9 @@ TEST(Drag, AHammerThatIsStoppedInChatterHasLostWhatItsImpactsTook) {
     ASSERT_EQ(tip.advance(tip.now()), Outcome::impact);
     ASSERT_EQ(tip.last_impact().kind, ImpactKind::burst);
     EXPECT_NEAR(tip.last_impact().energy_loss, 0.0, 1e-18) << i;
+    Tip bounces(model, 3.0, TipState{0.02 * i, 0.0, 3.0, 0.0, 1e-3}, 0.0);
+    advance_to(bounces, {0, 0.005});
+    EXPECT_NEAR(tip.last_impact().surface_phase, bounces.last_impact().surface_phase, 1e-6) << i;
     ++stopped;
   }
   EXPECT_GT(stopped, 10);
@@ -107,8 +111,9 @@ TEST(SetParameters, KeepsTheHammerAboveTheSurface) {
   EXPECT_GT(contacts, 20);
 }
 
-// Once the tip forgot the drag, and was dragged behind a holder that left it.
-TEST(SetParameters, BehindADragOfAHammerInContactLeavesTheTipUnderItsHolder) {
+// After a drag of the hammer in contact, and a change at the same time.
+template <class Change>
+void expect_the_tip_under_its_holder(const Change& change) {
   for (const double eta : {3.4, 0.2, -0.2, 1e-3}) {
     Model model = hammer(0.7, 0.05);
     model.y0 = -1.0;
@@ -118,8 +123,7 @@ TEST(SetParameters, BehindADragOfAHammerInContactLeavesTheTipUnderItsHolder) {
     ASSERT_TRUE(tip.in_contact());
     EnergyBalance balance(tip);
     balance.command(tip, [&] { tip.drag(eta); });
-    model.gamma = 0.6;
-    balance.command(tip, [&] { tip.set_parameters(model); });
+    balance.command(tip, [&] { change(tip); });
     while (tip.now() < ModelTime{22, 0.0}) balance.advance_segment(tip, {22, 0.0});
     const FreeState state = tip.state();
     EXPECT_EQ(state.X, 0.0);
@@ -127,6 +131,18 @@ TEST(SetParameters, BehindADragOfAHammerInContactLeavesTheTipUnderItsHolder) {
     EXPECT_NEAR(std::remainder(state.phase - (kPhase + 20.0 * eta), 1.0), 0.0, 1e-12);
     EXPECT_LT(balance.imbalance(tip), 1e-12 * balance.turnover(tip));
   }
+}
+
+// Once the tip forgot the drag, and was dragged behind a holder that left it.
+TEST(SetParameters, BehindADragOfAHammerInContactLeavesTheTipUnderItsHolder) {
+  expect_the_tip_under_its_holder([](Tip& tip) {
+    Model model = tip.model();
+    model.gamma = 0.6;
+    tip.set_parameters(model);
+  });
+}
+TEST(SetModel, BehindADragOfAHammerInContactLeavesTheTipUnderItsHolder) {
+  expect_the_tip_under_its_holder([](Tip& tip) { tip.set_model(ModelKind::hammer, 1e-4); });
 }
 
 // Lifted off and put back before any time has passed, it lies on.
