@@ -99,16 +99,16 @@ void check_clock() {
   }
 }
 
-// Once all else is done: roscpp would wait for a master that hangs.
-void leave_soon() {
-  std::fflush(nullptr);
-  std::thread([end = std::chrono::steady_clock::now() + kLeave] {
-    for (; !g_has_left; std::this_thread::sleep_for(kShutdownPoll)) {
-      if (std::chrono::steady_clock::now() < end) continue;
-      std::fputs("the master does not answer: left without telling it\n", stderr);
-      std::_Exit(0);
-    }
-  }).detach();
+// roscpp would wait for a master that hangs. Where the node is asked to end before it runs, roscpp is asked again and
+// again, as it may wait for a master to appear.
+void leave_unless(const std::atomic<bool>& done, bool is_asked) {
+  const auto end = std::chrono::steady_clock::now() + kLeave;
+  for (; !done; std::this_thread::sleep_for(kShutdownPoll)) {
+    if (is_asked) ros::requestShutdown();
+    if (std::chrono::steady_clock::now() < end) continue;
+    std::fputs("no answer comes: left without telling the master\n", stderr);
+    std::_Exit(0);
+  }
 }
 
 // A run that cannot keep real time says so before it falls behind.
@@ -171,7 +171,8 @@ class EmulatorNode {
     runner_.stop();
     publisher_->stop();
     while (!recorder_.status().recording.empty()) recorder_.stop();  // a slow disk may take more than one wait
-    leave_soon();
+    std::fflush(nullptr);
+    std::thread([] { leave_unless(g_has_left, false); }).detach();
     for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
     clients_timer_.stop();
     for (ros::ServiceServer& service : services_) service.shutdown();
@@ -392,7 +393,7 @@ void await_signals() {
     int unused = 0;
     sigwait(&signals, &unused);
     g_stop = true;
-    for (; !g_running; std::this_thread::sleep_for(kShutdownPoll)) ros::requestShutdown();  // it may wait for a master
+    leave_unless(g_running, true);
   }).detach();
 }
 

@@ -47,6 +47,7 @@ class Faults(NodeTest):
         emulator = self.start(Process([find('emulator_node'), '__name:=' + NAMESPACE[1:]]))
         wait_until(lambda: NAMESPACE + '/stop_recording' in str(master.getSystemState('test')[2]),
                    'the last of it is registered')
+        BareSubscriber('status', master=master).read_message()
         return emulator
 
     def assert_ends_soon(self, emulator):
@@ -63,6 +64,9 @@ class Faults(NodeTest):
             _, _, pid = master.getPid('test')
             os.kill(pid, signal.SIGSTOP)
             self.assert_ends_soon(emulator)
+            begins = self.start(Process([find('emulator_node'), '__name:=' + NAMESPACE[1:]]))
+            wait_until(lambda: len(list(Path('/proc/%d/task' % begins.child.pid).iterdir())) > 1, 'it awaits signals')
+            self.assertEqual(begins.stop(), 0)
 
     def test_the_master_dies(self):
         """The run, its subscribers and its recording do not need it."""
