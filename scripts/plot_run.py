@@ -87,8 +87,9 @@ class Run:
 
     def add_friction(self, message):
         per_unit = message.k_f_work_natural / message.k_f_work if message.k_f_work else NAN
+        by_impacts = NAN if message.heat_to_bath else message.window_k_f_natural  # with a bath it is not the friction
         self.friction.append((self.seconds(message), message.k_f_work_natural,
-                              message.k_f_work_std_error * per_unit, message.window_k_f_natural))
+                              message.k_f_work_std_error * per_unit, by_impacts))
 
     def add_drag(self, message):
         moment = self.moment(message.epoch, message.time.tau, message.time.phase)
@@ -212,7 +213,8 @@ def draw_impacts(axes, run):
 def draw_friction(axes, run):
     friction = np.array(run.friction).reshape(-1, 4)
     times, mean, error, window = friction.T
-    axes.plot(times, window, lw=0.7, c='0.6', label='by impacts, in a sliding window')
+    if np.isfinite(window).any():
+        axes.plot(times, window, lw=0.7, c='0.6', label='by impacts, in a sliding window')
     axes.plot(times, mean, lw=1.2, c=BLUE, label='by the work of the drag, since the last command')
     axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color=BLUE)
     positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
