@@ -218,7 +218,7 @@ def draw_friction(axes, run):
     axes.plot(times, mean, lw=1.2, c=BLUE, label='by the work of the drag, since the last command')
     axes.fill_between(times, mean - error, mean + error, alpha=0.3, lw=0, color=BLUE)
     positive = np.array([value for value in np.hstack([mean, window]) if value > 0])
-    often_negative = np.sum(mean < 0) > 0.1 * len(mean)  # as friction by the work of a heated tip may be: it is shown too
+    often_negative = np.sum(mean < 0) > 0.1 * len(mean)  # as by the work of a heated tip: it is shown too
     if len(positive) and positive.max() > 10 * positive.min() and not often_negative:
         axes.set_yscale('log')
     axes.set_ylabel('$K_f$ [$m_{tip}/\\tau$]')

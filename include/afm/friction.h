@@ -25,8 +25,8 @@ struct FrictionEstimate {
   double window_K_f_std_error = 0.0;  // [m_tip/tau]
   double mean_lateral_force = 0.0;    // of the holder on the tip, exact since the last restart [m_tip a/tau^2]
   // Without a bath: that of K_f, and what the tip has stored since the last restart. With a bath: from bins of the
-  // impulse, and what is stored; it is too large in short runs, because the tip carries momentum across the ends of bins.
-  // At rest: from these bins.
+  // impulse, and what is stored; it is too large in short runs, because the tip carries momentum across the ends of
+  // bins. At rest: from these bins.
   double mean_lateral_force_std_error = 0.0;
   double K_f_work = 0.0;  // from the work of the drag, mean_lateral_force / eta: the definition (Eq. 1) [m_tip/tau]
   double K_f_work_std_error = 0.0;

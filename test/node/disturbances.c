@@ -1,6 +1,6 @@
-/* Preloaded into the node by a test: its wall clock is off by what stands in the file $CLOCK_JUMP, a double [s], and the
-   machine holds its publishing thread up for a second after each message on the topic $HOLD_UP, and with $SEND_LATE the
-   thread of roscpp that sends, after each round. The clock that only goes on is left alone. */
+/* Preloaded into the node by a test: its wall clock is off by what stands in the file $CLOCK_JUMP, a double [s], and
+   the machine holds its publishing thread up for a second after each message on the topic $HOLD_UP, and with $SEND_LATE
+   the thread of roscpp that sends, after each round. The clock that only goes on is left alone. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>

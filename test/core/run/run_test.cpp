@@ -178,7 +178,8 @@ double reported_over_found(const Bath& bath, const ModelTime& end) {
   return std::sqrt(variance / (square - mean * mean));
 }
 
-// Of the chaotic tip at 3.4: the error is no smaller than the scatter, and little larger, but in a short run with a bath.
+// Of the chaotic tip at 3.4: the error is no smaller than the scatter, and little larger, but in a short run with a
+// bath.
 TEST(Run, TheErrorOfTheMeanLateralForceIsThatOfRepeatedRuns) {
   const double cold = reported_over_found(Bath{}, {10000, 0.0}),
                heated = reported_over_found({0.926, 100.0}, {1000, 0.0});
