@@ -14,9 +14,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -26,6 +23,7 @@
 
 #include "afm/number_text.h"
 #include "live_server.h"
+#include "node/ending.h"
 #include "node/params/advice.h"
 #include "node/params/parameters.h"
 #include "node/publisher/publisher.h"
@@ -53,9 +51,6 @@ constexpr std::chrono::seconds kAnswerDeadline{12};
 constexpr std::chrono::microseconds kSpin{300};
 constexpr std::chrono::milliseconds kClosingPoll{50};   // how soon whoever waits learns that the node ends
 constexpr std::chrono::milliseconds kShutdownPoll{20};  // how soon a shutdown is noticed
-constexpr std::chrono::seconds kLeave{2};               // from the master
-
-std::atomic<bool> g_running{false}, g_stop{false}, g_has_left{false};
 
 std::size_t batches_in_queue(const Parameters& p, const Batch& largest) {
   const double bytes = static_cast<double>(largest.vertical.capacity() + largest.lateral.capacity()) * sizeof(double) +
@@ -96,18 +91,6 @@ void check_clock() {
       if (other != name)
         throw std::runtime_error("publish_clock = true: " + other + " publishes " + clock + " already");
     }
-  }
-}
-
-// roscpp would wait for a master that hangs. Where the node is asked to end before it runs, roscpp is asked again and
-// again, as it may wait for a master to appear.
-void leave_unless(const std::atomic<bool>& done, bool is_asked) {
-  const auto end = std::chrono::steady_clock::now() + kLeave;
-  for (; !done; std::this_thread::sleep_for(kShutdownPoll)) {
-    if (is_asked) ros::requestShutdown();
-    if (std::chrono::steady_clock::now() < end) continue;
-    std::fputs("no answer comes: left without telling the master\n", stderr);
-    std::_Exit(0);
   }
 }
 
@@ -171,8 +154,7 @@ class EmulatorNode {
     runner_.stop();
     publisher_->stop();
     while (!recorder_.status().recording.empty()) recorder_.stop();  // a slow disk may take more than one wait
-    std::fflush(nullptr);
-    std::thread([] { leave_unless(g_has_left, false); }).detach();
+    leave();
     for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
     clients_timer_.stop();
     for (ros::ServiceServer& service : services_) service.shutdown();
@@ -376,27 +358,6 @@ constexpr char kHelp[] =
 constexpr int kLargeBuffer =
     256 * 1024;  // [bytes] more than a message of 10 ms takes, at up to a million samples a second
 
-// roscpp handles SIGINT alone and tears the connections down at once; we end in our own order, on SIGTERM too. One
-// thread waits for them, and all others are spared: a signal would interrupt a call to the master, which would then
-// seem not to answer.
-void await_signals() {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further ends a recording, as a full disk does
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  struct sigaction at_start {};
-  sigaction(SIGHUP, nullptr, &at_start);
-  if (at_start.sa_handler != SIG_IGN) sigaddset(&signals, SIGHUP);  // its terminal is closed, and there is no nohup
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread([signals] {
-    int unused = 0;
-    sigwait(&signals, &unused);
-    g_stop = true;
-    leave_unless(g_running, true);
-  }).detach();
-}
-
 // glibc gives each thread a heap of its own, and each keeps back freed memory: 10 MB after some recordings. We allow
 // one heap. The running thread need not wait for it, as it allocates nothing. Large buffers, as of bags and of
 // messages, come from the system each time. Otherwise glibc raises its threshold when the first is freed, and keeps all
@@ -408,8 +369,8 @@ void keep_memory_flat() {
 
 void run(const ros::NodeHandle& handle, const Parameters& parameters) {
   const EmulatorNode node(handle, parameters);
-  g_running = true;
-  while (ros::ok() && !g_stop) std::this_thread::sleep_for(kShutdownPoll);
+  now_running();
+  while (ros::ok() && !is_asked_to_end()) std::this_thread::sleep_for(kShutdownPoll);
 }
 
 }  // namespace
@@ -443,6 +404,6 @@ int main(int argc, char** argv) {
     return 1;
   }
   ros::shutdown();
-  g_has_left = true;
+  left();
   return 0;
 }
