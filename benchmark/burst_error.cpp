@@ -7,14 +7,12 @@
 #include <vector>
 
 #include "common/command_line.h"
-#include "common/point_options.h"
 #include "trials/burst_trials.h"
 
 namespace {
 
 struct Options {
-  std::vector<std::string> eta{"0.05", "0.2", "0.5", "3", "5", "7", "9"}, cutoff{"0", "0.01", "0.05", "0.1"};
-  std::vector<std::string> gamma{"0.7"};
+  std::vector<double> eta, cutoff, gamma;
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
 };
@@ -51,19 +49,16 @@ void print_row(double gamma, double cutoff, double eta, const Options& o) {
 int main(int argc, char** argv) {
   Options o;
   afm::CommandLine app("burst_error", "Error of bursts against bounces one by one (natural units).");
-  app.option("eta", o.eta, "drag speeds [a/tau]");
-  app.option("cutoff", o.cutoff, "v_c [a/tau]");
-  app.option("gamma", o.gamma, "restitution");
+  app.ranges("eta", o.eta, "0.05,0.2,0.5,3,5,7,9", "drag speeds [a/tau]");
+  app.ranges("cutoff", o.cutoff, "0,0.01,0.05,0.1", "v_c [a/tau]");
+  app.ranges("gamma", o.gamma, "0.7", "restitution");
   app.option("bursts", o.bursts, "how many of each");
   app.option("most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
   return app.run(argc, argv, [&] {
-    const std::vector<double> gammas = afm::ranges_option("gamma", o.gamma);
-    const std::vector<double> cutoffs = afm::ranges_option("cutoff", o.cutoff);
-    const std::vector<double> etas = afm::ranges_option("eta", o.eta);
     std::printf("gamma,v_c,eta,bursts,bounces,skipped,median,99_percent,max\n");
-    for (const double gamma : gammas) {
-      for (const double cutoff : cutoffs) {
-        for (const double eta : etas) print_row(gamma, cutoff, eta, o);
+    for (const double gamma : o.gamma) {
+      for (const double cutoff : o.cutoff) {
+        for (const double eta : o.eta) print_row(gamma, cutoff, eta, o);
       }
     }
     return 0;

@@ -21,22 +21,16 @@
 #include "common/command_line.h"
 #include "common/cpu_clock.h"
 #include "common/lever_options.h"
-#include "common/point_options.h"
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-using Texts = std::vector<std::string>;  // numbers and ranges, as they were given
-
 constexpr double kLongest = 1e12;  // [tau] a choice, as of friction_curve
 
 struct Options {
-  Texts etas, cutoffs, frequency_ratios, amplitudes, rest_heights, temperatures, quality_factors;
-  std::string step = "0.05";
-  std::vector<double> eta, cutoff{0.1, 0.05, 0.01, 0.001};
-  std::vector<double> frequency_ratio{afm::Model{}.frequency_ratio}, amplitude{afm::Model{}.H}, rest_height{0.0};
-  std::vector<double> temperature{0.0}, quality_factor{0.0};
+  std::vector<double> eta, cutoff, rest_height, temperature, quality_factor;
+  std::vector<double> frequency_ratio{afm::Model{}.frequency_ratio}, amplitude{afm::Model{}.H};
   afm::Bath bath;  // its kicks, and the lateral quality factor of the lever
   double tolerance = afm::kDefaultContactTolerance;
   std::int64_t tau = 1000, transient = 200;
@@ -146,19 +140,7 @@ std::vector<Point> points_of(const Options& o) {
   return points;
 }
 
-void take_ranges(const std::string& name, const Texts& texts, std::vector<double>& values) {
-  if (!texts.empty()) values = afm::ranges_option(name, texts);
-}
-
-void take_ranges(Options& o) {
-  take_ranges("eta", o.etas, o.eta);
-  take_ranges("cutoff", o.cutoffs, o.cutoff);
-  take_ranges("frequency-ratio", o.frequency_ratios, o.frequency_ratio);
-  take_ranges("amplitude", o.amplitudes, o.amplitude);
-  take_ranges("rest-height", o.rest_heights, o.rest_height);
-  take_ranges("temperature", o.temperatures, o.temperature);
-  take_ranges("quality-factor", o.quality_factors, o.quality_factor);
-  if (o.eta.empty()) o.eta = afm::range_option("step", "0:9:" + o.step);
+void check(Options& o) {
   if (!has_valid_tolerance(afm::Level{afm::ModelKind::oscillator, o.tolerance})) {
     throw afm::ParameterError("tolerance", o.tolerance, "must be 0, or between 1e-9 and 0.01");
   }
@@ -213,21 +195,20 @@ int main(int argc, char** argv) {
       "Times real time, slowest tau and K_f of one tip, over drag speeds and cutoffs (natural units). K_f is that of\n"
       "the losses in impacts: with a bath it is no friction. An option with VALUES takes numbers and ranges\n"
       "FROM:TO:STEP, with spaces or commas between.");
-  app.option("eta", o.etas, "drag speeds [a/tau]; default: 0 to 9 in steps of --step");
-  app.option("step", o.step, "of the default drag speeds [a/tau]");
-  app.option("cutoff", o.cutoffs, "v_c [a/tau]; default: 0.1, 0.05, 0.01 and 0.001");
+  app.ranges("eta", o.eta, "0:9:0.05", "drag speeds [a/tau]");
+  app.ranges("cutoff", o.cutoff, "0.1,0.05,0.01,0.001", "v_c [a/tau]");
   app.option("tolerance", o.tolerance, "contact tolerance");
-  app.option("frequency-ratio", o.frequency_ratios, "omega_h/omega_v");
-  app.option("amplitude", o.amplitudes, "of the surface [a]");
-  app.option("rest-height", o.rest_heights, "of the holder above mid-surface [a]");
-  app.option("temperature", o.temperatures, "kT of the heat bath [m_tip a^2/tau^2]");
-  app.option("quality-factor", o.quality_factors, "of the cantilever; 0: neither damped nor heated");
+  app.ranges("frequency-ratio", o.frequency_ratio, "", "omega_h/omega_v");
+  app.ranges("amplitude", o.amplitude, "", "of the surface [a]");
+  app.ranges("rest-height", o.rest_height, "0", "of the holder above mid-surface [a]");
+  app.ranges("temperature", o.temperature, "0", "kT of the heat bath [m_tip a^2/tau^2]");
+  app.ranges("quality-factor", o.quality_factor, "0", "of the cantilever; 0: neither damped nor heated");
   app.option("kicks-per-tau", o.bath.kicks_per_tau, "of the heat bath");
   app.option("tau", o.tau, "measured time each", {1.0, kLongest});
   app.option("transient", o.transient, "time before that", {0.0, kLongest});
   afm::add_lever_options(app, o.lever);
   return app.run(argc, argv, [&] {
-    take_ranges(o);
+    check(o);
     const afm::Units units(take_lever(app, o));
     const double of_lever = units.time() / afm::Units(afm::SiModel{}).time();
     const std::vector<Point> points = points_of(o);

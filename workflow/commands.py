@@ -164,7 +164,7 @@ def commands(quick):
             curve(kicks_name(eta, quality, theta, kicks), "--eta", eta, "--quality-factor", quality, "--temperature",
                   theta, "--kicks-per-tau", kicks, "--duration", choose(1000, 100000), "--threads 1")
     add("thermal_real_time", "real_time --temperature 0.926 --quality-factor 100 --cutoff 0.05",
-        choose("--step 1 --tau 100", "--step 0.05 --tau 5000"))
+        choose("--eta 0:9:1 --tau 100", "--tau 5000"))
     add("thermostats", "thermostats --seconds", choose(0.2, 12))
 
     def windows(eta, theta, quality, window, duration):

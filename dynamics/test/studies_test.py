@@ -55,7 +55,13 @@ class Refusals(unittest.TestCase):
             self.assertIn('cannot write /there/is/no/such/folder', complaint)
 
     def test_without_chaos_there_are_no_words(self):
-        code, rows, complaint = run('symbolic_dynamics', '--eta', '2', '--max-length', '3', '--impacts', '20000')
+        with tempfile.NamedTemporaryFile('w+', suffix='.csv') as before:
+            before.write('of an earlier run')
+            before.flush()
+            code, rows, complaint = run('symbolic_dynamics', '--eta', '2', '--max-length', '3', '--impacts', '20000',
+                                        '--section', before.name)
+            before.seek(0)
+            self.assertEqual(before.read(), 'of an earlier run')
         self.assertEqual((code, rows), (1, []))
         self.assertIn('without chaos', complaint)
 

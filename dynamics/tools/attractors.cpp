@@ -19,21 +19,21 @@ const char kDescription[] =
     "each is followed until what it ends on is known. A row for each attractor: its kind, impacts and cells in a\n"
     "period (0: it does not repeat), K_f with its standard error, Lyapunov exponents [1/tau], rotation number,\n"
     "share of the time in contact, share of the starts that it draws with its standard error, and a start that\n"
-    "leads to it (surface phase, extension, height, lab velocity). --eta and --gamma may be ranges FROM:TO:STEP;\n"
+    "leads to it (surface phase, extension, height, lab velocity). VALUES are numbers or ranges FROM:TO:STEP;\n"
     "--cutoff is absolute, or a share of eta with --relative-cutoff.";
 
 struct Options {
-  afm::PointOptions dynamics;
-  std::string eta = "3.4", gamma = "0.7";
+  afm::PointOptions at;  // but for its drag velocity and restitution
+  std::vector<double> eta, gamma;
   bool relative_cutoff = false;
   unsigned threads = 0;
   afm::BasinSettings basins;
 };
 
 void add_options(afm::CommandLine& app, Options& o) {
-  app.option("eta", o.eta, "drag velocity [a/tau]");
-  app.option("gamma", o.gamma, "restitution at and above the cutoff");
-  app.option("cutoff", o.dynamics.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.ranges("eta", o.eta, "3.4", "drag velocity [a/tau]");
+  app.ranges("gamma", o.gamma, "0.7", "restitution at and above the cutoff");
+  app.option("cutoff", o.at.cutoff, "cutoff speed of the restitution [a/tau]");
   app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
   app.option("starts", o.basins.starts, "tips started at each point", {1, 1000000});
   app.option("seed", o.basins.seed, "of the starts");
@@ -41,17 +41,9 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]",
              afm::kPositive);
   app.option("friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]", afm::kPositive);
-  afm::add_model_option(app, o.dynamics.model);
+  afm::add_options(app, static_cast<afm::TipOptions&>(o.at));
   app.option("threads", o.threads, "0: one for each processor", {0, 1024});
-  afm::add_si_options(app, o.dynamics);
-}
-
-std::vector<double> etas(const afm::CommandLine& app, const Options& o) {
-  const afm::SiOptions& si = o.dynamics.si;
-  if (!afm::has_drag_velocity(app, si)) return afm::range_option("eta", o.eta);
-  std::vector<double> values = afm::range_option("drag-velocity", o.dynamics.drag_velocity);
-  afm::take_si(app, si, "drag-velocity", values);
-  return values;
+  afm::add_si_options(app, o.at);
 }
 
 void check_duration(const char* name, double tau) {
@@ -62,9 +54,12 @@ void check_duration(const char* name, double tau) {
 
 // A cutoff that is a share of eta has no unit.
 void take_si(const afm::CommandLine& app, Options& o) {
-  const afm::SiOptions& si = o.dynamics.si;
-  afm::checked_units(app, si);
-  if (!o.relative_cutoff) afm::take_si(app, si, "cutoff", o.dynamics.cutoff);
+  const auto lever = afm::take_si(app, static_cast<afm::TipOptions&>(o.at));
+  const afm::SiOptions& si = o.at.si;
+  if (lever && !o.relative_cutoff) lever->take(app, "cutoff", o.at.cutoff);
+  if (!o.relative_cutoff) afm::take_si(app, si, "cutoff", o.at.cutoff);
+  if (afm::has_drag_velocity(app, si)) o.eta = o.at.drag_velocity;
+  afm::take_si(app, si, "drag-velocity", o.eta);
   afm::take_si(app, si, "transient", o.basins.attractor.transient);
   afm::take_si(app, si, "duration", o.basins.attractor.duration);
   afm::take_si(app, si, "friction-duration", o.basins.friction_duration);
@@ -73,17 +68,16 @@ void take_si(const afm::CommandLine& app, Options& o) {
 }
 
 std::vector<afm::SweepPoint> grid(const afm::CommandLine& app, const Options& options) {
-  const std::vector<double> speeds = etas(app, options), gammas = afm::range_option("gamma", options.gamma);
-  const double count = static_cast<double>(speeds.size()) * static_cast<double>(gammas.size());
+  const double count = static_cast<double>(options.eta.size()) * static_cast<double>(options.gamma.size());
   for (const auto& fault : afm::find_point_count_fault(count)) throw std::invalid_argument(fault.what());
   std::vector<afm::SweepPoint> points;
-  for (const double gamma : gammas) {
-    for (const double eta : speeds) {
-      afm::PointOptions at = options.dynamics;
+  for (const double gamma : options.gamma) {
+    for (const double eta : options.eta) {
+      afm::PointOptions at = options.at;
       at.eta = eta;
       at.gamma = gamma;
       if (options.relative_cutoff) at.cutoff *= std::abs(eta);
-      points.push_back({eta, gamma, at.cutoff, checked_model(app, at).kind});
+      points.push_back(checked_point(app, at));
     }
   }
   return points;
@@ -95,9 +89,9 @@ int run(const afm::CommandLine& app, Options& options) {
   for (const afm::SweepPoint& point : points) {
     const double transient = options.basins.attractor.transient;
     const auto warnings = afm::find_short_drag("transient", transient, point.eta, 1.0);
-    for (const auto& warning : afm::as_given(app, options.dynamics.si, warnings)) app.warn(warning.what());
+    for (const auto& warning : afm::as_given(app, options.at.si, warnings)) app.warn(warning.what());
   }
-  afm::TableWriter table(std::cout, afm::kBasinColumns, afm::table_units(options.dynamics.si));
+  afm::TableWriter table(std::cout, afm::kBasinColumns, afm::table_units(options.at.si));
   table.write_header();
   afm::ProgressBar bar(points.size(), 0);
   const auto compute = [&](std::size_t i) { return find_basins(points[i], options.basins); };

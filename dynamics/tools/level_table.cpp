@@ -20,14 +20,14 @@ const char kDescription[] =
 
 // The shipped cutoff is 0.166 um/s, in these units.
 struct Options {
-  std::string eta = "0.1:9:0.1";
+  std::vector<double> eta;
   double gamma = 0.7, cutoff = 0.0501446519707602, frequency_ratio = 6.25;
   unsigned threads = 0;
   afm::LevelErrorSettings settings;
 };
 
 void add_options(afm::CommandLine& app, Options& o) {
-  app.option("eta", o.eta, "drag velocities [a/tau] above 0: a range FROM:TO:STEP, or a list A,B");
+  app.ranges("eta", o.eta, "0.1:9:0.1", "drag velocities [a/tau] above 0: numbers or ranges FROM:TO:STEP");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
   app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v");
@@ -38,12 +38,10 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("threads", o.threads, "0: as many as the machine has", {0, 1024});
 }
 
-std::vector<double> drag_velocities(const Options& o) {
-  const std::vector<double> etas = afm::ranges_option("eta", o.eta);
-  for (const double eta : etas) {
+void check_drag_velocities(const Options& o) {
+  for (const double eta : o.eta) {
     if (!(eta > 0.0)) throw std::invalid_argument("eta = " + afm::number_text(eta) + ": must be above 0");
   }
-  return etas;
 }
 
 std::string to_row(double eta, const afm::MeasuredLevel& m) {
@@ -59,16 +57,16 @@ int run(const Options& o) {
   at.cutoff = o.cutoff;
   at.frequency_ratio = o.frequency_ratio;
   const afm::Model model = afm::checked_model(at);
-  const std::vector<double> etas = drag_velocities(o);
-  afm::ProgressBar bar(etas.size(), 0);
+  check_drag_velocities(o);
+  afm::ProgressBar bar(o.eta.size(), 0);
   std::cout << afm::LevelTable::head(model);
   const auto measure = [&](std::size_t i) {
     std::string rows;
-    for (const auto& level : measure_levels(model, etas[i], o.settings)) rows += to_row(etas[i], level);
+    for (const auto& level : measure_levels(model, o.eta[i], o.settings)) rows += to_row(o.eta[i], level);
     return rows;
   };
   afm::in_order(
-      etas.size(), o.threads, measure,
+      o.eta.size(), o.threads, measure,
       [&](std::size_t i, const std::string& rows) {
         std::cout << rows << std::flush;
         bar.show(i + 1);

@@ -25,8 +25,8 @@ namespace {
 
 const char kDescription[] =
     "Compares a level of the model (--model, --contact-tolerance) with the oscillator at --reference-tolerance\n"
-    "(0: every bounce), on the same starts (units a, tau, tip mass). --eta, --gamma, --cutoff and\n"
-    "--frequency-ratio may be ranges FROM:TO:STEP and lists A,B. A row for each start: K_f of both with standard\n"
+    "(0: every bounce), on the same starts (units a, tau, tip mass). VALUES are numbers or ranges FROM:TO:STEP,\n"
+    "with spaces or commas between. A row for each start: K_f of both with standard\n"
     "errors and kinds of attractor; k_f_error, relative; deflection_error, the mean distance of equal quantiles\n"
     "of the vertical deflection, beside that of two halves of one run (deflection_noise) and its rms;\n"
     "tracking_error, the rms difference over one tau from the same height and vertical velocity; rms and largest\n"
@@ -46,7 +46,8 @@ const char kSceneHeader[] = "scene,eta,model,contact_tolerance,k_f_error,deflect
 
 struct Options {
   std::vector<std::string> scenes;
-  std::string eta = "3.4", gamma = "0.7", cutoff = "0.05", frequency_ratio = "6.25", model = "hammer";
+  std::vector<double> eta, gamma, cutoff, frequency_ratio;
+  std::string model = "hammer";
   bool relative_cutoff = false;
   afm::Level level;
   double reference_tolerance = 1e-5;
@@ -58,11 +59,11 @@ struct Options {
 void add_options(afm::CommandLine& app, Options& o) {
   const afm::Within tolerance{0.0, afm::kMaxContactTolerance};
   app.option("scene", o.scenes, "names, or files that end in .yaml");
-  app.option("eta", o.eta, "drag velocity [a/tau]");
-  app.option("gamma", o.gamma, "restitution at and above the cutoff");
-  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
+  app.ranges("eta", o.eta, "3.4", "drag velocity [a/tau]");
+  app.ranges("gamma", o.gamma, "0.7", "restitution at and above the cutoff");
+  app.ranges("cutoff", o.cutoff, "0.05", "cutoff speed of the restitution [a/tau]");
   app.flag("relative-cutoff", o.relative_cutoff, "the cutoff is given as a share of |eta|");
-  app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v, of the reference");
+  app.ranges("frequency-ratio", o.frequency_ratio, "6.25", "omega_h / omega_v, of the reference");
   afm::add_model_option(app, o.model);
   app.option("contact-tolerance", o.level.contact_tolerance, "of the level; 0: every bounce", tolerance);
   app.option("reference-tolerance", o.reference_tolerance, "of the reference; 0: every bounce", tolerance);
@@ -86,8 +87,16 @@ Point checked_point(const Options& o, afm::PointOptions at) {
 
 std::vector<Point> grid(const Options& o) {
   std::vector<Point> points;
-  for (const afm::PointOptions& at : afm::grid_option(o.eta, o.gamma, o.cutoff, o.frequency_ratio)) {
-    points.push_back(checked_point(o, at));
+  for (const double cutoff : o.cutoff) {
+    for (const double gamma : o.gamma) {
+      for (const double ratio : o.frequency_ratio) {
+        for (const double eta : o.eta) {
+          afm::PointOptions at;
+          at.eta = eta, at.gamma = gamma, at.cutoff = cutoff, at.frequency_ratio = ratio;
+          points.push_back(checked_point(o, at));
+        }
+      }
+    }
   }
   return points;
 }

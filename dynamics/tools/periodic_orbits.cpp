@@ -70,7 +70,8 @@ void write_rows(afm::TableWriter& to, const std::string& method, const std::vect
   }
 }
 
-void write_averages(const Options& options, std::ofstream& out, const afm::OrbitSearchResult& found) {
+void write_averages(const Options& options, const afm::OrbitSearchResult& found) {
+  std::ofstream out(options.averages);
   std::vector<afm::PeriodicOrbit> orbits;
   constexpr double kOnAttractor = 0.1;  // [a, a/tau] a choice: orbits that the long run does not approach are left out
   for (const afm::FoundOrbit& orbit : found.orbits) {
@@ -89,9 +90,7 @@ int run(const afm::CommandLine& app, Options& options) {
   take_si(app, options.dynamics);
   const afm::Model model = checked_model(options.dynamics);
   if (options.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
-  std::ofstream averages;  // before a search of hours, whose result could not be written
-  if (!options.averages.empty()) averages.open(options.averages);
-  if (!averages) throw std::runtime_error("cannot write " + options.averages);
+  afm::check_writable(options.averages);
   constexpr std::size_t kSteps = 1000;
   afm::ProgressBar bar(kSteps, 0);
   const auto show = [&](double share) { bar.show(static_cast<std::size_t>(share * kSteps)); };
@@ -99,7 +98,7 @@ int run(const afm::CommandLine& app, Options& options) {
   afm::TableWriter table(std::cout, afm::kOrbitColumns, afm::table_units(options.dynamics.si));
   table.write_header();
   for (const afm::FoundOrbit& orbit : found.orbits) write_row(model.H, orbit.orbit, table);
-  if (!options.averages.empty()) write_averages(options, averages, found);
+  if (!options.averages.empty()) write_averages(options, found);
   if (!options.quiet) report(found, afm::table_units(options.dynamics.si));
   return 0;
 }

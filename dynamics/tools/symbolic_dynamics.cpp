@@ -12,6 +12,7 @@
 #include "afm/number_text.h"
 #include "common/csv.h"
 #include "common/point_options.h"
+#include "common/table_writer.h"
 
 namespace {
 
@@ -47,22 +48,13 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("forbidden", o.forbidden, "file for the shortest words that do not occur: length, word");
 }
 
-// Before a search of hours, whose result could not be written. Without a path nothing is.
-std::ofstream open(const std::string& path) {
-  std::ofstream out;
-  if (path.empty()) return out;
-  out.open(path);
-  if (!out) throw std::runtime_error("cannot write " + path);
-  return out;
-}
-
 void close(std::ofstream& out, const std::string& path) {
   out.close();
   if (!out) throw std::runtime_error("cannot write " + path);
 }
 
-void write_section(const Options& o, std::ofstream& out, const afm::Partition& partition,
-                   const std::vector<afm::TipState>& points) {
+void write_section(const Options& o, const afm::Partition& partition, const std::vector<afm::TipState>& points) {
+  std::ofstream out(o.section);
   constexpr std::size_t kMostPoints = 20000;  // enough for a picture
   out << "phase,gap_rate,phase_next,gap_rate_next,letter\n";
   for (std::size_t i = 0; i + 1 < points.size() && i < kMostPoints; ++i) {
@@ -72,7 +64,8 @@ void write_section(const Options& o, std::ofstream& out, const afm::Partition& p
   close(out, o.section);
 }
 
-void write_orbits(const Options& o, std::ofstream& out, const afm::PoincareMap& map, const afm::Partition& partition) {
+void write_orbits(const Options& o, const afm::PoincareMap& map, const afm::Partition& partition) {
+  std::ofstream out(o.orbits);
   afm::OrbitSearchSettings search = o.search;
   search.longest = o.longest;
   const auto found = search_orbits(map, search);
@@ -90,7 +83,8 @@ void write_orbits(const Options& o, std::ofstream& out, const afm::PoincareMap& 
   close(out, o.orbits);
 }
 
-void write_forbidden(const Options& o, std::ofstream& out, const std::vector<afm::WordCount>& counts) {
+void write_forbidden(const Options& o, const std::vector<afm::WordCount>& counts) {
+  std::ofstream out(o.forbidden);
   out << "length,word\n";
   for (const afm::WordCount& row : counts) {
     for (const std::string& word : row.forbidden) out << row.length << "," << word << "\n";
@@ -114,7 +108,7 @@ int run(const Options& o) {
         "model = oscillator: its section has four dimensions; the partition is for the hammer's two");
   }
   if (o.dynamics.eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is nothing but rest");
-  std::ofstream section = open(o.section), forbidden = open(o.forbidden), orbits = open(o.orbits);
+  for (const std::string& path : {o.section, o.forbidden, o.orbits}) afm::check_writable(path);
   const afm::PoincareMap map(model, o.dynamics.eta);
   const afm::SymbolicRun run = run_on_section(map, static_cast<std::size_t>(o.impacts), o.search.seed);
   if (!run.on_section) throw std::runtime_error("the hammer has ended in contact: there is no section");
@@ -135,9 +129,9 @@ int run(const Options& o) {
                                     run.exponent_std_error, spread.mean, spread.largest})
               << "\n";
   }
-  if (!o.section.empty()) write_section(o, section, partition, run.points);
-  if (!o.forbidden.empty()) write_forbidden(o, forbidden, counts);
-  if (!o.orbits.empty()) write_orbits(o, orbits, map, partition);
+  if (!o.section.empty()) write_section(o, partition, run.points);
+  if (!o.forbidden.empty()) write_forbidden(o, counts);
+  if (!o.orbits.empty()) write_orbits(o, map, partition);
   return 0;
 }
 

@@ -79,8 +79,6 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
         raise ArgumentTypeError('sweep', sweep, 'must be fresh, up or down')
     if progress is not None and not callable(progress):
         raise ArgumentTypeError('progress', progress, 'must be a function of two numbers')
-    if sweep != 'fresh' and not np.all(np.diff(axes[0]) > 0.0):
-        raise ParameterError('eta', eta, 'must ascend where sweep is up or down')
     return _structured(*_afm.friction_curve(axes, chosen.kind, sweep, number('duration', duration),
                                             number('transient', transient), bath, seed, thread_count(threads),
                                             progress))
@@ -169,7 +167,8 @@ def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase
 
     The start as of Tip; transient and duration: before and of the measurement [tau]; most_events: allowed to both
     together. The errors are of chance alone: where the tip comes to lie on the surface, as at eta = 5, the exponents
-    depend on contact_tolerance by more.
+    depend on contact_tolerance by more. They are nan where the tip lands without any normal speed, as no derivative
+    exists there.
     """
     return _laboratory('lyapunov')(
         _model(model), number('eta', eta), number('phase', phase), number('extension', extension), number('y', y), u,

@@ -78,6 +78,17 @@ class Tools(Bits):
         words = ['--eta', '2.5', '--max-length', '2', '--trajectory', '2000', '--guesses', '50', '--quiet']
         self.assert_same(mine, rows_of(output('periodic_orbits', *words)), **columns)
 
+    def test_another_lever(self):
+        other = dict(frequency_ratio=21.0, amplitude=0.125, rest_height=-0.05)
+        words = [word for name, value in other.items() for word in ('--' + name.replace('_', '-'), str(value))]
+        state = dict(eta=3.4, gamma=0.7, cutoff=0.05, phase=0.25, extension=0.01, u=3.4, w=2.0)
+        text = ','.join(state) + '\n' + ','.join(map(str, state.values())) + '\n'
+        impact = afm.next_impact(**state, model=afm.Model(**other))
+        self.assert_same(impact[None], rows_of(output('next_impact', *words, input=text)))
+        short = dict(starts=4, transient=50, duration=50, friction_duration=50)
+        words += [word for name, value in short.items() for word in ('--' + name.replace('_', '-'), str(value))]
+        self.assert_same(afm.attractors(2.0, **other, **short), rows_of(output('attractors', '--eta', '2', *words)))
+
     def test_next_impact(self):
         with open(str(DATA / 'next_impact.csv')) as file:
             lines = [','.join(line.split(',')[:7]) for line in file.read().splitlines()]

@@ -182,7 +182,7 @@ class Errors(unittest.TestCase):
         self.refused('sweep', 'sideways', afm.friction_curve, 2.0, sweep='sideways')
         self.refused('on_error', 'ignore', afm.next_impact, eta=2, phase=0, extension=0, u=2, w=1, on_error='ignore')
         falling = [3.0, 2.5, 2.0]  # once this swept up
-        self.refused('eta', falling, afm.friction_curve, falling, sweep='down')
+        self.refused('eta', 2.5, afm.friction_curve, falling, sweep='down')
         self.assertRaises(TypeError, afm.next_impact, eta=2, speed=3)
         self.assertRaises(TypeError, afm.Run().apply, colour=1)
         self.assertRaises(TypeError, afm.Run().apply, gamma='high')

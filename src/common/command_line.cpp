@@ -13,6 +13,7 @@
 
 #include "afm/number_text.h"
 #include "csv.h"
+#include "decimal_range.h"
 
 namespace afm {
 namespace po = boost::program_options;
@@ -54,6 +55,18 @@ T parse(const std::string& name, const std::string& text, Within range) {
   return value;
 }
 
+std::vector<double> parse_ranges(const std::string& name, const std::string& text) {
+  std::vector<double> values;
+  try {
+    for (const std::string& part : split_fields(text)) {
+      for (const double value : parse_range(part)) values.push_back(value);
+    }
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument(name + " = " + text + ": " + fault.what());
+  }
+  return values;
+}
+
 std::string with_default(const std::string& help, const std::string& value) {
   return value.empty() ? help : help + " [default: " + value + "]";
 }
@@ -88,6 +101,16 @@ void CommandLine::option(const std::string& name, Texts& values, const std::stri
   const auto take = [&values](const Texts& texts) { values = split_fields(boost::algorithm::join(texts, ",")); };
   options_->add_options()(name.c_str(), po::value<Texts>()->multitoken()->value_name("VALUES")->notifier(take),
                           help.c_str());
+}
+
+void CommandLine::ranges(const std::string& name, std::vector<double>& values, const std::string& standard,
+                         const std::string& help) {
+  if (!standard.empty()) values = parse_ranges(name, standard);
+  const auto take = [&values, name](const Texts& texts) {
+    values = parse_ranges(name, boost::algorithm::join(texts, ","));
+  };
+  options_->add_options()(name.c_str(), po::value<Texts>()->multitoken()->value_name("VALUES")->notifier(take),
+                          with_default(help, standard).c_str());
 }
 
 void CommandLine::flag(const std::string& name, bool& value, const std::string& help) {

@@ -34,6 +34,10 @@ class CommandLine {
   void option(const std::string& name, std::string& value, const std::string& help);
   // --name VALUES: texts, with spaces or commas between.
   void option(const std::string& name, std::vector<std::string>& values, const std::string& help);
+  // --name VALUES: numbers and ranges FROM:TO:STEP (decimal_range.h), with spaces or commas between. `standard` is the
+  // default as such a text; empty: what `values` holds.
+  void ranges(const std::string& name, std::vector<double>& values, const std::string& standard,
+              const std::string& help);
   void flag(const std::string& name, bool& value, const std::string& help);
   // The value that stands without an option.
   void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help);

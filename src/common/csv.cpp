@@ -1,6 +1,7 @@
 #include "csv.h"
 
 #include <boost/algorithm/string.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 
@@ -40,7 +41,9 @@ bool parse_number(const std::string& text, double& value) {
 std::string join_numbers(const std::vector<double>& values) {
   std::ostringstream out;
   out.precision(17);
-  for (std::size_t i = 0; i < values.size(); ++i) out << (i == 0 ? "" : ",") << values[i];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out << (i == 0 ? "" : ",") << (std::isnan(values[i]) ? std::fabs(values[i]) : values[i]);  // no "-nan"
+  }
   return out.str();
 }
 

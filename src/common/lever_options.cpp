@@ -10,8 +10,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "si_options.h"
-
 namespace afm {
 namespace {
 
@@ -184,6 +182,14 @@ void LeverScene::take(const CommandLine& app, const std::string& option, std::ve
   double one = 0.0;
   take(app, option, one);
   if (!app.is_given(option)) value = {one};
+}
+
+std::optional<LeverScene> take_lever(const CommandLine& app, const LeverOptions& options, SiOptions& si) {
+  if (!LeverOptions::are_given(app)) return {};
+  if (!si.on) throw std::invalid_argument("lever, surface, load: have a meaning only with --si");
+  LeverScene scene(app, options);
+  si.scale = scene.si;
+  return scene;
 }
 
 }  // namespace afm

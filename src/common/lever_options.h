@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "afm/units.h"
 #include "command_line.h"
+#include "si_options.h"
 
 namespace afm {
 
@@ -42,5 +44,8 @@ struct LeverScene {
   void take(const CommandLine& app, const std::string& option, double& value) const;
   void take(const CommandLine& app, const std::string& option, std::vector<double>& value) const;
 };
+
+// Of a tool with --si: nothing if no lever, surface or load is given. Else they set its scale too.
+std::optional<LeverScene> take_lever(const CommandLine& app, const LeverOptions& options, SiOptions& si);
 
 }  // namespace afm

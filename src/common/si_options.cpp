@@ -33,8 +33,8 @@ void add_si_options(CommandLine& app, SiOptions& o) {
   app.option("tip-mass", o.scale.tip_mass_kg, "m_tip of --si, in kg", kPositive);
 }
 
-void add_drag_velocity_option(CommandLine& app, std::string& drag_velocity) {
-  app.option("drag-velocity", drag_velocity, "in m/s, in place of --eta; with --si");
+void add_drag_velocity_option(CommandLine& app, std::vector<double>& drag_velocity) {
+  app.ranges("drag-velocity", drag_velocity, "", "in m/s, in place of --eta; with --si");
 }
 
 bool has_drag_velocity(const CommandLine& app, const SiOptions& o) {

@@ -20,7 +20,7 @@ constexpr const char* kScaleOptions[] = {"lattice-spacing", "omega-v", "tip-mass
 void add_si_options(CommandLine& app, SiOptions& options);
 
 // --drag-velocity, in m/s: what a tool with --si takes in place of --eta.
-void add_drag_velocity_option(CommandLine& app, std::string& drag_velocity);
+void add_drag_velocity_option(CommandLine& app, std::vector<double>& drag_velocity);
 // True if it is given. Throws std::invalid_argument where it stands without --si, or beside --eta.
 bool has_drag_velocity(const CommandLine& app, const SiOptions& options);
 

@@ -1,6 +1,8 @@
 #include "table_writer.h"
 
+#include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <stdexcept>
 
 namespace afm {
@@ -9,7 +11,8 @@ TableWriter& TableWriter::operator<<(double value) {
   if (cells_ >= columns_.size()) throw std::logic_error("a row has more cells than the table has columns");
   constexpr int kDigits = 17;
   char text[32];
-  const double shown = units_.convert(columns_[cells_].quantity, value);
+  const double converted = units_.convert(columns_[cells_].quantity, value);
+  const double shown = std::isnan(converted) ? std::fabs(converted) : converted;  // no "-nan"
   const int length = std::snprintf(text, sizeof text, "%.*g", kDigits, shown);
   if (cells_++ > 0) row_ += ',';
   row_.append(text, static_cast<std::size_t>(length));
@@ -32,6 +35,10 @@ void TableWriter::end_row() {
 
 void TableWriter::flush() {
   if (!out_.flush()) throw std::runtime_error("cannot write the output");
+}
+
+void check_writable(const std::string& path) {
+  if (!path.empty() && !std::ofstream(path, std::ios::app)) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace afm

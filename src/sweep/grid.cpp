@@ -1,6 +1,8 @@
 #include "grid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "afm/number_text.h"
@@ -18,6 +20,16 @@ void add_faults(std::vector<ParameterError>& all, const SweepPoint& point) {
   for (const ParameterError& fault : find_faults(point)) {
     if (all.size() < kMost) all.push_back(fault);
   }
+}
+
+// As the values of a range are, which its ends and their number say.
+bool is_even(const std::vector<double>& axis) {
+  const double step = (axis.back() - axis.front()) / std::max(1.0, static_cast<double>(axis.size() - 1));
+  for (std::size_t i = 0; i < axis.size(); ++i) {
+    const double off = axis[i] - (axis.front() + step * static_cast<double>(i));
+    if (std::abs(off) > 1e-3 * std::abs(step)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -43,6 +55,10 @@ std::vector<ParameterError> find_faults(const CurveSettings& s) {
     points *= static_cast<double>(axis->size());
   }
   for (const ParameterError& fault : find_point_count_fault(points)) faults.push_back(fault);
+  const auto fall = std::adjacent_find(s.eta.begin(), s.eta.end(), std::greater_equal<>());
+  if (s.direction != SweepDirection::fresh && fall != s.eta.end()) {
+    faults.emplace_back("eta", *(fall + 1), "must ascend where sweep is up or down");
+  }
   const Bath& bath = s.sweep.bath;
   if (s.model == ModelKind::hammer && bath.temperature > 0.0 && bath.is_on() && bath.quality_factor == 0.0) {
     faults.emplace_back("temperature", bath.temperature,
@@ -76,6 +92,8 @@ std::string identity(const CurveSettings& s) {
   std::ostringstream text;
   const auto add = [&](const char* name, const std::vector<double>& axis) {
     text << name << "=" << number_text(axis.front()) << ".." << number_text(axis.back()) << "(" << axis.size() << ") ";
+    if (is_even(axis)) return;
+    for (const double value : axis) text << number_text(value) << " ";
   };
   add("eta", s.eta);
   add("gamma", s.gamma);

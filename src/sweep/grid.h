@@ -16,7 +16,7 @@ namespace afm {
 enum class SweepDirection { fresh, up, down };
 
 struct CurveSettings {
-  std::vector<double> eta, gamma, cutoff;  // rising, as the next three
+  std::vector<double> eta, gamma, cutoff;  // eta rises strictly where one point starts from another
   std::vector<double> rest_height{Model{}.y0}, amplitude{Model{}.H}, frequency_ratio{Model{}.frequency_ratio};
   SweepDirection direction = SweepDirection::fresh;
   ModelKind model = ModelKind::oscillator;

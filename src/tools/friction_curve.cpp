@@ -17,7 +17,7 @@ namespace {
 
 const char kDescription[] =
     "Computes the friction coefficient K_f over ranges of drag velocity, restitution, cutoff, load and surface\n"
-    "(units a, tau, tip mass m). A range is one number or FROM:TO:STEP. The table has the columns eta,gamma,cutoff,\n"
+    "(units a, tau, tip mass m). VALUES are numbers or ranges FROM:TO:STEP. The table has the columns eta,gamma,cutoff,\n"
     "k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,rest_height,\n"
     "amplitude,frequency_ratio,k_f_work,k_f_work_std_error. k_f comes from the energy lost in impacts (the paper's\n"
     "estimator), k_f_work from the work of the drag (the definition; with a heat bath only this is friction). The\n"
@@ -30,8 +30,8 @@ const char kDescription[] =
     "The numbers depend on nothing but the options that name them: not on threads or interruptions.";
 
 struct Options {
-  std::string eta = "0.1:9:0.1", gamma = "0.7", cutoff = "0.05", rest_height = "0", amplitude, frequency_ratio,
-              sweep = "fresh", model = "oscillator", output = "-", drag_velocity;
+  std::string sweep = "fresh", model = "oscillator", output = "-";
+  std::vector<double> drag_velocity;
   std::uint64_t seed = 1;
   int threads = 0;
   afm::CurveSettings settings;
@@ -46,13 +46,15 @@ const std::map<std::string, afm::SweepDirection> kDirections{
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
 void parse(afm::CommandLine& app, Options& o) {
-  afm::SweepSettings& sweep = o.settings.sweep;
-  app.option("eta", o.eta, "drag velocity [a/tau]");
-  app.option("gamma", o.gamma, "restitution at and above the cutoff");
-  app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
-  app.option("rest-height", o.rest_height, "height of the holder above mid-surface [a]; the load is -(2 pi)^2 of it");
-  app.option("amplitude", o.amplitude, "of the surface [a]; mica: 0.05/0.52");
-  app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v; mica: 6.25");
+  afm::CurveSettings& s = o.settings;
+  afm::SweepSettings& sweep = s.sweep;
+  app.ranges("eta", s.eta, "0.1:9:0.1", "drag velocity [a/tau]");
+  app.ranges("gamma", s.gamma, "0.7", "restitution at and above the cutoff");
+  app.ranges("cutoff", s.cutoff, "0.05", "cutoff speed of the restitution [a/tau]");
+  app.ranges("rest-height", s.rest_height, "0",
+             "height of the holder above mid-surface [a]; the load is -(2 pi)^2 of it");
+  app.ranges("amplitude", s.amplitude, "", "of the surface [a]; mica: 0.05/0.52");
+  app.ranges("frequency-ratio", s.frequency_ratio, "", "omega_h / omega_v; mica: 6.25");
   app.option("temperature", sweep.bath.temperature, "kT of the heat bath [m_tip a^2/tau^2]; at 300 K 0.926");
   app.option("quality-factor", sweep.bath.quality_factor, "of the cantilever; 0: neither damped nor heated");
   app.option("lateral-quality-factor", sweep.bath.lateral_quality_factor,
@@ -72,18 +74,16 @@ void parse(afm::CommandLine& app, Options& o) {
 }
 
 void take_lever(const afm::CommandLine& app, Options& o) {
-  if (!afm::LeverOptions::are_given(app)) return;
-  if (!o.si.on) refuse("lever, surface, load: have a meaning only with --si");
+  const auto lever = afm::take_lever(app, o.lever, o.si);
+  if (!lever) return;
   afm::CurveSettings& s = o.settings;
-  const afm::LeverScene scene(app, o.lever);
-  o.si.scale = scene.si;
-  scene.take(app, "cutoff", s.cutoff);
-  scene.take(app, "rest-height", s.rest_height);
-  scene.take(app, "amplitude", s.amplitude);
-  scene.take(app, "frequency-ratio", s.frequency_ratio);
-  scene.take(app, "quality-factor", s.sweep.bath.quality_factor);
-  scene.take(app, "lateral-quality-factor", s.sweep.bath.lateral_quality_factor);
-  scene.take(app, "kicks-per-tau", s.sweep.bath.kicks_per_tau);
+  lever->take(app, "cutoff", s.cutoff);
+  lever->take(app, "rest-height", s.rest_height);
+  lever->take(app, "amplitude", s.amplitude);
+  lever->take(app, "frequency-ratio", s.frequency_ratio);
+  lever->take(app, "quality-factor", s.sweep.bath.quality_factor);
+  lever->take(app, "lateral-quality-factor", s.sweep.bath.lateral_quality_factor);
+  lever->take(app, "kicks-per-tau", s.sweep.bath.kicks_per_tau);
 }
 
 void take_si(const afm::CommandLine& app, Options& o) {
@@ -100,13 +100,7 @@ void take_si(const afm::CommandLine& app, Options& o) {
 
 void check(const afm::CommandLine& app, Options& o) {
   afm::CurveSettings& s = o.settings;
-  s.eta = afm::has_drag_velocity(app, o.si) ? afm::range_option("drag-velocity", o.drag_velocity)
-                                            : afm::range_option("eta", o.eta);
-  s.gamma = afm::range_option("gamma", o.gamma);
-  s.cutoff = afm::range_option("cutoff", o.cutoff);
-  s.rest_height = afm::range_option("rest-height", o.rest_height);
-  if (!o.amplitude.empty()) s.amplitude = afm::range_option("amplitude", o.amplitude);
-  if (!o.frequency_ratio.empty()) s.frequency_ratio = afm::range_option("frequency-ratio", o.frequency_ratio);
+  if (afm::has_drag_velocity(app, o.si)) s.eta = o.drag_velocity;
   take_lever(app, o);
   afm::checked_units(app, o.si);
   take_si(app, o);

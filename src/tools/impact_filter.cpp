@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "afm/single_flight.h"
 #include "common/csv.h"
 
 namespace afm {
@@ -51,10 +50,12 @@ void refuse_faults(const FlightInput& input, const TableUnits& units, const std:
   if (!text.empty()) throw std::invalid_argument(text);
 }
 
-void compute_row(ModelKind kind, const std::string& line, const TableUnits& units, std::vector<double>& row) {
+void compute_row(const FlightInput& tip, const std::string& line, const TableUnits& units, std::vector<double>& row) {
   parse_inputs(line, units, row);
   const std::vector<double> s = to_natural(row, units);
-  const FlightInput input{s[0], s[1], s[2], s[3], s[4], s[5], s[6], kind};
+  FlightInput input = tip;
+  input.eta = s[0], input.gamma = s[1], input.cutoff = s[2];
+  input.phase = s[3], input.extension = s[4], input.u = s[5], input.w = s[6];
   refuse_faults(input, units, row);
   const FlightResult r = fly_to_next_impact(input);
   const double results[kOutputs] = {r.dt, r.phase,        r.extension,           r.u,
@@ -90,7 +91,7 @@ std::string impact_input_header(const TableUnits& units) {
 
 std::string impact_output_header(const TableUnits& units) { return units.header(kImpactColumns); }
 
-bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, std::ostream& out,
+bool filter_impacts(const FlightInput& tip, std::istream& in, const std::string& name, std::ostream& out,
                     std::ostream& complaints, const TableUnits& units) {
   CsvLines lines(in);
   std::string line;
@@ -107,7 +108,7 @@ bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, s
   while (lines.next(line)) {
     std::vector<double> row(kInputs + kOutputs, kNaN);
     try {
-      compute_row(kind, line, units, row);
+      compute_row(tip, line, units, row);
     } catch (const std::exception& fault) {
       good = complain(fault.what());
     }

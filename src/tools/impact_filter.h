@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "afm/model.h"
+#include "afm/single_flight.h"
 #include "common/table_units.h"
 
 namespace afm {
@@ -18,8 +18,8 @@ std::string impact_input_header(const TableUnits& units = TableUnits::plain());
 std::string impact_output_header(const TableUnits& units = TableUnits::plain());
 
 // A row for each of the table's, without the header, both in these units; nan where one cannot be computed, reported as
-// name:LINE in `complaints`. Whether every row could be computed.
-bool filter_impacts(ModelKind kind, std::istream& in, const std::string& name, std::ostream& out,
+// name:LINE in `complaints`. Whether every row could be computed. `tip`: what no column says.
+bool filter_impacts(const FlightInput& tip, std::istream& in, const std::string& name, std::ostream& out,
                     std::ostream& complaints, const TableUnits& units = TableUnits::plain());
 
 }  // namespace afm

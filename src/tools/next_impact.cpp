@@ -17,12 +17,13 @@ const char kDescription[] =
     "Out: the same columns, then dt,phase_next,extension_next,u_next,w_next (after the impact), normal_speed,\n"
     "     tangential_velocity (before it) and energy_loss. With --si the header is drag_velocity_m_per_s,gamma,\n"
     "     cutoff_m_per_s,phase,extension_m,u_m_per_s,w_m_per_s, and the columns that come out are named alike. A row\n"
-    "     that cannot be computed gives nan and a message, and exit code 1 at the end.";
+    "     that cannot be computed gives nan and a message, and exit code 1 at the end.\n"
+    "The lever and its surface are options. The hammer has no extension, and eta for u.";
 
-bool filter_file(afm::ModelKind kind, const std::string& path, const afm::TableUnits& units) {
-  if (path == "-") return afm::filter_impacts(kind, std::cin, "stdin", std::cout, std::cerr, units);
+bool filter_file(const afm::FlightInput& tip, const std::string& path, const afm::TableUnits& units) {
+  if (path == "-") return afm::filter_impacts(tip, std::cin, "stdin", std::cout, std::cerr, units);
   std::ifstream file(path);
-  if (file) return afm::filter_impacts(kind, file, path, std::cout, std::cerr, units);
+  if (file) return afm::filter_impacts(tip, file, path, std::cout, std::cerr, units);
   std::cerr << "next_impact: cannot open '" << path << "'\n";
   return false;
 }
@@ -33,18 +34,23 @@ int main(int argc, char** argv) {
   afm::CommandLine app("next_impact", kDescription);
   std::vector<std::string> paths;
   app.arguments("files", paths, "tables to read; none, or -, is standard input");
-  std::string model = "oscillator";
-  app.option("model", model, "oscillator; or hammer, which has no extension, and eta for u");
-  afm::SiOptions si;
-  afm::add_si_options(app, si);
+  afm::PointOptions options;
+  afm::TipOptions& of_tip = options;  // the rest stands in the table
+  afm::add_options(app, of_tip);
+  afm::add_si_options(app, of_tip);
   return app.run(argc, argv, [&] {
-    const afm::ModelKind kind = afm::checked_kind(model);
     if (paths.empty()) paths.emplace_back("-");
-    afm::checked_units(app, si);
-    const afm::TableUnits units = afm::table_units(si);
+    afm::take_si(app, of_tip);
+    const afm::SweepPoint point = afm::checked_point(app, options);
+    afm::FlightInput tip{};
+    tip.kind = point.kind;
+    tip.rest_height = point.y0;
+    tip.amplitude = point.H;
+    tip.frequency_ratio = point.frequency_ratio;
+    const afm::TableUnits units = afm::table_units(options.si);
     std::cout << impact_output_header(units) << "\n";
     bool good = true;
-    for (const std::string& path : paths) good = filter_file(kind, path, units) && good;
+    for (const std::string& path : paths) good = filter_file(tip, path, units) && good;
     return good ? 0 : 1;
   });
 }

@@ -4,8 +4,6 @@
 
 #include <stdexcept>
 
-#include "common/point_options.h"
-
 namespace afm {
 namespace {
 
@@ -15,6 +13,7 @@ struct Values {
   std::uint64_t seed = 1;
   std::string model = "oscillator";
   std::vector<std::string> cutoffs{"0.1"};
+  std::vector<double> gammas;
   std::vector<std::string> files;
   bool quick = false;
 };
@@ -35,6 +34,7 @@ Answer run(
   line.option("seed", v.seed, "of the starts");
   line.option("model", v.model, "which");
   line.option("cutoff", v.cutoffs, "some");
+  line.ranges("gamma", v.gammas, "0.5:0.75:0.25", "some more");
   line.flag("quick", v.quick, "sooner");
   line.arguments("files", v.files, "to read");
   arguments.insert(arguments.begin(), "tool");
@@ -90,12 +90,11 @@ TEST(CommandLine, RefusesWithNameValueAndReason) {
   expect_refused({"--seed", "-1"}, "--seed = -1: must be a whole number, not below 0");
 }
 
-// Numbers in a list, of which the command line knows the texts alone.
-TEST(CommandLine, RangesAreRefusedWithNameValueAndReason) {
-  const std::vector<std::string> texts{"0.1", "x"};
-  const Answer answer = run({}, [&] { return static_cast<int>(ranges_option("cutoff", texts).size()); });
-  EXPECT_EQ(answer.code, 2);
-  EXPECT_EQ(answer.err, "tool: cutoff = x: 'x' is not a number\n");
+TEST(CommandLine, RangesTakeNumbersAndRanges) {
+  EXPECT_EQ(run({}).values.gammas, (std::vector<double>{0.5, 0.75}));
+  EXPECT_EQ(run({"--gamma", "0.1:0.3:0.1,0.7", "1"}).values.gammas, (std::vector<double>{0.1, 0.2, 0.3, 0.7, 1.0}));
+  expect_refused({"--gamma", "0.1", "x"}, "gamma = 0.1,x: 'x' is not a number");
+  expect_refused({"--gamma", "1:0:0.1"}, "gamma = 1:0:0.1: TO must not be below FROM");
 }
 
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 #include <stdexcept>
+
+#include "common/csv.h"
 
 namespace afm {
 namespace {
@@ -24,6 +27,12 @@ std::string table(const TableUnits& units, double velocity, double friction) {
 
 TEST(TableUnits, PlainNumbersAndNamesStayAsTheyAre) {
   EXPECT_EQ(table(TableUnits::plain(), 0.1, 3.0), "eta,attractor,k_f\n0.10000000000000001,chaotic,3\n");
+}
+
+TEST(TableWriter, ANotANumberHasNoSign) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(table(TableUnits::plain(), -nan, nan), "eta,attractor,k_f\nnan,chaotic,nan\n");
+  EXPECT_EQ(join_numbers({-nan, nan}), "nan,nan");
 }
 
 TEST(TableUnits, NamesTellTheUnit) {

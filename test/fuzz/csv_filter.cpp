@@ -28,12 +28,13 @@ void check(const std::vector<double>& row) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(data), size);
-  const auto kind = size > 0 && data[0] == '#' ? afm::ModelKind::hammer : afm::ModelKind::oscillator;
+  afm::FlightInput tip{};
+  if (size > 0 && data[0] == '#') tip.kind = afm::ModelKind::hammer;
   // mostly of rows, not of headers
   if (size > 0 && data[0] != '!') text = afm::impact_input_header() + "\n" + text;
   std::istringstream in(text);
   std::ostringstream out, complaints;
-  const bool good = afm::filter_impacts(kind, in, "fuzz", out, complaints);
+  const bool good = afm::filter_impacts(tip, in, "fuzz", out, complaints);
   std::size_t computed = 0, rows = 0;
   std::istringstream back(out.str());
   for (std::string line; std::getline(back, line); ++rows) {

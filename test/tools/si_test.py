@@ -154,6 +154,27 @@ class Levers(unittest.TestCase):
             self.assertAlmostEqual(float(rows[0][column]) / scale / natural, 1, delta=1e-14, msg=column)
         self.assertAlmostEqual(float(rows[0]['cutoff_m_per_s']), 1.66e-7, delta=1e-20)
 
+    def test_orbits_and_impacts(self):
+        options = [word for name, value in self.NATURAL.items() if name not in ('cutoff', 'quality-factor')
+                   for word in ('--' + name, repr(value))]
+        of_point = ['--eta', 2, '--max-length', 1, *QUICK]
+        si = run('periodic_orbits', '--si', *self.GIVEN, *of_point)
+        natural = run('periodic_orbits', '--cutoff', repr(self.NATURAL['cutoff']), *options, *of_point)
+        self.assertEqual((si[0], natural[0], len(si[1])), (0, 0, len(natural[1])), si[2] + natural[2])
+        for row, other in zip(si[1], natural[1]):
+            self.assertAlmostEqual(float(row['period_s']) * self.F0, float(other['period']), delta=1e-9)
+            self.assertAlmostEqual(float(row['extension_m']) / self.A, float(other['extension']), delta=1e-6)
+        speed = self.A * self.F0
+        si = run('next_impact', '--si', *self.GIVEN, text=(
+            'drag_velocity_m_per_s,gamma,cutoff_m_per_s,phase,extension_m,u_m_per_s,w_m_per_s\n%r,0.7,%r,0.25,0,%r,%r\n'
+            % (3 * speed, 0.05 * speed, 3 * speed, 2 * speed)))
+        natural = run('next_impact', *options,
+                      text='eta,gamma,cutoff,phase,extension,u,w\n3,0.7,0.05,0.25,0,3,2\n')
+        self.assertEqual((si[0], natural[0]), (0, 0), si[2] + natural[2])
+        self.assertAlmostEqual(float(si[1][0]['dt_s']) * self.F0, float(natural[1][0]['dt']), delta=1e-12)
+        for words in (['--lever', 'ppp_cont'], ['--si', '--rest-height', '3e-9'], ['--frequency-ratio', '-1']):
+            self.assertEqual(run('next_impact', *words, text='eta,gamma,cutoff,phase,extension,u,w\n')[0], 2, words)
+
     def test_real_time(self):
         short = ['real_time', '--eta', 2, '--tau', 20, '--transient', 10]
         row, = run(*short, *self.GIVEN)[1]
@@ -261,7 +282,7 @@ class Refused(unittest.TestCase):
         self.refuse('tip-mass: has a meaning only with --si', 'attractors', '--tip-mass', 1e-12)
         self.refuse('must be above 0', 'friction_curve', '--si', '--tip-mass', 0)
         self.refuse('must be positive, between 1e-40 and 1e40', 'next_impact', '--si', '--tip-mass', 1e50)
-        self.refuse('drag-velocity = 1e-6:2e-6:1e-6: must be one number', 'periodic_orbits', '--si', '--drag-velocity',
+        self.refuse('drag-velocity = 2 values: must be one number', 'periodic_orbits', '--si', '--drag-velocity',
                     '1e-6:2e-6:1e-6')
         self.refuse('lever, surface, load: have a meaning only with --si', 'friction_curve', '--lever', 'soft')
         for scale in ('omega-v', 'tip-mass', 'lattice-spacing'):  # once only two of these were refused
