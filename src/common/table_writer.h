@@ -36,8 +36,8 @@ class TableWriter {
   std::size_t cells_ = 0;
 };
 
-// Throws std::runtime_error if the file could not be written, as before a search of hours; what it holds stays. An empty
-// path is no file.
+// Throws std::runtime_error if the file could not be written: to be known before a search of hours. What it holds
+// stays. An empty path is no file.
 void check_writable(const std::string& path);
 
 }  // namespace afm

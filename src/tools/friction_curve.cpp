@@ -17,9 +17,9 @@ namespace {
 
 const char kDescription[] =
     "Computes the friction coefficient K_f over ranges of drag velocity, restitution, cutoff, load and surface\n"
-    "(units a, tau, tip mass m). VALUES are numbers or ranges FROM:TO:STEP. The table has the columns eta,gamma,cutoff,\n"
-    "k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,rest_height,\n"
-    "amplitude,frequency_ratio,k_f_work,k_f_work_std_error. k_f comes from the energy lost in impacts (the paper's\n"
+    "(units a, tau, tip mass m). VALUES are numbers or ranges FROM:TO:STEP. The table has the columns eta,gamma,\n"
+    "cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,\n"
+    "rest_height,amplitude,frequency_ratio,k_f_work,k_f_work_std_error. k_f comes from the energy lost in impacts (the paper's\n"
     "estimator), k_f_work from the work of the drag (the definition; with a heat bath only this is friction). The\n"
     "true mean is within 1.96 k_f_std_error 95 times in 100, and so for k_f_work, whose error is too large\n"
     "where a bath heats a slow tip; docs/friction.md says where one run knows too little of its error. Bounces are\n"

@@ -29,10 +29,10 @@ enum class LyapunovOutcome : std::uint8_t {
 };
 
 // Largest first [1/tau]. In contact two directions collapse, so after a contact the last two exponents are minus
-// infinity. The hammer has two exponents, and none after contact; the others are minus infinity. NaN where the tip lands
-// without any normal speed, where no derivative exists. std_errors come from
+// infinity. The hammer has two exponents, and none after contact; the others are minus infinity. std_errors come from
 // batch means. On a chaotic orbit they are the scatter; on a regular one the error falls like 1/duration, and they
-// bound nothing. All are NaN where nothing was measured, and std_errors where the measurement ended early.
+// bound nothing. All are NaN where nothing was measured, or the tip lands without any normal speed, as no derivative
+// exists there; std_errors where the measurement ended early.
 struct LyapunovSpectrum {
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   LyapunovOutcome outcome = LyapunovOutcome::no_event;
