@@ -16,17 +16,17 @@
 namespace {
 
 const char kDescription[] =
-    "Computes the friction coefficient K_f over ranges of drag velocity, restitution, cutoff, load and surface\n"
-    "(units a, tau, tip mass m). VALUES are numbers or ranges FROM:TO:STEP. The table has the columns eta,gamma,\n"
+    "Computes the friction coefficient K_f over ranges of drag velocity, restitution, cutoff, load and surface (units\n"
+    "a, tau, tip mass m). VALUES are numbers or ranges FROM:TO:STEP. The table has the columns eta,gamma,\n"
     "cutoff,k_f,k_f_std_error,impacts_per_tau,mean_energy_loss,mean_flight_time,largest_lyapunov,attractor,\n"
     "rest_height,amplitude,frequency_ratio,k_f_work,k_f_work_std_error. k_f comes from the energy lost in impacts\n"
     "(the paper's estimator), k_f_work from the work of the drag (the definition; with a heat bath only this is\n"
-    "friction). The true mean is within 1.96 k_f_std_error 95 times in 100, and so for k_f_work, whose error is too large\n"
-    "where a bath heats a slow tip; docs/friction.md says where one run knows too little of its error. Bounces are\n"
-    "counted down to the threshold of the contact tolerance, or to the next kick of the bath. The holder must pass\n"
-    "ten lattice spacings, or a warning says so. Beside the table lies OUTPUT.settings: interrupted and started\n"
-    "again, the same command goes on where it was; with --sweep up or down it repeats the sweep of eta that was\n"
-    "not finished.\n"
+    "friction). The true mean is within 1.96 k_f_std_error 95 times in 100, and so for k_f_work, whose error is too\n"
+    "large where a bath heats a slow tip; docs/friction.md says where one run knows too little of its error. Bounces\n"
+    "are counted down to the threshold of the contact tolerance, or to the next kick of the bath. The holder must\n"
+    "pass ten lattice spacings, or a warning says so. Beside the table lies OUTPUT.settings: interrupted and started\n"
+    "again, the same command goes on where it was; with --sweep up or down it repeats the sweep of eta that was not\n"
+    "finished.\n"
     "The numbers depend on nothing but the options that name them: not on threads or interruptions.";
 
 struct Options {
