@@ -11,6 +11,7 @@ from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tu
 import numpy as np
 
 from ._afm import VERSION, Bath, Model, Run, Units, arithmetic_fingerprint
+from .arguments import count
 from .errors import ArgumentTypeError
 from .values import Batch, ModelTime
 
@@ -179,7 +180,7 @@ class Recording:
             raise ValueError('the bag begins before its first snapshot: the state there is not known; epoch = %d is '
                              'whole' % begun[0])
         first = next((e for e in begun if e in with_batches), begun[0])
-        self.epoch: int = first if epoch is None else epoch
+        self.epoch: int = first if epoch is None else count('epoch', epoch)
         if self.epoch not in self.epochs:
             raise ValueError('epoch = %s: the bag holds %s' % (epoch, self.epochs))
         if self.epoch not in begun:

@@ -259,6 +259,9 @@ int write(const std::vector<std::string>& paths, const std::string& node, const 
   const Recording& recording = recordings.front();
   const afm::Units units = units_of(recording);
   const Target to{natural ? afm::TableUnits::into_natural(units) : afm::TableUnits::si(), units.time()};
+  if (!recording.holds<afm_emulator::Friction>() && (topic == "impacts" || topic == "deflection")) {
+    std::cerr << "bag_to_csv: it holds no message of friction: whether batches are missing at its ends is not known\n";
+  }
   const std::uint64_t lost = kTables.at(topic)(recording, to);
   if (lost == 0) return 0;
   std::cout.flush();

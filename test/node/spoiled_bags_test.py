@@ -34,6 +34,17 @@ class SpoiledBags(SpoiledBag):
         end = self.of('deflection')[-1].stamp
         self.remove(*(entry for entry in self.entries if entry.stamp > end))
 
+    def reset_at_the_end(self):
+        """The first 40 batches come again: a reset begins the same run."""
+        again = [copy.copy(e) for e in self.entries[:self.entries.index(self.of('friction')[40])]]
+        for entry in again:
+            of_epoch = {'header__seq': entry.message().header.seq + len(self.of(entry.topic)), 'epoch': 1}
+            if entry.topic == 'snapshot':
+                of_epoch['applied__epoch'] = of_epoch['configuration__epoch'] = 1
+            entry.edit(**of_epoch)
+            entry.stamp += self.entries[-1].stamp - self.entries[0].stamp + genpy.Duration(1)
+        self.entries += again
+
     def spoil_each(self, *spoils):
         """(code, words, sound, spoil): each by itself."""
         for code, words, sound, spoil in spoils:
@@ -112,6 +123,15 @@ class SpoiledBags(SpoiledBag):
             words = '3 messages of /afm/%s, the first after' % topic, 'what was compared is identical'
             self.spoil_each((UNCHECKED, words, False, lambda: self.remove(*self.of(topic)[80:83])))
 
+    def test_messages_are_lost_beside_a_reset(self):
+        """The last command before it was counted twice, and a configuration not at all."""
+        def lose(topic, number):
+            self.reset_at_the_end()
+            self.remove(self.of(topic)[number])
+        self.spoil_each((SOUND, ('IDENTICAL', '2 epochs'), True, self.reset_at_the_end),
+                        (UNCHECKED, ('missing: 1 commands',), False, lambda: lose('applied', -2)),
+                        (UNCHECKED, ('missing: 1 configurations',), False, lambda: lose('configuration', -1)))
+
     def test_a_hole_may_hide_a_snapshot(self):
         """At which the motion was split: a difference right behind it may be that in the last digits."""
         def lose_batches_before_a_difference(batch):
@@ -158,6 +178,13 @@ class SpoiledBags(SpoiledBag):
                         (UNCHECKED, ('messages of /afm/friction at the end',), False, end_before_the_last_command),
                         (UNCHECKED, ('messages of /afm/friction at the end',), False, tell_of_a_reset))
         self.spoil_each((SOUND, ('IDENTICAL',), None, self.end_at_the_last_deflection))
+        def lose_the_last(topic):
+            self.entries.append(copy.copy(self.of('status')[-1]))  # what stands behind a batch shows that it was whole
+            self.entries[-1].stamp = self.entries[-2].stamp + genpy.Duration(0, 1)
+            self.remove(self.of(topic)[-1])
+        for topic in ('deflection', 'impacts', 'friction'):
+            self.spoil_each((UNCHECKED, ('1 messages of /afm/%s at the end' % topic,), False,
+                             lambda: lose_the_last(topic)))
         self.spoil_each((UNCHECKED, ('5 messages of /afm/friction at the end',), False,  # as the status tells
                          lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
                                                for e in self.of(topic)[-5:]))),
@@ -340,6 +367,18 @@ class SpoiledBags(SpoiledBag):
                               ('run_002.bag', latched + everything[ends[1]:])):
             self.entries = entries
             parts.append(self.write(name))
+        def without_friction(part):
+            """As by rosbag filter: bag_to_csv called these parts of another recording."""
+            path = self.directory / 'filtered' / part.name
+            path.parent.mkdir(exist_ok=True)
+            with rosbag.Bag(str(part)) as bag, rosbag.Bag(str(path), 'w') as filtered:
+                for topic, raw, stamp, header in bag.read_messages(raw=True, return_connection_header=True):
+                    if not topic.endswith('friction'):
+                        filtered.write(topic, raw, stamp, raw=True, connection_header=header)
+            return path
+        answer = checks.call('bag_to_csv', '--topic', 'impacts', *map(without_friction, parts))
+        self.assertEqual(answer.code, SOUND, answer.text[-300:])
+        self.assertIn('whether batches are missing at its ends is not known', answer.text)
         for paths in (parts, parts[::-1]):  # a shell may list them in another order
             self.assertEqual(checks.bag_check(*paths).code, SOUND)
             self.assertEqual(checks.replay_check(*paths).code, SOUND)
@@ -402,7 +441,8 @@ class SpoiledBags(SpoiledBag):
                                ('energy', lambda: self.of('friction')[-1].edit(heat_to_bath=float('nan'))),
                                ('K_f', lambda: scale('friction', 60, energy_loss=1 + 1e-8, k_f=1 + 1e-8)),
                                ('K_f', lambda: scale('friction', 60, k_f=1 + 1e-8)),
-                               ('energy', lambda: scale('friction', 60, mean_lateral_force=1.1)),
+                               ('K_f', lambda: scale('friction', 60, k_f_work=1 + 1e-8)),
+                               ('energy', lambda: scale('friction', 60, mean_lateral_force=1.1, k_f_work=1.1)),
                                ('counters', lambda: self.of('status')[0].edit(search_failures=1))):  # a reset follows
             with self.subTest(subject=subject):
                 self.setUp()

@@ -131,10 +131,21 @@ bool may_go_on(const Recording& before, const Recording& after) {
   return !begin || !end || begin->first.seq <= end->second.seq + 1;
 }
 
+// One that both hold with a message of each batch, whose numbers show what lies between; or none.
+std::string topic_of_batches(const Recording& before, const Recording& after) {
+  for (const auto& [mine, others] :
+       {std::pair(before.topic<afm_emulator::Friction>(), after.topic<afm_emulator::Friction>()),
+        {before.topic<afm_emulator::Deflection>(), after.topic<afm_emulator::Deflection>()},
+        {before.topic<afm_emulator::ImpactArray>(), after.topic<afm_emulator::ImpactArray>()}}) {
+    if (mine == others && !mine.empty()) return mine;
+  }
+  return {};
+}
+
 // How many batches are missing between two parts of one recording; nothing if they are not.
 std::optional<std::uint32_t> batches_between(const Recording& before, const Recording& after) {
-  const std::string topic = before.topic<afm_emulator::Friction>();
-  if (topic.empty() || topic != after.topic<afm_emulator::Friction>()) return std::nullopt;
+  const std::string topic = topic_of_batches(before, after);
+  if (topic.empty()) return std::nullopt;
   const auto begin = after.ends_of(topic), end = Recording(before.node(), {}, {before.files().back()}).ends_of(topic);
   if (!begin || !end) return std::nullopt;
   const std::uint32_t first = begin->first.seq, last = end->second.seq;
@@ -300,7 +311,8 @@ std::uint64_t Recording::batches_proved_at_end() const {
 }
 
 // The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
-// it is killed. `rosbag record` subscribes to topic after topic, and leaves what waits in their queues at its end.
+// it is killed; then nothing stands behind it. `rosbag record` subscribes to topic after topic, and leaves what waits in
+// their queues at its end.
 Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   const auto key = [](const std_msgs::Header& header) { return std::make_pair(header.stamp, header.seq); };
   std::optional<Ends> own, all;
@@ -325,13 +337,14 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
     return starts()->of(a.stamp) == starts()->of(b.stamp);
   };
   const bool exact = is_by_node();
+  const bool is_cut = view(topic<afm_emulator::EmulatorStatus>())->getEndTime() <= view(last_of)->getEndTime();
   const auto mine = view(topics_.at(type));
   const ros::Duration tick(0, 1);
   missing.at_beginning = have_one_start(all->first, own->first)
                              ? count(all->first, own->first, exact ? 0 : node::kBatchQueueSize)
                              : view(first_of, ros::TIME_MIN, mine->getBeginTime() - tick)->size();
   missing.at_end = have_one_start(own->second, all->second)
-                       ? count(own->second, all->second, exact ? 1 : node::kBatchQueueSize)
+                       ? count(own->second, all->second, exact ? (is_cut ? 1 : 0) : node::kBatchQueueSize)
                        : view(last_of, mine->getEndTime() + tick)->size();
   if (const auto held = ends_of(topic<afm_emulator::Friction>())) {  // another topic may hold some of these
     const std::uint32_t held_before = held->first.seq - all->first.seq, held_after = all->second.seq - held->second.seq;

@@ -78,11 +78,11 @@ void RunCheck::read_marks() {
     marks_.push_back({snapshots->number(), nullptr, snapshots->get(), snapshots->is_repeated()});
   }
   const auto applied = recording_.read<afm_emulator::Applied>();
-  std::uint64_t lost = 0, known_lost = 0;
+  std::uint64_t known_lost = 0;
   for (; applied->get(); applied->next()) {
     if (!marks_.empty() && applied->lost() == 0) check_number(marks_.back(), *applied->get(), applied->number());
     marks_.push_back({applied->number(), applied->get(), nullptr, applied->is_repeated()});
-    lost += applied->lost();
+    unplaced_commands_ += applied->lost();
   }
   const auto key = [](const Mark& c) {
     return std::make_tuple(c.number.start, c.epoch(), c.in_force().number, c.snapshot != nullptr, c.number.seq);
@@ -96,7 +96,7 @@ void RunCheck::read_marks() {
     const std::uint64_t expected = c.in_force().number + (next.applied ? 1 : 0), number = next.in_force().number;
     if (number > expected) known_lost += c.lost_commands = number - expected;
   }
-  if (lost > known_lost) lose("commands", lost - known_lost);  // those with which an epoch begins
+  unplaced_commands_ -= std::min(unplaced_commands_, known_lost);
   lose("commands", recording_.commands_missing_at_beginning());
 }
 
@@ -118,7 +118,10 @@ void RunCheck::check_configurations() {
     if (c.snapshot) first.emplace(std::make_pair(c.number.start, c.snapshot->epoch), &c);
   }
   const auto messages = recording_.read<afm_emulator::Configuration>();
+  Number last;
   for (; messages->get() && !difference_; messages->next()) {
+    lose("configurations", messages->lost());
+    last = messages->number();
     const auto found = first.find({messages->number().start, messages->number().seq});
     if (found == first.end()) continue;
     compare(*messages->get(), found->second->snapshot->configuration);
@@ -126,6 +129,9 @@ void RunCheck::check_configurations() {
       difference_->time = "the beginning; \"simulated\" is what message " + std::to_string(found->second->number.seq) +
                           " of " + recording_.topic<afm_emulator::Snapshot>() + " holds, and either may be wrong";
     }
+  }
+  for (auto behind = first.upper_bound({last.start, last.seq}); behind != first.end(); ++behind) {
+    if (behind->first.first == last.start) lose("configurations", 1);
   }
 }
 
@@ -146,6 +152,7 @@ void RunCheck::run() {
   }
   if (difference_) return;
   check_without_friction();
+  lose("commands", unplaced_commands_, "the beginning of an epoch");
   check_ends(batches_.get());
   check_ends(deflections_.get());
   check_ends(impacts_.get());
@@ -302,6 +309,7 @@ void RunCheck::check_batch() {
   has_begun_ = false;
   if (last_ && !is_doubtful_ && tells_of_command(*last_, *recorded)) {
     lose("commands", 1);
+    if (unplaced_commands_ > 0) --unplaced_commands_;
     is_doubtful_ = true;
   }
   if (!follows) run_to(recorded->begin, recorded->first_impact);

@@ -119,7 +119,8 @@ class RunCheck {
 
   // the run; without one, nothing is compared up to the next snapshot
   std::optional<Run> run_;
-  std::uint64_t start_ = 0;  // of the node that it is by
+  std::uint64_t start_ = 0;              // of the node that it is by
+  std::uint64_t unplaced_commands_ = 0;  // lost at a beginning or an end of an epoch, where no number shows it
   node::Parameters in_force_;
   afm_emulator::Configuration configuration_;
   afm_emulator::Applied applied_;
