@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "afm/dynamics/periodic_orbit.h"
@@ -195,36 +197,81 @@ struct Turns {
   double mean = kNaN, spread = kInfinity;
 };
 
-Turns turns_in_plane(const std::vector<Eigen::Vector4d>& points, int a, int b) {
+// Each coordinate less its mean, over its deviation.
+std::vector<Eigen::Vector4d> standardised(std::vector<Eigen::Vector4d> points) {
   Eigen::Vector4d mean = Eigen::Vector4d::Zero(), square = Eigen::Vector4d::Zero();
   const double n = static_cast<double>(points.size());
   for (const Eigen::Vector4d& p : points) mean += p / n;
-  for (const Eigen::Vector4d& p : points) square += (p - mean).cwiseAbs2();
+  for (const Eigen::Vector4d& p : points) square += (p - mean).cwiseAbs2() / n;
+  for (Eigen::Vector4d& p : points) {
+    for (int i = 0; i < 4; ++i) p[i] = square[i] > 0.0 ? (p[i] - mean[i]) / std::sqrt(square[i]) : 0.0;
+  }
+  return points;
+}
+
+// A weighted Birkhoff average: steps at the ends weigh little, so the mean converges like a high power of their number.
+double smooth_mean(const std::vector<double>& steps) {
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(steps.size()), hill = t * (1.0 - t);
+    const double weight = (hill * hill) * (hill * hill);
+    sum += weight * steps[i], weights += weight;
+  }
+  return sum / weights;
+}
+
+Turns turns_in_plane(const std::vector<Eigen::Vector4d>& points, int a, int b) {
   std::vector<double> steps;
   double before = kNaN, cosine = 0.0, sine = 0.0;
   for (const Eigen::Vector4d& p : points) {
-    const double angle = std::atan2((p[b] - mean[b]) / std::sqrt(square[b]), (p[a] - mean[a]) / std::sqrt(square[a]));
+    const double angle = std::atan2(p[b], p[a]);
     if (!std::isnan(before)) {
       steps.push_back((angle - before) / kTwoPi);
       cosine += std::cos(angle - before), sine += std::sin(angle - before);
     }
     before = angle;
   }
-  constexpr std::size_t kFewest = 200;  // a choice: fewer do not show the spread
-  if (steps.size() < kFewest || steps.size() + 1 < points.size()) return {};
   const double middle = std::atan2(sine, cosine) / kTwoPi;
-  double sum = 0.0, least = 0.0, most = 0.0;
-  for (const double step : steps) {
-    const double beside = std::remainder(step - middle, 1.0);
-    sum += beside, least = std::min(least, beside), most = std::max(most, beside);
-  }
-  return {middle + sum / (n - 1.0), most - least};
+  for (double& step : steps) step = std::remainder(step - middle, 1.0);
+  const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+  return {middle + smooth_mean(steps), *most - *least};
 }
 
-// In the plane in which the points go round most evenly; NaN if they go round in none. The hammer has one.
+// The mean square of what lies between neighbours, over that of any two points, where the n-th point is put at n turns
+// of a circle. Near 0: the place on this circle says where the point is, so they lie on one closed curve.
+double disorder_on_circle(const std::vector<Eigen::Vector4d>& points, double turns) {
+  std::vector<std::pair<double, std::size_t>> places;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const double turned = static_cast<double>(n) * turns;
+    places.emplace_back(turned - std::floor(turned), n);
+  }
+  std::sort(places.begin(), places.end());
+  double between = 0.0, all = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    between += (points[places[i].second] - points[places[i - 1].second]).squaredNorm();
+    all += 2.0 * points[places[i].second].squaredNorm();
+  }
+  return between / all;
+}
+
+// As of several curves that the points visit in turn.
+bool is_rational(double turns) {
+  constexpr int kLongest = 64;  // choices
+  constexpr double kFromWhole = 1e-7;
+  for (int q = 1; q <= kLongest; ++q) {
+    if (std::abs(std::remainder(q * turns, 1.0)) < kFromWhole) return true;
+  }
+  return false;
+}
+
+// Of the rotation to which the motion on a closed curve is conjugate; NaN if it is on no such curve, or this is not
+// seen. Where the points go round the curve once, they may go round the centre m times, in the plane in which they do
+// so most evenly. The hammer has one plane.
 double rotation_number(const Model& model, Observer& observer, const ModelTime& limit) {
-  constexpr std::size_t kRotationImpacts = 4000;  // a choice: the error of the mean is below 1/4000
-  constexpr double kMostSpread = 0.9;             // a choice: 0.54 was the largest of a curve that goes round
+  constexpr std::size_t kRotationImpacts = 4000, kFewest = 200;  // choices
+  constexpr double kMostSpread = 0.9;      // a choice: 0.54 was the largest of a curve that goes round
+  constexpr double kMostDisorder = 0.005;  // a choice: 3e-5 to 3e-3 on curves; 0.02 and more with another rotation
+  constexpr int kMostRounds = 4;           // a choice
   constexpr int kPhase = 0, kExtension = 1, kVelocity = 2, kGapRate = 3;
   std::vector<Eigen::Vector4d> points;
   TipState first;
@@ -233,6 +280,8 @@ double rotation_number(const Model& model, Observer& observer, const ModelTime& 
     if (points.empty()) first = state;
     points.push_back(section_difference(state, first));
   }
+  if (points.size() < kFewest) return kNaN;
+  points = standardised(std::move(points));
   Turns best = turns_in_plane(points, kPhase, kGapRate);
   if (model.kind == ModelKind::oscillator) {
     for (const int other : {kGapRate, kVelocity}) {
@@ -240,7 +289,14 @@ double rotation_number(const Model& model, Observer& observer, const ModelTime& 
       if (turns.spread < best.spread) best = turns;
     }
   }
-  return best.spread < kMostSpread ? std::abs(std::remainder(best.mean, 1.0)) : kNaN;
+  if (!(best.spread < kMostSpread) || is_rational(best.mean)) return kNaN;
+  for (int m = 1; m <= kMostRounds; ++m) {
+    for (int k = 0; k < m; ++k) {
+      const double turns = (best.mean + k) / m;
+      if (disorder_on_circle(points, turns) < kMostDisorder) return std::abs(std::remainder(turns, 1.0));
+    }
+  }
+  return kNaN;
 }
 
 // An exponent is zero, as on a torus or at a bifurcation, within 0.01/tau or within four standard errors. A choice: in

@@ -106,13 +106,14 @@ std::vector<ParameterError> find_warnings(const Model& model, const Bath& bath, 
   const auto warning = [&](const std::string& reason) {
     return std::vector<ParameterError>{ParameterError("kicks_per_tau", kicks, reason)};
   };
-  const std::string give = "; give " + number_text(advised);
+  const double usual = Bath{}.kicks_per_tau, damped = least_kicks(model, bath);
+  const std::string give =
+      "; give " + number_text(advised) + (advised < kEnough * damped ? ", though it is too low as well" : "");
   const std::string remedy = ": K_f may be wrong by a fifth and more" + give;
   if (locks(model, bath, kicks)) {
     return warning("locks to the swing of the lateral spring, as omega_h/omega_v = " +
                    number_text(std::round(1e4 * model.frequency_ratio) / 1e4) + remedy);
   }
-  const double usual = Bath{}.kicks_per_tau, damped = least_kicks(model, bath);
   const double least = std::fmax(is_slow(bath) ? std::fmin(suitable, usual) : usual, std::fmin(suitable, damped));
   if (kicks < kEnough * least) return warning("is too low for these springs and quality factors" + remedy);
   if (kicks < kEnough * damped) {

@@ -143,6 +143,10 @@ TEST(Bath, AWarningNamesTheRateAndTheRemedy) {
   EXPECT_EQ(find_warnings(with_ratio(14.0), with(20.0, 8.652))[0].reason,
             "is too low for these springs and quality factors: K_f may be wrong by a fifth and more; give 46.979");
   EXPECT_NE(find_warnings(with_ratio(60.0), with(100.0))[0].reason.find("give 37.082"), std::string::npos);
+  // the fastest of all
+  EXPECT_EQ(find_warnings(with_ratio(22.4), with(0.4))[0].reason,
+            "is too low for these springs and quality factors: K_f may be wrong by a fifth and more; give 999.618, "
+            "though it is too low as well");
   const std::vector<ParameterError> warnings = find_warnings(with_ratio(14.0), with(20.0));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].name, "kicks_per_tau");

@@ -337,8 +337,10 @@ class Expect(NodeTest):
         launch.write_text('<launch><arg name="bag_directory"/></launch>')
         self.assert_refused('arguments = bags:=x: unknown to .*, which has bag_directory', 'expect_repeats',
                             launch=str(launch), arguments='bags:=x')
-        self.assert_refused('^arguments = bag_directory: must be NAME:=VALUE', 'expect_repeats', launch=str(launch),
-                            arguments='bag_directory')
+        for arguments, fault in (('bag_directory', 'must be NAME:=VALUE'), (7, 'must be NAME:=VALUE'),
+                                 ("bag_directory:='x", 'No closing quotation')):
+            self.assert_refused('^arguments = %s: %s' % (arguments, fault), 'expect_repeats', launch=str(launch),
+                                arguments=arguments)
 
     def test_a_launch_file_that_is_not_there(self):
         self.assert_refused('^launch = /no/such.launch: there is no such file', 'expect_repeats',

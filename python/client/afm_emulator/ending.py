@@ -13,6 +13,7 @@ import threading
 # the last where the terminal is closed, unless nohup keeps it off
 SIGNALS = (signal.SIGINT, signal.SIGTERM) + (signal.SIGHUP,) * (signal.getsignal(signal.SIGHUP) != signal.SIG_IGN)
 LEAVE_S = 1  # to take leave of the master
+asked = threading.Event()  # by a signal, not by the master
 
 
 def _wait():
@@ -27,6 +28,7 @@ def _read(pipe):
 
 
 def _end():
+    asked.set()
     signal.alarm(LEAVE_S)  # no lock holds it up
     rospy = sys.modules.get('rospy')
     if rospy is None or not hasattr(rospy, 'core') or not rospy.core.is_initialized():

@@ -173,7 +173,7 @@ def run(name, case):
         print(sys.modules['__main__'].__doc__ + '\n--help: this text')
         return
     from afm_emulator import ending  # of a node alone: children of a test that blocks signals would not end
-    ending.LEAVE_S = 4  # to draw a picture and write the result
+    ending.LEAVE_S = 2  # to write the result
     ending.init_node(name, anonymous=True)
     rostest.rosrun(PACKAGE, name, case, sys.argv)
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "afm/model.h"
@@ -36,8 +37,8 @@ struct Attractor {
   // part of the time in contact, in chatter or in bounces below 0.01 a/tau; at rest NaN, as nothing is measured
   double contact_share = 0.0;
   double cells_per_impact = 0.0;  // 0 without impacts
-  // if quasi-periodic: turns per impact about the centre of the section, in [0, 1/2]; NaN if no plane shows them
-  double rotation_number = 0.0;
+  // if quasi-periodic on one closed curve in the section: turns per impact on it, in [0, 1/2]; else NaN
+  double rotation_number = std::numeric_limits<double>::quiet_NaN();
   LyapunovSpectrum lyapunov;  // if periodic: logarithms of the multipliers over the period
 
   // period-N, quasi-periodic, chaotic, contact, rest, undecided
