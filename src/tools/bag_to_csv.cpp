@@ -190,36 +190,40 @@ Column column_of(std::string name) {
   return {name, quantity};
 }
 
+// Of one start of the node: no number tells that the last command is lost, but friction does.
+bool lacks_last_command(const Recording& recording) {
+  if (!recording.holds<afm_emulator::Friction>()) return false;
+  afm_emulator::Applied last;
+  for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) { last = applied; });
+  bool is_lost = false;
+  std::optional<afm_emulator::Friction> before;
+  for_each_message<afm_emulator::Friction>(recording, [&](const auto& batch) {
+    const auto place = [](const auto& message, const auto& time) {
+      return std::make_tuple(message.epoch, time.tau, time.phase);
+    };
+    const bool is_behind = before && place(*before, before->begin) >= place(last, last.time);
+    is_lost = is_lost || (is_behind && afm::bags::tells_of_command(*before, batch));
+    before = batch;
+  });
+  return is_lost;
+}
+
 std::uint64_t write_commands(const Recording& recording, const Target& to) {
   std::vector<Column> columns{{"drag_velocity", Q::velocity}};
   for (const char* name : afm::node::kLiveNames) columns.push_back(column_of(name));
   columns.insert(columns.end(), {{"model"}, {"contact_tolerance"}, {"first_impact"}, {"number"}, {"cause"}});
   TableWriter table = to.begin(columns);
   afm::node::Live unused;
-  afm_emulator::Applied last;
   std::uint64_t lost = recording.commands_missing_at_beginning();
   lost += write_each<afm_emulator::Applied>(recording, [&](const auto& applied) {
-    last = applied;
     to.begin_row(table, applied.epoch, applied.time);
     table << applied.drag_velocity;
     afm::node::for_each_live(applied, unused, [&](double value, double) { table << value; });
     table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
     table.end_row();
   });
-  // no number tells that the last one is lost
-  bool is_last_lost = false;
-  if (!recording.holds<afm_emulator::Friction>()) return lost;
-  std::optional<afm_emulator::Friction> before;
-  for_each_message<afm_emulator::Friction>(recording, [&](const auto& batch) {
-    const auto place = [](const auto& message, const auto& time) {
-      return std::make_tuple(message.epoch, time.tau, time.phase);
-    };
-    const bool is_behind =
-        before && before->header.stamp >= last.header.stamp && place(*before, before->begin) >= place(last, last.time);
-    is_last_lost = is_last_lost || (is_behind && afm::bags::tells_of_command(*before, batch));
-    before = batch;
-  });
-  return lost + (is_last_lost ? 1 : 0);
+  for (const Recording& start : recording.by_start()) lost += lacks_last_command(start) ? 1 : 0;
+  return lost;
 }
 
 const std::map<std::string, std::function<std::uint64_t(const Recording&, const Target&)>> kTables{

@@ -236,10 +236,10 @@ class SpoiledBags(SpoiledBag):
 
     def test_two_starts(self):
         """On wall time each message is of one of them, whatever is lost."""
-        def lose(*topics, until=None):
+        def lose(*topics, which=slice(None)):
             later = [entry.shifted(100) for entry in self.entries]
             for topic in topics:
-                self.remove(*self.of(topic)[:until])
+                self.remove(*self.of(topic)[which])
             self.entries += later
 
         def end_with(topic, number):
@@ -262,6 +262,11 @@ class SpoiledBags(SpoiledBag):
              lambda: lose('configuration', 'applied', 'snapshot')),
             (UNCHECKED, ('%d messages of /afm/deflection at the beginning' % batches,), False,
              lambda: lose('deflection')),
+            # at the inner ends, where once nothing was missed
+            (UNCHECKED, ('5 messages of /afm/impacts at the end of a start',), False,
+             lambda: lose('impacts', which=slice(-5, None))),
+            (UNCHECKED, ('5 messages of /afm/friction at the end of a start',), False,
+             lambda: lose('deflection', 'friction', 'impacts', which=slice(-5, None))),
             (UNCHECKED, ('/afm/deflection: number 9 comes behind',), True, lambda: end_with('deflection', 9)))
 
     def test_a_snapshot(self):

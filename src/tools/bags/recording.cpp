@@ -198,6 +198,8 @@ void Recording::add(const Recording& next, std::uint32_t batches_between) {
 std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ros::Time& begin,
                                               const ros::Time& end) const {
   auto view = std::make_unique<rosbag::View>();
+  const ros::Time from = std::max(begin, begin_), to = std::min(end, end_);
+  if (from > to) return view;  // rosbag would count for ever
   for (const File& file : files_) {
     view->addQuery(
         *file.bag,
@@ -205,9 +207,26 @@ std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ro
           return connection->topic == topic && nodes.at(connection->id) == node &&
                  kTypes.count(connection->datatype) > 0;
         },
-        begin, end);
+        from, to);
   }
   return view;
+}
+
+std::vector<Recording> Recording::by_start() const {
+  const auto has_begun_before = [&](const ros::Time& start) {
+    return std::any_of(topics_.begin(), topics_.end(), [&](const auto& topic) {
+      return kBatchTypes.count(topic.first) > 0 && view(topic.second, ros::TIME_MIN, start)->size() > 0;
+    });
+  };
+  const std::vector<ros::Time> times = starts()->times();
+  std::vector<Recording> parts{*this};
+  for (const ros::Time& start : times) {
+    if (parts.size() == 1 && !has_begun_before(start)) continue;  // it is the first one
+    parts.back().end_ = start - ros::Duration(0, 1);
+    parts.push_back(*this);
+    parts.back().begin_ = start;
+  }
+  return parts;
 }
 
 // From the topics that have few messages: in each, a start is where the number is 0, or lower than the one before.
@@ -313,39 +332,31 @@ std::uint64_t Recording::batches_proved_at_end() const {
 // The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
 // it is killed; then nothing stands behind it. `rosbag record` subscribes to topic after topic, and leaves what waits in
 // their queues at its end.
-Recording::Missing Recording::missing_at_ends(const std::string& type) const {
+Recording::Missing Recording::missing_in_one_start(const std::string& type) const {
   const auto key = [](const std_msgs::Header& header) { return std::make_pair(header.stamp, header.seq); };
   std::optional<Ends> own, all;
-  std::string first_of, last_of;  // topics with the first and the last batch
+  std::string last_of;  // topic with the last batch
   for (const auto& [name, topic] : topics_) {
     const auto ends = kBatchTypes.count(name) > 0 ? ends_of(topic) : std::nullopt;
     if (!ends) continue;
     if (name == type) own = ends;
-    if (!all) all = ends, first_of = last_of = topic;
-    if (key(ends->first) < key(all->first)) all->first = ends->first, first_of = topic;
+    if (!all) all = ends, last_of = topic;
+    if (key(ends->first) < key(all->first)) all->first = ends->first;
     if (key(ends->second) > key(all->second)) all->second = ends->second, last_of = topic;
   }
-  if (!own) return {};
+  if (!all || kBatchTypes.count(type) == 0 || topics_.count(type) == 0) return {};
   Missing missing;
-  const auto count = [&](const std_msgs::Header& from, const std_msgs::Header& to, std::uint32_t allowed) {
-    const std::uint32_t lacking = to.seq > from.seq ? to.seq - from.seq : 0;
+  const auto count = [&](std::uint32_t from, std::uint32_t to, std::uint32_t allowed) {
+    const std::uint32_t lacking = to > from ? to - from : 0;
     if (lacking > allowed) return lacking;
     missing.tolerated += lacking;
     return 0U;
   };
-  const auto have_one_start = [&](const std_msgs::Header& a, const std_msgs::Header& b) {
-    return starts()->of(a.stamp) == starts()->of(b.stamp);
-  };
   const bool exact = is_by_node();
   const bool is_cut = view(topic<afm_emulator::EmulatorStatus>())->getEndTime() <= view(last_of)->getEndTime();
-  const auto mine = view(topics_.at(type));
-  const ros::Duration tick(0, 1);
-  missing.at_beginning = have_one_start(all->first, own->first)
-                             ? count(all->first, own->first, exact ? 0 : node::kBatchQueueSize)
-                             : view(first_of, ros::TIME_MIN, mine->getBeginTime() - tick)->size();
-  missing.at_end = have_one_start(own->second, all->second)
-                       ? count(own->second, all->second, exact ? (is_cut ? 1 : 0) : node::kBatchQueueSize)
-                       : view(last_of, mine->getEndTime() + tick)->size();
+  const std::uint32_t ragged = exact ? 0 : node::kBatchQueueSize;
+  missing.at_beginning = count(all->first.seq, own ? own->first.seq : all->second.seq + 1, ragged);
+  if (own) missing.at_end = count(own->second.seq, all->second.seq, exact && is_cut ? 1 : ragged);
   if (const auto held = ends_of(topic<afm_emulator::Friction>())) {  // another topic may hold some of these
     const std::uint32_t held_before = held->first.seq - all->first.seq, held_after = all->second.seq - held->second.seq;
     missing.at_beginning += std::max<std::uint64_t>(batches_proved_at_beginning(), held_before) - held_before;
@@ -353,6 +364,17 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
     (exact || proved > node::kBatchQueueSize ? missing.at_end : missing.tolerated) += proved;
   }
   return missing;
+}
+
+Recording::Missing Recording::missing_at_ends(const std::string& type) const {
+  Missing sum;
+  for (const Recording& part : by_start()) {
+    const Missing missing = part.missing_in_one_start(type);
+    sum.at_beginning += missing.at_beginning;
+    sum.at_end += missing.at_end;
+    sum.tolerated += missing.tolerated;
+  }
+  return sum;
 }
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {

@@ -56,6 +56,7 @@ class Starts {
     const bool is_first = times_.size() == 1 && found_.front().second == ros::TIME_MIN;
     if (is_set_back_ && is_first) times_.clear();  // stamps before it are of this start too
   }
+  const std::vector<ros::Time>& times() const { return times_; }
   // The last start that is not later than the stamp [ns]; 0 if there is none.
   std::uint64_t of(const ros::Time& stamp) const {
     const auto later = std::upper_bound(times_.begin(), times_.end(), stamp);
@@ -169,6 +170,8 @@ class Recording {
   const std::vector<File>& files() const { return files_; }
   // Adds the bags that follow. `batches_between`: missing before them.
   void add(const Recording& next, std::uint32_t batches_between);
+  // A recording of each start of the node: all messages up to the next start, and from it on.
+  std::vector<Recording> by_start() const;
 
   template <class Message>
   bool holds() const {
@@ -191,7 +194,7 @@ class Recording {
     std::uint64_t at_beginning = 0, at_end = 0;
     std::uint64_t tolerated = 0;  // fewer, which a bag by `rosbag record` or of a killed node may lack
   };
-  // Batches at the ends of the recording of which it should hold a message of this type, but does not.
+  // Batches at the ends of every start of which it should hold a message of this type, but does not.
   template <class Message>
   Missing missing_at_ends() const {
     return missing_at_ends(ros::message_traits::datatype<Message>());
@@ -202,6 +205,7 @@ class Recording {
 
  private:
   Missing missing_at_ends(const std::string& type) const;
+  Missing missing_in_one_start(const std::string& type) const;
   // Batches before the first or after the last one that the bag holds. Other messages of the node prove them.
   std::uint64_t batches_proved_at_beginning() const;
   std::uint64_t batches_proved_at_end() const;
@@ -214,8 +218,9 @@ class Recording {
   std::string node_;
   Topics topics_;
   std::vector<File> files_;
-  std::string holes_;                             // between the files, in words
-  mutable std::shared_ptr<const Starts> starts_;  // once they were asked for
+  ros::Time begin_ = ros::TIME_MIN, end_ = ros::TIME_MAX;  // of what it holds of its files, in their stamps
+  std::string holes_;                                      // between the files, in words
+  mutable std::shared_ptr<const Starts> starts_;           // once they were asked for
 };
 
 // From the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each

@@ -433,7 +433,10 @@ void RunCheck::check_ends(Cursor<Message>* messages) {
   const std::string what = "messages of " + recording_.topic<Message>();
   const Recording::Missing missing = recording_.missing_at_ends<Message>();
   const auto lose_at = [&](const char* end, std::uint64_t count) {
-    if (count > 0) missing_.push_back({what + " at the " + end + " of the recording", "", count});
+    if (count > 0)
+      missing_.push_back(
+          {what + " at the " + end + " of " + (recording_.by_start().size() > 1 ? "a start" : "the recording"), "",
+           count});
   };
   lose_at("beginning", missing.at_beginning);
   lose_at("end", missing.at_end);
