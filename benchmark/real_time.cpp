@@ -140,7 +140,7 @@ std::vector<Point> points_of(const Options& o) {
   return points;
 }
 
-void check(Options& o) {
+void check(const Options& o) {
   if (!has_valid_tolerance(afm::Level{afm::ModelKind::oscillator, o.tolerance})) {
     throw afm::ParameterError("tolerance", o.tolerance, "must be 0, or between 1e-9 and 0.01");
   }

@@ -77,7 +77,7 @@ TEST(Attractor, ATipThatStillConvergesHasThePeriodOfItsOrbit) {
 }
 
 // By the spectrum of the run, too. The first goes twice round the centre in each plane, where it goes round once.
-TEST(Attractor, ARotationNumberIsThatOfEveryPlane) {
+TEST(Attractor, ARotationNumberIsThatOnTheClosedCurve) {
   const double tori[][3] = {{2.5, 0.7, 0.266072}, {1.766, 0.459, 0.416469}, {3.738, 0.799, 0.467548}};
   for (const auto& [eta, gamma, turns] : tori) {
     BasinSettings settings;

@@ -24,7 +24,7 @@ const char kDescription[] =
 
 struct Options {
   afm::PointOptions at;  // but for its drag velocity and restitution
-  std::vector<double> eta, gamma;
+  std::vector<double> eta, gamma, drag_velocity;
   bool relative_cutoff = false;
   unsigned threads = 0;
   afm::BasinSettings basins;
@@ -41,9 +41,10 @@ void add_options(afm::CommandLine& app, Options& o) {
   app.option("duration", o.basins.attractor.duration, "of the search for a period and of the exponents [tau]",
              afm::kPositive);
   app.option("friction-duration", o.basins.friction_duration, "of the measurement of K_f [tau]", afm::kPositive);
-  afm::add_options(app, static_cast<afm::TipOptions&>(o.at));
+  afm::add_tip_options(app, o.at);
   app.option("threads", o.threads, "0: one for each processor", {0, 1024});
-  afm::add_si_options(app, o.at);
+  app.ranges("drag-velocity", o.drag_velocity, "", afm::kDragVelocityHelp);
+  afm::add_tip_si_options(app, o.at);
 }
 
 void check_duration(const char* name, double tau) {
@@ -54,11 +55,14 @@ void check_duration(const char* name, double tau) {
 
 // A cutoff that is a share of eta has no unit.
 void take_si(const afm::CommandLine& app, Options& o) {
-  const auto lever = afm::take_si(app, static_cast<afm::TipOptions&>(o.at));
+  const auto lever = afm::take_tip_si(app, o.at);
   const afm::SiOptions& si = o.at.si;
+  if (o.relative_cutoff && !(o.at.cutoff >= 0.0)) {
+    throw std::invalid_argument("cutoff = " + afm::number_text(o.at.cutoff) + ": a share of eta must not be negative");
+  }
   if (lever && !o.relative_cutoff) lever->take(app, "cutoff", o.at.cutoff);
   if (!o.relative_cutoff) afm::take_si(app, si, "cutoff", o.at.cutoff);
-  if (afm::has_drag_velocity(app, si)) o.eta = o.at.drag_velocity;
+  if (afm::has_drag_velocity(app, si)) o.eta = o.drag_velocity;
   afm::take_si(app, si, "drag-velocity", o.eta);
   afm::take_si(app, si, "transient", o.basins.attractor.transient);
   afm::take_si(app, si, "duration", o.basins.attractor.duration);

@@ -65,10 +65,10 @@ void write_section(const Options& o, const afm::Partition& partition, const std:
 }
 
 void write_orbits(const Options& o, const afm::PoincareMap& map, const afm::Partition& partition) {
-  std::ofstream out(o.orbits);
   afm::OrbitSearchSettings search = o.search;
   search.longest = o.longest;
   const auto found = search_orbits(map, search);
+  std::ofstream out(o.orbits);
   std::map<std::string, int> times;
   for (const afm::FoundOrbit& f : found.orbits) ++times[cyclic_word(partition, f.orbit.points)];
   out << "length,word,orbits_with_it,cells,k_f,phase,gap_rate,multiplier_1,multiplier_2,approach\n";

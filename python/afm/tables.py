@@ -105,10 +105,10 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
 
     Returns a structured array, a row for each attractor: eta, gamma, cutoff, attractor (text), impacts and cells in a
     period (0: it does not repeat), k_f, k_f_std_error [m_tip/tau], lyapunov_1 to lyapunov_4 [1/tau], rotation_number
-    (of a quasi-periodic one; nan where none is seen), contact_share, basin (share of the starts), basin_std_error, and a start that leads
-    there: phase, extension, y [a], u, w [a/tau]. With labels=True (table, starts): a row of `starts` for each start at
-    each point, in their order, with the fields point (0 for the first), attractor_row (in the table), and phase,
-    extension, y, u, w. This is a map of the basins.
+    (of a quasi-periodic one; nan where none is seen), contact_share, basin (share of the starts), basin_std_error, and
+    a start that leads there: phase, extension, y [a], u, w [a/tau]. With labels=True (table, starts): a row of `starts`
+    for each start at each point, in their order, with the fields point (0 for the first), attractor_row (in the table),
+    and phase, extension, y, u, w. This is a map of the basins.
     """
     chosen = _model(model)
     axes = _axes(chosen, eta, gamma, cutoff, rest_height, amplitude, frequency_ratio)

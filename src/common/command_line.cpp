@@ -133,7 +133,10 @@ bool CommandLine::read(int argc, char** argv) {
   using namespace po::command_line_style;
   const int style = allow_long | long_allow_adjacent | long_allow_next;
   const auto parsed = po::command_line_parser(argc, argv).options(*options_).style(style).run();
-  for (const po::option& option : parsed.options) given_.insert(option.string_key);
+  for (const po::option& option : parsed.options) {
+    if (given_.insert(option.string_key).second || option.position_key >= 0) continue;
+    throw std::invalid_argument("option '--" + option.string_key + "' cannot be specified more than once (see --help)");
+  }
   const Texts rest = po::collect_unrecognized(parsed.options, po::include_positional);
   if (arguments_ == nullptr && !rest.empty()) throw std::invalid_argument(rest[0] + ": belongs to no option");
   if (arguments_ != nullptr) *arguments_ = rest;

@@ -26,7 +26,7 @@ ModelKind checked_kind(const std::string& name) {
   return kind;
 }
 
-void add_options(CommandLine& app, TipOptions& o) {
+void add_tip_options(CommandLine& app, TipOptions& o) {
   add_model_option(app, o.model);
   app.option("frequency-ratio", o.frequency_ratio, "omega_h / omega_v");
   app.option("amplitude", o.amplitude, "of the surface [a]");
@@ -37,20 +37,20 @@ void add_options(CommandLine& app, PointOptions& o) {
   app.option("eta", o.eta, "drag velocity [a/tau]");
   app.option("gamma", o.gamma, "restitution at and above the cutoff");
   app.option("cutoff", o.cutoff, "cutoff speed of the restitution [a/tau]");
-  add_options(app, static_cast<TipOptions&>(o));
+  add_tip_options(app, o);
 }
 
-void add_si_options(CommandLine& app, TipOptions& o) {
+void add_tip_si_options(CommandLine& app, TipOptions& o) {
   add_si_options(app, o.si);
   add_lever_options(app, o.lever);
 }
 
 void add_si_options(CommandLine& app, PointOptions& o) {
-  add_drag_velocity_option(app, o.drag_velocity);
-  add_si_options(app, static_cast<TipOptions&>(o));
+  app.option("drag-velocity", o.drag_velocity, kDragVelocityHelp);
+  add_tip_si_options(app, o);
 }
 
-std::optional<LeverScene> take_si(const CommandLine& app, TipOptions& o) {
+std::optional<LeverScene> take_tip_si(const CommandLine& app, TipOptions& o) {
   std::optional<LeverScene> lever = take_lever(app, o.lever, o.si);
   if (lever) {
     lever->take(app, "frequency-ratio", o.frequency_ratio);
@@ -64,14 +64,11 @@ std::optional<LeverScene> take_si(const CommandLine& app, TipOptions& o) {
 }
 
 void take_si(const CommandLine& app, PointOptions& o) {
-  const auto lever = take_si(app, static_cast<TipOptions&>(o));
+  const auto lever = take_tip_si(app, o);
   if (lever) lever->take(app, "cutoff", o.cutoff);
   take_si(app, o.si, "cutoff", o.cutoff);
   if (has_drag_velocity(app, o.si)) {
-    const std::size_t count = o.drag_velocity.size();
-    if (count != 1)
-      throw std::invalid_argument("drag-velocity = " + std::to_string(count) + " values: must be one number");
-    o.eta = o.drag_velocity.front();
+    o.eta = o.drag_velocity;
     take_si(app, o.si, "drag-velocity", o.eta);
   }
   checked_point(app, o);

@@ -22,18 +22,18 @@ struct TipOptions {
 
 struct PointOptions : TipOptions {
   double eta = 3.4, gamma = 0.7, cutoff = 0.05;
-  std::vector<double> drag_velocity;  // of --si, in place of eta
+  double drag_velocity = 0.0;  // [m/s] of --si, in place of eta
 };
 
 void add_model_option(CommandLine& app, std::string& model);
 // --model, --frequency-ratio, --amplitude and --rest-height; of a point --eta, --gamma and --cutoff too.
-void add_options(CommandLine& app, TipOptions& options);
+void add_tip_options(CommandLine& app, TipOptions& options);
 void add_options(CommandLine& app, PointOptions& options);
 // --si with its scale, --lever, --surface and --load; of a point --drag-velocity too.
-void add_si_options(CommandLine& app, TipOptions& options);
+void add_tip_si_options(CommandLine& app, TipOptions& options);
 void add_si_options(CommandLine& app, PointOptions& options);
 // What these say, in natural units. Throws std::invalid_argument. Returns what is known of the lever, if one is given.
-std::optional<LeverScene> take_si(const CommandLine& app, TipOptions& options);
+std::optional<LeverScene> take_tip_si(const CommandLine& app, TipOptions& options);
 void take_si(const CommandLine& app, PointOptions& options);
 
 // Throws std::invalid_argument where there is no such model.

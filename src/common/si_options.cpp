@@ -33,10 +33,6 @@ void add_si_options(CommandLine& app, SiOptions& o) {
   app.option("tip-mass", o.scale.tip_mass_kg, "m_tip of --si, in kg", kPositive);
 }
 
-void add_drag_velocity_option(CommandLine& app, std::vector<double>& drag_velocity) {
-  app.ranges("drag-velocity", drag_velocity, "", "in m/s, in place of --eta; with --si");
-}
-
 bool has_drag_velocity(const CommandLine& app, const SiOptions& o) {
   if (!app.is_given("drag-velocity")) return false;
   if (!o.on) throw std::invalid_argument("drag-velocity: is taken only with --si");

@@ -19,8 +19,8 @@ constexpr const char* kScaleOptions[] = {"lattice-spacing", "omega-v", "tip-mass
 // --si and the scale: --lattice-spacing, --omega-v, --tip-mass. The help says what --si does.
 void add_si_options(CommandLine& app, SiOptions& options);
 
-// --drag-velocity, in m/s: what a tool with --si takes in place of --eta.
-void add_drag_velocity_option(CommandLine& app, std::vector<double>& drag_velocity);
+// Of --drag-velocity, which a tool with --si takes in place of --eta.
+constexpr const char* kDragVelocityHelp = "in m/s, in place of --eta; with --si";
 // True if it is given. Throws std::invalid_argument where it stands without --si, or beside --eta.
 bool has_drag_velocity(const CommandLine& app, const SiOptions& options);
 

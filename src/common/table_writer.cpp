@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
@@ -38,7 +39,9 @@ void TableWriter::flush() {
 }
 
 void check_writable(const std::string& path) {
-  if (!path.empty() && !std::ofstream(path, std::ios::app)) throw std::runtime_error("cannot write " + path);
+  namespace fs = std::filesystem;
+  if (path.empty() || (fs::exists(path) && !fs::is_regular_file(path))) return;  // a pipe would end
+  if (!std::ofstream(path, std::ios::app)) throw std::runtime_error("cannot write " + path);
 }
 
 }  // namespace afm

@@ -154,7 +154,7 @@ class EmulatorNode {
     runner_.stop();
     publisher_->stop();
     while (!recorder_.status().recording.empty()) recorder_.stop();  // a slow disk may take more than one wait
-    leave();
+    begin_leaving();
     for (ros::Subscriber& subscriber : commands_) subscriber.shutdown();
     clients_timer_.stop();
     for (ros::ServiceServer& service : services_) service.shutdown();
@@ -404,6 +404,6 @@ int main(int argc, char** argv) {
     return 1;
   }
   ros::shutdown();
-  left();
+  has_left();
   return 0;
 }

@@ -55,11 +55,11 @@ void await_signals() {
 void now_running() { g_running = true; }
 bool is_asked_to_end() { return g_asked; }
 
-void leave() {
+void begin_leaving() {
   std::fflush(nullptr);
   std::thread([] { leave_unless(g_left, false); }).detach();
 }
 
-void left() { g_left = true; }
+void has_left() { g_left = true; }
 
 }  // namespace afm::node

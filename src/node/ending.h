@@ -9,9 +9,9 @@ void await_signals();
 void now_running();
 bool is_asked_to_end();
 
-// All is published and recorded; only the master has not been told. If left() is not called within 2 s, the process
+// All is published and recorded; only the master has not been told. If has_left() is not called within 2 s, the process
 // ends without it, with exit code 0 and a line to stderr.
-void leave();
-void left();
+void begin_leaving();
+void has_left();
 
 }  // namespace afm::node

@@ -22,16 +22,6 @@ void add_faults(std::vector<ParameterError>& all, const SweepPoint& point) {
   }
 }
 
-// As the values of a range are, which its ends and their number say.
-bool is_even(const std::vector<double>& axis) {
-  const double step = (axis.back() - axis.front()) / std::max(1.0, static_cast<double>(axis.size() - 1));
-  for (std::size_t i = 0; i < axis.size(); ++i) {
-    const double off = axis[i] - (axis.front() + step * static_cast<double>(i));
-    if (std::abs(off) > 1e-3 * std::abs(step)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::vector<ParameterError> find_faults(const CurveSettings& s) {
@@ -92,8 +82,6 @@ std::string identity(const CurveSettings& s) {
   std::ostringstream text;
   const auto add = [&](const char* name, const std::vector<double>& axis) {
     text << name << "=" << number_text(axis.front()) << ".." << number_text(axis.back()) << "(" << axis.size() << ") ";
-    if (is_even(axis)) return;
-    for (const double value : axis) text << number_text(value) << " ";
   };
   add("eta", s.eta);
   add("gamma", s.gamma);

@@ -190,22 +190,26 @@ Column column_of(std::string name) {
   return {name, quantity};
 }
 
-// Of one start of the node: no number tells that the last command is lost, but friction does.
-bool lacks_last_command(const Recording& recording) {
-  if (!recording.holds<afm_emulator::Friction>()) return false;
-  afm_emulator::Applied last;
-  for_each_message<afm_emulator::Applied>(recording, [&](const auto& applied) { last = applied; });
-  bool is_lost = false;
-  std::optional<afm_emulator::Friction> before;
-  for_each_message<afm_emulator::Friction>(recording, [&](const auto& batch) {
-    const auto place = [](const auto& message, const auto& time) {
-      return std::make_tuple(message.epoch, time.tau, time.phase);
-    };
-    const bool is_behind = before && place(*before, before->begin) >= place(last, last.time);
-    is_lost = is_lost || (is_behind && afm::bags::tells_of_command(*before, batch));
-    before = batch;
-  });
-  return is_lost;
+// At how many starts of the node the last command is lost: no number tells of it, but friction does.
+std::uint64_t count_lost_last_commands(const Recording& recording) {
+  if (!recording.holds<afm_emulator::Friction>()) return 0;
+  const auto place = [](const auto& message, const auto& time) {
+    return std::make_tuple(message.epoch, time.tau, time.phase);
+  };
+  std::map<std::uint64_t, afm_emulator::Applied> last;  // by start
+  for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) last[m->number().start] = *m->get();
+  std::set<std::uint64_t> lacking;
+  boost::shared_ptr<afm_emulator::Friction> before;
+  std::uint64_t start = 0;
+  for (const auto m = recording.read<afm_emulator::Friction>(); m->get(); m->next()) {
+    if (m->number().start != start) before.reset();
+    start = m->number().start;
+    const afm_emulator::Applied& command = last[start];
+    const bool is_behind = before && place(*before, before->begin) >= place(command, command.time);
+    if (is_behind && afm::bags::tells_of_command(*before, *m->get())) lacking.insert(start);
+    before = m->get();
+  }
+  return lacking.size();
 }
 
 std::uint64_t write_commands(const Recording& recording, const Target& to) {
@@ -222,8 +226,7 @@ std::uint64_t write_commands(const Recording& recording, const Target& to) {
     table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
     table.end_row();
   });
-  for (const Recording& start : recording.by_start()) lost += lacks_last_command(start) ? 1 : 0;
-  return lost;
+  return lost + count_lost_last_commands(recording);
 }
 
 const std::map<std::string, std::function<std::uint64_t(const Recording&, const Target&)>> kTables{
@@ -263,8 +266,9 @@ int write(const std::vector<std::string>& paths, const std::string& node, const 
   const Recording& recording = recordings.front();
   const afm::Units units = units_of(recording);
   const Target to{natural ? afm::TableUnits::into_natural(units) : afm::TableUnits::si(), units.time()};
-  if (!recording.holds<afm_emulator::Friction>() && (topic == "impacts" || topic == "deflection")) {
-    std::cerr << "bag_to_csv: it holds no message of friction: whether batches are missing at its ends is not known\n";
+  if (!recording.holds<afm_emulator::Friction>() && topic != "friction") {
+    std::cerr << "bag_to_csv: note: " << recording.name()
+              << " holds no message of friction: what is missing at its ends is not known\n";
   }
   const std::uint64_t lost = kTables.at(topic)(recording, to);
   if (lost == 0) return 0;

@@ -68,7 +68,7 @@ void parse(afm::CommandLine& app, Options& o) {
   app.option("threads", o.threads, "0: one for each processor");
   app.option("seed", o.seed, "of the random starts and of the heat bath");
   app.option("output", o.output, "the table; - is standard output");
-  afm::add_drag_velocity_option(app, o.drag_velocity);
+  app.ranges("drag-velocity", o.drag_velocity, "", afm::kDragVelocityHelp);
   afm::add_si_options(app, o.si);
   afm::add_lever_options(app, o.lever);
 }

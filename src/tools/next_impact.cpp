@@ -34,13 +34,12 @@ int main(int argc, char** argv) {
   afm::CommandLine app("next_impact", kDescription);
   std::vector<std::string> paths;
   app.arguments("files", paths, "tables to read; none, or -, is standard input");
-  afm::PointOptions options;
-  afm::TipOptions& of_tip = options;  // the rest stands in the table
-  afm::add_options(app, of_tip);
-  afm::add_si_options(app, of_tip);
+  afm::PointOptions options;  // but for what stands in the table
+  afm::add_tip_options(app, options);
+  afm::add_tip_si_options(app, options);
   return app.run(argc, argv, [&] {
     if (paths.empty()) paths.emplace_back("-");
-    afm::take_si(app, of_tip);
+    afm::take_tip_si(app, options);
     const afm::SweepPoint point = afm::checked_point(app, options);
     afm::FlightInput tip{};
     tip.kind = point.kind;

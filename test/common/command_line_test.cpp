@@ -93,6 +93,7 @@ TEST(CommandLine, RefusesWithNameValueAndReason) {
 TEST(CommandLine, RangesTakeNumbersAndRanges) {
   EXPECT_EQ(run({}).values.gammas, (std::vector<double>{0.5, 0.75}));
   EXPECT_EQ(run({"--gamma", "0.1:0.3:0.1,0.7", "1"}).values.gammas, (std::vector<double>{0.1, 0.2, 0.3, 0.7, 1.0}));
+  expect_refused({"--gamma", "1", "--gamma", "2"}, "option '--gamma' cannot be specified more than once (see --help)");
   expect_refused({"--gamma", "0.1", "x"}, "gamma = 0.1,x: 'x' is not a number");
   expect_refused({"--gamma", "1:0:0.1"}, "gamma = 1:0:0.1: TO must not be below FROM");
 }

@@ -15,6 +15,7 @@
 #include <iostream>
 #include <optional>
 #include <regex>
+#include <set>
 
 #include "node/publisher/topics.h"
 
@@ -198,8 +199,6 @@ void Recording::add(const Recording& next, std::uint32_t batches_between) {
 std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ros::Time& begin,
                                               const ros::Time& end) const {
   auto view = std::make_unique<rosbag::View>();
-  const ros::Time from = std::max(begin, begin_), to = std::min(end, end_);
-  if (from > to) return view;  // rosbag would count for ever
   for (const File& file : files_) {
     view->addQuery(
         *file.bag,
@@ -207,26 +206,9 @@ std::unique_ptr<rosbag::View> Recording::view(const std::string& topic, const ro
           return connection->topic == topic && nodes.at(connection->id) == node &&
                  kTypes.count(connection->datatype) > 0;
         },
-        from, to);
+        begin, end);
   }
   return view;
-}
-
-std::vector<Recording> Recording::by_start() const {
-  const auto has_begun_before = [&](const ros::Time& start) {
-    return std::any_of(topics_.begin(), topics_.end(), [&](const auto& topic) {
-      return kBatchTypes.count(topic.first) > 0 && view(topic.second, ros::TIME_MIN, start)->size() > 0;
-    });
-  };
-  const std::vector<ros::Time> times = starts()->times();
-  std::vector<Recording> parts{*this};
-  for (const ros::Time& start : times) {
-    if (parts.size() == 1 && !has_begun_before(start)) continue;  // it is the first one
-    parts.back().end_ = start - ros::Duration(0, 1);
-    parts.push_back(*this);
-    parts.back().begin_ = start;
-  }
-  return parts;
 }
 
 // From the topics that have few messages: in each, a start is where the number is 0, or lower than the one before.
@@ -284,97 +266,124 @@ std::uint64_t Recording::commands_missing_at_beginning() const {
   return is_missing ? 1 : 0;
 }
 
-template <class Message>
-boost::shared_ptr<Message> Recording::first() const {
-  const auto all = view(topic<Message>());
-  if (all->size() == 0) return {};
-  return all->begin()->template instantiate<Message>();
+// With one start the ends of the topic; else every stamp has to be read.
+Recording::EndsOfStarts Recording::ends_by_start(const std::string& topic) const {
+  EndsOfStarts found;
+  if (!has_several_starts()) {
+    if (const auto ends = ends_of(topic)) found.emplace(0, *ends);
+    return found;
+  }
+  const auto messages = view(topic);
+  for (const rosbag::MessageInstance& message : *messages) {
+    const std_msgs::Header header = header_of(message);
+    found.emplace(starts()->of(header.stamp), Ends{header, header}).first->second.second = header;
+  }
+  return found;
 }
 
 template <class Message>
-boost::shared_ptr<Message> Recording::last() const {
+boost::shared_ptr<Message> Recording::first(std::uint64_t start) const {
+  const auto all = view(topic<Message>());
+  for (const rosbag::MessageInstance& message : *all) {
+    if (!has_several_starts() || starts()->of(header_of(message).stamp) == start) {
+      return message.instantiate<Message>();
+    }
+  }
+  return {};
+}
+
+template <class Message>
+boost::shared_ptr<Message> Recording::last(std::uint64_t start) const {
   boost::shared_ptr<Message> found;
   const auto all = view(topic<Message>());
   if (all->size() == 0) return found;
-  const auto end = view(topic<Message>(), all->getEndTime());
-  for (const rosbag::MessageInstance& message : *end) found = message.instantiate<Message>();
+  const auto end = view(topic<Message>(), has_several_starts() ? ros::TIME_MIN : all->getEndTime());
+  for (const rosbag::MessageInstance& message : *end) {
+    if (!has_several_starts() || starts()->of(header_of(message).stamp) == start)
+      found = message.instantiate<Message>();
+  }
   return found;
 }
 
 // A recording by the node begins with the snapshot before its first batch.
-std::uint64_t Recording::batches_proved_at_beginning() const {
-  const auto batch = first<afm_emulator::Friction>();
-  const auto snapshot = first<afm_emulator::Snapshot>();
-  if (!is_by_node() || !batch || !snapshot || batch->epoch != snapshot->epoch) return 0;
-  if (starts()->of(batch->header.stamp) != starts()->of(snapshot->header.stamp)) return 0;
+std::uint64_t Recording::batches_proved_at_beginning(std::uint64_t start) const {
+  if (!is_by_node()) return 0;
+  const auto batch = first<afm_emulator::Friction>(start);
+  const auto snapshot = first<afm_emulator::Snapshot>(start);
+  if (!batch || !snapshot || batch->epoch != snapshot->epoch) return 0;
   return batches_within(snapshot->time, batch->begin, *batch, &snapshot->applied);
 }
 
 // The node publishes a status, a command and a snapshot after the batch up to which they tell.
-std::uint64_t Recording::batches_proved_at_end() const {
-  const auto batch = last<afm_emulator::Friction>();
+std::uint64_t Recording::batches_proved_at_end(std::uint64_t start) const {
+  const auto batch = last<afm_emulator::Friction>(start);
   if (!batch) return 0;
   std::uint64_t most = 0;
-  const auto applied = last<afm_emulator::Applied>();
+  const auto applied = last<afm_emulator::Applied>(start);
   const auto hear = [&](const auto& message) {
-    if (!message || starts()->of(batch->header.stamp) != starts()->of(message->header.stamp)) return;
-    if (message->epoch < batch->epoch) return;
+    if (!message || message->epoch < batch->epoch) return;
     const bool is_reset = message->epoch > batch->epoch;
     most = std::max(
         most, batches_within(is_reset ? afm_emulator::ModelTime() : batch->time, message->time, *batch, applied.get()));
   };
-  hear(last<afm_emulator::EmulatorStatus>());
+  hear(last<afm_emulator::EmulatorStatus>(start));
   hear(applied);
-  hear(last<afm_emulator::Snapshot>());
+  hear(last<afm_emulator::Snapshot>(start));
   return most;
 }
 
-// The three messages of a batch have one number and stamp. The node records whole batches, but for the last one where
-// it is killed; then nothing stands behind it. `rosbag record` subscribes to topic after topic, and leaves what waits in
+bool Recording::is_cut() const {
+  ros::Time batch = ros::TIME_MIN, other = ros::TIME_MIN;
+  for (const auto& [type, topic] : topics_) {
+    ros::Time& latest = kBatchTypes.count(type) > 0 ? batch : other;
+    latest = std::max(latest, view(topic)->getEndTime());
+  }
+  return other <= batch;
+}
+
+// The three messages of a batch have one number. The node records whole batches, but for the last one where it is
+// killed; then nothing stands behind it. `rosbag record` subscribes to topic after topic, and leaves what waits in
 // their queues at its end.
-Recording::Missing Recording::missing_in_one_start(const std::string& type) const {
-  const auto key = [](const std_msgs::Header& header) { return std::make_pair(header.stamp, header.seq); };
-  std::optional<Ends> own, all;
-  std::string last_of;  // topic with the last batch
-  for (const auto& [name, topic] : topics_) {
-    const auto ends = kBatchTypes.count(name) > 0 ? ends_of(topic) : std::nullopt;
-    if (!ends) continue;
-    if (name == type) own = ends;
-    if (!all) all = ends, last_of = topic;
-    if (key(ends->first) < key(all->first)) all->first = ends->first;
-    if (key(ends->second) > key(all->second)) all->second = ends->second, last_of = topic;
+void Recording::add_missing(const std::string& type, const std::map<std::string, EndsOfStarts>& ends,
+                            std::uint64_t start, Missing& missing) const {
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> own, friction, all;
+  for (const auto& [name, of_starts] : ends) {
+    const auto found = of_starts.find(start);
+    if (found == of_starts.end()) continue;
+    const auto numbers = std::make_pair(found->second.first.seq, found->second.second.seq);
+    if (name == type) own = numbers;
+    if (name == ros::message_traits::datatype<afm_emulator::Friction>()) friction = numbers;
+    if (!all) all = numbers;
+    all = {std::min(all->first, numbers.first), std::max(all->second, numbers.second)};
   }
-  if (!all || kBatchTypes.count(type) == 0 || topics_.count(type) == 0) return {};
-  Missing missing;
-  const auto count = [&](std::uint32_t from, std::uint32_t to, std::uint32_t allowed) {
-    const std::uint32_t lacking = to > from ? to - from : 0;
-    if (lacking > allowed) return lacking;
-    missing.tolerated += lacking;
-    return 0U;
-  };
+  if (!own) {
+    missing.at_beginning += all->second - all->first + 1;
+    return;
+  }
   const bool exact = is_by_node();
-  const bool is_cut = view(topic<afm_emulator::EmulatorStatus>())->getEndTime() <= view(last_of)->getEndTime();
-  const std::uint32_t ragged = exact ? 0 : node::kBatchQueueSize;
-  missing.at_beginning = count(all->first.seq, own ? own->first.seq : all->second.seq + 1, ragged);
-  if (own) missing.at_end = count(own->second.seq, all->second.seq, exact && is_cut ? 1 : ragged);
-  if (const auto held = ends_of(topic<afm_emulator::Friction>())) {  // another topic may hold some of these
-    const std::uint32_t held_before = held->first.seq - all->first.seq, held_after = all->second.seq - held->second.seq;
-    missing.at_beginning += std::max<std::uint64_t>(batches_proved_at_beginning(), held_before) - held_before;
-    const std::uint64_t proved = std::max<std::uint64_t>(batches_proved_at_end(), held_after) - held_after;
-    (exact || proved > node::kBatchQueueSize ? missing.at_end : missing.tolerated) += proved;
-  }
-  return missing;
+  const auto add = [&](std::uint64_t lacking, std::uint64_t allowed, std::uint64_t& end) {
+    (lacking > allowed ? end : missing.tolerated) += lacking;
+  };
+  add(own->first - all->first, exact ? 0 : node::kBatchQueueSize, missing.at_beginning);
+  add(all->second - own->second, !exact ? node::kBatchQueueSize : is_cut() ? 1 : 0, missing.at_end);
+  if (!friction) return;
+  const std::uint64_t held_before = friction->first - all->first, held_after = all->second - friction->second;
+  missing.at_beginning += std::max(batches_proved_at_beginning(start), held_before) - held_before;
+  add(std::max(batches_proved_at_end(start), held_after) - held_after, exact ? 0 : node::kBatchQueueSize,
+      missing.at_end);
 }
 
 Recording::Missing Recording::missing_at_ends(const std::string& type) const {
-  Missing sum;
-  for (const Recording& part : by_start()) {
-    const Missing missing = part.missing_in_one_start(type);
-    sum.at_beginning += missing.at_beginning;
-    sum.at_end += missing.at_end;
-    sum.tolerated += missing.tolerated;
+  Missing missing;
+  if (kBatchTypes.count(type) == 0 || topics_.count(type) == 0) return missing;
+  std::map<std::string, EndsOfStarts> ends;  // by type
+  std::set<std::uint64_t> starts;
+  for (const auto& [name, topic] : topics_) {
+    if (kBatchTypes.count(name) == 0) continue;
+    for (const auto& [start, unused] : ends[name] = ends_by_start(topic)) starts.insert(start);
   }
-  return sum;
+  for (const std::uint64_t start : starts) add_missing(type, ends, start, missing);
+  return missing;
 }
 
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {

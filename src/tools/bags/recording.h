@@ -56,7 +56,7 @@ class Starts {
     const bool is_first = times_.size() == 1 && found_.front().second == ros::TIME_MIN;
     if (is_set_back_ && is_first) times_.clear();  // stamps before it are of this start too
   }
-  const std::vector<ros::Time>& times() const { return times_; }
+  bool are_several() const { return times_.size() > 1; }
   // The last start that is not later than the stamp [ns]; 0 if there is none.
   std::uint64_t of(const ros::Time& stamp) const {
     const auto later = std::upper_bound(times_.begin(), times_.end(), stamp);
@@ -170,8 +170,6 @@ class Recording {
   const std::vector<File>& files() const { return files_; }
   // Adds the bags that follow. `batches_between`: missing before them.
   void add(const Recording& next, std::uint32_t batches_between);
-  // A recording of each start of the node: all messages up to the next start, and from it on.
-  std::vector<Recording> by_start() const;
 
   template <class Message>
   bool holds() const {
@@ -202,25 +200,30 @@ class Recording {
   // 0 or 1: the node writes the command in force before the first snapshot; 1 if that message is missing.
   std::uint64_t commands_missing_at_beginning() const;
   bool is_by_node() const;  // not by rosbag record
+  bool has_several_starts() const { return starts()->are_several(); }
 
  private:
   Missing missing_at_ends(const std::string& type) const;
-  Missing missing_in_one_start(const std::string& type) const;
-  // Batches before the first or after the last one that the bag holds. Other messages of the node prove them.
-  std::uint64_t batches_proved_at_beginning() const;
-  std::uint64_t batches_proved_at_end() const;
+  using EndsOfStarts = std::map<std::uint64_t, Ends>;  // by the start of the node
+  EndsOfStarts ends_by_start(const std::string& topic) const;
+  void add_missing(const std::string& type, const std::map<std::string, EndsOfStarts>& ends, std::uint64_t start,
+                   Missing& missing) const;
+  // Of one start: batches before the first or after the last one that the bag holds. Other messages of the node prove
+  // them.
+  std::uint64_t batches_proved_at_beginning(std::uint64_t start) const;
+  std::uint64_t batches_proved_at_end(std::uint64_t start) const;
   template <class Message>
-  boost::shared_ptr<Message> first() const;
+  boost::shared_ptr<Message> first(std::uint64_t start) const;
   template <class Message>
-  boost::shared_ptr<Message> last() const;
+  boost::shared_ptr<Message> last(std::uint64_t start) const;
+  bool is_cut() const;  // nothing stands behind its last batch
   std::shared_ptr<const Starts> starts() const;
 
   std::string node_;
   Topics topics_;
   std::vector<File> files_;
-  ros::Time begin_ = ros::TIME_MIN, end_ = ros::TIME_MAX;  // of what it holds of its files, in their stamps
-  std::string holes_;                                      // between the files, in words
-  mutable std::shared_ptr<const Starts> starts_;           // once they were asked for
+  std::string holes_;                             // between the files, in words
+  mutable std::shared_ptr<const Starts> starts_;  // once they were asked for
 };
 
 // From the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each

@@ -432,11 +432,9 @@ void RunCheck::check_ends(Cursor<Message>* messages) {
   if (messages == nullptr) return;
   const std::string what = "messages of " + recording_.topic<Message>();
   const Recording::Missing missing = recording_.missing_at_ends<Message>();
+  const std::string of = recording_.has_several_starts() ? " of a start" : " of the recording";
   const auto lose_at = [&](const char* end, std::uint64_t count) {
-    if (count > 0)
-      missing_.push_back(
-          {what + " at the " + end + " of " + (recording_.by_start().size() > 1 ? "a start" : "the recording"), "",
-           count});
+    if (count > 0) missing_.push_back({what + " at the " + end + of, "", count});
   };
   lose_at("beginning", missing.at_beginning);
   lose_at("end", missing.at_end);
