@@ -3,6 +3,7 @@ cannot judge."""
 import math
 import os
 import runpy
+import signal
 import subprocess
 import unittest
 from pathlib import Path
@@ -265,6 +266,14 @@ class Expect(NodeTest):
             self.advance(*[2 * SPEED] * 3)
         self.start_emulator()
         self.judged(advance, 'friction/drag_velocity', value=2 * SPEED, within=1e-9, for_s=0.1)
+
+    def test_it_is_interrupted(self):
+        """To draw a picture took longer than a node may go on."""
+        self.start_emulator()
+        node = self.node(field='friction/force', least=-1.0, for_s=1e6, timeout_s=1e6)
+        wait_until(lambda: NAME in connected_to('/afm/friction'), 'it listens')
+        node.child.send_signal(signal.SIGINT)
+        self.assert_fails(node, 'No picture was drawn, as it was interrupted')
 
     def test_without_an_expectation(self):
         for given in ({}, {'within': 1.0}, {'value': 1.0}, {'value': 1.0, 'within': 1.0, 'least': 0.0}):
