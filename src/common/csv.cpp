@@ -38,12 +38,12 @@ bool parse_number(const std::string& text, double& value) {
   return end == text.c_str() + text.size();
 }
 
+double without_sign_if_nan(double value) { return std::isnan(value) ? std::fabs(value) : value; }
+
 std::string join_numbers(const std::vector<double>& values) {
   std::ostringstream out;
   out.precision(17);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    out << (i == 0 ? "" : ",") << (std::isnan(values[i]) ? std::fabs(values[i]) : values[i]);  // no "-nan"
-  }
+  for (std::size_t i = 0; i < values.size(); ++i) out << (i == 0 ? "" : ",") << without_sign_if_nan(values[i]);
   return out.str();
 }
 

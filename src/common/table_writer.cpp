@@ -1,10 +1,11 @@
 #include "table_writer.h"
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+
+#include "csv.h"
 
 namespace afm {
 
@@ -12,8 +13,7 @@ TableWriter& TableWriter::operator<<(double value) {
   if (cells_ >= columns_.size()) throw std::logic_error("a row has more cells than the table has columns");
   constexpr int kDigits = 17;
   char text[32];
-  const double converted = units_.convert(columns_[cells_].quantity, value);
-  const double shown = std::isnan(converted) ? std::fabs(converted) : converted;  // no "-nan"
+  const double shown = without_sign_if_nan(units_.convert(columns_[cells_].quantity, value));
   const int length = std::snprintf(text, sizeof text, "%.*g", kDigits, shown);
   if (cells_++ > 0) row_ += ',';
   row_.append(text, static_cast<std::size_t>(length));

@@ -276,7 +276,8 @@ Recording::EndsOfStarts Recording::ends_by_start(const std::string& topic) const
   const auto messages = view(topic);
   for (const rosbag::MessageInstance& message : *messages) {
     const std_msgs::Header header = header_of(message);
-    found.emplace(starts()->of(header.stamp), Ends{header, header}).first->second.second = header;
+    const auto [ends, is_first] = found.emplace(starts()->of(header.stamp), Ends{header, header});
+    if (!is_first) ends->second.second = header;
   }
   return found;
 }
