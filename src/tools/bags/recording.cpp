@@ -164,7 +164,7 @@ std::optional<std::uint32_t> batches_between(const Recording& before, const Reco
 std::uint64_t batches_within(const afm_emulator::ModelTime& from, const afm_emulator::ModelTime& to,
                              const afm_emulator::Friction& batch, const afm_emulator::Applied* applied) {
   const auto tau = [](const afm_emulator::ModelTime& a, const afm_emulator::ModelTime& b) {
-    return static_cast<double>(b.tau - a.tau) + (b.phase - a.phase);
+    return (static_cast<double>(b.tau) - static_cast<double>(a.tau)) + (b.phase - a.phase);  // damaged: any number
   };
   const double whole =
       applied == nullptr ? 0.0 : static_cast<double>(applied->samples_per_batch) * applied->sample_period_tau;
