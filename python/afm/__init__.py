@@ -14,9 +14,9 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
 - kicks_lock, suitable_kicks: whether the kicks of a bath falsify K_f, and a rate that does not
 - from_bag: a recording: its model, its commands, and its run simulated again
 
-Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1 of
-the paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with one k_f
-is no friction, as the bath feeds the impacts: at eta = 0.1 and 300 K k_f is 20 times as much.
+Two estimates of the friction coefficient K_f: k_f_work from the work of the drag, the definition of friction (Eq. 1
+of the paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with
+one k_f is no friction, as the bath feeds the impacts: at eta = 0.1, 300 K and Q = 100 k_f is 20 times as much.
 
 What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL
 and end at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A

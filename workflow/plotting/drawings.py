@@ -171,7 +171,7 @@ def nodes(_):
         named(axes, names, 2.6, middle + 0.135 * (len(names) - 1), "center")
         axes.annotate("", (3.73, middle), xytext=(3.48, middle), arrowprops=line)
         axes.plot([1.52, 1.72], [middle, middle], color=style.GREY, linewidth=1.0)
-    for y, height, who, names in ((2.9, 2.0, "your subscriber,\nfront panel /panel,\nview_node /afm_view", sent),
+    for y, height, who, names in ((2.9, 2.0, "your subscriber,\npanel /afm_panel,\nview_node /afm_view", sent),
                                   (1.1, 0.6, "rqt_runtime_monitor", ["/diagnostics"]),
                                   (0.1, 0.6, "replay_check,\nbag_check", ["bags"])):
         middle = y + 0.5 * height
