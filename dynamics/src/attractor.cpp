@@ -24,9 +24,9 @@ struct Mark {
 
 double distance(const TipState& a, const TipState& b) { return section_difference(a, b).lpNorm<Eigen::Infinity>(); }
 
-// A bounce that hardly lifts the tip. At 0.01 a/tau and a reaction of 4 a/tau^2 it rises by 1.3e-5 a: v^2/2P.
+// Of a bounce that hardly lifts the tip [a/tau]. At a reaction of 4 a/tau^2 it rises by 1.3e-5 a: v^2/2P.
+constexpr double kCreepSpeed = 1e-2;
 bool is_creeping(const Impact& impact) {
-  constexpr double kCreepSpeed = 1e-2;  // [a/tau]
   return impact.kind == ImpactKind::burst || impact.normal_speed < kCreepSpeed;
 }
 
@@ -72,13 +72,14 @@ class Observer {
 
 constexpr double kMostEventsPerTau = 2000.0;  // a choice: a tip that bounces has some tens
 
-// Counts of one period; zero if the orbit does not return. It is seen twice from `begin` on; the tip was in contact for
-// `contact_before` until then [tau].
+// Of one period, which is seen twice; zero if the orbit does not return.
 struct Period {
   int marks = 0, impacts = 0, cells = 0;
-  ModelTime begin;
-  double contact_before = 0.0;
+  double contact_share = 0.0;
 };
+
+// A difference of long sums may be above 1 by rounding.
+double share(double contact_time, double duration) { return std::min(1.0, contact_time / duration); }
 
 // Cells that the holder passes up to the nth mark. A bounce without speed returns within none.
 int cells_until(const std::vector<Mark>& marks, int n, double eta) {
@@ -109,7 +110,8 @@ Period find_period(Observer& observer, double eta, const ModelTime& limit, const
     if (n < 2 * found) continue;
     const int period = smallest_period(marks, found, eta, settings.tolerance);
     const int impacts = marks[static_cast<std::size_t>(period)].impacts - marks[0].impacts;
-    return {period, impacts, cells_until(marks, period, eta), marks[0].time, contact_before};
+    return {period, impacts, cells_until(marks, period, eta),
+            share(observer.contact_time() - contact_before, marks.back().time - marks[0].time)};
   }
   return {};
 }
@@ -165,6 +167,9 @@ void describe(const PeriodicOrbit& orbit, Attractor& found) {
   found.cells_per_impact = static_cast<double>(found.cells) / found.impacts;
   for (std::size_t i = 0; i < 4; ++i)
     found.lyapunov.exponents[i] = std::log(std::abs(orbit.multipliers[i])) / orbit.period;
+  double creeping = 0.0;
+  for (std::size_t i = 0; i < orbit.length(); ++i) creeping += orbit.speeds[i] < kCreepSpeed ? orbit.times[i] : 0.0;
+  found.contact_share = share(creeping, orbit.period);
 }
 
 // Slow convergence: Newton's method finds the orbit from a near return. Only for orbits of single impacts.
@@ -336,6 +341,7 @@ void describe(const Model& model, Tip& tip, const Period& period, Attractor& fou
   found.kind = AttractorKind::periodic;
   found.impacts = period.impacts;
   found.cells = period.cells;
+  found.contact_share = period.contact_share;
   if (period.impacts > 0) found.cells_per_impact = static_cast<double>(period.cells) / period.impacts;
   found.lyapunov = exponents_of(model, tip, period);
 }
@@ -377,14 +383,13 @@ Attractor find_attractor(const Model& model, Tip& tip, const AttractorSettings& 
     found.contact_share = kNaN;
     return found;
   }
-  ModelTime begin = tip.now();
-  double contact_before = observer.contact_time();
+  const ModelTime begin = tip.now();
+  const double contact_before = observer.contact_time();
   const int impacts_before = observer.mark().impacts;
   const Period period = search_period(observer, tip, settings);
   const double seen = tip.now() - begin;
   if (observer.stopped() || !(seen > 0.0)) return found;
-  if (period.marks > 0) begin = period.begin, contact_before = period.contact_before;  // whole periods
-  found.contact_share = (observer.contact_time() - contact_before) / (tip.now() - begin);
+  found.contact_share = share(observer.contact_time() - contact_before, seen);
   const int impacts = observer.mark().impacts - impacts_before;
   found.cells_per_impact = impacts > 0 ? std::abs(tip.eta()) * seen / impacts : 0.0;
   if (period.marks > 0) {

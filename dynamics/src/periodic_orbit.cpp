@@ -272,8 +272,9 @@ OrbitResult find_orbit(const PoincareMap& map, const std::vector<TipState>& gues
   if (outcome == OrbitOutcome::slow && shot.residual() <= kFoundResidual) outcome = OrbitOutcome::found;
   if (outcome != OrbitOutcome::found) return {outcome, {}};
   PeriodicOrbit orbit = describe(map, points, shot);
-  // without speed the map is almost the identity on the surface: a tip in contact, not an orbit
-  if (map.eta() != 0.0 && orbit.cells == 0) outcome = OrbitOutcome::contact;
+  // without speed the map is almost the identity on the surface: a tip in contact, not an orbit; so it is where
+  // rounding leaves no flight from a point
+  if ((map.eta() != 0.0 && orbit.cells == 0) || !std::isfinite(orbit.residual)) outcome = OrbitOutcome::contact;
   return {outcome, std::move(orbit)};
 }
 

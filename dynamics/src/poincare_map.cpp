@@ -15,8 +15,9 @@ TipState PoincareMap::constrained(const TipState& start) const {
 
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
-  if (!(start.g1 >= kMinGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
+  if (!(start.g1 >= 0.0) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
   Flight<double> flight(springs_, eta_, constrained(start));
+  if (start.g1 < kMinGapRate && !(flight.gap(0.0).g2 > 0.0)) return step;
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;

@@ -132,6 +132,19 @@ TEST(Attractor, TheContactShareOfAPeriodIsThatOfTheOrbit) {
   }
 }
 
+// It was that of the search before, so this orbit was two attractors, of which one was contact.
+TEST(Attractor, OfAPeriodThatIsFoundLateTheContactShareIsThatOfTheOrbitToo) {
+  SweepPoint point{1.002, 0.7, 0.05};
+  point.H = 0.0677;
+  BasinSettings settings;
+  settings.starts = 2;
+  settings.friction_duration = 50.0;
+  const std::vector<Basin> basins = find_basins(point, settings);
+  ASSERT_EQ(basins.size(), 1u);
+  EXPECT_EQ(basins[0].first.attractor.name(), "period-2");
+  EXPECT_NEAR(basins[0].first.attractor.contact_share, 0.4623, 1e-3);  // as after a transient of 20000 tau
+}
+
 TEST(Attractor, ChaosHasAPositiveExponent) {
   for (const double eta : {0.5, 2.75, 3.4, 5.0, 7.0}) {
     const Attractor a = from_above(eta, 0.1 * eta);

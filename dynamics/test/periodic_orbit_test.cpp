@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "afm/dynamics/attractor.h"
 #include "afm/dynamics/orbit_search.h"
 #include "afm/tip.h"
 #include "support/models.h"
@@ -142,6 +143,28 @@ TEST(PeriodicOrbit, IsTheSameFromAnyOfItsPoints) {
 TEST(PeriodicOrbit, BouncesWithoutSpeedAreNone) {
   const OrbitResult r = find_orbit(PoincareMap(model_with_cutoff(0.05), 3.4), {{0.5, 0.0, 3.4, 0.0, 1e-12}});
   EXPECT_NE(r.outcome, OrbitOutcome::found);
+}
+
+// An impact at gamma = 0 leaves no speed, but the surface falls away. The map had no flight from there: residuals were
+// infinite, and multipliers 1.
+TEST(OrbitSearch, WithoutRestitutionTheOrbitIsThatOfTheAttractor) {
+  Model model = model_with_cutoff(0.05);
+  model.kind = ModelKind::hammer;
+  model.gamma = 0.0;
+  model.y0 = 0.02;
+  for (const double eta : {1.05, 1.83, 2.09, 2.35}) {
+    OrbitSearchSettings settings;
+    settings.longest = 1;
+    settings.trajectory = 2000;
+    settings.guesses = 200;
+    const OrbitSearchResult found = search_orbits(PoincareMap(model, eta), settings);
+    ASSERT_EQ(found.orbits.size(), 1u) << eta;
+    const PeriodicOrbit& orbit = found.orbits[0].orbit;
+    EXPECT_LE(orbit.residual, 1e-13) << eta;
+    const Attractor a = find_attractor(model, eta, orbit.points[0], AttractorSettings{});
+    ASSERT_EQ(a.name(), "period-1") << eta;
+    EXPECT_NEAR(std::abs(orbit.multipliers[0]), std::exp(a.lyapunov.exponents[0] * orbit.period), 1e-9) << eta;
+  }
 }
 
 // Lengths 1, 1, 3, 4, 5, 6 and none of length 2, whatever guesses are taken.

@@ -15,7 +15,7 @@ namespace afm {
 
 enum class MapOutcome : std::uint8_t {
   impact,
-  no_flight,  // the gap rate is below kMinGapRate: contact
+  no_flight,  // the gap rate is below kMinGapRate, and the surface does not fall away: contact
   no_impact   // none within kLongestMapFlight, or the search failed
 };
 
