@@ -212,6 +212,24 @@ std::uint64_t count_lost_last_commands(const Recording& recording) {
   return lacking.size();
 }
 
+// Before the first command that is held: those behind the first snapshot of its start and epoch.
+std::uint64_t count_lost_first_commands(const Recording& recording) {
+  if (!recording.holds<afm_emulator::Snapshot>()) return 0;
+  std::map<std::uint64_t, afm_emulator::Applied> first;  // by start
+  for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) {
+    first.emplace(m->number().start, *m->get());
+  }
+  std::uint64_t lost = 0;
+  for (const auto m = recording.read<afm_emulator::Snapshot>(); m->get(); m->next()) {
+    const auto command = first.find(m->number().start);
+    if (command == first.end() || m->get()->epoch != command->second.epoch) continue;
+    const std::uint64_t known = m->get()->applied.number, number = command->second.number;
+    if (number > known) lost += number - known - 1;
+    first.erase(command);
+  }
+  return lost;
+}
+
 std::uint64_t write_commands(const Recording& recording, const Target& to) {
   std::vector<Column> columns{{"drag_velocity", Q::velocity}};
   for (const char* name : afm::node::kLiveNames) columns.push_back(column_of(name));
@@ -226,7 +244,7 @@ std::uint64_t write_commands(const Recording& recording, const Target& to) {
     table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
     table.end_row();
   });
-  return lost + count_lost_last_commands(recording);
+  return lost + count_lost_first_commands(recording) + count_lost_last_commands(recording);
 }
 
 const std::map<std::string, std::function<std::uint64_t(const Recording&, const Target&)>> kTables{

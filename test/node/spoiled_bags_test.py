@@ -99,6 +99,9 @@ class SpoiledBags(SpoiledBag):
             (DIFFERS, ('recorded',), None, lambda: edit(rest_height_m=-2.1e-12)),
             (UNCHECKED, ('CANNOT BE CHECKED', 'rest_height_m = 1'), None, lambda: edit(rest_height_m=1.0)),
             (UNCHECKED, ('CANNOT BE CHECKED', 'unknown model'), None, lambda: edit(model='nail')),
+            # what a drag command does not change, though it acts on nothing
+            (DIFFERS, ('temperature_k',), None, lambda: self.of('applied')[-1].edit(temperature_k=300.0)),
+            (DIFFERS, ('contact_tolerance',), None, lambda: self.of('applied')[-1].edit(contact_tolerance=1e-4)),
             (UNCHECKED, ('1 commands, the first after', 'what was compared is identical'), False,
              lambda: self.remove(self.of('applied')[1])),
             # the last: no number tells of it, but friction does

@@ -8,6 +8,7 @@
 
 #include "afm/fingerprint.h"
 #include "afm/units.h"
+#include "node/params/table.h"
 #include "node/publisher/messages.h"
 
 namespace afm::bags {
@@ -246,13 +247,26 @@ void RunCheck::note_beginning(const Mark& mark) {
   last_.reset();
 }
 
+// All that its cause does not change. Without an effect it would not show in the run.
+void RunCheck::keep_what_was_in_force(afm_emulator::Applied& applied) const {
+  const bool begins = applied.cause == "epoch", by_parameters = applied.cause == "parameters";
+  const double rest_height = applied.rest_height_m;
+  if (!by_parameters) node::for_each_live(applied, in_force_, node::kToMessage);
+  if (!by_parameters && !begins) applied.rest_height_m = rest_height;
+  if (by_parameters || begins) applied.drag_velocity = in_force_.drag_velocity;
+  if (in_force_.model == node::kAuto) return;
+  applied.model = applied_.model;
+  applied.contact_tolerance = applied_.contact_tolerance;
+}
+
 void RunCheck::take_applied(const afm_emulator::Applied& applied) {
   run_to(applied.time, applied.first_impact);
+  afm_emulator::Applied simulated = applied;
+  keep_what_was_in_force(simulated);
   const LiveSettings live = node::apply_to(in_force_, applied);
   RunSettings settings = run_->settings();
   set_live(live, settings);
   require_possible(in_force_, settings, "what was applied at " + to_text(applied.time, applied.epoch));
-  afm_emulator::Applied simulated = applied;
   simulated.time = to_message(run_->now());
   simulated.first_impact = run_->impacts();
   simulated.first_sample = run_->samples();

@@ -86,6 +86,7 @@ class RunCheck {
   void begin_epoch(const Mark& mark);
   void begin_at(const Mark& mark);
   void note_beginning(const Mark& mark);
+  void keep_what_was_in_force(afm_emulator::Applied& applied) const;
   void take_applied(const afm_emulator::Applied& applied);
   void take_snapshot(const Mark& mark);
   void settle();
