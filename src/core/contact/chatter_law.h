@@ -171,7 +171,9 @@ class ChatterIntegration {
       if (exits && !(ratio_over_limit(c_, next) <= 1.0)) return exit_at(now, last_whole(now, first, next, dt));
       now = next;
     }
-    return {value(now.chatter.v) <= c_.threshold ? ChatterEnd::died : ChatterEnd::time, now.s, now.chatter};
+    if (value(now.chatter.v) > c_.threshold) return {ChatterEnd::time, now.s, now.chatter};
+    if (value(now.s) > 0.0) now.chatter.n = now.chatter.n - bounces_beyond_threshold(now);
+    return {ChatterEnd::died, now.s, now.chatter};
   }
 
   // The bounce at which n is N, near `from`. Neighbouring starts end with the same bounce, not at the same time. If the
@@ -198,6 +200,13 @@ class ChatterIntegration {
   static double value(const T& x) { return static_cast<double>(x); }
   static double whole_after(const Point& at) { return std::floor(value(at.y.n)) + 1.0; }
 
+  // Of the last step, which ends below the threshold: there x falls evenly, and n grows like 1/v.
+  T bounces_beyond_threshold(const Point& end) const {
+    const T below = end.chatter.v / c_.threshold, per_x = end.rates.n / -end.rates.x;
+    if (!(value(per_x) > 0.0)) return T(0.0);
+    return c_.constant_loss ? -per_x * end.chatter.v * portable_log(below) : per_x * (1.0 - below);
+  }
+
   // The last whole n of a step before the adiabaticity ratio reaches its limit, or the first whole n of the step. Near
   // the zero of the reaction the ratio grows like (t_end - t)^(-5/3) (docs/algorithm.md, "Exit"), so its inverse root
   // is nearly linear in time.
@@ -218,7 +227,7 @@ class ChatterIntegration {
     const double falls =
         c_.constant_loss ? ChatterLimits::kStep * v / (half_P * c_.w) : ChatterLimits::kMaxFall / (half_P * c_.dw_dv);
     double dt = c_.fineness * std::min(falls, ChatterLimits::kStep / at.changes.change);
-    // not far beyond the threshold, as n counts the bounces down to it
+    // not far beyond the threshold
     if (x1 < 0.0) dt = std::min(dt, (c_.end_x - value(at.y.x)) / x1);
     return rest <= dt ? rest : rest < 2.0 * dt ? 0.5 * rest : dt;  // the last two steps are equal
   }

@@ -39,6 +39,28 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
   EXPECT_GT(exits, 20);
 }
 
+// The last step ends below the threshold: its bounces there were counted too, 60 % of all at worst.
+TEST_P(ChatterEnds, WhatDiesCountsItsBouncesDownToTheThreshold) {
+  const Model model = model_with(GetParam(), 0.05);
+  const ChatterLaw law(model, kThreshold);
+  RandomLaunches random(6);
+  int died = 0;
+  for (int i = 0; i < 300; ++i) {
+    const RandomChatter chatter = random_chatter(model, law, random, -4.0, -2.5);
+    const ChatterRun run = law.run(chatter.reference, chatter.reference.length(), {chatter.v, 0.0});
+    if (run.end != ChatterEnd::died) continue;
+    ++died;
+    Tip tip = chatter.every_bounce();
+    int count = 0;
+    while (project_onto_surface(model, tip.tip_state()).normal_speed > kThreshold &&
+           tip.advance(kEndOfTime) == Outcome::impact)
+      ++count;
+    ASSERT_NEAR(run.chatter.n, count, 1.0 + 0.01 * count) << i;
+  }
+  if (GetParam() > 0.9) return;  // the slide is over before
+  EXPECT_GT(died, 2);
+}
+
 // The sum of the geometric series of all bounces from one of gap rate v on, at time s.
 double rest_of_zeno(const RandomChatter& chatter, double s, double v) {
   return 2.0 * v / (chatter.reference.pressure(s) * (1.0 - chatter.model.gamma));

@@ -64,6 +64,9 @@ TEST(RunLimits, EveryFaultIsListedAtOnce) {
                                         "impact_budget", "initial_phase", "initial_extension", "initial_height",
                                         "initial_u", "initial_w"}));
   EXPECT_THROW(afm::Run{settings}, ParameterError);
+  settings = {};
+  settings.initial = {0.0, 0.0, -5.0, kNaN, 0.0};  // the first was hidden by the second
+  EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height", "initial_u"}));
 }
 
 TEST(RunLimits, ABatchThatNoMemoryHoldsIsAFault) {
