@@ -15,9 +15,11 @@ TipState PoincareMap::constrained(const TipState& start) const {
 
 MapStep PoincareMap::operator()(const TipState& start) const {
   MapStep step;
-  if (!(start.g1 >= 0.0) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
-  Flight<double> flight(springs_, eta_, constrained(start));
-  if (start.g1 < kMinGapRate && !(flight.gap(0.0).g2 > 0.0)) return step;
+  if (!(start.g1 > -kMinGapRate) || !std::isfinite(start.g1 + start.u + start.X + start.phase)) return step;
+  TipState launch = constrained(start);
+  if (start.g1 < kMinGapRate) launch.g1 = 0.0;
+  Flight<double> flight(springs_, eta_, launch);
+  if (launch.g1 == 0.0 && !(flight.gap(0.0).g2 > 0.0)) return step;
   const Landing<double> landing = find_landing(model_, flight, kLongestMapFlight);
   step.outcome = MapOutcome::no_impact;
   if (landing.outcome != SearchOutcome::impact || !(landing.jet.g1 < 0.0)) return step;
@@ -38,7 +40,7 @@ double PoincareMap::clearance(const TipState& start, double dt) const {
   const double turns = dt * (springs_.ratio + std::abs(eta_) + 1.0);
   const int points = static_cast<int>(std::min(1e5, std::ceil(32.0 * turns))) + 8;
   double smallest = std::numeric_limits<double>::infinity();
-  for (int i = 1; i < points; ++i) {
+  for (int i = 2; i < points; ++i) {  // at its launch the tip rises
     double low = dt * (i - 1) / points, high = dt * i / points;
     if (!(flight.gap(low).g1 <= 0.0 && flight.gap(high).g1 > 0.0)) continue;
     constexpr int kBisections = 40;  // the gap at a minimum is then exact to rounding: its error is of the second order

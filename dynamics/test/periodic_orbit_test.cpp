@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "afm/dynamics/attractor.h"
 #include "afm/dynamics/orbit_search.h"
@@ -147,23 +149,25 @@ TEST(PeriodicOrbit, BouncesWithoutSpeedAreNone) {
 
 // An impact at gamma = 0 leaves no speed, but the surface falls away. The map had no flight from there: residuals were
 // infinite, and multipliers 1.
-TEST(OrbitSearch, WithoutRestitutionTheOrbitIsThatOfTheAttractor) {
-  Model model = model_with_cutoff(0.05);
-  model.kind = ModelKind::hammer;
-  model.gamma = 0.0;
-  model.y0 = 0.02;
-  for (const double eta : {1.05, 1.83, 2.09, 2.35}) {
-    OrbitSearchSettings settings;
-    settings.longest = 1;
-    settings.trajectory = 2000;
-    settings.guesses = 200;
-    const OrbitSearchResult found = search_orbits(PoincareMap(model, eta), settings);
-    ASSERT_EQ(found.orbits.size(), 1u) << eta;
-    const PeriodicOrbit& orbit = found.orbits[0].orbit;
-    EXPECT_LE(orbit.residual, 1e-13) << eta;
-    const Attractor a = find_attractor(model, eta, orbit.points[0], AttractorSettings{});
-    ASSERT_EQ(a.name(), "period-1") << eta;
-    EXPECT_NEAR(std::abs(orbit.multipliers[0]), std::exp(a.lyapunov.exponents[0] * orbit.period), 1e-9) << eta;
+TEST(PeriodicOrbit, WithoutRestitutionItIsThatOfTheAttractor) {
+  const std::vector<std::tuple<ModelKind, double, double>> known{
+      {ModelKind::hammer, 0.02, 1.05},     {ModelKind::hammer, 0.02, 2.35},     {ModelKind::oscillator, 0.02, 2.22},
+      {ModelKind::oscillator, 0.05, 0.95}, {ModelKind::oscillator, 0.05, 1.11}, {ModelKind::oscillator, 0.05, 1.12}};
+  for (const auto& [kind, height, eta] : known) {
+    Model model = model_with_cutoff(0.05);
+    model.kind = kind;
+    model.gamma = 0.0;
+    model.y0 = height;
+    Tip tip(model, eta, FreeState{0.25, 0.0, 0.2, eta, 0.0});
+    const Attractor attractor = find_attractor(model, tip, AttractorSettings{});
+    ASSERT_EQ(attractor.name(), "period-1") << eta;
+    while (tip.advance(kEndOfTime) != Outcome::impact) continue;
+    const OrbitResult r = find_orbit(PoincareMap(model, eta), {tip.tip_state()});
+    ASSERT_EQ(r.outcome, OrbitOutcome::found) << eta;
+    EXPECT_LE(r.orbit.residual, 1e-13) << eta;
+    EXPECT_GT(r.orbit.clearance, 0.0) << eta;
+    const double multiplier = std::exp(attractor.lyapunov.exponents[0] * r.orbit.period);
+    EXPECT_NEAR(std::abs(r.orbit.multipliers[0]), multiplier, 1e-6) << eta;
   }
 }
 

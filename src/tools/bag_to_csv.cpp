@@ -190,12 +190,14 @@ Column column_of(std::string name) {
   return {name, quantity};
 }
 
+template <class Message>
+auto place(const Message& message, const afm_emulator::ModelTime& time) {
+  return std::make_tuple(message.epoch, time.tau, time.phase);
+}
+
 // At how many starts of the node the last command is lost: no number tells of it, but friction does.
 std::uint64_t count_lost_last_commands(const Recording& recording) {
   if (!recording.holds<afm_emulator::Friction>()) return 0;
-  const auto place = [](const auto& message, const auto& time) {
-    return std::make_tuple(message.epoch, time.tau, time.phase);
-  };
   std::map<std::uint64_t, afm_emulator::Applied> last;  // by start
   for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) last[m->number().start] = *m->get();
   std::set<std::uint64_t> lacking;
@@ -212,20 +214,27 @@ std::uint64_t count_lost_last_commands(const Recording& recording) {
   return lacking.size();
 }
 
-// Before the first command that is held: those behind the first snapshot of its start and epoch.
+// Before the first command that is held: those behind the first snapshot of its start and epoch. A snapshot from before
+// the first batch is a latched one, in a bag that was begun later.
 std::uint64_t count_lost_first_commands(const Recording& recording) {
-  if (!recording.holds<afm_emulator::Snapshot>()) return 0;
-  std::map<std::uint64_t, afm_emulator::Applied> first;  // by start
+  if (!recording.holds<afm_emulator::Snapshot>() || !recording.holds<afm_emulator::Friction>()) return 0;
+  std::map<std::uint64_t, afm_emulator::Applied> command;  // by start
   for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) {
-    first.emplace(m->number().start, *m->get());
+    command.emplace(m->number().start, *m->get());
+  }
+  std::map<std::uint64_t, afm_emulator::Friction> batch;
+  for (const auto m = recording.read<afm_emulator::Friction>(); m->get(); m->next()) {
+    batch.emplace(m->number().start, *m->get());
   }
   std::uint64_t lost = 0;
   for (const auto m = recording.read<afm_emulator::Snapshot>(); m->get(); m->next()) {
-    const auto command = first.find(m->number().start);
-    if (command == first.end() || m->get()->epoch != command->second.epoch) continue;
-    const std::uint64_t known = m->get()->applied.number, number = command->second.number;
+    const auto first = command.find(m->number().start);
+    const auto begin = batch.find(m->number().start);
+    if (first == command.end() || begin == batch.end() || m->get()->epoch != first->second.epoch) continue;
+    if (place(*m->get(), m->get()->time) < place(begin->second, begin->second.begin)) continue;
+    const std::uint64_t known = m->get()->applied.number, number = first->second.number;
     if (number > known) lost += number - known - 1;
-    first.erase(command);
+    command.erase(first);
   }
   return lost;
 }

@@ -169,11 +169,10 @@ class ChatterIntegration {
         if (fits(now, dt, next)) break;
       }
       if (exits && !(ratio_over_limit(c_, next) <= 1.0)) return exit_at(now, last_whole(now, first, next, dt));
+      if (value(next.chatter.v) <= c_.threshold) next.chatter.n = count_at_threshold(now, dt, next);
       now = next;
     }
-    if (value(now.chatter.v) > c_.threshold) return {ChatterEnd::time, now.s, now.chatter};
-    if (value(now.s) > 0.0) now.chatter.n = now.chatter.n - bounces_beyond_threshold(now);
-    return {ChatterEnd::died, now.s, now.chatter};
+    return {value(now.chatter.v) <= c_.threshold ? ChatterEnd::died : ChatterEnd::time, now.s, now.chatter};
   }
 
   // The bounce at which n is N, near `from`. Neighbouring starts end with the same bounce, not at the same time. If the
@@ -200,11 +199,24 @@ class ChatterIntegration {
   static double value(const T& x) { return static_cast<double>(x); }
   static double whole_after(const Point& at) { return std::floor(value(at.y.n)) + 1.0; }
 
-  // Of the last step, which ends below the threshold: there x falls evenly, and n grows like 1/v.
-  T bounces_beyond_threshold(const Point& end) const {
-    const T below = end.chatter.v / c_.threshold, per_x = end.rates.n / -end.rates.x;
-    if (!(value(per_x) > 0.0)) return T(0.0);
-    return c_.constant_loss ? -per_x * end.chatter.v * portable_log(below) : per_x * (1.0 - below);
+  // The bounces of a step that ends below the threshold, down to it. The speed may rise before it falls.
+  T count_at_threshold(const Point& from, double dt, const Point& end) const {
+    constexpr int kMaxTries = 30;          // one is enough where the speed falls evenly
+    constexpr double kNearlyThere = 0.03;  // of the step: then the rates count as constant
+    const auto above = [&](const Point& at) { return portable_log(value(at.chatter.v) / c_.threshold); };
+    double low = 0.0, high = 1.0, over = above(from), under = above(end);
+    T n = end.y.n;
+    for (int i = 0; i < kMaxTries; ++i) {
+      const double part = low + (high - low) * (over / (over - under));
+      const Point at = step(from, part * dt);
+      const double rest = above(at), falls = value(at.rates.x) / (c_.constant_loss ? value(at.chatter.v) : 1.0);
+      n = at.y.n;
+      if (falls < 0.0 && std::abs(rest) <= kNearlyThere * dt * -falls) return n - (rest / falls) * at.rates.n;
+      (rest > 0.0 ? low : high) = part;
+      (rest > 0.0 ? over : under) = rest;
+      (rest > 0.0 ? under : over) *= 0.5;  // or one end might stay for ever
+    }
+    return n;
   }
 
   // The last whole n of a step before the adiabaticity ratio reaches its limit, or the first whole n of the step. Near

@@ -7,6 +7,7 @@ namespace afm {
 
 std::vector<ParameterError> find_faults(const RunSettings& s) {
   std::vector<ParameterError> faults = find_faults(s.model);
+  const bool has_surface = faults.empty();
   for (const ParameterError& fault : find_faults(s.bath)) faults.push_back(fault);
   const auto require = [&](bool holds, const char* name, double value, const char* reason) {
     if (!holds) faults.emplace_back(name, value, reason);
@@ -29,14 +30,16 @@ std::vector<ParameterError> find_faults(const RunSettings& s) {
   const auto require_within = [&](const char* name, double value, double most, const char* reason) {
     require(std::abs(value) <= most, name, value, reason);
   };
-  require_within("initial_phase", i.phase, 1e6, "must be within a million lattice spacings");
+  constexpr double kMaxPhase = 1e6, kMaxHeight = 100.0;
+  require_within("initial_phase", i.phase, kMaxPhase, "must be within a million lattice spacings");
   require_within("initial_extension", i.X, 10.0, "must be within 10 lattice spacings");
-  require_within("initial_height", i.y, 100.0, "must be within 100 lattice spacings");
+  require_within("initial_height", i.y, kMaxHeight, "must be within 100 lattice spacings");
   require_within("initial_u", i.u, kMaxEta, "must be within 1000 lattice spacings per tau");
   require_within("initial_w", i.w, kMaxEta, "must be within 1000 lattice spacings per tau");
-  // a gap that is no number has another fault
-  require(!(to_tip_state(s.model.H, {i.phase, 0.0, i.y, 0.0, 0.0}).g < 0.0), "initial_height", i.y,
-          "the tip would start below the surface");
+  if (has_surface && std::abs(i.y) <= kMaxHeight && std::abs(i.phase) <= kMaxPhase) {
+    const TipState at_rest = to_tip_state(s.model.H, {i.phase, 0.0, i.y, 0.0, 0.0});
+    require(at_rest.g >= 0.0, "initial_height", i.y, "the tip would start below the surface");
+  }
   return faults;
 }
 

@@ -61,6 +61,23 @@ TEST_P(ChatterEnds, WhatDiesCountsItsBouncesDownToTheThreshold) {
   EXPECT_GT(died, 2);
 }
 
+// Next to the threshold the speed may hardly fall, or rise first: no less is counted at the end than on the way.
+TEST_P(ChatterEnds, ACountDoesNotFall) {
+  const Model model = model_with(GetParam(), 0.05);
+  const ChatterLaw law(model, kThreshold);
+  RandomLaunches random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const RandomChatter chatter = random_chatter(model, law, random, -4.9999, -4.8);
+    const ChatterRun run = law.run(chatter.reference, chatter.reference.length(), {chatter.v, 0.0});
+    if (run.end != ChatterEnd::died) continue;
+    ASSERT_GE(run.chatter.n, 0.0) << i;
+    for (int k = 1; k < 20; ++k) {
+      const ChatterRun part = law.run(chatter.reference, run.s * k / 20.0, {chatter.v, 0.0});
+      ASSERT_LE(part.chatter.n, 1.0 + 1.02 * run.chatter.n) << i;
+    }
+  }
+}
+
 // The sum of the geometric series of all bounces from one of gap rate v on, at time s.
 double rest_of_zeno(const RandomChatter& chatter, double s, double v) {
   return 2.0 * v / (chatter.reference.pressure(s) * (1.0 - chatter.model.gamma));

@@ -67,6 +67,8 @@ TEST(RunLimits, EveryFaultIsListedAtOnce) {
   settings = {};
   settings.initial = {0.0, 0.0, -5.0, kNaN, 0.0};  // the first was hidden by the second
   EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height", "initial_u"}));
+  settings.initial = {0.0, 0.0, -1000.0, 0.0, 0.0};  // and is not named twice
+  EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height"}));
 }
 
 TEST(RunLimits, ABatchThatNoMemoryHoldsIsAFault) {
