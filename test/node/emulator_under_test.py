@@ -165,6 +165,8 @@ def call_service(service, kind, **request):
 def connected_to(topic):
     """Names of the nodes that the emulator is connected to and sends this topic."""
     _, _, uri = rospy.get_master().lookupNode(NAMESPACE)
+    if not uri:
+        return set()  # the emulator is being started again
     connections = xmlrpc.client.ServerProxy(uri).getBusInfo('test')[2]
     return {peer for _, peer, direction, _, name, *_ in connections if direction == 'o' and name == topic}
 
