@@ -148,7 +148,7 @@ Segment Tip::segment_to(const Account& end) const {
   s.impulse = end.impulse - begin.impulse;
   s.loss = end.loss - begin.loss;
   s.stored = end.energy - begin.energy;
-  s.count = end.count > begin.count ? end.count - begin.count : 0;  // that of an end may be one less, by rounding
+  s.count = end.count > begin.count ? end.count - begin.count : 0;  // that of an end may be a little less
   return s;
 }
 
