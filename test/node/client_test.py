@@ -285,7 +285,7 @@ class Claims:
     def test_a_mean_force_is_of_what_was_commanded(self):
         """Once it went over a reset, and over commands of others."""
         tip, other = self.start_both('lockstep'), self.start(Calls(self.program()))
-        batches, mean = Topic('deflection'), 'mean_force 600 0 3e-6'
+        batches, mean = Topic('deflection'), 'mean_force 60000 0 3e-6'  # no end before it is disturbed
         batches.wait_for_connection()
         for disturb, what in ((lambda: self.emulator.call('reset', Trigger), 'reset'),
                               (lambda: other.call('control 1e-3 2e-6'), 'another command or change took effect'),

@@ -146,6 +146,7 @@ class Commanded(NodeTest):
     def test_it_turns_at_the_same_model_times_however_far_it_is_advanced_at_once(self):
         emulator = self.emulator()
         applied = Topic('applied', Applied)
+        applied.wait_for_connection()
         turns = []
         for duration in (0.01, 0.03, 0.25):
             before = emulator.call('reset', Trigger) and len(applied.messages)
