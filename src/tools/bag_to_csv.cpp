@@ -195,48 +195,51 @@ auto place(const Message& message, const afm_emulator::ModelTime& time) {
   return std::make_tuple(message.epoch, time.tau, time.phase);
 }
 
-// At how many starts of the node the last command is lost: no number tells of it, but friction does.
-std::uint64_t count_lost_last_commands(const Recording& recording) {
+template <class Message>
+using ByStart = std::map<std::uint64_t, boost::shared_ptr<Message>>;  // of the node
+
+// Before the first command that is held: those behind the first snapshot of its start and epoch. A snapshot from before
+// the first batch is a latched one, in a bag that was begun later.
+std::uint64_t count_lost_first_commands(const Recording& recording, ByStart<afm_emulator::Applied> commands,
+                                        const ByStart<afm_emulator::Friction>& batches) {
+  if (!recording.holds<afm_emulator::Snapshot>()) return 0;
+  std::uint64_t lost = 0;
+  for (const auto m = recording.read<afm_emulator::Snapshot>(); m->get(); m->next()) {
+    const auto first = commands.find(m->number().start);
+    const auto begin = batches.find(m->number().start);
+    if (first == commands.end() || begin == batches.end() || m->get()->epoch != first->second->epoch) continue;
+    if (place(*m->get(), m->get()->time) < place(*begin->second, begin->second->begin)) continue;
+    const std::uint64_t known = m->get()->applied.number, number = first->second->number;
+    if (number > known) lost += number - known - 1;
+    commands.erase(first);
+  }
+  return lost;
+}
+
+// Of which no number between two others tells: at each start of the node the first ones, and the last one, of which
+// friction tells.
+std::uint64_t count_lost_commands_at_ends(const Recording& recording) {
   if (!recording.holds<afm_emulator::Friction>()) return 0;
-  std::map<std::uint64_t, afm_emulator::Applied> last;  // by start
-  for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) last[m->number().start] = *m->get();
+  ByStart<afm_emulator::Applied> first, last;
+  for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) {
+    first.emplace(m->number().start, m->get());
+    last[m->number().start] = m->get();
+  }
+  ByStart<afm_emulator::Friction> first_batch;
   std::set<std::uint64_t> lacking;
   boost::shared_ptr<afm_emulator::Friction> before;
   std::uint64_t start = 0;
   for (const auto m = recording.read<afm_emulator::Friction>(); m->get(); m->next()) {
     if (m->number().start != start) before.reset();
     start = m->number().start;
-    const afm_emulator::Applied& command = last[start];
-    const bool is_behind = before && place(*before, before->begin) >= place(command, command.time);
+    first_batch.emplace(start, m->get());
+    const auto command = last.find(start);
+    const bool is_behind = before && (command == last.end() ||
+                                      place(*before, before->begin) >= place(*command->second, command->second->time));
     if (is_behind && afm::bags::tells_of_command(*before, *m->get())) lacking.insert(start);
     before = m->get();
   }
-  return lacking.size();
-}
-
-// Before the first command that is held: those behind the first snapshot of its start and epoch. A snapshot from before
-// the first batch is a latched one, in a bag that was begun later.
-std::uint64_t count_lost_first_commands(const Recording& recording) {
-  if (!recording.holds<afm_emulator::Snapshot>() || !recording.holds<afm_emulator::Friction>()) return 0;
-  std::map<std::uint64_t, afm_emulator::Applied> command;  // by start
-  for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) {
-    command.emplace(m->number().start, *m->get());
-  }
-  std::map<std::uint64_t, afm_emulator::Friction> batch;
-  for (const auto m = recording.read<afm_emulator::Friction>(); m->get(); m->next()) {
-    batch.emplace(m->number().start, *m->get());
-  }
-  std::uint64_t lost = 0;
-  for (const auto m = recording.read<afm_emulator::Snapshot>(); m->get(); m->next()) {
-    const auto first = command.find(m->number().start);
-    const auto begin = batch.find(m->number().start);
-    if (first == command.end() || begin == batch.end() || m->get()->epoch != first->second.epoch) continue;
-    if (place(*m->get(), m->get()->time) < place(begin->second, begin->second.begin)) continue;
-    const std::uint64_t known = m->get()->applied.number, number = first->second.number;
-    if (number > known) lost += number - known - 1;
-    command.erase(first);
-  }
-  return lost;
+  return lacking.size() + count_lost_first_commands(recording, first, first_batch);
 }
 
 std::uint64_t write_commands(const Recording& recording, const Target& to) {
@@ -253,7 +256,7 @@ std::uint64_t write_commands(const Recording& recording, const Target& to) {
     table << applied.model << applied.contact_tolerance << applied.first_impact << applied.number << applied.cause;
     table.end_row();
   });
-  return lost + count_lost_first_commands(recording) + count_lost_last_commands(recording);
+  return lost + count_lost_commands_at_ends(recording);
 }
 
 const std::map<std::string, std::function<std::uint64_t(const Recording&, const Target&)>> kTables{
