@@ -49,10 +49,11 @@ def main():
     if len(sys.argv) < 2 or sys.argv[1].startswith('-'):
         sys.exit(__doc__)
     directory, seconds = os.path.abspath(sys.argv[1]), float(sys.argv[2]) if len(sys.argv) > 2 else 600.0
+    others = set(glob.glob(directory + '/*.bag'))
     with own_master() as server, emulator(server, dict(PARAMETERS, bag_directory=directory)) as node:
         time.sleep(2.0)
         elapsed, memory, shares = watch(node.pid, seconds)
-    bags = sorted(glob.glob(directory + '/*.bag'))
+    bags = sorted(set(glob.glob(directory + '/*.bag')) - others)
     row = {'seconds': '%.0f' % elapsed, 'memory / MB': '%.0f' % memory,
            'recorded / GB': '%.2f' % (sum(os.path.getsize(bag) for bag in bags) / 1e9), **shares}
     print('%s\n%s' % (','.join(row), ','.join(row.values())), flush=True)

@@ -47,6 +47,7 @@ class Run:
             self.lost[kind] = self.lost.get(kind, 0) + lost
             if kind == 'Deflection' and self.samples:
                 self.samples.append(np.full((5, 1), NAN))  # a gap
+                self.close.append(np.array([[self.close[-1][0, -1]], [NAN], [NAN]]))
             if kind == 'Friction':
                 self.friction.append((self.last, NAN, NAN, NAN))
 
@@ -105,16 +106,16 @@ def open_bag(path):
         sys.exit('plot_run.py: %s: %s' % (path, why_unreadable(fault)))
 
 
-def count_samples(paths):
+def count_samples(paths, node):
     """From the first batch of every bag, about."""
     count = 0
     for path in paths:
         with open_bag(path) as bag:
-            info = bag.get_type_and_topic_info().topics
-            batches = sum(t.message_count for t in info.values() if t.msg_type == 'afm_emulator/Deflection')
+            topics = bag.get_type_and_topic_info().topics
             for m in read_raw(bag, ['Deflection']):
-                count += batches * len(m.of_type().deserialize(m.data).vertical)
-                break
+                if node in (None, m.node):
+                    count += topics[m.topic].message_count * len(m.of_type().deserialize(m.data).vertical)
+                    break
     return count
 
 
@@ -134,7 +135,7 @@ def read(paths, node):
     configuration = find_configuration(paths, node)
     if configuration is not None:
         run.set_units(configuration)
-    every = max(1, 2 * count_samples(paths) // MOST_POINTS)
+    every = max(1, 2 * count_samples(paths, node) // MOST_POINTS)
     known, sources, others = {}, {}, set()
     add = {'Configuration': lambda m: run.epochs.setdefault(m.epoch, run.last),
            'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
@@ -166,6 +167,8 @@ def read(paths, node):
 
 def put_legend(axes, **options):
     """Above, where it hides nothing."""
+    if not axes.get_legend_handles_labels()[0]:
+        return
     axes.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=4, frameon=False, borderaxespad=0.1, **options)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import results  # noqa: E402,F401  (registers its tables)
-from measure import stamp  # noqa: E402
+from measure import commit, stamp  # noqa: E402
 from registry import PICTURES, TABLES, Tables, names_read, text_of  # noqa: E402
 
 for module in sorted((Path(__file__).resolve().parent / "plotting").glob("[!_]*.py")):
@@ -24,7 +24,7 @@ def stamp_of(name, tables, mode):
     read = [re.search(r", (commit .*?, \d{4}-\d\d-\d\d)", tables.stamp(source))
             for source in names_read(TABLES[name], tables.quick)]
     measured = sorted({found.group(1) for found in read if found})
-    return "# %s run of %s, %s" % (mode, what, "; ".join(measured)) if measured else stamp(mode, what)
+    return "# %s run of %s, %s" % (mode, what, "; ".join(measured)) if measured else stamp(mode, what, commit())
 
 
 def main():

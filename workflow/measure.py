@@ -34,14 +34,14 @@ def processor():
     return "%s, %d processors" % (model, os.cpu_count())
 
 
-def stamp(mode, what):
-    return "# %s run of %s, commit %s, %s, %s" % (mode, what, commit(), processor(), time.strftime("%Y-%m-%d"))
+def stamp(mode, what, of_commit):
+    return "# %s run of %s, commit %s, %s, %s" % (mode, what, of_commit, processor(), time.strftime("%Y-%m-%d"))
 
 
 def main():
     mode, may_fail, table, *rest = sys.argv[1:]
     sides, command = [Path(side) for side in rest[:rest.index("--")]], " ".join(rest[rest.index("--") + 1:])
-    part, begin = Path(table + ".part"), time.time()
+    part, begin, measured = Path(table + ".part"), time.time(), commit()
     with part.open("w") as output:
         output.write(" " * 1000 + "\n")  # room for the line that is known at the end
         output.flush()
@@ -49,7 +49,7 @@ def main():
                                stdin=subprocess.DEVNULL)
     if code != 0 and may_fail != "1":
         sys.exit("%s ends with %d; its output is in %s" % (command, code, part))
-    first = stamp(mode, "`%s`" % command.replace(str(ROOT) + "/", ""))
+    first = stamp(mode, "`%s`" % command.replace(str(ROOT) + "/", ""), measured)
     first += (", it ended with %d" % code if code else "") + ", %.3f s\n" % (time.time() - begin)
     for path in sides:
         path.write_text(first + path.read_text())

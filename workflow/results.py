@@ -120,6 +120,8 @@ def sanitizer_result(text):
 def fuzz_result(text):
     runs = re.search(r"number_of_executed_units: (\d+)", text)
     finding = re.search(r"SUMMARY: .*|ALARM.*|Test unit written to .*", text)
+    if not (runs or finding):
+        return "nothing was fuzzed"
     return "%s inputs: %s" % ("{:,}".format(int(runs[1])) if runs else "?",
                               "FAILED: " + finding[0] if finding else "no finding")
 

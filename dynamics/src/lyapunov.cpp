@@ -1,7 +1,10 @@
 #include "afm/dynamics/lyapunov.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "afm/dynamics/tangents.h"
 #include "core/not_numbers.h"
@@ -46,6 +49,14 @@ bool has_numbers(const LyapunovSpectrum& s) {
   return std::none_of(s.exponents.begin(), s.exponents.end(), [](double x) { return std::isnan(x); });
 }
 
+// Close ones of a finite run may come in another order than their directions.
+void sort(LyapunovSpectrum& s) {
+  std::array<std::pair<double, double>, 4> both;
+  for (std::size_t i = 0; i < 4; ++i) both[i] = {s.exponents[i], s.std_errors[i]};
+  std::stable_sort(both.begin(), both.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t i = 0; i < 4; ++i) std::tie(s.exponents[i], s.std_errors[i]) = both[i];
+}
+
 // Advances by `time`. False if the budget or a failed search came first.
 bool skip(Tip& tip, double time, std::uint64_t most_events, LyapunovSpectrum& s) {
   const ModelTime end = tip.now() + time;
@@ -84,7 +95,11 @@ LyapunovSpectrum lyapunov(const Model& model, Tip& tip, const LyapunovSettings& 
     return s;
   }
   growth.finish(model, s);
-  if (s.outcome == LyapunovOutcome::measured && !has_numbers(s)) s.outcome = LyapunovOutcome::no_number;
+  if (has_numbers(s)) {
+    sort(s);
+  } else if (s.outcome == LyapunovOutcome::measured) {
+    s.outcome = LyapunovOutcome::no_number;
+  }
   return s;
 }
 

@@ -29,6 +29,15 @@ TEST(Lyapunov, SumsUpToWhatTheRestitutionTakes) {
   }
 }
 
+// A short run of a fixed point with two complex pairs: those of a pair came in the order of their directions.
+TEST(Lyapunov, LargestFirst) {
+  for (const double eta : {0.0, 1.51, 3.75}) {
+    const LyapunovSpectrum s = lyapunov(Model(), eta, start_at(eta));
+    ASSERT_EQ(s.outcome, LyapunovOutcome::measured) << eta;
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_GE(s.exponents[i - 1], s.exponents[i]) << eta;
+  }
+}
+
 // Contact has no friction: a slide that never ends keeps volumes. The stiff one was once carried as one Jacobian, which
 // ended after 330 tau, and what grew was shared out over all of the time.
 TEST(Lyapunov, SumsUpToNothingInContact) {

@@ -19,7 +19,7 @@ run = recording.simulate()  # to the last bit what the node published, times a u
 units = recording.units
 times = (run.impacts['tau'] + run.impacts['phase']) * units.time  # [s]
 lost = np.cumsum(run.impacts['energy_loss']) * units.energy  # [J]
-print('%d samples, %d impacts, %.4g J lost' % (len(run.vertical), len(run.impacts), lost[-1]))
+print('%d samples, %d impacts, %.4g J lost' % (len(run.vertical), len(run.impacts), lost[-1] if len(lost) else 0.0))
 plt.plot(times, lost)
 plt.xlabel('model time [s]')
 plt.ylabel('energy lost in impacts [J]')

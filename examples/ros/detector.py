@@ -16,8 +16,9 @@ class Detector:
         self.v_per_nm = numpy.array([[number_parameter('vertical_v_per_nm', 0.05)],
                                      [number_parameter('lateral_v_per_nm', 0.01)]])
         self.noise = number_parameter('noise_v_per_sqrt_hz', 5e-6)  # 0.1 pm per root Hz of vertical deflection
-        self.range = number_parameter('range_v', 10.0)
-        self.step = 2 * self.range / 2 ** rospy.get_param('~bits', 16)
+        span = 2 * number_parameter('range_v', 10.0)
+        codes = 2 ** rospy.get_param('~bits', 16)
+        self.step, self.codes = span / codes, (-codes // 2, codes // 2 - 1)
         self.random = numpy.random.default_rng(rospy.get_param('~seed', 1))
         self.volts = rospy.Publisher('~volts', Float64MultiArray, queue_size=100)
         rospy.Subscriber(rospy.get_param('~emulator', 'afm') + '/deflection', Deflection, self.measure,
@@ -27,12 +28,12 @@ class Detector:
         deflection = 1e9 * numpy.array([batch.vertical, batch.lateral])
         # white noise up to half the sample rate: its variance is the density squared times that bandwidth
         noise = self.noise * (0.5 / batch.sample_period) ** 0.5 * self.random.standard_normal(deflection.shape)
-        volts = numpy.clip(self.v_per_nm * deflection + noise, -self.range, self.range)
+        codes = numpy.clip(numpy.round((self.v_per_nm * deflection + noise) / self.step), *self.codes)
         message = Float64MultiArray()
-        rows, columns = volts.shape
+        rows, columns = codes.shape
         message.layout.dim = [MultiArrayDimension('channel', rows, rows * columns),
                               MultiArrayDimension('sample', columns, columns)]
-        message.data = (numpy.round(volts / self.step) * self.step).ravel()
+        message.data = (codes * self.step).ravel()
         self.volts.publish(message)
 
 

@@ -118,6 +118,7 @@ class Run {
   bool can_split() const { return tip_.is_settled(); }  // false: an event at now() is still to be reported
 
   ModelTime now() const { return tip_.now(); }
+  ModelTime next_boundary() const;  // of a batch, after now()
   double eta() const { return settings_.eta; }
   FreeState state() const { return tip_.state(); }         // at now()
   std::uint64_t samples() const { return next_sample_; }   // number due so far
@@ -128,7 +129,6 @@ class Run {
 
  private:
   double change_level(const Level& level, const LiveSettings& old);
-  ModelTime next_boundary() const;
   void begin(Batch& batch) const;
   Outcome run_segments(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   void sample_until(const ModelTime& time, Batch& batch);

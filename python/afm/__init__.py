@@ -10,7 +10,8 @@ Units are natural: lattice spacing a, period tau = 2 pi / omega_v, tip mass m. `
 
 - Tip, Ensemble, Run: one tip; many on threads; a run in batches, as the node runs it
 - Model, Bath, Units: what they are made of
-- friction_curve, attractors, periodic_orbits, lyapunov, next_impact: what the tools of these names compute
+- friction_curve, attractors, periodic_orbits, next_impact: what the tools of these names compute
+- lyapunov: the Lyapunov exponents of a run
 - kicks_lock, suitable_kicks: whether the kicks of a bath falsify K_f, and a rate that does not
 - from_bag: a recording: its model, its commands, and its run simulated again
 
@@ -18,8 +19,8 @@ Two estimates of the friction coefficient K_f: k_f_work from the work of the dra
 of the paper), and k_f from the energy lost in impacts (Eq. 6). Plot k_f_work. Without a heat bath they agree; with
 one k_f is no friction, as the bath feeds the impacts: at eta = 0.1, 300 K and Q = 100 k_f is 20 times as much.
 
-What is wrong with an argument is a ParameterError with name, value and reason. Long calls use threads without the GIL
-and end at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A
+What is wrong with an argument is a ParameterError with name, value and reason. Long calls run without the GIL and
+end at Ctrl-C. Models, baths, units, tips and runs can be copied, pickled, and sent to the processes of a Pool. A
 copy has the bits of the original; pickling splits the motion under way in what is pickled, so that its last digits may
 differ, and in a chatter sequence those below contact_tolerance.
 """

@@ -1,4 +1,4 @@
-"""What the tools of these names compute, as structured arrays with the tools' columns."""
+"""What the tools of these names compute, as structured arrays with the tools' columns; and Lyapunov exponents."""
 from typing import Callable, Dict, Optional, Sequence, Union
 
 import numpy as np
@@ -64,12 +64,14 @@ def friction_curve(eta: Axis, *, gamma: Optional[Axis] = None, cutoff: Optional[
     with it without a bath alone.
     """
     chosen = _model(model)
+    of_bath = dict(temperature=temperature, quality_factor=quality_factor,
+                   lateral_quality_factor=lateral_quality_factor, kicks_per_tau=kicks_per_tau)
     if bath is None:
         bath = Bath(temperature, quality_factor, lateral_quality_factor, kicks_per_tau,
                     1 if seed is None else seed_of(seed))
     elif not isinstance(bath, Bath):
         raise ArgumentTypeError('bath', bath, 'must be a Bath')
-    elif (temperature, quality_factor, lateral_quality_factor, kicks_per_tau) != (0.0, 0.0, 0.0, Bath().kicks_per_tau):
+    elif any(number(name, value) != getattr(Bath(), name) for name, value in of_bath.items()):
         raise ParameterError('bath', bath, 'is given beside temperature, quality factors or kicks_per_tau: give either')
     elif bath.stream != 0:
         raise ParameterError('bath.stream', bath.stream, 'must be 0: every point has a stream of its own')
@@ -116,7 +118,7 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     mesh = np.meshgrid(*reversed(axes), indexing='ij')  # eta changes fastest
     points = np.stack([axis.ravel() for axis in reversed(mesh)], axis=1)
     given = np.empty((0, 5)) if np.ndim(starts) == 0 else _rows_of_starts(starts)
-    how_many = count('starts', starts) if np.ndim(starts) == 0 else len(given)
+    how_many = count('starts', starts, least=1) if np.ndim(starts) == 0 else len(given)
     columns, rows, names, where = _laboratory('attractors')(
         points, chosen.kind, how_many, given, seed_of(seed), number('transient', transient),
         number('duration', duration), number('friction_duration', friction_duration), thread_count(threads))

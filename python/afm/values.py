@@ -118,5 +118,6 @@ class Lyapunov(NamedTuple):
 _document(Lyapunov, exponents='(4,) [1/tau]; after a contact the last two are minus infinity, of a hammer too',
           std_errors='(4,) [1/tau]', outcome='measured, budget_spent, no_event, search_failed or no_number',
           rank='how many exponents are finite', duration='measured [tau]',
-          volume_rate='what their sum must be [1/tau]; NaN after a chatter sequence: contact_tolerance=0 has none',
+          volume_rate='what their sum must be [1/tau], of a hammer that of its two; NaN after a chatter sequence: '
+                      'contact_tolerance=0 has none',
           events='on the way')

@@ -86,15 +86,18 @@ double real(const char* name, const py::handle& value) {
 
 std::uint64_t whole(const char* name, const py::handle& value) {
   constexpr double kMostWhole = 9007199254740992.0;  // up to there every whole number is a double
-  const double number_given = PyFloat_Check(value.ptr()) ? PyFloat_AS_DOUBLE(value.ptr()) : -1.0;
-  if (number_given >= 0.0 && number_given <= kMostWhole && number_given == std::floor(number_given)) {
-    return static_cast<std::uint64_t>(number_given);
+  if (PyIndex_Check(value.ptr()) != 0) {
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    const std::uint64_t number = index ? PyLong_AsUnsignedLongLong(index.ptr()) : 0;
+    if (PyErr_Occurred() == nullptr) return number;
+  } else {
+    const double number = PyFloat_AsDouble(value.ptr());  // NumPy's too
+    if (number >= 0.0 && number <= kMostWhole && number == std::floor(number)) {
+      return static_cast<std::uint64_t>(number);
+    }
   }
-  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-  const std::uint64_t number = index ? PyLong_AsUnsignedLongLong(index.ptr()) : 0;
-  if (PyErr_Occurred() == nullptr) return number;
   PyErr_Clear();
-  refuse_type(name, value, "must be a whole number, not below 0");
+  refuse_type(name, value, "must be a whole number from 0 to 18446744073709551615");
 }
 
 ModelKind kind_of(const std::string& name) {

@@ -55,6 +55,12 @@ class PyEnsemble {
 
   void drag(double eta) {
     check_eta(eta);
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto warnings = find_warnings(ensemble_.tip(i).model(), ensemble_.tip(i).thermostat().bath(), eta);
+      if (warnings.empty()) continue;
+      warn(warnings);  // once for all
+      break;
+    }
     for (std::size_t i = 0; i < size(); ++i) ensemble_.drag(i, eta);
   }
 

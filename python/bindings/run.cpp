@@ -50,8 +50,10 @@ double apply(Run& self, const py::kwargs& what) {
       live.bath = item.second.cast<Bath>();
     else if (name == "bath")
       refuse_type("bath", item.second, "must be a Bath");
+    else if (name == "kind" && py::isinstance<py::str>(item.second))
+      live.level.kind = kind_of(item.second.cast<std::string>());
     else if (name == "kind")
-      live.level.kind = kind_of(py::str(item.second));
+      refuse_type("kind", item.second, "must be a text");
     else
       throw py::type_error("apply() has no argument " + name);
   }
@@ -98,35 +100,31 @@ class Joined {
   Batch all_;
 };
 
-enum class Until { time, end_of_batch };
-
-// Until the time is reached, or the batch ends, or so many impacts.
-void advance_to(Run& run, Until until, const ModelTime& time, std::uint64_t impacts, Joined& joined) {
+// Until the time is reached, or so many impacts.
+void advance_to(Run& run, const ModelTime& time, std::uint64_t impacts, Joined& joined) {
   constexpr std::uint64_t kImpactsAtATime = 10000;
   repeat(1, [&] {
     Batch batch;
     const ModelTime before = run.now();
-    const Outcome outcome =
-        run.advance(time, std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
+    const Outcome outcome = run.advance(next_stop(before, time),
+                                        std::min({impacts, run.settings().impact_budget, kImpactsAtATime}), batch);
     const bool is_stuck = outcome == Outcome::budget_spent && batch.impacts.empty() && !(before < run.now());
     if (is_stuck && impacts > 0) throw_stuck(run.eta(), run.now());
     impacts -= std::min<std::uint64_t>(impacts, batch.impacts.size());
     joined.add(batch);
-    const bool ended = until == Until::end_of_batch || !(run.now() < time);
-    return impacts == 0 || (outcome == Outcome::time_limit && ended);
+    return impacts == 0 || (outcome == Outcome::time_limit && !(run.now() < time));
   });
 }
 
 py::object advance(Run& self, const py::object& time, const py::object& impacts) {
   Joined joined;
+  const std::uint64_t most = impacts.is_none() ? ~std::uint64_t{0} : whole("impacts", impacts);
   if (time.is_none()) {
-    const std::uint64_t most = impacts.is_none() ? self.settings().impact_budget : whole("impacts", impacts);
-    advance_to(self, Until::end_of_batch, kEndOfTime, most, joined);
+    advance_to(self, self.next_boundary(), std::min(most, self.settings().impact_budget), joined);
   } else {
-    const std::uint64_t most = impacts.is_none() ? ~std::uint64_t{0} : whole("impacts", impacts);
     const ModelTime end = to_time(time);
     require(self.now() <= end, "time", end - ModelTime{}, "lies before the run's present");
-    advance_to(self, Until::time, end, most, joined);
+    advance_to(self, end, most, joined);
   }
   return joined.result(self.settings().sample_period);
 }

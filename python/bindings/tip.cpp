@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -33,13 +34,6 @@ ModelTime later(const Tip& self, const py::object& time) {
 
 constexpr int kStepsAtATime = 64;  // of a tip, between two looks at the clock
 
-// The end of one call. Long quiet flights and slides are cut here, so that signals are seen. No bit depends on it.
-ModelTime next_stop(const Tip& tip, const ModelTime& end) {
-  constexpr double kLongest = 1000.0;  // [tau]
-  const ModelTime stop = tip.now() + kLongest;
-  return stop < end ? stop : end;
-}
-
 py::array advance_tip(Tip& self, const py::object& time, const py::object& most_events) {
   const ModelTime end = later(self, time);
   const std::uint64_t most =
@@ -47,7 +41,7 @@ py::array advance_tip(Tip& self, const py::object& time, const py::object& most_
   std::vector<Impact> events;
   if (most > 0) {
     repeat(kStepsAtATime, [&] {
-      const ModelTime stop = next_stop(self, end);
+      const ModelTime stop = next_stop(self.now(), end);
       const Outcome outcome = self.advance(stop);
       if (outcome == Outcome::time_limit) return stop == end;
       if (outcome == Outcome::search_failed) throw_stuck(self.eta(), self.now());
@@ -65,7 +59,8 @@ class Sampler {
       : tip_(tip), grid_{period, 0, tip.now()}, end_(grid_.time(count)), vertical_(count), lateral_(count) {}
 
   bool step() {
-    const ModelTime stop = next_stop(tip_, end_), segment_end = tip_.segment_end();
+    const ModelTime few = grid_.time(std::min(vertical_.size(), taken_ + kSamplesAtATime));
+    const ModelTime stop = next_stop(tip_.now(), few), segment_end = tip_.segment_end();
     take(segment_end < stop ? segment_end : stop);
     const ModelTime before = tip_.now();
     const Outcome outcome = tip_.advance_segment(stop);
@@ -84,6 +79,8 @@ class Sampler {
   }
 
  private:
+  static constexpr std::size_t kSamplesAtATime = 1000000;
+
   void take(const ModelTime& until) {
     std::size_t to = taken_;
     while (to < vertical_.size() && grid_.time(to) < until) ++to;
@@ -106,7 +103,7 @@ py::object samples(Tip& self, double period, std::size_t count) {
   require(count <= kMost, "count", static_cast<double>(count),
           "must be at most 100 million: ask for the rest after it");
   Sampler sampler(self, period, count);
-  repeat(1, [&] { return sampler.step(); });  // a step may have millions of samples
+  repeat(1, [&] { return sampler.step(); });  // a step may have a million samples
   return sampler.result();
 }
 

@@ -122,6 +122,9 @@ class Errors(unittest.TestCase):
                            ('snapshot', lambda: afm.Run.from_snapshot(5)),
                            ('seed', lambda: afm.friction_curve(2, seed=2**64)), ('seed', lambda: afm.Bath(seed=2**64)),
                            ('states', lambda: afm.next_impact([1, 2])), ('bath', lambda: run.apply(bath=3)),
+                           ('kind', lambda: run.apply(kind=3)), ('impacts', lambda: run.advance(impacts=2**64)),
+                           ('quality_factor', lambda: afm.friction_curve(2, bath=afm.Bath(), quality_factor=[1, 2])),
+                           ('starts', lambda: afm.attractors(2, starts=0)),
                            ('eta', lambda: afm.next_impact(eta='2', phase=0, extension=0, u=0, w=1)),
                            ('starts', lambda: afm.attractors(2, starts='many')),
                            ('starts', lambda: afm.attractors(2, starts=[[1, 2]])),
@@ -162,7 +165,8 @@ class Errors(unittest.TestCase):
 
     def test_a_whole_float_is_a_whole_number(self):
         self.assertEqual(len(afm.Tip().samples(0.1, 5.0)), 5)
-        self.assertEqual(len(afm.Tip(eta=3.4).advance(100, most_events=1.0)), 1)
+        for one in (1.0, np.float32(1)):
+            self.assertEqual(len(afm.Tip(eta=3.4).advance(100, most_events=one)), 1)
 
     def test_all_faults_of_a_call_are_there(self):
         with self.assertRaises(afm.ParameterError) as caught:
@@ -224,6 +228,7 @@ class Warnings(unittest.TestCase):
         tip, run = afm.Tip(model, eta), afm.Run(model, eta)
         cold, still = afm.Tip(model, 2, bath=bath), afm.Run(model, 2, bath=bath)
         for call in (lambda: afm.Tip(model, eta, bath=bath), lambda: tip.set_bath(bath), lambda: cold.drag(-eta),
+                     lambda: afm.Ensemble([cold, cold]).drag(eta),
                      lambda: afm.Run(model, eta, bath=bath), lambda: run.apply(bath=bath), lambda: still.apply(eta=eta),
                      lambda: afm.friction_curve([2, eta], model=model, bath=bath, duration=10, transient=1)):
             with self.assertWarnsRegex(RuntimeWarning, 'locks to the drag near eta = 29.034, .*give 46.979') as caught:
@@ -268,6 +273,10 @@ class Arrays(unittest.TestCase):
         self.assertEqual(table.shape, (3, 4))
         again = afm.next_impact(table, gamma=0.7)
         np.testing.assert_array_equal(table, again)
+
+    def test_a_batch_ends_by_its_budget(self):
+        for wanted in (None, 1000):
+            self.assertEqual(len(afm.Run(impact_budget=5).advance(impacts=wanted).impacts), 5)
 
     def test_empty_stretches(self):
         self.assertEqual(len(afm.Tip().advance(0)), 0)

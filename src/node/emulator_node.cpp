@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <clocale>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -384,10 +385,14 @@ int main(int argc, char** argv) {
   }
   keep_memory_flat();
   await_signals();
+  std::setlocale(LC_CTYPE, "");  // paths with other letters than ASCII stay readable in the log
   try {
     ros::init(argc, argv, "afm", ros::init_options::NoSigintHandler);
   } catch (const ros::InvalidNameException& fault) {
     std::cerr << "emulator_node: the name of the node: " << fault.what() << "\n";
+    return 1;
+  } catch (const std::exception& fault) {  // it can make no folder for its logs
+    std::cerr << "emulator_node: " << fault.what() << "\n";
     return 1;
   }
   const ros::NodeHandle handle("~");  // roscpp shuts down with its last handle

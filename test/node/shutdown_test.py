@@ -7,6 +7,7 @@ import threading
 import time
 from pathlib import Path
 
+import rosbag
 import rospy
 import yaml
 from dynamic_reconfigure.msg import Config, DoubleParameter
@@ -76,3 +77,6 @@ class Shutdown(NodeTest):
                 self.assertIn(code, (0,) if begun else (0, -signal.SIGINT), scene + ': ' + node.output())
             ended += wave
         self.assertEqual([str(path) for path in self.directory.rglob('*.active')], [])
+        for path in self.directory.rglob('*.bag'):  # of a node that was stopped before it ran the topics had no names
+            with rosbag.Bag(str(path)) as bag:
+                self.assertNotIn('', bag.get_type_and_topic_info().topics, path)

@@ -415,6 +415,13 @@ class SpoiledBags(SpoiledBag):
         self.assertEqual(answer.code, DIFFERS, answer.text)
         self.assertIn('%s does not go on where run.bag ends: 20 batches between them are missing' % named.name,
                       answer.text)
+        for entry, change in ((everything[ends[0] + 5], {'epoch': 7}), (latched[0], {'restitution_gamma': 0.5})):
+            altered = copy.copy(entry)
+            altered.edit(**change)
+            self.entries = latched + everything[ends[0]:ends[1]] + [altered]
+            answer = checks.bag_check(parts[0], self.write('run_001.bag'))
+            self.assertEqual(answer.code, DIFFERS, answer.text)
+            self.assertIn('1 numbers of %s are those of two messages' % type(entry.message()).__name__, answer.text)
 
     def test_latched_messages_come_again(self):
         """The parts of a split recording merged, or played and recorded again, or rosbag record repeats the first."""

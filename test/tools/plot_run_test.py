@@ -25,7 +25,7 @@ class PlotRun(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.directory = Path(holder.name)
 
-    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0, lost=()):
+    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0, lost=(), sample_period=1e-5):
         path = self.directory / name
         with rosbag.Bag(str(path), 'w') as bag:
             def write(node, topic, message, seq):
@@ -39,9 +39,10 @@ class PlotRun(unittest.TestCase):
                 write(node, '/configuration', configuration, epoch)
                 write(node, '/applied', Applied(epoch=epoch, drag_velocity=6.6e-6 * eta), epoch)
                 for i in range(batches):
-                    deflection = Deflection(epoch=epoch, first_sample=100 * i, sample_period=1e-5,
+                    deflection = Deflection(epoch=epoch, first_sample=100 * i, sample_period=sample_period,
                                             vertical=[1e-10] * 100, lateral=[-1e-11] * 100)
-                    deflection.time.tau = 6 * i
+                    deflection.time.tau = int(6e5 * sample_period * i)
+                    deflection.time.phase = 6e5 * sample_period * i - deflection.time.tau
                     impacts = ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k) for k in range(4)])
                     friction = Friction(epoch=epoch, k_f_work=1e-6, k_f_work_natural=0.4)
                     for topic, message in (('/deflection', deflection), ('/impacts', impacts), ('/friction', friction)):
@@ -63,17 +64,17 @@ class PlotRun(unittest.TestCase):
         self.assertEqual(path.with_suffix('.png').read_bytes()[:4], b'\x89PNG')
 
     def test_a_gap_is_drawn_and_said(self):
-        """The line went across it."""
-        whole, gap = (self.bag(20, name, lost=lost) for name, lost in
-                      (('whole.bag', ()), ('gap.bag', [('/deflection', 30), ('/deflection', 31)])))
+        """The line went across it, in the last tau too."""
+        whole, gap = (self.bag(20, name, lost=lost, sample_period=1e-6) for name, lost in
+                      (('whole.bag', ()), ('gap.bag', [('/deflection', 36), ('/deflection', 37)])))
         self.assertEqual(plot(whole, '--output', self.directory / 'whole.svg').returncode, 0)
         done = plot(gap, '--output', self.directory / 'gap.svg')
         self.assertEqual(done.returncode, 3, done.stdout)
         self.assertIn('warning: 2 messages of Deflection are missing', done.stdout)
 
         def strokes(name):  # of all lines: each begins by a move
-            return len(re.findall('[ "]M ', (self.directory / name).read_text()))
-        self.assertEqual(strokes('gap.svg'), strokes('whole.svg') + 2)  # vertical and lateral
+            return len(re.findall(r'[\s"]M ', (self.directory / name).read_text()))
+        self.assertEqual(strokes('gap.svg'), strokes('whole.svg') + 4)  # vertical and lateral
 
     def test_what_comes_before_the_first_configuration_is_drawn_too(self):
         """It was left out without a word."""

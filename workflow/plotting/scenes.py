@@ -143,7 +143,7 @@ def draw_loop(axes, run):
 
 
 def draw_speeds(axes, run):
-    bounces = run.events[run.events['normal_speed'] > 0]
+    bounces = run.events[run.events['kind'] == 0]  # a chatter sequence has the time of its end
     axes.semilogy(times_of(bounces), 1e6 * run.units.velocity * bounces['normal_speed'], 'o', ms=4, color='black')
     axes.set_xlabel('model time [$\\tau$]')
     axes.set_ylabel('normal speed of impacts [$\\mu$m/s]')

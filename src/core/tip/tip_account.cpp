@@ -41,12 +41,14 @@ Chatter Tip::chatter_now(const Chattering& chattering) const {
 Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, const Chatter& chatter) const {
   const SlideSegment<double>& slide = chattering.reference;
   const SlideState<double> reference = slide.at(s);
-  const double v0 = chattering.chatter.v, v = chatter.v, start = slide_energy(springs_, slide.start());
+  const double v0 = chattering.chatter.v, start = slide_energy(springs_, slide.start());
   Sequence sequence = chattering.sequence;
   sequence.loss += chatter.loss;
   if (springs_.is_free_along_x == 0.0) {
+    const bool rests = slide.eta() == 0.0;
+    const double v = rests && chatter.n == 0.0 ? v0 : chatter.v;  // no bounce has ended
     const double along = slide_energy(springs_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
-    if (slide.eta() == 0.0) sequence.loss -= gain;  // a holder at rest gives nothing
+    if (rests) sequence.loss -= gain;  // a holder at rest gives nothing
     const double pressure = slide.pressure(0.0);
     sequence.impulse += held_impulse(springs_, slide.eta(), slide.start(), pressure, s, along - start) +
                         held_impulse(springs_, slide.eta(), slide.start(), pressure, 0.0, gain);
@@ -55,7 +57,7 @@ Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, c
   const double impulse = spring_impulse(springs_, extension_integral(slide, s) + chatter.drift);
   sequence.impulse += impulse;
   const double wanted = start + 0.5 * v0 * v0 + slide.eta() * impulse - chatter.loss;
-  const BouncingSlide end = with_energy(springs_, {displaced_reference(model_, reference, chatter), v}, wanted);
+  const BouncingSlide end = with_energy(springs_, {displaced_reference(model_, reference, chatter), chatter.v}, wanted);
   const double energy = slide_energy(springs_, end.slide) + 0.5 * end.v * end.v;
   // at rest on a crest no state near by has that energy: the loss has the rest, and is not below zero by rounding
   sequence.loss = std::fmax(0.0, sequence.loss + (wanted - energy));

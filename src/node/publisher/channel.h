@@ -125,9 +125,9 @@ class Channel {
         queue_size_(queue_size),
         role_(role),
         publisher_(advertise(node, name, queue_size)),
-        bag_topic_(make_bag_topic(publisher_.getTopic(), latched_)),
+        bag_topic_(make_bag_topic(node.resolveName(name), latched_)),  // at a shutdown the publisher has no name
         recorder_(recorder) {
-    latch_.set_publication(ros::TopicManager::instance()->lookupPublication(publisher_.getTopic()));
+    latch_.set_publication(ros::TopicManager::instance()->lookupPublication(bag_topic_->name));
   }
 
   // for_subscribers: waits until the slowest subscriber has taken up half of its queue, if it takes anything at all.

@@ -46,6 +46,18 @@ double scale_of(const Tip& tip) { return tip.stored_energy() + 0.5 * tip.eta() *
 // Under a load the rounding is that of the steps in contact.
 double rounding_of(const Tip& tip) { return (tip.model().y0 < 0.0 ? 1e-13 : 3e-14) * scale_of(tip); }
 
+// A kick before the first bounce has ended: the speed that the law gave it was off in the eighth digit.
+TEST(Segments, OfAHammerAtRestAreInBalance) {
+  Model model = model_with(0.3, 0.0, ModelKind::hammer);
+  model.y0 = -1.0, model.H = 0.9;
+  Tip tip(model, 0.0, FreeState{0.25, 0.0, 0.2, 0.0, 0.0}, 1e-2);
+  tip.set_bath(bath_of(0.1, 2.0));
+  Segments ended;
+  while (tip.advance_segment({2000, 0.0}, &ended) != Outcome::time_limit) {
+    for (const Segment& s : ended) ASSERT_NEAR(s.imbalance(), 0.0, rounding_of(tip));
+  }
+}
+
 TEST_P(SegmentsOf, EachIsInBalanceAndFollowsTheOneBefore) {
   Tip tip = SegmentsOf::tip();
   const double before = tip.stored_energy();

@@ -128,8 +128,9 @@ class Link:
         if is_of(message, subject[1]):
             epoch, _, table = read_impacts(message._buff)
             impacts = int.from_bytes(message._buff[:4], 'little'), epoch, table
-            if self._impacts and impacts[0] < self._impacts[-1][0]:
-                self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name
+            with contextlib.suppress(IndexError):  # the window may have taken them all
+                if impacts[0] < self._impacts[-1][0]:
+                    self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name
             self._impacts.append(impacts)
 
     def _keep_diagnostics(self, message):
