@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
       "stress", "Random commands to random models, until the time is up or something is violated (natural units).");
   app.option("seed", o.seed, "of the first scene; the next has the next");
   app.option("scenes", o.scenes, "how many; 0: as many as the time allows");
-  app.option("tau", o.tau, "model time of each scene");
+  app.option("tau", o.tau, "model time of each scene", {1, 1000000000});
   app.option("seconds", o.seconds, "no new scene after this time");
   app.flag("mica", o.mica, "the paper's model at cutoffs of 0.001 to 0.1, dragged at up to 9 a/tau either way");
   app.flag("shipped", o.shipped,

@@ -41,13 +41,17 @@ struct RateBins {
 
   void add(double age, double part);  // age: time since the start [tau], never decreasing by more than a bin
   void spread(double begin, double end, double part);  // evenly over [begin, end]; the next call begins at `end`
-  double std_error(double age) const;  // of the amount per tau, from the bins completed at `age`; NaN with fewer than 8
+  // Of the amount per tau, from the bins completed at `age`; NaN with fewer than 8. `mean`: up to `age`, within a bin.
+  // How far it is from that of these bins counts too: it alone is left where a motion repeats in each bin.
+  double std_error(double age) const;
+  double std_error(double age, double mean) const;
 
   double width = 1.0;  // [tau] a vertical period at first; it doubles at every merge
   std::array<double, kBins> amount{};
 
  private:
   void merge();
+  RateBins at(double age) const;
 };
 
 // The energy of the last `window` tau, in a ring of bins.

@@ -38,6 +38,7 @@ std::vector<double> parse_range(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream rest(text);
   for (std::string part; std::getline(rest, part, ':');) parts.push_back(part);
+  if (!text.empty() && text.back() == ':') parts.emplace_back();
   if (parts.size() == 1) return {number_in(text)};
   if (parts.size() != 3) refuse("must be one number or FROM:TO:STEP");
   const double from = number_in(parts[0]), to = number_in(parts[1]), step = number_in(parts[2]);

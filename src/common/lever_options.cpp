@@ -32,9 +32,9 @@ fs::path path_of(const std::string& option, const std::string& name) {
   return path;
 }
 
-// Whether ROS reads the same number: YAML 1.1 takes 013 for octal, and 2e-1 or a quoted number for text.
+// Whether ROS reads the same number: YAML 1.1 takes 013 for octal, and 2e-1, +.5 or a quoted number for text.
 bool is_number(const YAML::Node& node) {
-  static const std::regex kNumber(R"([-+]?(0|[1-9]\d*|\d+\.\d*([eE][-+]\d+)?|\.\d+([eE][-+]\d+)?))");
+  static const std::regex kNumber(R"([-+]?(0|[1-9]\d*|\d+\.\d*([eE][-+]\d+)?)|\.\d+([eE][-+]\d+)?)");
   return node.IsScalar() && node.Tag() == "?" && std::regex_match(node.Scalar(), kNumber);
 }
 

@@ -110,7 +110,7 @@ std::vector<ParameterError> find_faults(const SiBath& bath, const Units& units) 
       faults.push_back(fault);
       continue;
     }
-    const double most = std::round(kMaxTemperature * units.temperature());
+    const double most = std::floor(kMaxTemperature * units.temperature());
     faults.emplace_back("temperature_k", bath.temperature_k,
                         "must be between 0 and " + number_text(most) + " K: kT is at most " +
                             number_text(kMaxTemperature) + " m_tip a^2/tau^2 of this lever and crystal");

@@ -78,14 +78,13 @@ CurveFile::~CurveFile() {
 // The settings are written before the table: a table without them is none of ours.
 void CurveFile::claim(const std::string& identity) {
   const std::string path = path_ + ".settings";
-  const bool begun = has_content(path_);
-  if (begun && !has_content(path)) {
+  if (has_content(path_) && !has_content(path)) {
     throw taken("it is there already, without " + path + ", which says what it was made with");
   }
   lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) throw cannot("open", path);
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) throw std::runtime_error(path + " is being used by another run");
-  if (!begun) {
+  if (!has_content(path_)) {  // another run may have begun and ended before the lock was ours
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     if (!(file << identity << '\n' << std::flush)) throw cannot("write", path);
     return;

@@ -37,7 +37,7 @@ const char kDescription[] =
     "              surface phase, normal speed, tangential velocity, energy loss, kind (0 impact, 1 chatter sequence,\n"
     "              2 contact begun, 3 contact ended) and the count of bounces that it stands for\n"
     "  deflection  epoch, running index, time, vertical, lateral: a row for each sample\n"
-    "  friction    the fields of afm_emulator/Friction, a row for each batch\n"
+    "  friction    the estimates of afm_emulator/Friction, a row for each batch\n"
     "  commands    a row for everything that took effect: all that is in force from there on\n"
     "Lost messages show as gaps in the running index.\n"
     "Exit codes: 0 written; 1 the output cannot be written; 2 wrong arguments; 3 something is missing, or the bag\n"

@@ -4,6 +4,7 @@ import math
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
 
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest
 from topics import NAMESPACE, Topic, wait_until
@@ -23,10 +24,11 @@ class Diagnostics(NodeTest):
         self.assertEqual(self.emulator.stop(), 0)
 
     def expect(self, name, level, reason=''):
-        """The entry, as soon as it is so."""
+        """The last entry, as soon as it is so."""
         def found():
-            return next((s for m in self.diagnostics.messages for s in m.status
-                         if s.name == 'afm: ' + name and s.level == level and reason in s.message), None)
+            last = next((s for m in reversed(self.diagnostics.messages) for s in m.status if s.name == 'afm: ' + name),
+                        None)
+            return last if last and last.level == level and reason in last.message else None
         entry = wait_until(found, '%s: level %d, "%s"' % (name, level, reason))
         return {value.key: value.value for value in entry.values}
 
@@ -37,6 +39,9 @@ class Diagnostics(NodeTest):
         self.assertTrue(pace['scheduler'].startswith(('fifo', 'normal')))
         self.expect('numerics', OK)
         self.expect('recording', OK, 'not recording')
+        self.expect('commands', WARN, 'no drag velocity for 2 s')
+        self.emulator.call('reset', Trigger)
+        self.expect('commands', OK)
         self.expect('commands', WARN, 'no drag velocity for 2 s')
         self.emulator.drag(SPEED_UNIT)
         self.expect('commands', OK)

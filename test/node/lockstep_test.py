@@ -82,6 +82,7 @@ class Lockstep(EmulatorTest):
 
     def test_what_cannot_be_is_refused_by_name_and_nothing_advances(self):
         now = key(self.advance(0.01).end)
+        refused = self.topics['status'].messages[-1].refused_commands
         for name, request in (('drag_velocity', (0.01, 1.0)), ('rest_height', (0.01, math.nan, 1e-9)),
                               ('duration', (-0.01,)), ('duration', (math.nan,)), ('duration', (math.inf,)),
                               ('drag_velocity', (0.01, math.inf))):
@@ -89,6 +90,7 @@ class Lockstep(EmulatorTest):
             self.assertFalse(answer.success, request)
             self.assertIn(name, answer.message)
         self.topics['status'].wait_for_more(3)  # nor by itself
+        self.assertEqual(self.topics['status'].messages[-1].refused_commands, refused + 6)
         self.assertEqual(key(self.advance(0.0).begin), now)
 
     def test_the_clock_rises_over_periods_and_resets(self):
@@ -101,6 +103,7 @@ class Lockstep(EmulatorTest):
             stamp = self.topics['friction'].wait_for(lambda m: key(m.time) == key(answer.end), 'the end').header.stamp
             wait_until(lambda: stamp in [m.clock for m in clock.messages], 'the end of the period on the clock')
             self.begin()
+        self.assertLess(self.topics['status'].messages[-1].header.stamp.to_sec(), 1e6)  # of this clock too
         times = [m.clock.to_nsec() for m in clock.messages]
         self.assertGreater(times[0], 0)
         self.assertEqual(times, sorted(set(times)))

@@ -215,7 +215,7 @@ class Levers(unittest.TestCase):
             refused(lever, 'lateral_spring_constant_n_per_m')
             refused(lever + 'lateral_spring_constant_n_per_m: high\n', file.name,
                     'lateral_spring_constant_n_per_m must')
-            for number in ('013', '6e-1', '6.0e1', '"60"'):  # which ROS takes for octal, or for text
+            for number in ('013', '6e-1', '6.0e1', '"60"', '+.5'):  # which ROS takes for octal, or for text
                 refused(lever + 'lateral_spring_constant_n_per_m: %s\n' % number, 'as ROS reads it')
             refused(lever + 'stiffness: 3\n', file.name, 'stiffness')
             refused(lever + 'lateral_spring_constant_n_per_m: [\n', file.name, 'line 4')

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "afm/model.h"
 #include "afm/sample_grid.h"
@@ -50,10 +51,24 @@ void RateBins::spread(double begin, double end, double part) {
   }
 }
 
-double RateBins::std_error(double age) const {
+RateBins RateBins::at(double age) const {
   RateBins now = *this;  // nothing was added for a time: that counts as well
   while (age >= now.width * static_cast<double>(kBins)) now.merge();
+  return now;
+}
+
+double RateBins::std_error(double age) const {
+  const RateBins now = at(age);
   return standard_error(now.amount.data(), static_cast<std::size_t>(age / now.width), now.width);
+}
+
+double RateBins::std_error(double age, double mean) const {
+  const RateBins now = at(age);
+  const auto n = static_cast<std::size_t>(age / now.width);
+  if (n < kMinBins) return kNaN;
+  const double sum = std::accumulate(now.amount.data(), now.amount.data() + n, 0.0);
+  const double scatter = now.std_error(age), rest = mean - sum / (static_cast<double>(n) * now.width);
+  return std::sqrt(scatter * scatter + rest * rest);
 }
 
 namespace {
@@ -143,7 +158,7 @@ FrictionEstimate Friction::estimate(const ModelTime& now, const Segment& open) {
   const bool moving = sums_.eta != 0.0;
   const auto to_force = [&](double p) { return moving ? p / sums_.eta : 0.0; };
   const auto to_K_f = [&](double p) { return moving ? p / (sums_.eta * sums_.eta) : kNaN; };
-  const double error = sums_.energy_bins.std_error(age);
+  const double error = sums_.energy_bins.std_error(age, power);
   e.force = to_force(power);
   e.force_std_error = std::abs(to_force(error));
   e.K_f = to_K_f(power);

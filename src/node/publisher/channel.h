@@ -121,7 +121,7 @@ template <class Message>
 class Channel {
  public:
   Channel(ros::NodeHandle& node, Recorder& recorder, const char* name, unsigned queue_size, Role role = Role::ordinary)
-      : latched_(role != Role::ordinary && role != Role::batch_end),
+      : latched_(role == Role::configuration || role == Role::applied || role == Role::snapshot),
         queue_size_(queue_size),
         role_(role),
         publisher_(advertise(node, name, queue_size)),

@@ -40,8 +40,8 @@ class Publisher {
         configuration_(node, sources_.recorder, kConfigurationTopic, kLatchedQueueSize, Role::configuration),
         applied_(node, sources_.recorder, kAppliedTopic, kCommandQueueSize, Role::applied),
         snapshot_(node, sources_.recorder, "snapshot", kLatchedQueueSize, Role::snapshot),
-        deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize),
-        impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize),
+        deflection_(node, sources_.recorder, kDeflectionTopic, kBatchQueueSize, Role::batch),
+        impacts_(node, sources_.recorder, kImpactsTopic, kBatchQueueSize, Role::batch),
         friction_(node, sources_.recorder, kFrictionTopic, kBatchQueueSize, Role::batch_end),
         status_(node, sources_.recorder, "status", kStatusQueueSize),
         status_tracker_(parameters) {

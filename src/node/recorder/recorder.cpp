@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 // 134 MB: 7.7 s at 1 MHz of samples (docs/data/recording_cost.csv), longer than a disk stalls to flush its caches.
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
+constexpr std::chrono::seconds kBatchDeadline{1};  // for what is published at once, but where it waits for a slow disk
 // Messages: a batch has three, and ten seconds of a pause have as many as this. Commands do not count: many may come
 // within a batch.
 constexpr std::size_t kMostHeld = 100;
@@ -123,11 +124,12 @@ Recorder::Reply Recorder::start(const std::string& name) {
 Recorder::Reply Recorder::stop() {
   const std::lock_guard<std::mutex> one_at_a_time(orders_);  // or it would wait for a recording that began meanwhile
   std::unique_lock<std::mutex> lock(mutex_);
+  settled_.wait_for(lock, kBatchDeadline, [this] { return !bag_ || !is_within_batch_; });
   if (!bag_) return {false, error_.empty() ? "not recording" : "not recording any more: " + error_, ""};
   stopping_ = true;
   work_.notify_all();
   room_.notify_all();
-  if (!closed_.wait_for(lock, kCloseDeadline, [this] { return !bag_; })) {
+  if (!settled_.wait_for(lock, kCloseDeadline, [this] { return !bag_; })) {
     return {false, path_ + " is still being written to a slow disk", path_};
   }
   if (!error_.empty()) return {false, error_, path_};
@@ -151,6 +153,10 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const ros::S
   const Message message{topic, bytes};
   if (role == Role::configuration) configuration_ = message;
   if (role == Role::applied) applied_ = message;
+  if (role == Role::batch || role == Role::batch_end) {
+    is_within_batch_ = role == Role::batch;
+    settled_.notify_all();
+  }
   if (!bag_ || stopping_) return;
   if (role == Role::snapshot) {
     begun_ = true;
@@ -290,7 +296,7 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
   }
   error_ = std::move(error);
   stopping_ = quitting_;
-  closed_.notify_all();
+  settled_.notify_all();
 }
 
 }  // namespace afm::node

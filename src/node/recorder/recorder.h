@@ -17,9 +17,9 @@
 
 namespace afm::node {
 
-// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag, and
-// every bag of a split recording has a whole batch.
-enum class Role { ordinary, batch_end, configuration, applied, snapshot };
+// The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
+// Every bag of a split recording has a whole batch, and no recording is stopped within one.
+enum class Role { ordinary, batch, batch_end, configuration, applied, snapshot };
 
 class Recorder {
  public:
@@ -85,7 +85,7 @@ class Recorder {
   const std::function<bool()> ask_for_snapshot_;
   mutable std::mutex mutex_;
   std::mutex orders_;  // one start or stop at a time: both take their time
-  std::condition_variable work_, room_, closed_;
+  std::condition_variable work_, room_, settled_;  // settled: a batch has ended, or the bag is closed
   Message configuration_, applied_;  // the latest
   std::deque<Item> queue_;
   std::size_t queue_bytes_ = 0;
@@ -97,6 +97,7 @@ class Recorder {
   std::uint64_t messages_ = 0;                               // of this recording or the last one
   std::uint64_t dropped_messages_ = 0, dropped_before_ = 0;  // before this recording
   bool begun_ = false;                                       // its first snapshot has come
+  bool is_within_batch_ = false;
   bool stopping_ = false, quitting_ = false;
   // of the thread alone
   std::uint32_t part_ = 0;

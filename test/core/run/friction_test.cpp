@@ -59,7 +59,7 @@ TEST(Friction, HasTheSignOfTheDrag) {
   EXPECT_DOUBLE_EQ(e.force_std_error, 2.0 * e.K_f_std_error);
 }
 
-TEST(Friction, ItsErrorsAreThoseOfWholeBinsThatAreIndependent) {
+TEST(Friction, ItsErrorsAreThoseOfBinsThatAreIndependent) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> energy(0.0, 2.0);
   Friction friction = started(32.0, 1.0);  // both have bins of a tau
@@ -77,9 +77,22 @@ TEST(Friction, ItsErrorsAreThoseOfWholeBinsThatAreIndependent) {
       for (const double bin : bins) squares += (bin - mean) * (bin - mean);
       return std::sqrt(squares / (last - 1) / last);
     };
+    const double mean = std::accumulate(energies.begin(), energies.end(), 0.0) / n;
     if (n < 8) continue;
-    EXPECT_NEAR(e.K_f_std_error, expected(n), 1e-12) << n;
+    EXPECT_NEAR(e.K_f_std_error, std::hypot(expected(n), e.K_f - mean), 1e-12) << n;
+    EXPECT_NEAR(friction.estimate(time_of(n), Segment()).K_f_std_error, expected(n), 1e-12) << n;
     EXPECT_NEAR(e.window_K_f_std_error, expected(std::min(n, 32)), 1e-12) << n;
+  }
+}
+
+// Its error was zero, as no bin differed from another.
+TEST(Friction, OfAMotionThatRepeatsInEachBinIsWithinItsError) {
+  for (const double age : {100.3, 101.7, 103.3}) {
+    Friction friction = started(32.0, 1.0);
+    for (int i = 0; i + 0.25 < age; ++i) friction.add(impact_at(i + 0.25, 1.0));
+    const FrictionEstimate e = friction.estimate(time_of(age), Segment());
+    EXPECT_GT(std::abs(e.K_f - 1.0), 1e-3) << age;
+    EXPECT_GE(e.K_f_std_error, std::abs(e.K_f - 1.0) - 1e-12) << age;
   }
 }
 
