@@ -333,7 +333,7 @@ class Recording:
                   for name in ('vertical', 'lateral', 'impacts')}
         run = parts[-1]._replace(begin=parts[0].begin, first_sample=parts[0].first_sample,
                                  first_sample_time=parts[0].first_sample_time, first_impact=parts[0].first_impact,
-                                 **joined)
+                                 holder=parts[0].holder, **joined)
         self._compare('Deflection', run.first_sample, [run.vertical, run.lateral], self.units.length)
         self._compare('ImpactArray', run.first_impact, [run.impacts['energy_loss']], self.units.energy)
         return run

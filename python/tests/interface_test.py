@@ -266,7 +266,8 @@ class Arrays(unittest.TestCase):
         tip.samples(0.1, 1000)
         del tip
         np.testing.assert_array_equal(samples.vertical, before)
-        self.assertEqual((samples.times.shape, samples.times[0]), ((1000,), 0.0))
+        self.assertEqual(samples.times.shape, (1000,))
+        np.testing.assert_allclose(samples.times, 0.1 * np.arange(1000))
 
     def test_shapes_are_broadcast(self):
         table = afm.next_impact(eta=3.4, phase=np.linspace(0.1, 0.4, 3)[:, None], extension=0, u=3.4, w=np.arange(3, 7))
@@ -354,11 +355,13 @@ class Arrays(unittest.TestCase):
         self.assertEqual([ensemble[i].state for i in range(len(ensemble))], [tip.state for tip in alone])
         ensemble.drag(1.0)
         self.assertEqual({tip.eta for tip in ensemble}, {1.0})
+        self.assertEqual([ensemble[-i].state for i in (1, 2, 3)], [tip.state for tip in alone[::-1]])
         self.assertRaises(afm.ParameterError, ensemble.advance, 100)
 
     def test_a_bath_of_a_curve_is_that_of_its_numbers(self):
-        by_bath = afm.friction_curve(2.0, bath=afm.Bath(0.926, 100, seed=4), duration=100)
-        by_numbers = afm.friction_curve(2.0, temperature=0.926, quality_factor=100, seed=4, duration=100)
+        by_bath = afm.friction_curve(2.0, bath=afm.Bath(0.926, 100, 50, 20, seed=4), duration=100)
+        by_numbers = afm.friction_curve(2.0, temperature=0.926, quality_factor=100, lateral_quality_factor=50,
+                                        kicks_per_tau=20, seed=4, duration=100)
         self.assertEqual(str(by_bath), str(by_numbers))
         self.assertRaises(afm.ParameterError, afm.friction_curve, 2.0, bath=afm.Bath(0.9, 9), temperature=0.1)
 
@@ -377,6 +380,40 @@ class Arrays(unittest.TestCase):
             afm.attractors(3.75, starts=[[0, 0, -1, 0, 0]])
         self.assertEqual(caught.exception.name, 'y')
 
+    def test_a_batch_says_where_it_was(self):
+        run = afm.Run(eta=2.0, phase=0.125, sample_period=0.03, samples_per_batch=100)
+        for i in range(3):
+            batch = run.advance()
+            self.assertEqual((batch.eta, batch.first_sample), (2.0, 100 * i))
+            self.assertAlmostEqual(float(batch.begin), 3.0 * i, delta=1e-12)
+            self.assertAlmostEqual(batch.holder, 0.125 + 2.0 * float(batch.first_sample_time), delta=1e-12)
+            self.assertAlmostEqual(float(batch.first_sample_time), 3.0 * i, delta=1e-12)
+        self.assertEqual((run.samples, run.impacts), (300, batch.first_impact + len(batch.impacts)))
+
+    def test_a_change_is_of_what_it_names(self):
+        tip = afm.Tip(eta=2.0)
+        tip.change(gamma=0.5, rest_height=-0.02)
+        self.assertEqual(tip.model, afm.Model(gamma=0.5, rest_height=-0.02))
+        tip.change(cutoff=0.1)
+        self.assertEqual(tip.model, afm.Model(gamma=0.5, cutoff=0.1, rest_height=-0.02))
+
+    def test_a_tip_is_in_contact_from_where_it_begins_to_where_it_ends(self):
+        tip, seen = afm.Tip(afm.Model(cutoff=0.05), eta=0.3), set()
+        for _ in range(2000):
+            event, = tip.advance(10000, most_events=1)
+            seen.add(afm.Kind(event['kind']))
+            self.assertEqual(tip.in_contact, event['kind'] == afm.Kind.CONTACT_BEGUN)
+        self.assertLessEqual({afm.Kind.CONTACT_BEGUN, afm.Kind.CONTACT_ENDED}, seen)
+
+    def test_the_exponents_of_an_orbit_are_its_multipliers(self):
+        found = afm.lyapunov(2.0, duration=700.0, transient=300.0)
+        row, = afm.attractors(2.0, starts=[[0.25, 0, 0.2, 2.0, 0]])
+        self.assertEqual((found.outcome, found.rank), ('measured', 4))
+        self.assertAlmostEqual(found.duration, 700.0, delta=1.0)
+        np.testing.assert_allclose(found.exponents, [row['lyapunov_%d' % i] for i in range(1, 5)], atol=0.01)
+        self.assertTrue((found.std_errors >= 0).all() and (found.std_errors < 0.1).all())
+        self.assertEqual(afm.lyapunov(3.4, most_events=10).outcome, 'budget_spent')
+
     def test_models_are_values(self):
         for value, other in ((afm.Model(gamma=0.1), afm.Model()), (afm.Bath(0.3, 50), afm.Bath()),
                              (afm.Units(lattice_spacing_m=0.399e-9), afm.Units())):
@@ -393,6 +430,7 @@ class Arrays(unittest.TestCase):
     def test_model_times_keep_their_digits(self):
         late = afm.ModelTime(10**12, 0.1)
         self.assertEqual(late.after(0.95), afm.ModelTime(10**12 + 1, 0.1 + 0.95 - 1.0))
+        self.assertEqual(afm.ModelTime(5, 0.0).after(-1e-17), afm.ModelTime(5, 0.0))
 
 
 class Stubs(unittest.TestCase):

@@ -51,6 +51,10 @@ class PythonModule(NodeTest):
                 mine = getattr(run, name)[first:first + len(m.vertical)] * units.length
                 np.testing.assert_array_equal(mine, getattr(m, name), '%s from sample %d on' % (name, m.first_sample))
             samples += len(m.vertical)
+        first = messages['deflection'][0]
+        if first.first_sample == run.first_sample:
+            self.assertEqual((first.time.tau, first.time.phase), tuple(run.first_sample_time))
+            self.assertEqual(first.holder_position, run.holder * units.length)
         impacts = [(m.first_index + i, impact) for m in messages['impacts'] for i, impact in enumerate(m.impacts)]
         mine = run.impacts[[index - run.first_impact for index, _ in impacts]]
         for name, unit in (('normal_speed', units.velocity), ('tangential_velocity', units.velocity),

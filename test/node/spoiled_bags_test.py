@@ -423,6 +423,14 @@ class SpoiledBags(SpoiledBag):
             self.assertEqual(answer.code, DIFFERS, answer.text)
             self.assertIn('1 numbers of %s are those of two messages' % type(entry.message()).__name__, answer.text)
 
+    def test_the_worse_of_two_recordings_decides(self):
+        self.of('friction')[30].edit(k_f=1.0)
+        both = self.write('bad.bag'), self.good
+        for paths in (both, both[::-1]):
+            answer = checks.replay_check(*paths)
+            self.assertEqual(answer.code, DIFFERS, answer.text)
+            self.assertEqual(answer.text.count('IDENTICAL'), 1, answer.text)
+
     def test_latched_messages_come_again(self):
         """The parts of a split recording merged, or played and recorded again, or rosbag record repeats the first."""
         for at in self.entries.index(self.of('friction')[39]) + 1, len(self.entries) - 1:
@@ -472,6 +480,9 @@ class SpoiledBags(SpoiledBag):
                                ('K_f', lambda: scale('friction', 60, k_f=1 + 1e-8)),
                                ('K_f', lambda: scale('friction', 60, k_f_work=1 + 1e-8)),
                                ('energy', lambda: scale('friction', 60, mean_lateral_force=1.1, k_f_work=1.1)),
+                               ('complete', lambda: [e.edit(first_sample=e.message().first_sample + 1)
+                                                     for e in self.of('deflection')[50:]]),
+                               ('counters', lambda: self.of('status')[0].edit(worst_penetration=1e-18)),
                                ('counters', lambda: self.of('status')[0].edit(search_failures=1))):  # a reset follows
             with self.subTest(subject=subject):
                 self.setUp()

@@ -119,6 +119,7 @@ class Refusals(Case):
         self.assert_refused(['--cutoff', 'nan'], 'cutoff = nan', 'not a number')
         self.assert_refused(['--cutoff', '-1'], 'cutoff = -1')
         self.assert_refused(['--transient', '-1'], 'transient = -1')
+        self.assert_refused(['--frequency-ratio', '-1'], 'frequency-ratio = -1')
         self.assert_refused(['--duration', 'x'], 'duration', 'x')
         self.assert_refused(['--threads', '-1'], 'threads = -1')
         self.assert_refused(['--seed', '-1'], 'seed = -1')
@@ -157,7 +158,9 @@ class Refusals(Case):
         table, curve = self.table(MAP, 'curve.csv'), self.directory / 'curve.csv'
         self.assertEqual(self.table(MAP, 'curve.csv'), table)
         self.assertEqual(self.run_tool([*MAP[2:], '--eta', '1.5:5.5:0.5'], 'curve.csv').returncode, 2)
-        for extra in (['--seed', '2'], ['--sweep', 'up'], ['--si']):
+        heat = ['--quality-factor', '50']
+        for extra in (['--seed', '2'], ['--sweep', 'up'], ['--si'], ['--model', 'hammer'], heat,
+                      ['--temperature', '0.1', *heat], ['--kicks-per-tau', '20', *heat]):
             done = self.run_tool([*MAP, *extra], 'curve.csv')
             self.assertEqual(done.returncode, 2)
             self.assertIn(b'other settings', done.stderr)
