@@ -279,8 +279,12 @@ class Claims:
         self.assertIn('between 0 and 1.57', tip.call('control 4'))
         friction = Topic('friction')
         friction.wait_for_connection()
-        self.numbers(tip.call('mean_force 3 1.6'))
-        friction.wait_for(lambda m: abs((m.time.tau + m.time.phase) * TAU_S - 4.6) < 1e-9, '4.6 s of model time')
+        force, = self.numbers(tip.call('mean_force 3 1.6'))
+
+        def impulse(seconds):
+            return seconds * friction.wait_for(lambda m: abs((m.time.tau + m.time.phase) * TAU_S - seconds) < 1e-9,
+                                               '%g s of model time' % seconds).mean_lateral_force
+        self.assertAlmostEqual(3.0 * force / (impulse(4.6) - impulse(1.6)), 1.0, delta=1e-6)
 
     def test_a_mean_force_is_of_what_was_commanded(self):
         """Once it went over a reset, and over commands of others."""
