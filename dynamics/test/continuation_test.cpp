@@ -61,7 +61,7 @@ TEST(Continuation, EventsLieOnTheUnitCircle) {
   const BranchEvent* torus = find(up, BifurcationKind::torus);
   ASSERT_NE(torus, nullptr);
   EXPECT_NEAR(std::abs(torus->at.orbit.multipliers[0]), 1.0, 1e-7);
-  EXPECT_GT(torus->turns, 0.0);
+  EXPECT_NEAR(std::cos(kTwoPi * torus->turns), torus->at.orbit.multipliers[0].real(), 1e-6);
   const Branch down = continue_orbit(Model(), 2.0, even_orbit(2.0), Parameter::eta, 1.0);
   const BranchEvent* doubling = find(down, BifurcationKind::period_doubling);
   ASSERT_NE(doubling, nullptr);

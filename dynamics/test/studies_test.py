@@ -38,6 +38,10 @@ def run(tool, *arguments):
     return run_tool(os.path.join(TOOLS, tool), *arguments)
 
 
+def multipliers(row):
+    return [complex(float(row['multiplier_%d_re' % i]), float(row['multiplier_%d_im' % i])) for i in range(1, 5)]
+
+
 class Refusals(unittest.TestCase):
     def test_bad_input_is_named(self):
         for tool, cases in REFUSED.items():
@@ -67,13 +71,26 @@ class Refusals(unittest.TestCase):
 
 
 class Attractors(unittest.TestCase):
+    few = ['--starts', '2', '--friction-duration', '50', '--relative-cutoff', '--cutoff', '0.1']
+
     def test_any_number_of_threads_gives_the_same_table(self):
-        grid = ['--eta', '1:3:0.5', '--gamma', '0.6:0.7:0.1', '--starts', '2', '--friction-duration', '50',
-                '--relative-cutoff', '--cutoff', '0.1']
+        grid = ['--eta', '1:3:0.5', '--gamma', '0.6:0.7:0.1', *self.few]
         one = run('attractors', *grid, '--threads', '1')
         self.assertEqual(one, run('attractors', *grid, '--threads', '3'))
         self.assertGreaterEqual(len(one[1]), 10)
         self.assertEqual(float(one[1][0]['cutoff']), 0.1)
+
+    def test_a_period_has_impacts_a_circle_a_rotation_number_and_rest_contact(self):
+        _, rows, _ = run('attractors', '--eta', '1:2.5:0.5', '--gamma', '0.6', *self.few)
+        of_kind = {row['attractor']: row for row in rows}
+        period = of_kind['period-4']
+        self.assertEqual((period['impacts'], period['cells'], period['contact_share']), ('4', '3', '0'))
+        self.assertGreater(float(of_kind['quasi-periodic']['rotation_number']), 0.0)
+        self.assertGreater(float(of_kind['contact']['contact_share']), 0.9)
+
+    def test_a_relative_cutoff_is_the_same_dragged_forth_and_back(self):
+        _, rows, _ = run('attractors', '--eta', '-2:2:4', *self.few)
+        self.assertEqual({(row['eta'], float(row['cutoff'])) for row in rows}, {('-2', 0.2), ('2', 0.2)})
 
 
 class Orbits(unittest.TestCase):
@@ -87,10 +104,41 @@ class Orbits(unittest.TestCase):
                               ('multiplier_1_re', -0.5274355542), ('multiplier_1_im', 1.396024991)):
             self.assertAlmostEqual(float(rows[1][column]), value, delta=1e-9)
         for row in rows:
-            sizes = [abs(complex(float(row['multiplier_%d_re' % i]), float(row['multiplier_%d_im' % i])))
-                     for i in range(1, 5)]
+            sizes = [abs(multiplier) for multiplier in multipliers(row)]
             self.assertTrue(all(a > b * (1 - 1e-9) for a, b in zip(sizes, sizes[1:])))
         self.assertIn('length 2: ', report)
+
+    def test_averages_begin_with_the_one_orbit_of_an_impact_on_the_attractor(self):
+        with tempfile.NamedTemporaryFile('r', suffix='.csv') as file:
+            _, (_, orbit), _ = run('periodic_orbits', '--max-length', '1', '--averages', file.name, *ORBITS)
+            first = {row['method']: row for row in csv.DictReader(file)}
+        a, b, c, d = multipliers(orbit)
+        for method, weight in (('zeta', abs(a * b)), ('determinant', abs((1 - a) * (1 - b) * (1 - c) * (1 - d)))):
+            self.assertAlmostEqual(float(first[method]['k_f']), float(orbit['k_f']), delta=1e-12)
+            self.assertAlmostEqual(float(first[method]['conservation']), 1.0 - 1.0 / weight, delta=1e-9)
+
+    def test_a_bifurcation_is_named_by_its_multipliers_or_impacts(self):
+        miss = {'saddle-node': lambda row: min(abs(m - 1.0) for m in multipliers(row)),
+                'period doubling': lambda row: min(abs(m + 1.0) for m in multipliers(row)),
+                'torus': lambda row: min(abs(abs(m) - 1.0) + (m.imag == 0.0) for m in multipliers(row)),
+                'corner': lambda row: abs(float(row['slowest_impact']) - 0.05),
+                'grazing': lambda row: min(float(row['slowest_impact']) / 5.0, float(row['clearance']))}
+        ways = ['--eta 3.4 --length 4 --to 5', '--eta 2 --to 1']
+        rows = [row for way in ways for row in run('continue_orbits', *way.split(), '--guesses', '100')[1]]
+        self.assertEqual({row['event'] for row in rows}, {'', *miss, 'end: grazing'})
+        for row in rows:
+            self.assertLess(miss.get(row['event'], lambda row: 0.0)(row), 1e-3, row)
+
+    def test_a_cutoff_that_varies_passes_the_speed_of_the_impacts_until_the_steps_are_spent(self):
+        _, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'cutoff', '--to', '1000', '--guesses', '50')
+        corner, = [row for row in rows if row['event'] == 'corner']
+        self.assertAlmostEqual(float(corner['value']), 4.0 * SLOPE / (0.3 * math.hypot(1.0, SLOPE)), delta=1e-8)
+        self.assertEqual(rows[-1]['event'], 'end: steps spent')
+
+    def test_orbits_that_turn_back_to_gamma_1_are_lost_there(self):
+        _, rows, _ = run('continue_orbits', '--eta', '4.5', '--length', '3', '--vary', 'gamma', '--to', '0')
+        self.assertEqual(rows[-1]['event'], 'end: lost')
+        self.assertAlmostEqual(float(rows[-1]['value']), 1.0, delta=1e-9)
 
     def test_the_orbit_at_eta_2_dies_in_a_graze(self):
         code, rows, _ = run('continue_orbits', '--eta', '2', '--vary', 'gamma', '--to', '0.1', '--guesses', '100')
@@ -177,9 +225,12 @@ class Symbols(unittest.TestCase):
         letters = ''.join(row['letter'] for row in section)
         self.assertFalse([word for word in forbidden if word in letters])
         self.assertEqual(section[0]['phase_next'], section[1]['phase'])
+        self.assertEqual(section[0]['gap_rate_next'], section[1]['gap_rate'])
+        self.assertTrue(all(float(row['spread']) < float(row['largest_spread']) for row in rows))
         attractor = [row for row in tables['orbits'] if float(row['approach']) < 0.1]
         self.assertEqual([row['length'] for row in attractor], ['1', '3', '4'])
         self.assertEqual({row['orbits_with_it'] for row in attractor}, {'1'})
+        self.assertEqual([row['cells'] for row in attractor], ['2', '4', '6'])
 
 
 if __name__ == '__main__':

@@ -82,6 +82,19 @@ TEST(SymbolicDynamics, AtEta3_2OrbitsHaveNamesAndGiveTheFriction) {
   EXPECT_NEAR(zeta_averages(orbits, 3.2, 7).back().K_f, kDirect, 0.01 * kDirect);
 }
 
+TEST(SymbolicDynamics, TheErrorOfTheExponentIsItsSpreadOverSeeds) {
+  constexpr std::uint64_t kSeeds = 10;
+  double sum = 0.0, squares = 0.0, errors = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const SymbolicRun run = run_on_section(PoincareMap(hammer(), 3.2), 20000, seed);
+    sum += run.exponent;
+    squares += run.exponent * run.exponent;
+    errors += run.exponent_std_error * run.exponent_std_error;
+  }
+  const double variance = (squares - sum * sum / kSeeds) / (kSeeds - 1);
+  EXPECT_NEAR(std::sqrt(errors / kSeeds / variance), 1.0, 0.6);
+}
+
 // A map that settles into contact has no section to cut.
 TEST(SymbolicDynamics, SaysWhereThereIsNone) {
   EXPECT_FALSE(run_on_section(PoincareMap(hammer(0.7, 0.0), 0.0), 100000, 1).on_section);
