@@ -41,9 +41,9 @@ struct RateBins {
 
   void add(double age, double part);  // age: time since the start [tau], never decreasing by more than a bin
   void spread(double begin, double end, double part);  // evenly over [begin, end]; the next call begins at `end`
-  // Of the amount per tau, from the bins completed at `age`; NaN with fewer than 8. `mean`: up to `age`, within a bin.
-  // How far it is from that of these bins counts too: it alone is left where a motion repeats in each bin.
-  double std_error(double age) const;
+  double std_error(double age) const;  // of the amount per tau, from the bins completed at `age`; NaN with fewer than 8
+  // The same of `mean`, the amount per tau up to `age`: with how far this is from the mean of these bins, which alone
+  // is left where a motion repeats in each bin.
   double std_error(double age, double mean) const;
 
   double width = 1.0;  // [tau] a vertical period at first; it doubles at every merge

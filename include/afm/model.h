@@ -48,7 +48,7 @@ inline double is_free_along_x(const Model& model) { return model.kind == ModelKi
 inline bool is_held_down(const Model& model) { return model.y0 < -model.H; }
 
 // The extension of the lateral spring at which the load can hold the tip on the steepest flank no longer [a]. The load
-// k a |y0| times the slope 2 pi H over the lateral spring constant; 0 without a load.
+// k a |y0| times the slope 2 pi H over the lateral spring constant; 0 without a load, and of a hammer.
 inline double longest_extension(const Model& model) {
   if (model.kind == ModelKind::hammer) return 0.0;
   return std::max(0.0, -model.y0) * kTwoPi * model.H / (model.frequency_ratio * model.frequency_ratio);

@@ -156,9 +156,9 @@ batch, after which it ends early; contact_tolerance as of Tip. Throws ParameterE
       .def("advance", &advance, "time"_a = py::none(), "impacts"_a = py::none(),
            R"(To a model time [tau] (a number, or a ModelTime); None: to the end of the batch, or of its impact_budget.
 
-With `impacts`, it ends earlier once so many impacts have happened. Returns a Batch: begin, end, first_sample,
-first_sample_time, sample_period [tau], vertical and lateral [a], first_impact, impacts (as Tip.advance), eta, holder,
-friction (a dict with the fields of the topic, in natural units).)")
+With `impacts`, it ends earlier once so many impacts have happened; without a time the budget holds too. Returns a
+Batch: begin, end, first_sample, first_sample_time, sample_period [tau], vertical and lateral [a], first_impact,
+impacts (as Tip.advance), eta, holder, friction (a dict with the fields of the topic, in natural units).)")
       .def("apply", &apply,
            R"(Other settings from now on; those that are not named stay.
 

@@ -18,18 +18,18 @@ class Diagnostics(NodeTest):
         self.diagnostics = Topic('/diagnostics', DiagnosticArray)
         self.diagnostics.wait_for_connection()
         Topic('deflection').wait_for()
+        self.found = 0
 
     def end(self):
         self.emulator.assert_alive()
         self.assertEqual(self.emulator.stop(), 0)
 
     def expect(self, name, level, reason=''):
-        """The last entry, as soon as it is so."""
+        """The next entry that is so, behind the message that was found last."""
         def found():
-            last = next((s for m in reversed(self.diagnostics.messages) for s in m.status if s.name == 'afm: ' + name),
-                        None)
-            return last if last and last.level == level and reason in last.message else None
-        entry = wait_until(found, '%s: level %d, "%s"' % (name, level, reason))
+            return next(((i, s) for i, m in enumerate(self.diagnostics.messages) for s in m.status if i >= self.found
+                         and s.name == 'afm: ' + name and s.level == level and reason in s.message), None)
+        self.found, entry = wait_until(found, '%s: level %d, "%s"' % (name, level, reason))
         return {value.key: value.value for value in entry.values}
 
     def test_well_then_refusing_then_silent(self):

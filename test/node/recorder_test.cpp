@@ -161,19 +161,24 @@ TEST_F(RecorderTest, EndsWhereItsBagIsTakenAwayAndCanBeginAgain) {
   EXPECT_TRUE(fs::exists(file("again.bag")));
 }
 
-// One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
 // Its last batch had samples and impacts, but not where it ended.
 TEST_F(RecorderTest, AStopWaitsForTheEndOfABatch) {
   Recorder recorder(settings(), can_be_asked);
   begin(recorder);
   recorder.record(topic_, bytes_, Role::batch, false);
-  std::future<Recorder::Reply> stop = std::async(std::launch::async, [&] { return recorder.stop(); });
+  std::promise<void> begun;
+  std::future<Recorder::Reply> stop = std::async(std::launch::async, [&] {
+    begun.set_value();
+    return recorder.stop();
+  });
+  begun.get_future().wait();
   EXPECT_EQ(stop.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
   recorder.record(topic_, bytes_, Role::batch_end, false);
   EXPECT_TRUE(stop.get().success);
   EXPECT_EQ(messages_in_bag("run.bag"), 5u);
 }
 
+// One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
 TEST_F(RecorderTest, EveryBagOfASplitRecordingHasAWholeBatch) {
   for (const bool whole : {false, true}) {
     std::promise<void> asked;

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 // 134 MB: 7.7 s at 1 MHz of samples (docs/data/recording_cost.csv), longer than a disk stalls to flush its caches.
 constexpr std::size_t kMaxQueueBytes = 128 * 1024 * 1024;
 constexpr std::chrono::seconds kCloseDeadline{30};
-constexpr std::chrono::seconds kBatchDeadline{1};  // for what is published at once, but where it waits for a slow disk
+constexpr std::chrono::seconds kBatchDeadline{5};  // a disk may hold it up, or a subscriber twice for a second
 // Messages: a batch has three, and ten seconds of a pause have as many as this. Commands do not count: many may come
 // within a batch.
 constexpr std::size_t kMostHeld = 100;

@@ -18,7 +18,7 @@
 namespace afm::node {
 
 // The role of a message: configuration and what is applied stand before the snapshot at the beginning of every bag.
-// Every bag of a split recording has a whole batch, and no recording is stopped within one.
+// Every bag of a split recording has a whole batch, and a recording that is stopped waits for the end of the last one.
 enum class Role { ordinary, batch, batch_end, configuration, applied, snapshot };
 
 class Recorder {

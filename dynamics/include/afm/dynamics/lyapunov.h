@@ -40,7 +40,8 @@ struct LyapunovSpectrum {
   std::array<double, 4> exponents{kNaN, kNaN, kNaN, kNaN};
   std::array<double, 4> std_errors{kNaN, kNaN, kNaN, kNaN};
   // The sum of the exponents, of a hammer of its two, from the restitution alone: an impact shrinks the volume by
-  // gamma_eff times the slope of the law, a flight keeps it. NaN after a chatter sequence; minus infinity after contact.
+  // gamma_eff times the slope of the law, a flight keeps it. NaN after a chatter sequence; minus infinity after
+  // contact.
   double volume_rate = kNaN;
   double duration = 0.0;  // measured [tau]
   std::uint64_t events = 0;
