@@ -38,6 +38,11 @@ TEST(TableWriter, ANotANumberHasNoSign) {
 TEST(TableUnits, NamesTellTheUnit) {
   EXPECT_EQ(TableUnits::si().header(kColumns), "drag_velocity_m_per_s,attractor,k_f_kg_per_s");
   EXPECT_EQ(TableUnits::into_natural(kMica).header(kColumns), "drag_velocity_a_per_tau,attractor,k_f_m_tip_per_tau");
+  std::vector<Column> columns;
+  for (std::size_t i = 0; i < kQuantities; ++i) columns.push_back({"q", static_cast<Quantity>(i)});
+  EXPECT_EQ(TableUnits::si().header(columns), "q,q_m,q_s,q_m_per_s,q_j,q_n,q_kg_per_s,q_k,q_per_s");
+  EXPECT_EQ(TableUnits::into_natural(kMica).header(columns), "q,q_a,q_tau,q_a_per_tau,q_m_tip_a2_per_tau2,"
+            "q_m_tip_a_per_tau2,q_m_tip_per_tau,q_m_tip_a2_per_tau2,q_per_tau");
 }
 
 TEST(TableUnits, EveryQuantityComesBack) {

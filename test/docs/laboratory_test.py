@@ -10,10 +10,12 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 ROOT, BUILD, TOOLS = (Path(path).resolve() for path in sys.argv[1:4])
 sys.path.insert(0, str(ROOT / 'workflow'))
 import registry  # noqa: E402
+import results  # noqa: E402
 import summaries  # noqa: E402,F401  (registers the tables that are rendered)
 
 SKIPPED = 77
@@ -68,6 +70,25 @@ class Laboratory(unittest.TestCase):
     @staticmethod
     def out(name):
         return BUILD / 'laboratory_test/laboratory/quick' / name
+
+    def test_of_several_runs_the_best_counts(self):
+        columns = 'name iterations real_time cpu_time time_unit times_real_time slowest_tau_us'.split()
+        tables = SimpleNamespace(quick=False, strings=lambda n: [dict.fromkeys(columns, ('10', '9', '11')[int(n[-1])])])
+        self.assertEqual([row['cpu_time'] for row in results.verbs(tables)], ['9'])
+        row, = results.real_time(tables)
+        self.assertEqual((row['times_real_time'], row['slowest_tau_us']), ('11', '9'))
+
+    def test_what_failed_is_not_told_as_sound(self):
+        tables = SimpleNamespace(
+            stamp=lambda name: '# run of `x`, commit 1, a processor, 2000-01-01%s, 1 s' % (
+                ', it ended with 1' if name in ('stress_mica', 'leaks') else ''),
+            text=lambda name: '2 scenes of 3 tau: 4 commands, 5 segments, 6 impacts standing for 7 bounces, '
+                              'in a tau 8, deepest 9 a, worst imbalance 10')
+        self.assertEqual([row['violations'] for row in results.stress(tables)], ['0', 'at least 1', '0', '0'])
+        self.assertEqual([row['what'] for row in results.reliability(tables) if 'FAILED: ' in row['result']], ['leaks'])
+        ran = 'stat::number_of_executed_units: 1234567\n'
+        self.assertEqual([results.fuzz_result(text) for text in ('', ran, ran + 'SUMMARY: timeout\n')], [
+            'nothing was fuzzed', '1,234,567 inputs: no finding', '1,234,567 inputs: FAILED: SUMMARY: timeout'])
 
 
 if __name__ == '__main__':

@@ -12,6 +12,13 @@ from topics import Topic
 
 UNITS = ('_m_per_s', '_kg_per_s', '_per_s', '_j', '_n', '_m', '_s')  # in the names of columns
 OTHER_NAMES = {'sample_rate': 'sample_rate_hz'}
+NAMES = {
+    'impacts': 'epoch,tau,phase,time_s,index,surface_phase,normal_speed_m_per_s,tangential_velocity_m_per_s,'
+               'energy_loss_j,kind,count',
+    'friction': 'epoch,tau,phase,time_s,impact_count,drag_velocity_m_per_s,eta,force_n,force_std_error_n,k_f_kg_per_s,'
+                'k_f_std_error_kg_per_s,energy_loss_j,window_force_n,window_k_f_kg_per_s,window_k_f_std_error_kg_per_s,'
+                'mean_lateral_force_n,mean_lateral_force_std_error_n,k_f_work_kg_per_s,k_f_work_std_error_kg_per_s,'
+                'mean_normal_force_n,heat_to_bath_j'}
 OF_THE_ROW = {'epoch', 'index', 'tau', 'phase', 'time_s'}  # the others are fields of the message
 NOT_IN_TABLE = {'header', 'epoch', 'begin', 'time', 'first_impact', 'impact_limit', 'k_f_natural', 'window_k_f_natural',
                 'k_f_work_natural'}
@@ -82,6 +89,8 @@ class BagToCsv(NodeTest):
             self.assertEqual(len(rows), len(found), topic)
             for row, message in zip(rows, found):
                 self.assert_row(row, message)
+        for topic, names in NAMES.items():
+            self.assertEqual(','.join(self.table(topic)[0]), names)
 
     def check_deflection(self):
         found = [(b.first_sample + i, (b.time.tau + b.time.phase) * TAU_S + i * b.sample_period, v, w)
@@ -150,6 +159,11 @@ class Incomplete(SpoiledBag):
         code, rows, complaint = call(self.write(), '--topic', 'friction')
         self.assertEqual((code, len(rows)), (SOUND, len(self.of('friction'))))
         self.assertIn('note: 2 starts of the node', complaint)
+
+    def test_runs_of_two_frequencies_do_not_mix(self):
+        self.of('configuration')[0].edit(omega_v_rad_per_s=80e3, tip_mass_kg=204e-12)  # of one unit of friction
+        self.assertIn('different lattice spacings, frequencies or tip masses',
+                      call(self.write(), '--topic', 'friction')[2])
 
     def test_a_bag_without_a_topic(self):
         self.remove(*self.of('deflection'), *self.of('snapshot'))

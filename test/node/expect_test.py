@@ -188,6 +188,12 @@ class Expect(NodeTest):
         node = self.sound_of('/sound_11', (0, 1, {}), (0, 2, {'real_time_factor': 0.94, 'lag': 0.2}))
         self.assert_fails(node, 'real time is not kept')
 
+    def test_what_must_stay_zero(self):
+        for name, said, words in (('/sound_12', {'budget_exhausted': 1}, 'budget_exhausted = 1 more'),
+                                  ('/sound_13', {'dropped_messages': 1}, 'dropped_messages = 1 more'),
+                                  ('/sound_14', {'worst_penetration': 5e-19}, 'the tip was 1e-09 a below')):
+            self.assert_fails(self.sound_of(name, (0, 1, {}), (0, 2, said)), words)
+
     def test_an_emulator_that_is_started_again(self):
         """Its counters begin at zero, and so does its time."""
         first = self.start(Emulator())

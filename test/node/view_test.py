@@ -144,6 +144,15 @@ class SlowMotion(ViewTest):
             self.stepped(4)
             self.assert_shows_all()
 
+    def test_words_and_figures_beside_the_surface(self):
+        self.emulator.set(temperature_k=300.0, quality_factor=100.0)
+        self.stepped(9.5)
+        shown = {name: marker.text for name, marker in self.picture_of_now()[0].markers.items()}
+        self.assertLessEqual({
+            'length': '0.52 nm', 'key_0': '0.01', 'key_1': '0.1', 'key_2': '1', 'key_3': '10', 'key_4': '100',
+            'key_title': 'energy lost in an impact [zJ]',
+            'time': '9 tau; 300 K, Q = 100; 3333.33 times slower than real time'}.items(), shown.items())
+
     def test_marks_contact(self):
         eta = 0.2  # a third of the time in contact
         self.emulator.set(cutoff_speed=0.1 * eta * SPEED_UNIT)

@@ -2,6 +2,7 @@
 """plot_run.py draws a bag, and says what is wrong with what is none. usage: plot_run_test.py SCRIPT"""
 import itertools
 import re
+import runpy
 import subprocess
 import sys
 import tempfile
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import rosbag
 from afm_emulator.msg import Applied, Configuration, Deflection, Friction, Impact, ImpactArray
+from numpy.testing import assert_allclose
 
 SCRIPT = sys.argv.pop()
 
@@ -40,11 +42,12 @@ class PlotRun(unittest.TestCase):
                 write(node, '/applied', Applied(epoch=epoch, drag_velocity=6.6e-6 * eta), epoch)
                 for i in range(batches):
                     deflection = Deflection(epoch=epoch, first_sample=100 * i, sample_period=sample_period,
-                                            vertical=[1e-10] * 100, lateral=[-1e-11] * 100)
+                                            vertical=[1e-10, 2e-10] * 50, lateral=[-1e-11, -3e-11] * 50)
                     deflection.time.tau = int(6e5 * sample_period * i)
                     deflection.time.phase = 6e5 * sample_period * i - deflection.time.tau
-                    impacts = ImpactArray(epoch=epoch, impacts=[Impact(normal_speed=1e-6, kind=k) for k in range(4)])
-                    friction = Friction(epoch=epoch, k_f_work=1e-6, k_f_work_natural=0.4)
+                    impacts = ImpactArray(epoch=epoch, impacts=[
+                        Impact(normal_speed=speed, kind=k) for k, speed in enumerate((1e-6, 2e-6, 0.0, 0.0))])
+                    friction = Friction(epoch=epoch, k_f_work=1e-6, k_f_work_std_error=1e-7, k_f_work_natural=0.4)
                     for topic, message in (('/deflection', deflection), ('/impacts', impacts), ('/friction', friction)):
                         if (topic, batches * epoch + i) in lost:
                             continue
@@ -62,6 +65,18 @@ class PlotRun(unittest.TestCase):
         for label in ('deflection', 'normal speed', 'drag speed', 'model time'):
             self.assertIn('<!-- ' + label, picture.read_text())
         self.assertEqual(path.with_suffix('.png').read_bytes()[:4], b'\x89PNG')
+
+    def test_what_is_drawn_has_the_units_of_its_axes(self):
+        script, path = runpy.run_path(SCRIPT), str(self.bag(20))
+        run = script['read']([path], None)
+        assert_allclose([*run.samples[0][:, 1], *run.drag[0], *run.friction[0][:3]],
+                        [2e-5, 0.1, -0.03, 0.2, -0.01, 0.0, 6.6, 0.0, 0.4, 0.04])  # of every two samples the range
+        figure = script['draw'](run, [path])
+        figure.canvas.draw()
+        self.assertEqual([(spots.get_label(), spots.get_offsets()[0, 1]) for spots in figure.axes[1].collections],
+                         [('impact', 1.0), ('chatter sequence', 2.0), ('contact begins', 0.03), ('contact ends', 0.07)])
+        eta, = figure.axes[3].child_axes
+        assert_allclose(figure.axes[3].get_ylim(), [3.31042281631 * v for v in eta.get_ylim()], rtol=1e-9)
 
     def test_a_gap_is_drawn_and_said(self):
         """The line went across it, in the last tau too."""

@@ -3,6 +3,8 @@
 if(catkin_FOUND)
   afm_add_test(plot_run 180 ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/plot_run_test.py
     ${PROJECT_SOURCE_DIR}/scripts/plot_run.py)
+  afm_add_test(live_status 60 ${CATKIN_ENV} ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/live_status_test.py
+    ${PROJECT_SOURCE_DIR}/scripts/live_status)
 endif()
 
 afm_add_test(next_impact 120 ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/tools/next_impact_test.py
