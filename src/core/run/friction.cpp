@@ -67,7 +67,8 @@ double RateBins::std_error(double age, double mean) const {
   const auto n = static_cast<std::size_t>(age / now.width);
   if (n < kMinBins) return kNaN;
   const double sum = std::accumulate(now.amount.data(), now.amount.data() + n, 0.0);
-  const double scatter = now.std_error(age), rest = mean - sum / (static_cast<double>(n) * now.width);
+  const double scatter = standard_error(now.amount.data(), n, now.width);
+  const double rest = mean - sum / (static_cast<double>(n) * now.width);
   return std::sqrt(scatter * scatter + rest * rest);
 }
 

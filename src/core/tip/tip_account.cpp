@@ -45,10 +45,10 @@ Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, c
   Sequence sequence = chattering.sequence;
   sequence.loss += chatter.loss;
   if (springs_.is_free_along_x == 0.0) {
-    const bool rests = slide.eta() == 0.0;
-    const double v = rests && chatter.n == 0.0 ? v0 : chatter.v;  // no bounce has ended
+    const bool holder_rests = slide.eta() == 0.0;
+    const double v = holder_rests && chatter.n == 0.0 ? v0 : chatter.v;  // no bounce has ended
     const double along = slide_energy(springs_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
-    if (rests) sequence.loss -= gain;  // a holder at rest gives nothing
+    if (holder_rests) sequence.loss -= gain;  // it gives nothing
     const double pressure = slide.pressure(0.0);
     sequence.impulse += held_impulse(springs_, slide.eta(), slide.start(), pressure, s, along - start) +
                         held_impulse(springs_, slide.eta(), slide.start(), pressure, 0.0, gain);
