@@ -90,14 +90,15 @@ const Varied& varied(const std::string& vary) {
   return found->second;
 }
 
-void check_target(const Options& options) {
+void check_target(const afm::CommandLine& app, const Options& options) {
   afm::PointOptions at = options.dynamics;
   at.*varied(options.vary).option = options.to;
-  try {
-    checked_model(at);
-  } catch (const std::invalid_argument& fault) {
-    throw std::invalid_argument(std::string("to: ") + fault.what());
+  std::vector<afm::ParameterError> faults = find_faults(at);
+  for (afm::ParameterError& fault : faults) {
+    if (fault.name == options.vary) fault = afm::ParameterError("to", fault.value, fault.reason);
   }
+  if (options.vary != "gamma") faults = as_given(app, at.si, faults);
+  if (!faults.empty()) throw std::invalid_argument(describe(faults));
 }
 
 int run(const afm::CommandLine& app, Options options) {
@@ -107,7 +108,7 @@ int run(const afm::CommandLine& app, Options options) {
   const double eta = options.dynamics.eta;
   if (!app.is_given("to")) throw std::invalid_argument("to: must be given");
   if (eta == 0.0) throw std::invalid_argument("eta = 0: without drag there is no orbit but rest");
-  check_target(options);
+  check_target(app, options);
   options.search.longest = options.length;
   const auto found = search_orbits(afm::PoincareMap(model, eta), options.search);
   afm::TableWriter table(std::cout, columns(options.vary), afm::table_units(options.dynamics.si));

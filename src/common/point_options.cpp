@@ -74,14 +74,12 @@ void take_si(const CommandLine& app, PointOptions& o) {
   checked_point(app, o);
 }
 
+std::vector<ParameterError> find_faults(const PointOptions& o) { return find_faults(point_of(o)); }
+
 SweepPoint checked_point(const CommandLine& app, const PointOptions& o) {
-  const SweepPoint point = point_of(o);
-  return without_faults(point, as_given(app, o.si, find_faults(point)));
+  return without_faults(point_of(o), as_given(app, o.si, find_faults(o)));
 }
 
-Model checked_model(const PointOptions& o) {
-  const SweepPoint point = point_of(o);
-  return model_of(without_faults(point, find_faults(point)));
-}
+Model checked_model(const PointOptions& o) { return model_of(without_faults(point_of(o), find_faults(o))); }
 
 }  // namespace afm

@@ -39,8 +39,9 @@ void take_si(const CommandLine& app, PointOptions& options);
 // Throws std::invalid_argument where there is no such model.
 ModelKind checked_kind(const std::string& name);
 
-// Both throw std::invalid_argument with every fault, by the names of the options. The first shows values that were
-// given in SI in SI.
+// By the names of the options. Throws std::invalid_argument where there is no such model.
+std::vector<ParameterError> find_faults(const PointOptions& options);
+// Both throw std::invalid_argument with every fault. The first shows values that were given in SI in SI.
 SweepPoint checked_point(const CommandLine& app, const PointOptions& options);
 Model checked_model(const PointOptions& options);
 
