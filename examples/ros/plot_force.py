@@ -31,8 +31,9 @@ class Recorder:
         if self.next_sample is not None and batch.first_sample > self.next_sample:
             self.lost += batch.first_sample - self.next_sample
         self.next_sample = batch.first_sample + len(batch.lateral)
-        self.times.append((batch.time.tau + batch.time.phase) * 2 * math.pi / c.omega_v_rad_per_s)
-        self.forces.append(-c.tip_mass_kg * c.omega_h_rad_per_s ** 2 * float(numpy.mean(batch.lateral)))
+        if len(batch.lateral):
+            self.times.append((batch.time.tau + batch.time.phase) * 2 * math.pi / c.omega_v_rad_per_s)
+            self.forces.append(batch.lateral_impulse / (len(batch.lateral) * batch.sample_period))
 
 
 def main():

@@ -89,6 +89,15 @@ class Impacts(unittest.TestCase):
         self.assertAlmostEqual(motion.X[i], 0.02, delta=1e-12)
         self.assertAlmostEqual(motion.Y[i] + 0.01, AMPLITUDE * math.cos(2 * math.pi * impacts[1, 0]), delta=1e-12)
 
+    def test_of_a_soft_lever_lie_whole_cells_behind_the_holder(self):
+        samples = periodic(1.0, 2.0, 1.0)
+        impacts = np.array([[0.5011], [(0.3 + 0.5011 + 0.02) % 1.0], [1e-21], [0]])
+        near = Motion(samples, impacts, AMPLITUDE, 0.01, OMEGA_H)
+        samples[2] -= 2.0
+        far = Motion(samples, impacts, AMPLITUDE, 0.01, OMEGA_H, steps=1)
+        self.assertAlmostEqual(far.X[np.argmin(np.abs(far.t - 0.5011))], 0.02 - 2.0, delta=1e-12)
+        self.assertLess(np.ptp(far.X), 2.0 * np.ptp(near.X))
+
 
 class Contact(unittest.TestCase):
     def test_a_tip_in_contact_does_not_fly_from_sample_to_sample(self):
@@ -144,6 +153,12 @@ class Loops(unittest.TestCase):
         self.assertTrue(0.0 <= trace[0].min() and trace[0].max() <= 6e-8)      # the new trace alone
         self.assertTrue(0.0 <= retrace[0].min() and retrace[0].max() <= 1e-7)
         self.assertTrue(np.all(np.diff(trace[0]) > 0.0) and np.all(np.diff(retrace[0]) < 0.0))
+
+    def test_of_the_hammer_show_its_force_though_it_does_not_bend(self):
+        loop = FrictionLoop()
+        loop.add(SimpleNamespace(epoch=0, holder_position=0.0, drag_velocity=2e-6, sample_period=5e-6,
+                                 lateral=np.zeros(2000), lateral_impulse=0.01 * 142e-12), 25.5, TAU_S)
+        np.testing.assert_allclose(loop.lines[1][1], 142e-12)
 
 
 class Trails(unittest.TestCase):

@@ -55,7 +55,8 @@ class Motion:
             at, phase, _, kind = impacts[:, (impacts[0] > t[0]) & (impacts[0] < t[-1])]
             rests = np.concatenate([Y + rest_height - amplitude * np.cos(2 * np.pi * (xc + X)) < RESTS, kind != BOUNCE])
             holder = np.interp(at, t, xc)
-            X_at = phase - holder - np.round(phase - holder)  # the lateral extension is far below half a cell
+            X_at = phase - holder
+            X_at -= np.round(X_at - np.interp(at, t, X))  # in the cell in which the samples beside it are
             Y_at = amplitude * np.cos(2 * np.pi * phase) - rest_height
             order = np.argsort(np.concatenate([t, at]), kind='stable')
             t, Y, X, xc = (np.concatenate(pair)[order] for pair in ((t, at), (Y, Y_at), (X, X_at), (xc, holder)))
@@ -159,6 +160,8 @@ class FrictionLoop:
         self.direction = direction
         size = min(max(1, round(self.PART_TAU * tau_s / period)), len(lateral))
         force = -stiffness * lateral[:len(lateral) // size * size].reshape(-1, size).mean(axis=1)
+        if not lateral.any():  # of the hammer, whose spring along x is rigid
+            force[:] = batch.lateral_impulse / (len(lateral) * period)
         middle = period * size * (np.arange(len(force)) + 0.5)
         columns = np.stack([batch.holder_position + velocity * middle, force])
         self.lines[direction] = newest(self.lines[direction], columns, self.capacity)
