@@ -173,7 +173,12 @@ def put_legend(axes, **options):
 
 
 def draw_deflection(axes, run):
-    times, *ranges = np.hstack(run.samples)
+    columns = np.hstack(run.samples)
+    if columns.shape[1] > MOST_POINTS:  # of many short batches, each of which has one
+        edges = np.arange(MOST_POINTS) * columns.shape[1] // MOST_POINTS
+        columns = np.vstack([columns[0, edges], np.minimum.reduceat(columns[1:3], edges, axis=1),
+                             np.maximum.reduceat(columns[3:], edges, axis=1)])
+    times, *ranges = columns
     times = np.where(np.isnan(times), np.fmax.accumulate(times), times)
     for name, low, high, colour in (('vertical', ranges[0], ranges[2], BLUE),
                                     ('lateral', ranges[1], ranges[3], ORANGE)):
@@ -252,8 +257,8 @@ def draw(run, paths):
     draw_zoom(figure.add_subplot(grid[4]), run)
     for axes in rows:
         axes.grid(alpha=0.3)
-        for epoch in sorted(run.epochs.values())[1:]:
-            axes.axvline(epoch, c='k', lw=0.8, ls=':')
+        axes.vlines(sorted(run.epochs.values())[1:], 0, 1, colors='k', lw=0.8, linestyles=':',
+                    transform=axes.get_xaxis_transform())
     rows[3].set_xlim(times[0], times[-1])
     c = run.configuration
     figure.suptitle('%s   ($\\gamma$ = %g, $v_c$ = %.3g $\\mu$m/s, %g kHz)' % (

@@ -73,7 +73,9 @@ class PlotRun(unittest.TestCase):
                         [2e-5, 0.1, -0.03, 0.2, -0.01, 0.0, 6.6, 0.0, 0.4, 0.04])  # of every two samples the range
         figure = script['draw'](run, [path])
         figure.canvas.draw()
-        self.assertEqual([(spots.get_label(), spots.get_offsets()[0, 1]) for spots in figure.axes[1].collections],
+        *spots, epochs = figure.axes[1].collections
+        self.assertEqual(len(epochs.get_segments()), 1)
+        self.assertEqual([(kind.get_label(), kind.get_offsets()[0, 1]) for kind in spots],
                          [('impact', 1.0), ('chatter sequence', 2.0), ('contact begins', 0.03), ('contact ends', 0.07)])
         eta, = figure.axes[3].child_axes
         assert_allclose(figure.axes[3].get_ylim(), [3.31042281631 * v for v in eta.get_ylim()], rtol=1e-9)
