@@ -8,7 +8,6 @@
 
 #include "bath.h"
 #include "friction.h"
-#include "level.h"
 #include "model.h"
 #include "sample_grid.h"
 #include "state.h"
@@ -30,20 +29,6 @@ struct RunSettings {
 
 // Every fault, named as in RunSettings; natural units.
 std::vector<ParameterError> find_faults(const RunSettings& settings);
-
-// The settings that may change while running.
-struct LiveSettings {
-  double eta;             // [a/tau]
-  double gamma, v_c, y0;  // of the model [-], [a/tau], [a]
-  double sample_period;   // [tau]
-  std::uint64_t samples_per_batch;
-  double friction_window;  // [tau]
-  Bath bath;
-  Level level;
-};
-// They as part of the settings, read and set.
-LiveSettings live_settings(const RunSettings& settings);
-void set_live(const LiveSettings& live, RunSettings& settings);
 
 // The result of one advance: the samples of [begin, end), and the impacts up to the end.
 struct Batch {
@@ -101,8 +86,9 @@ class Run {
   // model, level or bath restarts the friction estimate, a new window restarts its window. A new sample period takes
   // its first sample at now(). Returns the energy that a change to the hammer drops [m_tip a^2/tau^2], as
   // set_model() of a Tip does.
-  // Precondition: settings() with these have no faults.
-  double apply(const LiveSettings& live);
+  // Precondition: settings without faults, which differ from settings() in eta, gamma, v_c, y0, kind and tolerance of
+  // the model, samples, friction window and bath at most.
+  double apply(const RunSettings& settings);
 
   // To the next batch boundary of the sample grid (time_limit), or until impact_budget impacts are spent
   // (budget_spent). It clears the batch and fills it. Guarantee: no allocation if the batch has room for
@@ -128,7 +114,7 @@ class Run {
   const RunSettings& settings() const { return settings_; }  // in force; `initial` is of the start
 
  private:
-  double change_level(const Level& level, const LiveSettings& old);
+  double change_level(const RunSettings& old);
   void begin(Batch& batch) const;
   Outcome run_segments(const ModelTime& end, std::uint64_t impacts, Batch& batch);
   void sample_until(const ModelTime& time, Batch& batch);

@@ -31,39 +31,37 @@ Run to_run(const Model& model, double eta, double phase, double extension, doubl
 }
 
 double apply(Run& self, const py::kwargs& what) {
-  LiveSettings live = live_settings(self.settings());
-  const std::map<std::string, double*> numbers{{"eta", &live.eta},
-                                               {"gamma", &live.gamma},
-                                               {"cutoff", &live.v_c},
-                                               {"rest_height", &live.y0},
-                                               {"sample_period", &live.sample_period},
-                                               {"friction_window", &live.friction_window},
-                                               {"contact_tolerance", &live.level.contact_tolerance}};
+  RunSettings settings = self.settings();
+  const std::map<std::string, double*> numbers{{"eta", &settings.eta},
+                                               {"gamma", &settings.model.gamma},
+                                               {"cutoff", &settings.model.v_c},
+                                               {"rest_height", &settings.model.y0},
+                                               {"sample_period", &settings.sample_period},
+                                               {"friction_window", &settings.friction_window},
+                                               {"contact_tolerance", &settings.contact_tolerance}};
   for (const auto& item : what) {
     const auto name = item.first.cast<std::string>();
     const auto number = numbers.find(name);
     if (number != numbers.end())
       *number->second = real(name.c_str(), item.second);
     else if (name == "samples_per_batch")
-      live.samples_per_batch = whole("samples_per_batch", item.second);
+      settings.samples_per_batch = whole("samples_per_batch", item.second);
     else if (name == "bath" && py::isinstance<Bath>(item.second))
-      live.bath = item.second.cast<Bath>();
+      settings.bath = item.second.cast<Bath>();
     else if (name == "bath")
       refuse_type("bath", item.second, "must be a Bath");
     else if (name == "kind" && py::isinstance<py::str>(item.second))
-      live.level.kind = kind_of(item.second.cast<std::string>());
+      settings.model.kind = kind_of(item.second.cast<std::string>());
     else if (name == "kind")
       refuse_type("kind", item.second, "must be a text");
     else
       throw py::type_error("apply() has no argument " + name);
   }
-  RunSettings settings = self.settings();
-  set_live(live, settings);
   refuse(find_faults(settings));
   if (what.contains("bath") || what.contains("eta") || what.contains("kind")) {
     warn(find_warnings(settings.model, settings.bath, settings.eta));
   }
-  return self.apply(live);
+  return self.apply(settings);
 }
 
 // Batches put together.

@@ -94,9 +94,7 @@ class Recorded {
     report.in_force.cause = cause;
     report.in_force.live = parameters_;
     report.in_force.level.contact_tolerance = parameters_.contact_tolerance;
-    LiveSettings live = live_settings(node::run_settings(parameters_));
-    live.level = report.in_force.level;
-    run_.apply(live);
+    run_.apply(node::run_settings(parameters_));
     report.state.time = run_.now();
     report.state.impacts = run_.impacts();
     report.state.samples = run_.samples();

@@ -18,9 +18,9 @@ inline RunSettings settings_at(double eta, std::uint64_t samples_per_batch = 200
 }
 
 inline double drag(Run& run, double eta) {
-  LiveSettings live = live_settings(run.settings());
-  live.eta = eta;
-  return run.apply(live);
+  RunSettings settings = run.settings();
+  settings.eta = eta;
+  return run.apply(settings);
 }
 
 inline Outcome advance_to(const ModelTime& time, Run& run, Batch& batch) {

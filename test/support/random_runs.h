@@ -45,16 +45,16 @@ class Chance {
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(within(0.0, 1.0) * static_cast<double>(n)) % n; }
 
   // Mostly the settings in force; now and then others.
-  LiveSettings command(const afm::Run& run) {
-    LiveSettings live = live_settings(run.settings());
+  RunSettings command(const afm::Run& run) {
+    RunSettings live = run.settings();
     if (one_in(10.0)) live.eta = within(-7.0, 7.0);
-    if (one_in(30.0)) live.gamma = within(0.3, 0.9);
-    if (one_in(30.0)) live.y0 = within(-0.1, 0.05);
+    if (one_in(30.0)) live.model.gamma = within(0.3, 0.9);
+    if (one_in(30.0)) live.model.y0 = within(-0.1, 0.05);
     if (one_in(20.0)) live.sample_period = within(0.02, 0.04);
     if (one_in(30.0)) live.friction_window = within(20.0, 60.0);
     if (one_in(30.0)) live.bath = {within(0.0, 1.0), one_in(3.0) ? 0.0 : within(10.0, 200.0), 0.0, within(1.0, 5.0)};
-    if (one_in(30.0)) live.level.kind = one_in(2.0) ? ModelKind::hammer : ModelKind::oscillator;
-    if (one_in(30.0)) live.level.contact_tolerance = one_in(3.0) ? 0.0 : 1e-3;
+    if (one_in(30.0)) live.model.kind = one_in(2.0) ? ModelKind::hammer : ModelKind::oscillator;
+    if (one_in(30.0)) live.contact_tolerance = one_in(3.0) ? 0.0 : 1e-3;
     return live;
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "afm/level.h"
+
 namespace afm {
 
 std::vector<ParameterError> find_faults(const RunSettings& s) {
@@ -115,59 +117,35 @@ Snapshot Run::split() {
   return snapshot;
 }
 
-LiveSettings live_settings(const RunSettings& s) {
-  return {s.eta,
-          s.model.gamma,
-          s.model.v_c,
-          s.model.y0,
-          s.sample_period,
-          s.samples_per_batch,
-          s.friction_window,
-          s.bath,
-          {s.model.kind, s.contact_tolerance}};
-}
-
-void set_live(const LiveSettings& live, RunSettings& s) {
-  s.eta = live.eta;
-  s.model.gamma = live.gamma;
-  s.model.v_c = live.v_c;
-  s.model.y0 = live.y0;
-  s.model.kind = live.level.kind;
-  s.contact_tolerance = live.level.contact_tolerance;
-  s.sample_period = live.sample_period;
-  s.samples_per_batch = live.samples_per_batch;
-  s.friction_window = live.friction_window;
-  s.bath = live.bath;
-}
-
-double Run::apply(const LiveSettings& live) {
-  const LiveSettings old = live_settings(settings_);
-  set_live(live, settings_);
+double Run::apply(const RunSettings& settings) {
+  const RunSettings old = settings_;
+  const RunSettings& s = settings_ = settings;
   double dropped = 0.0;
-  const bool new_model = live.gamma != old.gamma || live.v_c != old.v_c || live.y0 != old.y0;
-  const bool new_level = !(live.level == old.level);
-  const bool new_bath = live.bath != old.bath, acts = new_bath && (live.bath.is_on() || old.bath.is_on());
+  const bool new_model = s.model.gamma != old.model.gamma || s.model.v_c != old.model.v_c || s.model.y0 != old.model.y0;
+  const bool new_level = s.model.kind != old.model.kind || s.contact_tolerance != old.contact_tolerance;
+  const bool new_bath = s.bath != old.bath, acts = new_bath && (s.bath.is_on() || old.bath.is_on());
   if (new_model) {
-    Model model = settings_.model;
-    model.kind = old.level.kind;
+    Model model = s.model;
+    model.kind = old.model.kind;
     tip_.set_parameters(model);
   }
-  if (new_bath) tip_.set_bath(live.bath);
-  if (new_level) dropped = change_level(live.level, old);
-  if (live.eta != old.eta) {
+  if (new_bath) tip_.set_bath(s.bath);
+  if (new_level) dropped = change_level(old);
+  if (s.eta != old.eta) {
     holder_ = {now(), holder_.position(now(), old.eta)};
-    tip_.drag(live.eta);
+    tip_.drag(s.eta);
   }
-  if (live.friction_window != old.friction_window) friction_.set_window(now(), live.friction_window);
-  if (new_model || new_level || acts || live.eta != old.eta) friction_.restart(now(), live.eta);
-  if (live.sample_period != old.sample_period) grid_ = {live.sample_period, next_sample_, now()};
+  if (s.friction_window != old.friction_window) friction_.set_window(now(), s.friction_window);
+  if (new_model || new_level || acts || s.eta != old.eta) friction_.restart(now(), s.eta);
+  if (s.sample_period != old.sample_period) grid_ = {s.sample_period, next_sample_, now()};
   return dropped;
 }
 
-double Run::change_level(const Level& level, const LiveSettings& old) {
+double Run::change_level(const RunSettings& old) {
   const FreeState before = tip_.state();
-  const double dropped = tip_.set_model(level.kind, level.contact_tolerance);
-  if (level.kind == ModelKind::hammer && old.level.kind != level.kind) {
+  const ModelKind kind = settings_.model.kind;
+  const double dropped = tip_.set_model(kind, settings_.contact_tolerance);
+  if (kind == ModelKind::hammer && old.model.kind != kind) {
     // the holder is moved above the tip; a chatter sequence that ends there may displace the tip a little
     const double displacement = std::remainder(tip_.state().phase - before.phase, 1.0);
     holder_ = {now(), holder_.position(now(), old.eta) + before.X + displacement};

@@ -96,21 +96,21 @@ std::vector<std::string> find_warnings(const Parameters& p) {
 }
 
 Run trial_run(const Parameters& p) {
-  const RunSettings settings = run_settings(p);
-  LiveSettings live = live_settings(settings);
-  live.level = choose_level(p, settings).level;
+  RunSettings settings = run_settings(p);
   Run run(settings);
-  const Model& m = settings.model;
-  const double extension = longest_extension(m);
-  const bool slips = kTwoPi * extension > 1.0 && live.eta != 0.0;
+  const Level level = choose_level(p, settings).level;
+  settings.model.kind = level.kind;
+  settings.contact_tolerance = level.contact_tolerance;
+  const double extension = longest_extension(settings.model);
+  const bool slips = kTwoPi * extension > 1.0 && settings.eta != 0.0;
   if (slips && !settings.bath.is_on()) {
-    LiveSettings fast = live;
-    fast.eta = std::copysign(std::min(1.0 + extension, kMaxEta), live.eta);
+    RunSettings fast = settings;
+    fast.eta = std::copysign(std::min(1.0 + extension, kMaxEta), settings.eta);
     run.apply(fast);
     Batch batch = preallocated_batch(p);
     run.advance(run.now() + 1.0, kTrialImpacts, batch);
   }
-  run.apply(live);
+  run.apply(settings);
   return run;
 }
 

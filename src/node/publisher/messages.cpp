@@ -156,13 +156,13 @@ afm_emulator::Applied to_applied(const Report& report, const Parameters& paramet
   return message;
 }
 
-LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied) {
+RunSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied) {
   in_force.drag_velocity = applied.drag_velocity;
   for_each_live(applied, in_force, kFromMessage);
-  LiveSettings live = live_settings(run_settings(in_force));
-  live.level.contact_tolerance = applied.contact_tolerance;
-  if (!parse(applied.model, live.level.kind)) throw std::invalid_argument("unknown model: " + applied.model);
-  return live;
+  RunSettings settings = run_settings(in_force);
+  settings.contact_tolerance = applied.contact_tolerance;
+  if (!parse(applied.model, settings.model.kind)) throw std::invalid_argument("unknown model: " + applied.model);
+  return settings;
 }
 
 afm_emulator::Configuration to_configuration(const Parameters& p, const std::string& version, const std::string& digest,
@@ -205,10 +205,8 @@ afm_emulator::Snapshot to_snapshot(const Snapshot& s, const afm_emulator::Config
 
 Snapshot from_message(const afm_emulator::Snapshot& m) {
   Parameters in_force = to_parameters(m.configuration);
-  const LiveSettings live = apply_to(in_force, m.applied);
   Snapshot s;
-  s.settings = run_settings(in_force);
-  set_live(live, s.settings);
+  s.settings = apply_to(in_force, m.applied);
   s.tip.time = from_message(m.time);
   s.tip.phase = static_cast<TipSnapshot::Phase>(m.phase);
   s.samples.period = s.settings.sample_period;

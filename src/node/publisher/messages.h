@@ -49,7 +49,7 @@ Snapshot from_message(const afm_emulator::Snapshot& message);
 
 // Applies it to the parameters in force. Returns the settings of the run from there on. Throws std::invalid_argument if
 // there is no such model.
-LiveSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied);
+RunSettings apply_to(Parameters& in_force, const afm_emulator::Applied& applied);
 
 // The answer to a control period: its means.
 afm_emulator::Control::Response to_control(const Answer& answer, const SiModel& si);

@@ -222,11 +222,11 @@ void Runner::change(const Request& request) {
 
 void Runner::apply(const Live& live, const char* cause) {
   live_of(parameters_) = live;
-  const RunSettings settings = run_settings(parameters_);
+  RunSettings settings = run_settings(parameters_);
   const LevelChoice choice = choose_level(parameters_, settings);
-  LiveSettings next = live_settings(settings);
-  next.level = choice.level;
-  in_force_ = {live, choice.level, choice.expected_error, run_.apply(next), cause, applied_++};
+  settings.model.kind = choice.level.kind;
+  settings.contact_tolerance = choice.level.contact_tolerance;
+  in_force_ = {live, choice.level, choice.expected_error, run_.apply(settings), cause, applied_++};
   for (Period& period : periods_) {
     double& constant = period.measured.drag_velocity;
     if (period.measured.begin == run_.now()) {

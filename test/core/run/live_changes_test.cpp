@@ -30,7 +30,7 @@ void expect_no_change(const Change& change) {
   Batch a, b;
   for (int i = 0; i < 50; ++i) {
     plain.advance(a);
-    LiveSettings live = live_settings(changed.settings());
+    RunSettings live = changed.settings();
     change(live, i);
     changed.apply(live);
     changed.advance(b);
@@ -43,11 +43,11 @@ void expect_no_change(const Change& change) {
 }
 
 TEST(RunChange, ToTheSameIsNoChange) {
-  expect_no_change([](LiveSettings&, int) {});
+  expect_no_change([](RunSettings&, int) {});
 }
 
 TEST(RunChange, OfABathThatIsOffIsNoChange) {
-  expect_no_change([](LiveSettings& live, int i) {
+  expect_no_change([](RunSettings& live, int i) {
     live.bath.kicks_per_tau = 10.0 + i;
     live.bath.temperature = i;
   });
@@ -68,7 +68,7 @@ TEST(RunChange, OfTheSampleRateChangesTheSamplesAlone) {
       ASSERT_EQ(batch.lateral[k], truth.lateral[next]);
     }
     impacts.insert(impacts.end(), batch.impacts.begin(), batch.impacts.end());
-    LiveSettings live = live_settings(changed.settings());
+    RunSettings live = changed.settings();
     stride = std::uint64_t{1} << (i % 4);
     live.sample_period = static_cast<double>(stride) / 64;
     live.samples_per_batch = 100 + 10 * static_cast<std::uint64_t>(i % 3);
@@ -83,7 +83,7 @@ TEST(RunChange, OfTheSampleRateWithinABatchSamplesAtOnce) {
   Batch batch;
   advance_to({1, 0.123}, run, batch);
   const std::uint64_t samples = run.samples();
-  LiveSettings live = live_settings(run.settings());
+  RunSettings live = run.settings();
   live.sample_period = 0.05;
   live.samples_per_batch = 10;
   run.apply(live);
@@ -98,9 +98,9 @@ TEST(RunChange, OfTheRestitutionHoldsFromTheNextImpactOn) {
   afm::Run before(settings_at(3.4, 500)), after = before;
   Batch a, b;
   for (afm::Run* e : {&before, &after}) e->advance(a);
-  LiveSettings live = live_settings(after.settings());
-  live.gamma = 0.2;
-  live.v_c = 0.01;
+  RunSettings live = after.settings();
+  live.model.gamma = 0.2;
+  live.model.v_c = 0.01;
   after.apply(live);
   before.advance(a);
   after.advance(b);
@@ -115,7 +115,7 @@ TEST(RunChange, BeginsTheFrictionThatItConcernsAnew) {
   Batch a, b;
   for (int i = 0; i < 3; ++i) plain.advance(a);
   for (int i = 0; i < 2; ++i) run.advance(b);
-  LiveSettings live = live_settings(run.settings());
+  RunSettings live = run.settings();
   live.friction_window = 64.0;
   run.apply(live);
   run.advance(b);
@@ -129,7 +129,7 @@ TEST(RunChange, BeginsTheFrictionThatItConcernsAnew) {
     if (age >= 86.0 && age < 150.0) energy += impact.energy_loss;
   }
   EXPECT_NEAR(b.friction.window_K_f, energy / 64.0 / (3.4 * 3.4), 0.05 * b.friction.window_K_f);
-  live.y0 = 0.02;
+  live.model.y0 = 0.02;
   run.apply(live);
   run.advance(b);
   energy = 0.0;
@@ -146,7 +146,7 @@ TEST(RunChange, OfTheBathOrTheDragVelocityBeginsTheBalanceAnew) {
     Batch batch;
     for (int i = 1; i < 40; ++i) {
       run.advance(batch);
-      LiveSettings live = live_settings(run.settings());
+      RunSettings live = run.settings();
       if (i % 4 == 0) {
         live.eta *= 1.001;
       } else {
@@ -200,10 +200,10 @@ TEST(RunChange, LeavesTheHolderWhereTheSpringOfTheTipEnds) {
     Batch batch;
     for (int i = 0; i < 300; ++i) {
       run.advance(batch);
-      LiveSettings live = live_settings(run.settings());
+      RunSettings live = run.settings();
       if (i % 3 == 0) live.eta = (i % 2 == 0 ? -1.01 : -0.99) * live.eta;
-      if (i % 5 == 0) live.level.kind = i % 2 == 0 ? ModelKind::hammer : ModelKind::oscillator;
-      if (i % 7 == 0) live.level.contact_tolerance = i % 2 == 0 ? 0.0 : 1e-3;
+      if (i % 5 == 0) live.model.kind = i % 2 == 0 ? ModelKind::hammer : ModelKind::oscillator;
+      if (i % 7 == 0) live.contact_tolerance = i % 2 == 0 ? 0.0 : 1e-3;
       run.apply(live);
       advance_to(run.now(), run, batch);
       const double holder = batch.holder - run.eta() * (batch.first_sample_time - run.now());

@@ -65,7 +65,7 @@ TEST_P(Snapshots, TheRunGoesOnAsOneMadeFromIt) {
         run.advance(a);
         again.advance(b);
         ASSERT_NO_FATAL_FAILURE(expect_same(a, b)) << "start " << starts << ", split " << splits;
-        const LiveSettings live = chance.command(run);
+        const RunSettings live = chance.command(run);
         ASSERT_EQ(run.apply(live), again.apply(live));
       }
       ASSERT_TRUE(again.now() == run.now());
