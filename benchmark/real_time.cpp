@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "afm/level.h"
 #include "afm/number_text.h"
 #include "afm/sweep.h"
 #include "afm/tip.h"
@@ -141,7 +140,7 @@ std::vector<Point> points_of(const Options& o) {
 }
 
 void check(const Options& o) {
-  if (!has_valid_tolerance(afm::Level{afm::ModelKind::oscillator, o.tolerance})) {
+  if (!afm::is_contact_tolerance(o.tolerance)) {
     throw afm::ParameterError("tolerance", o.tolerance, "must be 0, or between 1e-9 and 0.01");
   }
 }

@@ -107,7 +107,6 @@ class Friction {
   // `open`: the segment under way. It counts for the mean lateral force only.
   FrictionEstimate estimate(const ModelTime& now, const Segment& open);
   const FrictionSums& sums() const { return sums_; }
-  ModelTime start() const { return sums_.start; }
 
   // True if an estimate that was read from elsewhere is possible at `now`.
   bool is_possible(const ModelTime& now, double eta, double window_tau) const;

@@ -17,11 +17,6 @@ inline bool operator==(const Level& a, const Level& b) {
   return a.kind == b.kind && a.contact_tolerance == b.contact_tolerance;
 }
 
-inline bool has_valid_tolerance(const Level& level) {
-  const double t = level.contact_tolerance;
-  return t == 0.0 || (t >= kMinContactTolerance && t <= kMaxContactTolerance);
-}
-
 // `model` with the kind of the level.
 inline Model at_level(Model model, const Level& level) {
   model.kind = level.kind;

@@ -29,6 +29,9 @@ struct Deflection {
 constexpr double kDefaultContactTolerance = 1e-3;
 constexpr double kMaxContactTolerance = 1e-2;  // a choice: ten times the default
 constexpr double kMinContactTolerance = 1e-9;  // or 0; below it a sequence takes longer than its bounces one by one
+inline bool is_contact_tolerance(double t) {
+  return t == 0.0 || (t >= kMinContactTolerance && t <= kMaxContactTolerance);
+}
 
 // The tip at a time, in one of its phases: what another tip is made from that goes on with the same motion.
 struct TipSnapshot {

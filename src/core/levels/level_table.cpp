@@ -78,7 +78,8 @@ LevelTable::Row LevelTable::read_row(const std::string& text, std::size_t line) 
       row.error.cost;
   if (!in || !in.eof() || std::string(comma, 4) != ",,,,") fail(line, "'" + text + "' is not " + kColumns);
   if (!parse(kind, row.level.kind)) fail(line, "model = '" + kind + "' is neither oscillator nor hammer");
-  if (!has_valid_tolerance(row.level)) fail(line, "contact_tolerance must be 0, or between 1e-9 and 0.01");
+  if (!is_contact_tolerance(row.level.contact_tolerance))
+    fail(line, "contact_tolerance must be 0, or between 1e-9 and 0.01");
   if (!(row.error.friction >= 0.0 && row.error.deflection >= 0.0 && row.error.cost > 0.0)) {
     fail(line, "errors must not be negative, and the cost above 0");
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "afm/level.h"
-
 namespace afm {
 
 std::vector<ParameterError> find_faults(const RunSettings& s) {
@@ -26,7 +24,7 @@ std::vector<ParameterError> find_faults(const RunSettings& s) {
   require_count("impact_budget", s.impact_budget);
   require(s.friction_window >= 1e-9 && s.friction_window <= 1e15, "friction_window", s.friction_window,
           "must be between 1e-9 and 1e15 tau");
-  require(has_valid_tolerance({s.model.kind, s.contact_tolerance}), "contact_tolerance", s.contact_tolerance,
+  require(is_contact_tolerance(s.contact_tolerance), "contact_tolerance", s.contact_tolerance,
           "must be 0 (every bounce by itself), or between 1e-9 and 0.01");
   const FreeState& i = s.initial;
   const auto require_within = [&](const char* name, double value, double most, const char* reason) {
@@ -70,7 +68,7 @@ std::vector<ParameterError> find_faults(const Snapshot& s) {
   require(is_possible(s.holder.since) && s.holder.since <= now && std::isfinite(s.holder.from), "holder", s.holder.from,
           "its path does not begin before the snapshot");
   require(s.friction.is_possible(now, s.settings.eta, s.settings.friction_window), "friction",
-          s.friction.start() - ModelTime{},
+          s.friction.sums().start - ModelTime{},
           "the sums of the friction estimate are not of a run up to the time of the snapshot");
   require(s.tip.phase != TipSnapshot::Phase::chatter || s.settings.contact_tolerance > 0.0, "contact_tolerance",
           s.settings.contact_tolerance, "must be above 0 in a chatter sequence");
