@@ -67,7 +67,11 @@ class ContactStep {
   double eta() const { return eta_; }
 
  private:
-  friend class ContactSolver;  // contact_step.cpp
+  int try_levels(double tolerance, const Hint& hint);  // returns the level of the step
+  bool attempt(int level, double stiffness, double tolerance);
+  bool is_close_call() const;
+  ContactPoint end() const;
+  ContactPoint balanced(double time, double d, double u, double integral) const;
 
   SpringConstants<double> m_;
   double eta_ = 0.0, tolerance_ = 0.0;

@@ -99,54 +99,41 @@ inline SinCos<double> turned_by(const SinCos<double>& turn, double r) {
 
 }  // namespace
 
-class ContactSolver {
- public:
-  static void solve(ContactStep& s, double tolerance, ContactStep::Hint hint, ContactStep::Purpose purpose);
-  static ContactPoint end(const ContactStep& s);
-  static ContactPoint balanced(const ContactStep& s, double time, double d, double u, double integral);
-
- private:
-  static void rest(ContactStep& s);
-  static int try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint);
-  static bool attempt(ContactStep& s, int level, double stiffness, double tolerance);
-  static bool is_close_call(const ContactStep& s, double tolerance);
-};
-
 // The state of the energy that the drag has brought. The correction has the size of the error of the method. It goes
 // into the velocity, or where the swing turns back, into the place. Where the tip is nearly at rest, the energy hardly
 // depends on its state: there an error of energy is one of the work, and the integral takes it.
-ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d, double u, double integral) {
+ContactPoint ContactStep::balanced(double time, double d, double u, double integral) const {
   // of the energy of the swing: beyond it the swing is as small as rounding or the error. A velocity can take nearly
   // all of it.
   constexpr double kMaxPart = 0.25, kMaxPartOfVelocity = 0.9;
   constexpr double kRounding = 1e-13;  // of the energy
   constexpr double kMaxShift = 100.0;  // over the tolerance: by so much its mean may change
   constexpr int kMaxTries = 8;         // two are enough, as the convergence is quadratic
-  const SlideState<double> computed{s.start_.phase + d, s.start_.X + (d - s.eta_ * time), u};
+  const SlideState<double> computed{start_.phase + d, start_.X + (d - eta_ * time), u};
   ContactPoint to{computed, integral};
-  if (s.m_.is_free_along_x == 0.0) return to;
+  if (m_.is_free_along_x == 0.0) return to;
   SlideState<double>& q = to.state;
   const double u2 = u * u;
   // it takes the surplus if it has so much
   const auto change_velocity = [&](double surplus) {
     if (surplus < u2) q.u = std::copysign(std::sqrt(u2 - surplus), u);
   };
-  const double wh2 = s.m_.omega_h * s.m_.omega_h, k = two_pi<double>();
-  const double work = 2.0 * s.eta_ * wh2 * integral, kinetic = s.first_.N2 * (s.start_.u * s.start_.u);
-  const double push = k * (s.first_.h - s.m_.y0), energy = kinetic + wh2 * s.start_.X * s.start_.X + push * push;
+  const double wh2 = m_.omega_h * m_.omega_h, k = two_pi<double>();
+  const double work = 2.0 * eta_ * wh2 * integral, kinetic = first_.N2 * (start_.u * start_.u);
+  const double push = k * (first_.h - m_.y0), energy = kinetic + wh2 * start_.X * start_.X + push * push;
   double first_surplus = 0.0, last_surplus = 0.0;
   for (int i = 0; i < kMaxTries; ++i) {
-    const ContactForces there = forces(s.m_, sin_cos_turns(q.phase), q.X, u);
-    const double springs = wh2 * (q.X - s.start_.X) * (q.X + s.start_.X) +
-                           k * k * (there.h - s.first_.h) * (there.h + s.first_.h - 2.0 * s.m_.y0);
+    const ContactForces there = forces(m_, sin_cos_turns(q.phase), q.X, u);
+    const double springs =
+        wh2 * (q.X - start_.X) * (q.X + start_.X) + k * k * (there.h - first_.h) * (there.h + first_.h - 2.0 * m_.y0);
     // of twice the energy, over N2
     const double surplus = (there.N2 * u2 - kinetic + springs + work) / there.N2;
-    const double swing = there.force * there.force / s.stiffness_;
+    const double swing = there.force * there.force / stiffness_;
     const bool by_velocity = u2 >= 0.25 * swing;
     if (!(std::fabs(surplus) < std::max(kMaxPart * swing, kMaxPartOfVelocity * u2))) {
       if (!(std::fabs(surplus) * there.N2 > kRounding * energy)) return to;
-      const double shift = surplus * there.N2 / (2.0 * s.eta_ * wh2);  // infinite without drag
-      if (std::fabs(shift) < kMaxShift * s.tolerance_ * time) {
+      const double shift = surplus * there.N2 / (2.0 * eta_ * wh2);  // infinite without drag
+      if (std::fabs(shift) < kMaxShift * tolerance_ * time) {
         to.extension_integral -= shift;
       } else {
         change_velocity(surplus);
@@ -171,20 +158,20 @@ ContactPoint ContactSolver::balanced(const ContactStep& s, double time, double d
 }
 
 // One step of the given level; false if it does not meet the tolerance.
-bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double tolerance) {
-  const SpringConstants<double>& m = s.m_;
+bool ContactStep::attempt(int level, double stiffness, double tolerance) {
+  const SpringConstants<double>& m = m_;
   const double k = two_pi<double>(), k2 = k * k, wh2 = m.omega_h * m.omega_h, free = m.is_free_along_x;
-  const double u0 = s.start_.u, X0 = s.start_.X, eta = s.eta_, H = m.H, y0 = m.y0;
+  const double u0 = start_.u, X0 = start_.X, eta = eta_, H = m.H, y0 = m.y0;
   const SwingTable& table = kSwing[static_cast<std::size_t>(free == 0.0 ? kLevels : std::min(level, kLevels))];
   const double least = Limits::kLeastStiffness * (wh2 * free + k2 * u0 * u0);
   const double angle = kAngle[static_cast<std::size_t>(level)];
   const double longest = std::min(kMaxLength, angle / std::sqrt(std::max(stiffness, least)));
   const double h = std::max(kMinLength, longest);
   const double h2 = h * h, inverse_h = 1.0 / h, kappa = table.angle * table.angle / h2;
-  const double drag = wh2 * eta * free / s.first_.N2, n0 = h2 * s.first_.force, n1 = h2 * h * drag, n_u = h * u0;
+  const double drag = wh2 * eta * free / first_.N2, n0 = h2 * first_.force, n1 = h2 * h * drag, n_u = h * u0;
   const double middle = n_u * table.mean_per_u + (n0 * table.mean_per_one + n1 * table.mean_per_c);
-  const SinCos<double> turn = sin_cos_turns(s.start_.phase + middle);
-  s.length_ = h;
+  const SinCos<double> turn = sin_cos_turns(start_.phase + middle);
+  length_ = h;
 
   // the harmonic motion under a force that grows evenly with the drag
   AtGaussNodes d, u, rest, change, reaction;
@@ -231,83 +218,77 @@ bool ContactSolver::attempt(ContactStep& s, int level, double stiffness, double 
     before = now;
   }
   for (std::size_t i = 0; i < kN; ++i) {
-    s.force_[i] = rest[i] * (inverse_h * inverse_h) - kappa * d[i];
-    s.reaction_[i] = reaction[i];
+    force_[i] = rest[i] * (inverse_h * inverse_h) - kappa * d[i];
+    reaction_[i] = reaction[i];
   }
-  const double last = std::fabs(sum_of_products(kGauss.last, s.force_));
-  const double before_last = Limits::kFall * std::fabs(sum_of_products(kGauss.last_but_one, s.force_));
+  const double last = std::fabs(sum_of_products(kGauss.last, force_));
+  const double before_last = Limits::kFall * std::fabs(sum_of_products(kGauss.last_but_one, force_));
   const double tail = Limits::kTail * h2 * (last > before_last ? last : before_last);
   if (!(tail <= tolerance)) return false;
   const bool may_be_longer = tail < Limits::kEasyTail * tolerance && reach < Limits::kEasyReach * Limits::kMaxReach &&
                              evaluations <= Limits::kEasyEvaluations;
   const ContactForces there = forces(m, turn, X0 + middle, 0.0);
-  s.stiffness_ = std::max(there.stiffness, least);
-  s.hint_ = {may_be_longer ? std::max(0, level - 1) : level, s.stiffness_};
-  s.mean_displacement_ = sum_of_products(kGauss.weight, d);
+  stiffness_ = std::max(there.stiffness, least);
+  hint_ = {may_be_longer ? std::max(0, level - 1) : level, stiffness_};
+  mean_displacement_ = sum_of_products(kGauss.weight, d);
   return true;
 }
 
-ContactPoint ContactSolver::end(const ContactStep& s) {
-  const double h = s.length_, u0 = s.start_.u;
-  return balanced(s, h, h * u0 + h * h * sum_of_products(kGauss.weight2, s.force_),
-                  u0 + h * sum_of_products(kGauss.weight, s.force_),
-                  h * ((s.start_.X - 0.5 * s.eta_ * h) + s.mean_displacement_));
+ContactPoint ContactStep::end() const {
+  const double h = length_, u0 = start_.u;
+  return balanced(h, h * u0 + h * h * sum_of_products(kGauss.weight2, force_),
+                  u0 + h * sum_of_products(kGauss.weight, force_),
+                  h * ((start_.X - 0.5 * eta_ * h) + mean_displacement_));
 }
 
-int ContactSolver::try_levels(ContactStep& s, double tolerance, ContactStep::Hint hint) {
+int ContactStep::try_levels(double tolerance, const Hint& hint) {
   int level = hint.level;
-  double stiffness = hint.stiffness > 0.0 ? hint.stiffness : std::fabs(s.first_.stiffness);
-  s.is_accurate_ = attempt(s, level, stiffness, tolerance);
-  while (!s.is_accurate_ && level < kLastLevel) {
-    stiffness = std::fabs(s.first_.stiffness);
-    s.is_accurate_ = attempt(s, ++level, stiffness, tolerance);
+  double stiffness = hint.stiffness > 0.0 ? hint.stiffness : std::fabs(first_.stiffness);
+  is_accurate_ = attempt(level, stiffness, tolerance);
+  while (!is_accurate_ && level < kLastLevel) {
+    stiffness = std::fabs(first_.stiffness);
+    is_accurate_ = attempt(++level, stiffness, tolerance);
   }
   return level;
 }
 
-// At rest for good.
-void ContactSolver::rest(ContactStep& s) {
-  s.length_ = kMaxLength, s.stiffness_ = 1.0, s.is_accurate_ = true;
-  for (std::size_t i = 0; i < kN; ++i) s.force_[i] = 0.0, s.reaction_[i] = s.first_.reaction;
-}
-
 // The step in which the tip may leave is made to the last digits if it is a close call: the reaction is zero for ever
 // on the glide at eta = 1.
-void ContactSolver::solve(ContactStep& s, double tolerance, ContactStep::Hint hint, ContactStep::Purpose purpose) {
-  s.first_ = forces(s.m_, sin_cos_turns(s.start_.phase), s.start_.X, s.start_.u);
-  if (s.eta_ == 0.0 && s.start_.u == 0.0 && s.first_.force == 0.0) return rest(s);
-  const int level = try_levels(s, tolerance, hint);
-  if (purpose == ContactStep::Purpose::look_ahead || tolerance <= kFinestStep || !is_close_call(s, tolerance)) return;
-  const ContactStep::Hint next = s.hint_;
-  try_levels(s, kFinestStep, {std::min(level + Limits::kFinerLevels, kLastLevel), s.stiffness_});
-  s.hint_ = next;
+ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
+                         double tolerance, const Hint& hint, Purpose purpose)
+    : m_(springs), eta_(eta), tolerance_(tolerance), start_(start) {
+  first_ = forces(m_, sin_cos_turns(start.phase), start.X, start.u);
+  if (eta == 0.0 && start.u == 0.0 && first_.force == 0.0) {  // at rest for good
+    length_ = kMaxLength, stiffness_ = 1.0, is_accurate_ = true;
+    std::fill_n(reaction_, kN, first_.reaction);
+    return;
+  }
+  const int level = try_levels(tolerance, hint);
+  if (purpose == Purpose::look_ahead || tolerance <= kFinestStep || !is_close_call()) return;
+  const Hint next = hint_;
+  try_levels(kFinestStep, {std::min(level + Limits::kFinerLevels, kLastLevel), stiffness_});
+  hint_ = next;
 }
 
 // True if the reaction neither stays above zero for certain, nor falls through it at once.
-bool ContactSolver::is_close_call(const ContactStep& s, double tolerance) {
+bool ContactStep::is_close_call() const {
   constexpr int kHalvings = 4;  // of the step: enough to enclose a swing
-  const double k = two_pi<double>(), wh2 = s.m_.omega_h * s.m_.omega_h, u = std::fabs(s.start_.u);
-  const double by_x = wh2 + k * k * (1.0 + u * u) + k * wh2 * std::fabs(s.start_.X);
-  const double of_path = Limits::kPathError * tolerance * k * s.m_.H * (by_x + 2.0 * k * u * std::sqrt(s.stiffness_));
-  const double of_interpolation = std::fabs(sum_of_products(kGauss.last, s.reaction_)) +
-                                  std::fabs(sum_of_products(kGauss.last_but_one, s.reaction_));
+  const double k = two_pi<double>(), wh2 = m_.omega_h * m_.omega_h, u = std::fabs(start_.u);
+  const double by_x = wh2 + k * k * (1.0 + u * u) + k * wh2 * std::fabs(start_.X);
+  const double of_path = Limits::kPathError * tolerance_ * k * m_.H * (by_x + 2.0 * k * u * std::sqrt(stiffness_));
+  const double of_interpolation =
+      std::fabs(sum_of_products(kGauss.last, reaction_)) + std::fabs(sum_of_products(kGauss.last_but_one, reaction_));
   const double error = kReleaseNoise + of_path + of_interpolation;
   AtGaussNodes b;
-  enclose(s.reaction_, b);
+  enclose(reaction_, b);
   if (least_of(b) > error) return false;
-  if (!(s.first_.reaction > error)) return true;
+  if (!(first_.reaction > error)) return true;
   for (double& x : b) x -= error;
   const double earliest = first_bernstein_fall(b, 0.0, 1.0, kHalvings);
   if (earliest < 0.0) return false;
   for (double& x : b) x += 2.0 * error;
   const double latest = first_bernstein_fall(b, 0.0, 1.0, kHalvings);
   return latest < 0.0 || latest - earliest > Limits::kAtOnce;
-}
-
-ContactStep::ContactStep(const SpringConstants<double>& springs, double eta, const SlideState<double>& start,
-                         double tolerance, const Hint& hint, Purpose purpose)
-    : m_(springs), eta_(eta), tolerance_(tolerance), start_(start) {
-  ContactSolver::solve(*this, tolerance, hint, purpose);
 }
 
 Series<double> ContactStep::displacement() const {
@@ -322,14 +303,14 @@ Series<double> ContactStep::displacement() const {
 }
 
 ContactPoint ContactStep::point(double s) const {
-  if (s == length_) return ContactSolver::end(*this);
+  if (s == length_) return end();
   const Series<double> c = displacement();
   double d = 0.0, u = 0.0, integral = 0.0;
   for (std::size_t m = kN + 1; m >= 1; --m) {
     d = s * (d + c[m]), u = u * s + c[m] * static_cast<double>(m);
     integral = s * (integral + c[m] / static_cast<double>(m + 1));
   }
-  return ContactSolver::balanced(*this, s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
+  return balanced(s, d, u, s * ((start_.X - 0.5 * eta_ * s) + integral));
 }
 
 double ContactStep::pressure(const SlideState<double>& q) const {
