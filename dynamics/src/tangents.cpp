@@ -90,8 +90,7 @@ void Tangents::carry_chatter(double dt) {
   const TipState end = tip_.tip_state();
   growth_.volume = std::numeric_limits<double>::quiet_NaN();
   if (end.g1 > 0.0) {
-    carry(chatter_jacobian(model_, ChatterLaw(model_, chatter_threshold(tip_.contact_tolerance())), tip_.eta(), start_,
-                           dt));
+    carry(chatter_jacobian(model_, ChatterLaw(model_, tip_.contact_tolerance()), tip_.eta(), start_, dt));
   } else {
     SectionJacobian<double> J = projection_jacobian(model_, start_);
     J.topRows<3>() =

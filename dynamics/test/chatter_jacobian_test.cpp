@@ -62,7 +62,7 @@ Burst next_burst(BurstTrials& trials) {
 // Relative errors of the Jacobians of the first bursts, the smallest first.
 std::vector<double> errors(const Model& model, double eta) {
   constexpr std::size_t kBursts = 6;
-  const ChatterLaw law(model, chatter_threshold(kDefaultContactTolerance));
+  const ChatterLaw law(model, kDefaultContactTolerance);
   BurstTrials trials(model, eta, kDefaultContactTolerance, 1, 0);
   std::vector<double> found;
   while (found.size() < kBursts) {
@@ -93,10 +93,9 @@ TEST(BurstJacobian, OfTheHammerToo) { expect_derivatives(ModelKind::hammer); }
 
 // A part of a burst has the Jacobian of that part, whichever bounce it ends with.
 TEST(BurstJacobian, IsThatOfAnyNumberOfItsBounces) {
-  constexpr double kContact = 1e-5;  // [a/tau] slower bounces are contact, about as by default
   const Model model = model_with_cutoff(0.3);
   const double eta = 3.0;
-  const ChatterLaw law(model, kContact);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   for (const double g1 : {0.002, 0.005, 0.01}) {
     for (const std::uint32_t count : {5, 50}) {
       const TipState start{0.4, 0.001, 3.1, 0.0, g1};

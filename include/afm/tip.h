@@ -139,7 +139,6 @@ class Tip {
   using Leaves = detail::Leaves;
 
   TipState constrained(const TipState& state) const;
-  void set_tolerance(double contact_tolerance);
   void set_laws(const Model& model);
   ModelTime event_time() const;
 
@@ -200,9 +199,7 @@ class Tip {
   SpringConstants<double> springs_;
   double eta_;
   double contact_tolerance_;
-  double slowest_chatter_;  // threshold of contact [a/tau]
   detail::ChatterLaw law_;
-  double entry_speed_;  // chatter_entry_speed()
   Thermostat thermostat_;
   ModelTime start_, now_;
   double end_ = 0.0;  // of the phase under way, since start_ [tau]

@@ -50,7 +50,7 @@ using ChatterRun = ChatterRunOf<double>;
 struct ChatterConstants {
   double threshold;        // normal speeds up to it are contact [a/tau]
   bool constant_loss;      // no cutoff above the threshold: every bounce loses the same part w of v
-  double max_entry_speed;  // of a bounce that may begin a sequence, by w and the cutoff [a/tau]
+  double max_entry_speed;  // of a bounce that may begin a sequence, by the tolerance, w and the cutoff [a/tau]
   double dw_dv;            // below the cutoff: (1 - gamma)/v_c [tau/a]
   double w, M;             // with a constant loss
   double fineness;         // factor of all limits: 1 at the default tolerance, less at a smaller one
@@ -59,10 +59,11 @@ struct ChatterConstants {
 
 class ChatterLaw {
  public:
-  // threshold: normal speeds up to it are contact [a/tau]. Precondition: a model without faults.
-  ChatterLaw(const Model& model, double threshold);
+  // Precondition: a model without faults.
+  ChatterLaw(const Model& model, double contact_tolerance);
 
-  // Can a sequence begin with this bounce? Its duration must be short against every change of the reaction.
+  // Can a sequence begin with this bounce? The surface must press, and its duration be short against every change of
+  // the reaction.
   bool holds(const Flight<double>& bounce) const;
 
   // From the start of the reference slide to `until` [tau], or to the end of the sequence.

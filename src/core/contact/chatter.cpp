@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "chatter_law.h"
 #include "projection.h"
@@ -56,10 +55,12 @@ double chatter_entry_speed(double contact_tolerance) {
   return 2.0 * std::sqrt(contact_tolerance * std::sqrt(std::sqrt(contact_tolerance)));
 }
 
-ChatterLaw::ChatterLaw(const Model& model, double threshold)
+ChatterLaw::ChatterLaw(const Model& model, double contact_tolerance)
     : constants_{}, loss_(1.0 - model.gamma), cutoff_(model.v_c) {
   constexpr double kLeastThreshold = 1e-300;  // a logarithm follows
+  const double threshold = chatter_threshold(contact_tolerance);
   ChatterConstants& c = constants_;
+  c.max_entry_speed = chatter_entry_speed(contact_tolerance);
   c.threshold = std::max(threshold, kLeastThreshold);
   c.constant_loss = !(model.v_c > threshold);
   // the error of the law is of the third order in what the limits are for
@@ -67,13 +68,12 @@ ChatterLaw::ChatterLaw(const Model& model, double threshold)
   c.fineness = part < 1.0 ? portable_exp(portable_log(part) * (1.0 / 3)) : 1.0;
   const double end_speed = ChatterLimits::kEndSpeed * c.threshold;
   if (c.constant_loss) {
-    c.max_entry_speed = std::numeric_limits<double>::infinity();
     c.w = loss_;
     c.M = w_over_log(loss_);
     c.end_x = end_speed;
   } else {
     const double max_loss = ChatterLimits::kMaxLoss * c.fineness;
-    c.max_entry_speed = model.v_c * (loss_ > max_loss ? max_loss / loss_ : 1.0);
+    c.max_entry_speed = std::min(c.max_entry_speed, model.v_c * (loss_ > max_loss ? max_loss / loss_ : 1.0));
     c.dw_dv = loss_ / model.v_c;
     c.end_x = portable_log(end_speed);
   }
@@ -88,8 +88,9 @@ bool ChatterLaw::holds(const Flight<double>& bounce) const {
   const TipState& launch = bounce.launch();
   const GapJet<double>& start = bounce.start();
   const double v = start.g1;
+  if (!(start.g2 < 0.0)) return false;
   if (v <= constants_.threshold) return true;
-  if (!(start.g2 < 0.0) || v > constants_.max_entry_speed) return false;
+  if (v > constants_.max_entry_speed) return false;
   const SpringConstants<double>& m = bounce.springs();
   const double limit = ChatterLimits::kMaxRatioAtEntry * constants_.fineness;
   if (turn_of(bounce) > limit) return false;  // most bounces are refused by this faster test

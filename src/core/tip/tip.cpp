@@ -46,9 +46,7 @@ Tip::Tip(const Model& model, double eta, const TipState& start, double contact_t
       springs_(model),
       eta_(eta),
       contact_tolerance_(contact_tolerance),
-      slowest_chatter_(chatter_threshold(contact_tolerance)),
-      law_(model, slowest_chatter_),
-      entry_speed_(chatter_entry_speed(contact_tolerance)),
+      law_(model, contact_tolerance),
       phase_(std::in_place_type<Flying>, springs_, eta, constrained(checked(start))) {
   Flying& flying = std::get<Flying>(phase_);
   const TipState& launched = flying.flight.launch();
@@ -66,16 +64,10 @@ TipState Tip::constrained(const TipState& state) const {
   return s;
 }
 
-void Tip::set_tolerance(double contact_tolerance) {
-  contact_tolerance_ = contact_tolerance;
-  slowest_chatter_ = chatter_threshold(contact_tolerance);
-  entry_speed_ = chatter_entry_speed(contact_tolerance);
-}
-
 void Tip::set_laws(const Model& model) {
   model_ = model;
   springs_ = SpringConstants<double>(model);
-  law_ = ChatterLaw(model, slowest_chatter_);
+  law_ = ChatterLaw(model, contact_tolerance_);
 }
 
 // --- A phase begins now ---

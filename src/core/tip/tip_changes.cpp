@@ -93,7 +93,7 @@ double Tip::set_model(ModelKind kind, double contact_tolerance) {
   const double spring = springs_.omega_h * state.X;
   Model model = model_;
   model.kind = kind;
-  set_tolerance(contact_tolerance);
+  contact_tolerance_ = contact_tolerance;
   set_laws(model);
   if (in_contact()) {
     slide({state.phase, state.X, state.u});

@@ -80,7 +80,7 @@ void Tip::leave_or_press(Flying& flying) {
   const TipState& bounce = flying.flight.launch();
   if (rests(flying.flight, Leaves::above_rounding)) {
     touch(bounce);
-  } else if (flying.flight.start().g2 < 0.0 && bounce.g1 <= entry_speed_ && law_.holds(flying.flight)) {
+  } else if (law_.holds(flying.flight)) {
     begin_chatter(bounce);
   } else {
     find_landing(flying);

@@ -127,7 +127,7 @@ Outcome Tip::kick(Segments* ended) {
       return Outcome::impact;
     }
     // below the threshold at which chatter becomes contact, contact goes on without an event
-    if (std::fabs(onto.normal_speed) < std::fmax(slowest_chatter_, kMinGapRate)) {
+    if (std::fabs(onto.normal_speed) < std::fmax(law_.constants().threshold, kMinGapRate)) {
       kick_in_contact(before, after, onto.reference, ended);
       return Outcome::flying;
     }

@@ -13,13 +13,13 @@ using namespace detail;
 
 namespace {
 
-constexpr double kThreshold = 1e-5;
+constexpr double kThreshold = 1e-5;  // of the default tolerance
 
 class ChatterEnds : public testing::TestWithParam<double> {};
 
 TEST_P(ChatterEnds, ItLetsGoAtABounce) {
   const Model model = model_with(GetParam(), 0.05);
-  const ChatterLaw law(model, kThreshold);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   RandomLaunches random(4);
   int exits = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -42,7 +42,7 @@ TEST_P(ChatterEnds, ItLetsGoAtABounce) {
 // The last step ends below the threshold: its bounces there were counted too, 60 % of all at worst.
 TEST_P(ChatterEnds, WhatDiesCountsItsBouncesDownToTheThreshold) {
   const Model model = model_with(GetParam(), 0.05);
-  const ChatterLaw law(model, kThreshold);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   RandomLaunches random(6);
   int died = 0;
   for (int i = 0; i < 300; ++i) {
@@ -64,7 +64,7 @@ TEST_P(ChatterEnds, WhatDiesCountsItsBouncesDownToTheThreshold) {
 // Next to the threshold the speed may hardly fall, or rise first: no less is counted at the end than on the way.
 TEST_P(ChatterEnds, ACountDoesNotFall) {
   const Model model = model_with(GetParam(), 0.05);
-  const ChatterLaw law(model, kThreshold);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   RandomLaunches random(7);
   for (int i = 0; i < 1000; ++i) {
     const RandomChatter chatter = random_chatter(model, law, random, -4.9999, -4.8);
@@ -86,7 +86,7 @@ double rest_of_zeno(const RandomChatter& chatter, double s, double v) {
 TEST_P(ChatterEnds, WithoutACutoffItEndsAtItsAccumulationPoint) {
   const Model model = model_with(GetParam(), 0.0);
   if (model.gamma == 1.0) return;  // then it never ends
-  const ChatterLaw law(model, kThreshold);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   RandomLaunches random(5);
   int compared = 0;
   for (int i = 0; i < 300; ++i) {

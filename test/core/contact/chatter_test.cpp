@@ -17,7 +17,7 @@ using namespace detail;
 
 namespace {
 
-constexpr double kThreshold = 1e-5;
+constexpr double kThreshold = 1e-5;  // of the default tolerance
 
 // The relative error of the law at a bounce: in the number of bounces, in the normal speed, and in the energy lost, of
 // that of the bounces at the beginning.
@@ -80,7 +80,7 @@ Comparison compare(const RandomChatter& chatter, const ChatterLaw& law, int most
 class Chatters : public testing::TestWithParam<double> {
  protected:
   const Model model_ = model_with(GetParam(), 0.05);
-  const ChatterLaw law_{model_, kThreshold};
+  const ChatterLaw law_{model_, kDefaultContactTolerance};
 };
 
 TEST_P(Chatters, TheLawIsThatOfTheBouncesToTheSecondOrder) {
@@ -144,7 +144,7 @@ TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAnEighth) {
 // duration: at w = 0.1 1.5e-5 and 1.1e-4. With the terms of P' the largest of these errors are 2.6e-5 and 1.1e-4.
 TEST(ChatterLaw, TellsOneBounceToTheOrderOfItsSeries) {
   const Model model = model_with(0.7, 0.05);
-  const ChatterLaw law(model, kThreshold);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   RandomLaunches random(7);
   int compared = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -162,7 +162,7 @@ TEST(ChatterLaw, WithoutACutoffCountsAndDisplacesAsTheBouncesDo) {
   constexpr int kBounces = 3;
   for (const double gamma : {0.9, 0.7, 0.3}) {
     const Model model = model_with(gamma, 0.0);
-    const ChatterLaw law(model, kThreshold);
+    const ChatterLaw law(model, kDefaultContactTolerance);
     RandomLaunches random(8);
     double displacement = 0.0, error = 0.0;
     for (int i = 0; i < 200; ++i) {
@@ -194,7 +194,7 @@ TEST_P(Chatters, InOneRunTheGapRateIsGoodToTheThreshold) {
 
 TEST(ChatterLaw, ABounceThatLosesMoreThanATenthIsFlown) {
   const Model model = model_with(0.7, 0.05);
-  const ChatterLaw law(model, kThreshold);
+  const ChatterLaw law(model, kDefaultContactTolerance);
   const double most = 0.1 * model.v_c / (1.0 - model.gamma);
   RandomLaunches random(4);
   for (int i = 0; i < 100; ++i) {

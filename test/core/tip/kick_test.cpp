@@ -161,7 +161,7 @@ TEST(Kick, OneEventDisplacesTheTipAsItsBouncesDo) {
       count += detail::project_onto_surface(model, bounced.tip_state()).normal_speed > kContact ? 1 : 0;
     }
     const double time = bounced.now() - ModelTime{};
-    const auto bounces = detail::ChatterLaw(model, kContact).collapsed(m, kEta, at, kSpeed, 1.0, 1.0);
+    const auto bounces = detail::ChatterLaw(model, kDefaultContactTolerance).collapsed(m, kEta, at, kSpeed, 1.0, 1.0);
     ASSERT_TRUE(bounces);
     EXPECT_NEAR(bounces->n, count, 1.0) << phase;
     const detail::SlideSegment<double> kept_slide(m, kEta, at);
@@ -177,7 +177,7 @@ TEST(Kick, OneEventCountsTheBouncesUpToTheNextKick) {
   Model model = model_with(0.7, 0.05);
   model.y0 = -1.0;
   const SpringConstants<double> m(model);
-  const detail::ChatterLaw law(model, 1e-5);
+  const detail::ChatterLaw law(model, kDefaultContactTolerance);
   for (const double phase : {0.1, 0.15, 0.3, 0.6, 0.85}) {
     const detail::SlideState<double> at{phase, 0.0, 0.5};
     for (const double time : {0.025, 0.03, 0.5}) {
