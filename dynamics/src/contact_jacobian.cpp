@@ -51,7 +51,7 @@ SectionJacobian<double> chatter_jacobian(const Model& model, const ChatterLaw& l
                                          double duration) {
   const Dual4 free(is_free_along_x(model));
   const SpringConstants<Dual4> springs(model);
-  const ProjectedOf<Dual4> first = projected(free, springs.H, section_variables(start));
+  const ProjectionOf<Dual4> first = projected(free, springs.H, section_variables(start));
   SlideState<Dual4> state = first.reference;
   ChatterRunOf<Dual4> run{ChatterEnd::time, Dual4(0.0), {first.normal_speed, Dual4(0.0)}};
   for (double left = duration;;) {

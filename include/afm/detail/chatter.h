@@ -91,11 +91,13 @@ class ChatterLaw {
 double turn_of(const Flight<double>& bounce);
 
 // The tip at a bounce without its normal velocity. The tangential velocity stays.
-struct Projection {
-  SlideState<double> reference;
-  double normal_speed;         // of the gap rate taken out, |n.v| [a/tau]
-  double tangential_velocity;  // t.v [a/tau]
+template <class T>
+struct ProjectionOf {
+  SlideState<T> reference;
+  T normal_speed;         // of the gap rate taken out, |n.v| [a/tau]
+  T tangential_velocity;  // t.v [a/tau]
 };
+using Projection = ProjectionOf<double>;
 // Precondition of both: the tip is on the surface. They are inverse to each other.
 Projection project_onto_surface(const Model& model, const TipState& state);
 TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed);

@@ -145,8 +145,7 @@ std::optional<Chatter> ChatterLaw::collapsed(const SpringConstants<double>& spri
 }
 
 Projection project_onto_surface(const Model& model, const TipState& state) {
-  const auto p = projected<double>(is_free_along_x(model), model.H, {state.phase, state.X, state.u, state.g1});
-  return {p.reference, p.normal_speed, p.tangential_velocity};
+  return projected<double>(is_free_along_x(model), model.H, {state.phase, state.X, state.u, state.g1});
 }
 
 TipState leave_surface(const Model& model, const SlideState<double>& reference, double normal_speed) {

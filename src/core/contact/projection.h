@@ -16,15 +16,9 @@ struct BounceState {
   T phase, X, u, g1;
 };
 
-template <class T>
-struct ProjectedOf {
-  SlideState<T> reference;
-  T normal_speed, tangential_velocity;  // [a/tau]
-};
-
 // Takes the normal velocity out. The tangential velocity stays.
 template <class T>
-inline ProjectedOf<T> projected(const T& free, const T& H, const BounceState<T>& state) {
+inline ProjectionOf<T> projected(const T& free, const T& H, const BounceState<T>& state) {
   using std::sqrt;
   const T slope = free * surface_jet(H, state.phase).h1, N2 = T(1.0) + slope * slope, N = sqrt(N2);
   const T u = state.u + slope * state.g1 / N2;
