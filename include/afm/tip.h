@@ -147,7 +147,6 @@ class Tip {
   void find_landing(Flying& flying);
   void touch(const TipState& state);
   void slide(const detail::SlideState<double>& start);
-  Chattering& refer_to(const detail::SlideState<double>& start, int bits);
   void chatter_along(const detail::SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
                      const Account& begin);
   bool rests(const Flight<double>& flight, Leaves leaves) const;

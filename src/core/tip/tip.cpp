@@ -121,16 +121,10 @@ void Tip::slide(const SlideState<double>& start) {
   end_ = sliding.releases ? release : sliding.step.length();
 }
 
-// The caller sets what happens along it.
-Tip::Chattering& Tip::refer_to(const SlideState<double>& start, int bits) {
-  const SlideState<double> from{wrap_phase(start.phase), start.X, start.u};
-  start_ = now_;
-  return phase_.emplace<Chattering>(springs_, eta_, from, bits);
-}
-
 void Tip::chatter_along(const SlideState<double>& start, const Chatter& chatter, const Sequence& sequence,
                         const Account& begin) {
-  Chattering& chattering = refer_to(start, reference_bits(contact_tolerance_));
+  const SlideState<double> from{wrap_phase(start.phase), start.X, start.u};
+  Chattering& chattering = phase_.emplace<Chattering>(springs_, eta_, from, reference_bits(contact_tolerance_));
   const double release = find_release(chattering.reference);
   chattering.releases = release >= 0.0;
   chattering.chatter = chatter;
@@ -138,6 +132,7 @@ void Tip::chatter_along(const SlideState<double>& start, const Chatter& chatter,
   chattering.run = law_.run(chattering.reference, until, chatter);
   chattering.sequence = sequence;
   chattering.begin = begin;
+  start_ = now_;
   end_ = chattering.run.s;
 }
 
