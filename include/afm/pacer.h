@@ -14,7 +14,7 @@ class Pacer {
   // period: wall time between batches.
   Pacer(Duration period, Duration start);
 
-  Duration deadline() const;         // when the next batch is due: an absolute time, so delays never add up
+  Duration deadline() const { return origin_ + due_ * period_; }  // of the next batch: absolute, so delays never add up
   void batch_done(Duration now);     // the batch due at deadline() is complete
   void resume(Duration now);         // begins anew: after a pause, and at a reset, no delay is left
   void set_period(Duration period);  // for the batches after the next one
@@ -23,7 +23,7 @@ class Pacer {
   double worst_lag() const { return worst_lag_; }  // [s]
   std::uint64_t batches() const { return batches_; }
   std::uint64_t late_batches() const { return late_; }  // completed after the next one was due
-  double real_time_factor() const;                      // time emulated over wall time, over the last second or so
+  double real_time_factor() const { return factor_; }   // time emulated over wall time, over the last second or so
 
  private:
   Duration period_;

@@ -12,8 +12,6 @@ constexpr double kFactorSpan = 1.0;  // [s] averaging time of the real-time fact
 
 Pacer::Pacer(Duration period, Duration start) : period_(period), origin_(start + period), mark_time_(start) {}
 
-Pacer::Duration Pacer::deadline() const { return origin_ + due_ * period_; }
-
 void Pacer::batch_done(Duration now) {
   lag_ = std::max(0.0, seconds(now - deadline()));
   worst_lag_ = std::max(worst_lag_, lag_);
@@ -41,7 +39,5 @@ void Pacer::set_period(Duration period) {
   due_ = 0;
   period_ = period;
 }
-
-double Pacer::real_time_factor() const { return factor_; }
 
 }  // namespace afm
