@@ -266,19 +266,19 @@ void Runner::pause(bool paused) {
 // To the limit, or until so many impacts are taken, of which there must then be as many before the limit.
 Answer Runner::step(const ModelTime& limit, std::uint64_t impacts) {
   const Time give_up = monotonic_now() + kStepPatience;
-  std::uint64_t taken = 0;
+  const std::uint64_t before = run_.impacts();
+  const auto taken = [&] { return run_.impacts() - before; };
   const char* fault = "";
   play_commands();
-  while (run_.now() < limit && taken < impacts && fault[0] == '\0') {
-    run_batch_to(limit, std::min(impacts - taken, parameters_.impact_budget));
-    taken += last_batch_impacts_;
+  while (run_.now() < limit && taken() < impacts && fault[0] == '\0') {
+    run_batch_to(limit, std::min(impacts - taken(), parameters_.impact_budget));
     if (run_.now() + samples(kDueNow) < limit) play_commands();  // at the end they are of what follows
     if (monotonic_now() > give_up) fault = kWallTimeRanOut;
     if (stopping_) fault = "the emulator is shutting down";
   }
-  const bool is_done = impacts == kNoLimit ? !(run_.now() < limit) : taken >= impacts;
+  const bool is_done = impacts == kNoLimit ? !(run_.now() < limit) : taken() >= impacts;
   Answer reached = answer(is_done ? "" : fault[0] != '\0' ? fault : kModelTimeRanOut);
-  reached.impacts = taken;
+  reached.impacts = taken();
   await_command();  // whoever steps it steers it
   return reached;
 }
@@ -352,7 +352,6 @@ Outcome Runner::run_batch(Advance advance) {
   for (; batch == nullptr && !stopping_; batch = queue_.acquire()) sleep_until(monotonic_now() + kRoomPoll);
   if (batch == nullptr) return Outcome::time_limit;
   const Outcome outcome = advance(*batch);
-  last_batch_impacts_ = batch->impacts.size();
   for (Period& period : periods_) period.measured.add(*batch);
   Report report = make_report(Report::Kind::batch);
   report.batch = batch;

@@ -76,8 +76,7 @@ class Runner {
   // One batch: advanced by what is given, and reported.
   template <class Advance>
   Outcome run_batch(Advance advance);
-  void run_batch_to(const ModelTime& limit,
-                    std::uint64_t impacts);  // it ends at the next boundary at the latest
+  void run_batch_to(const ModelTime& limit, std::uint64_t impacts);  // to the next boundary at the latest
 
   bool is_held() const { return state_.paused || lockstep_; }  // it may be stepped
   Report make_report(Report::Kind kind);
@@ -94,7 +93,6 @@ class Runner {
   std::uint64_t commands_played_ = 0;  // of the scene
   Time last_command_{0};               // of a drag velocity
   Time paused_at_{0};
-  std::uint64_t last_batch_impacts_ = 0;
   boost::container::static_vector<Period, kMaxPeriods> periods_;
   const bool lockstep_;
   // in lockstep that waits for commands
