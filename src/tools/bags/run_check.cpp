@@ -67,8 +67,8 @@ RunCheck::RunCheck(const Recording& recording, Progress progress, double most_ga
   }
   read_marks();
   batches_ = recording.read<afm_emulator::Friction>();
-  if (recording.holds<afm_emulator::Deflection>()) deflections_ = recording.read<afm_emulator::Deflection>();
-  if (recording.holds<afm_emulator::ImpactArray>()) impacts_ = recording.read<afm_emulator::ImpactArray>();
+  deflections_ = recording.read<afm_emulator::Deflection>();
+  impacts_ = recording.read<afm_emulator::ImpactArray>();
 }
 
 // In the order of the run: a snapshot stands behind all that was applied before it.
@@ -154,9 +154,9 @@ void RunCheck::run() {
   if (difference_) return;
   check_without_friction();
   lose("commands", unplaced_commands_, "the beginning of an epoch");
-  check_ends(batches_.get());
-  check_ends(deflections_.get());
-  check_ends(impacts_.get());
+  check_ends<afm_emulator::Friction>();
+  check_ends<afm_emulator::Deflection>();
+  check_ends<afm_emulator::ImpactArray>();
 }
 
 // True if it comes before the next batch. A batch of an epoch of which nothing else is known comes before all.
@@ -176,10 +176,12 @@ void RunCheck::take(const Mark& mark) {
   if (mark.snapshot) {
     take_snapshot(mark);
   } else {
-    if (!run_ && begins_epoch(mark)) begin_epoch(mark);
+    const afm_emulator::Snapshot* behind = snapshot_behind(mark);
+    const bool is_first = mark.applied->number == 0 && behind != nullptr && from_message(behind->time) == ModelTime{};
+    if (!run_ && is_first) begin_epoch(mark, behind->configuration);
     if (run_) {
       take_applied(*mark.applied);
-    } else if (!is_in_next_snapshot(mark)) {
+    } else if (behind == nullptr || behind->applied.number != mark.applied->number) {  // else begin_at() compares it
       ++extent_.commands_unknown;
     }
   }
@@ -188,24 +190,16 @@ void RunCheck::take(const Mark& mark) {
   is_doubtful_ = mark.lost_commands + mark.lost_snapshots > 0;
 }
 
-// Its first snapshot follows: an epoch is simulated from its configuration, and this snapshot is compared too.
-bool RunCheck::begins_epoch(const Mark& mark) const {
-  if (mark.applied->number > 0 || next_mark_ == marks_.size()) return false;
+// The next mark, if it is a snapshot of the same epoch.
+const afm_emulator::Snapshot* RunCheck::snapshot_behind(const Mark& mark) const {
+  if (next_mark_ == marks_.size()) return nullptr;
   const Mark& next = marks_[next_mark_];
-  return next.snapshot && next.number.start == mark.number.start && next.epoch() == mark.epoch() &&
-         from_message(next.snapshot->time) == ModelTime{};
+  return next.number.start == mark.number.start && next.epoch() == mark.epoch() ? next.snapshot.get() : nullptr;
 }
 
-// Then begin_at() compares it.
-bool RunCheck::is_in_next_snapshot(const Mark& mark) const {
-  if (next_mark_ == marks_.size()) return false;
-  const Mark& next = marks_[next_mark_];
-  return next.snapshot && next.number.start == mark.number.start && next.epoch() == mark.epoch() &&
-         next.in_force().number == mark.applied->number;
-}
-
-void RunCheck::begin_epoch(const Mark& mark) {
-  configuration_ = marks_[next_mark_].snapshot->configuration;
+// The epoch is simulated from its configuration, and its first snapshot is compared too.
+void RunCheck::begin_epoch(const Mark& mark, const afm_emulator::Configuration& configuration) {
+  configuration_ = configuration;
   require_same_arithmetic(configuration_);
   in_force_ = node::to_parameters(configuration_);
   const RunSettings settings = node::run_settings(in_force_);
@@ -310,8 +304,8 @@ void RunCheck::check_batch() {
   batches_end_ = to_text(recorded->time, recorded->epoch);
   check_without_friction();
   if (is_hole()) is_behind_hole_ = true;
-  const auto deflection = of_batch(deflections_.get());
-  const auto impacts = of_batch(impacts_.get());
+  const auto deflection = of_batch(*deflections_);
+  const auto impacts = of_batch(*impacts_);
   batches_->next();
   if (!run_ || number.start != start_ || recorded->epoch != applied_.epoch) {
     ++extent_.batches_unknown;
@@ -350,7 +344,7 @@ void RunCheck::check_batch() {
 bool RunCheck::is_hole() const {
   const bool begins_later = has_begun_ && run_ && run_->now() < from_message(batches_->get()->begin);
   if (begins_later && has_begun_at_repeated_) return true;
-  const auto is_lost = [](const auto& messages) { return !messages || !messages->get() || messages->lost() > 0; };
+  const auto is_lost = [](const auto& messages) { return !messages->get() || messages->lost() > 0; };
   if (batches_->lost() == 0 || !is_lost(deflections_) || !is_lost(impacts_)) return false;
   return std::none_of(marks_.begin() + static_cast<std::ptrdiff_t>(next_mark_), marks_.end(),
                       [&](const Mark& c) { return c.snapshot && c.number.start == batches_->number().start; });
@@ -388,10 +382,10 @@ void RunCheck::run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts) 
 void RunCheck::check_without_friction() {
   std::optional<Run> ahead;
   const auto is_before = [this](const auto& messages, const Number& number) {
-    return messages && messages->get() && messages->number() < number;
+    return messages->get() && messages->number() < number;
   };
   const auto is_of = [](const auto& messages, const Number& number) {
-    return messages && messages->get() && messages->number() == number;
+    return messages->get() && messages->number() == number;
   };
   const Number end = batches_->get() ? batches_->number() : kBehindAll;
   for (;;) {
@@ -404,8 +398,8 @@ void RunCheck::check_without_friction() {
     const auto impacts = of_impacts ? impacts_->get() : nullptr;
     if (run_ && next.start == start_ && !ahead) ahead = run_;
     if (!ahead || !is_whole_batch(deflection.get(), impacts.get(), *ahead)) ++extent_.batches_without_friction;
-    if (of_deflection) take_next(deflections_.get());
-    if (of_impacts) take_next(impacts_.get());
+    if (of_deflection) take_next(*deflections_);
+    if (of_impacts) take_next(*impacts_);
   }
 }
 
@@ -432,16 +426,15 @@ bool RunCheck::is_whole_batch(const afm_emulator::Deflection* deflection, const 
 
 // The message of the next batch, if it is held.
 template <class Message>
-boost::shared_ptr<Message> RunCheck::of_batch(Cursor<Message>* messages) {
-  if (messages == nullptr || !messages->get() || !(messages->number() == batches_->number())) return {};
-  const boost::shared_ptr<Message> message = messages->get();
+boost::shared_ptr<Message> RunCheck::of_batch(Cursor<Message>& messages) {
+  if (!messages.get() || !(messages.number() == batches_->number())) return {};
+  const boost::shared_ptr<Message> message = messages.get();
   take_next(messages);
   return message;
 }
 
 template <class Message>
-void RunCheck::check_ends(Cursor<Message>* messages) {
-  if (messages == nullptr) return;
+void RunCheck::check_ends() {
   const std::string what = "messages of " + recording_.topic<Message>();
   const Recording::Missing missing = recording_.missing_at_ends<Message>();
   const std::string of = recording_.has_several_starts() ? " of a start" : " of the recording";
@@ -453,9 +446,9 @@ void RunCheck::check_ends(Cursor<Message>* messages) {
 }
 
 template <class Message>
-void RunCheck::take_next(Cursor<Message>* messages) {
-  messages->next();
-  if (messages->get()) lose("messages of " + recording_.topic<Message>(), messages->lost());
+void RunCheck::take_next(Cursor<Message>& messages) {
+  messages.next();
+  if (messages.get()) lose("messages of " + recording_.topic<Message>(), messages.lost());
 }
 
 template <class Message>

@@ -81,9 +81,8 @@ class RunCheck {
   void check_configurations();
   bool is_due(const Mark& mark) const;
   void take(const Mark& mark);
-  bool begins_epoch(const Mark& mark) const;
-  bool is_in_next_snapshot(const Mark& mark) const;
-  void begin_epoch(const Mark& mark);
+  const afm_emulator::Snapshot* snapshot_behind(const Mark& mark) const;
+  void begin_epoch(const Mark& mark, const afm_emulator::Configuration& configuration);
   void begin_at(const Mark& mark);
   void note_beginning(const Mark& mark);
   void keep_what_was_in_force(afm_emulator::Applied& applied) const;
@@ -98,11 +97,11 @@ class RunCheck {
   void advance_to(const ModelTime& time, std::uint64_t impacts);
   void run_to(const afm_emulator::ModelTime& to, std::uint64_t impacts);
   template <class Message>
-  boost::shared_ptr<Message> of_batch(Cursor<Message>* messages);
+  boost::shared_ptr<Message> of_batch(Cursor<Message>& messages);
   template <class Message>
-  void check_ends(Cursor<Message>* messages);
+  void check_ends();
   template <class Message>
-  void take_next(Cursor<Message>* messages);
+  void take_next(Cursor<Message>& messages);
   template <class Message>
   void compare(const Message& recorded, Message simulated);
   // `after`: the model time of the first; empty: now
@@ -115,7 +114,7 @@ class RunCheck {
   std::size_t next_mark_ = 0;
   std::set<std::pair<std::uint64_t, std::uint32_t>> known_epochs_;  // of the marks: start of the node, and epoch
   std::unique_ptr<Cursor<afm_emulator::Friction>> batches_;
-  std::unique_ptr<Cursor<afm_emulator::Deflection>> deflections_;  // null: not held
+  std::unique_ptr<Cursor<afm_emulator::Deflection>> deflections_;  // none, where the bag holds no such topic
   std::unique_ptr<Cursor<afm_emulator::ImpactArray>> impacts_;     // likewise
 
   // the run; without one, nothing is compared up to the next snapshot
