@@ -66,43 +66,29 @@ struct Target {
   }
 };
 
-// What a table does not show.
-struct Unseen {
-  std::uint64_t lost = 0, tolerated = 0;  // Recording::Missing
-  std::set<std::uint64_t> starts;         // of the node that the messages are of
-};
-
-// take(message) for each that is held.
-template <class Message, class Take>
-Unseen for_each_message(const Recording& recording, const Take& take) {
-  Unseen unseen;
+// write(message) for each that is held. Returns how many messages are lost; says what else the user should know.
+template <class Message, class Write>
+std::uint64_t write_each(const Recording& recording, const Write& write) {
   if (!recording.holds<Message>()) throw Problem(recording.name() + ": holds no messages of this topic");
+  std::uint64_t lost = 0;
+  std::set<std::uint64_t> starts;  // of the node
   for (const auto messages = recording.read<Message>(); messages->get(); messages->next()) {
-    unseen.lost += messages->lost();
-    unseen.starts.insert(messages->number().start);
-    take(*messages->get());
+    lost += messages->lost();
+    starts.insert(messages->number().start);
+    write(*messages->get());
   }
   const Recording::Missing ends = recording.missing_at_ends<Message>();
-  unseen.lost += ends.at_beginning + ends.at_end;
-  unseen.tolerated = ends.tolerated;
-  return unseen;
-}
-
-// The same for the rows of a table. Returns how many messages are lost; says what else its user should know.
-template <class Message, class Take>
-std::uint64_t write_each(const Recording& recording, const Take& take) {
-  const Unseen unseen = for_each_message<Message>(recording, take);
   const auto note = [](std::uint64_t count, const std::string& what) {
     std::cout.flush();
     std::cerr << "bag_to_csv: note: " << count << what << "\n";
   };
-  if (unseen.tolerated > 0) {
-    note(unseen.tolerated, " batches at the ends have no message of " + recording.topic<Message>());
+  if (ends.tolerated > 0) {
+    note(ends.tolerated, " batches at the ends have no message of " + recording.topic<Message>());
   }
-  if (unseen.starts.size() > 1) {
-    note(unseen.starts.size(), " starts of the node: at each, epochs and the index begin again");
+  if (starts.size() > 1) {
+    note(starts.size(), " starts of the node: at each, epochs and the index begin again");
   }
-  return unseen.lost;
+  return lost + ends.at_beginning + ends.at_end;
 }
 
 std::uint64_t write_impacts(const Recording& recording, const Target& to) {
@@ -202,7 +188,6 @@ using ByStart = std::map<std::uint64_t, boost::shared_ptr<Message>>;  // of the 
 // the first batch is a latched one, in a bag that was begun later.
 std::uint64_t count_lost_first_commands(const Recording& recording, ByStart<afm_emulator::Applied> commands,
                                         const ByStart<afm_emulator::Friction>& batches) {
-  if (!recording.holds<afm_emulator::Snapshot>()) return 0;
   std::uint64_t lost = 0;
   for (const auto m = recording.read<afm_emulator::Snapshot>(); m->get(); m->next()) {
     const auto first = commands.find(m->number().start);
@@ -219,7 +204,6 @@ std::uint64_t count_lost_first_commands(const Recording& recording, ByStart<afm_
 // Of which no number between two others tells: at each start of the node the first ones, and the last one, of which
 // friction tells.
 std::uint64_t count_lost_commands_at_ends(const Recording& recording) {
-  if (!recording.holds<afm_emulator::Friction>()) return 0;
   ByStart<afm_emulator::Applied> first, last;
   for (const auto m = recording.read<afm_emulator::Applied>(); m->get(); m->next()) {
     first.emplace(m->number().start, m->get());
@@ -276,12 +260,8 @@ afm::Units units_of(const Recording& recording) {
     }
     units = found;
   };
-  if (recording.holds<afm_emulator::Configuration>()) {
-    for_each_message<afm_emulator::Configuration>(recording, add);
-  }
-  if (recording.holds<afm_emulator::Snapshot>()) {
-    for_each_message<afm_emulator::Snapshot>(recording, [&](const auto& s) { add(s.configuration); });
-  }
+  for (const auto m = recording.read<afm_emulator::Configuration>(); m->get(); m->next()) add(*m->get());
+  for (const auto m = recording.read<afm_emulator::Snapshot>(); m->get(); m->next()) add(m->get()->configuration);
   if (!units) throw Problem(recording.name() + ": holds neither a configuration nor a snapshot, which have the units");
   return *units;
 }
