@@ -178,22 +178,34 @@ TEST_F(RecorderTest, AStopWaitsForTheEndOfABatch) {
   EXPECT_EQ(messages_in_bag("run.bag"), 5u);
 }
 
+// Every bag is full at the end of its first batch.
+class SplitRecordingTest : public RecorderTest {
+ protected:
+  void record(Role role, int times = 1) {
+    for (int i = 0; i < times; ++i) recorder_.record(topic_, bytes_, role, true);
+  }
+  // For a snapshot, so often.
+  bool is_asked(int times) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(50);
+    while (asked_ < times && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    return asked_ >= times;
+  }
+
+  std::atomic<int> asked_{0}, refusals_{0};
+  Recorder recorder_{settings(1), [this] { return ++asked_ > refusals_; }};
+};
+
 // One that is stopped within the first batch after a split has no bag that begins there; nothing of it is lost.
-TEST_F(RecorderTest, EveryBagOfASplitRecordingHasAWholeBatch) {
+TEST_F(SplitRecordingTest, EveryBagHasAWholeBatch) {
   for (const bool whole : {false, true}) {
-    std::promise<void> asked;
-    Recorder recorder(settings(1), [&, calls = 0]() mutable {
-      if (calls++ == 0) asked.set_value();
-      return true;
-    });
     const std::string name = whole ? "whole" : "part";
-    begin(recorder, name);
-    recorder.record(topic_, bytes_, Role::batch_end, false);  // before that no other bag is asked for
-    ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
-    recorder.record(topic_, bytes_, Role::snapshot, false);
-    recorder.record(topic_, bytes_, Role::ordinary, false);
-    if (whole) recorder.record(topic_, bytes_, Role::batch_end, false);
-    EXPECT_TRUE(recorder.stop().success);
+    begin(recorder_, name);
+    record(Role::batch_end);  // before that no other bag is asked for
+    ASSERT_TRUE(is_asked(whole ? 2 : 1));
+    record(Role::snapshot);
+    record(Role::ordinary);
+    if (whole) record(Role::batch_end);
+    EXPECT_TRUE(recorder_.stop().success);
     EXPECT_EQ(messages_in_bag(name + ".bag"), whole ? 4u : 6u);
     ASSERT_EQ(fs::exists(file(name + "_001.bag")), whole);
     if (whole) {
@@ -203,55 +215,38 @@ TEST_F(RecorderTest, EveryBagOfASplitRecordingHasAWholeBatch) {
 }
 
 // As in a pause, in which only the status is published.
-TEST_F(RecorderTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
-  std::promise<void> asked[2];
-  Recorder recorder(settings(1), [&, calls = 0]() mutable {
-    if (calls < 2) asked[calls++].set_value();
-    return true;
-  });
-  const auto was_asked = [&](int time) {
-    return asked[time].get_future().wait_for(std::chrono::seconds(50)) == std::future_status::ready;
-  };
-  begin(recorder);
-  recorder.record(topic_, bytes_, Role::batch_end, true);
-  ASSERT_TRUE(was_asked(0));
-  recorder.record(topic_, bytes_, Role::snapshot, true);
-  for (int i = 0; i < 120; ++i) recorder.record(topic_, bytes_, Role::ordinary, true);
-  ASSERT_TRUE(was_asked(1));
-  recorder.record(topic_, bytes_, Role::snapshot, true);
-  recorder.record(topic_, bytes_, Role::batch_end, true);
-  EXPECT_EQ(recorder.stop().message, file("run_001.bag") + ": the last of 2 bags with 129 messages");
+TEST_F(SplitRecordingTest, WhatNoBatchFollowsIsWrittenAndAnotherSnapshotAskedFor) {
+  begin(recorder_);
+  record(Role::batch_end);
+  ASSERT_TRUE(is_asked(1));
+  record(Role::snapshot);
+  record(Role::ordinary, 120);
+  ASSERT_TRUE(is_asked(2));
+  record(Role::snapshot);
+  record(Role::batch_end);
+  EXPECT_EQ(recorder_.stop().message, file("run_001.bag") + ": the last of 2 bags with 129 messages");
   EXPECT_EQ(messages_in_bag(), 125u);
   EXPECT_EQ(messages_in_bag("run_001.bag"), 4u);
 }
 
 // More commands than messages that it waits for kept a recording from splitting.
-TEST_F(RecorderTest, ManyCommandsWithinABatchAreNoPause) {
-  std::promise<void> asked;
-  Recorder recorder(settings(1), [&, calls = 0]() mutable {
-    if (calls++ == 0) asked.set_value();
-    return true;
-  });
-  begin(recorder);
-  recorder.record(topic_, bytes_, Role::batch_end, true);
-  ASSERT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
-  recorder.record(topic_, bytes_, Role::snapshot, true);
-  for (int i = 0; i < 300; ++i) recorder.record(topic_, bytes_, Role::applied, true);
-  recorder.record(topic_, bytes_, Role::batch_end, true);
-  EXPECT_TRUE(recorder.stop().success);
+TEST_F(SplitRecordingTest, ManyCommandsWithinABatchAreNoPause) {
+  begin(recorder_);
+  record(Role::batch_end);
+  ASSERT_TRUE(is_asked(1));
+  record(Role::snapshot);
+  record(Role::applied, 300);
+  record(Role::batch_end);
+  EXPECT_TRUE(recorder_.stop().success);
   EXPECT_EQ(messages_in_bag(), 4u);
   EXPECT_EQ(messages_in_bag("run_001.bag"), 304u);
 }
 
-TEST_F(RecorderTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
-  std::promise<void> asked;
-  Recorder recorder(settings(1), [&, calls = 0]() mutable {
-    if (++calls == 3) asked.set_value();
-    return calls > 2;
-  });
-  begin(recorder);
-  for (int i = 0; i < 3; ++i) recorder.record(topic_, bytes_, Role::batch_end, false);  // it asks once at each
-  EXPECT_EQ(asked.get_future().wait_for(std::chrono::seconds(50)), std::future_status::ready);
+TEST_F(SplitRecordingTest, AsksAgainForASnapshotThatCouldNotBeAskedFor) {
+  refusals_ = 2;
+  begin(recorder_);
+  record(Role::batch_end, 3);  // it asks once at each
+  EXPECT_TRUE(is_asked(3));
 }
 
 TEST_F(RecorderTest, LeavesNoBagWhereNothingCame) {
