@@ -19,21 +19,12 @@ def alter(message, **values):
         setattr(functools.reduce(getattr, parts, message), field, value)
 
 
-def read(path):
-    """The messages of each topic, in order; an empty list where there are none."""
+def read(path, raw=False):
+    """The messages of each topic, or their bytes, in order; an empty list where there are none."""
     messages = {name: [] for name in TOPICS}
     with rosbag.Bag(path) as bag:
-        for topic, message, _ in bag.read_messages():
-            messages[short(topic)].append(message)
-    return messages
-
-
-def read_raw(path):
-    """The same as bytes."""
-    messages = {name: [] for name in TOPICS}
-    with rosbag.Bag(path) as bag:
-        for topic, (_, data, _, _, _), _ in bag.read_messages(raw=True):
-            messages[short(topic)].append(data)
+        for topic, message, _ in bag.read_messages(raw=raw):
+            messages[short(topic)].append(message[1] if raw else message)
     return messages
 
 

@@ -48,7 +48,7 @@ class Recording(NodeTest):
         self.assertTrue(emulator.call('stop_recording', Trigger).success)
         self.assertEqual([path.name for path in self.directory.iterdir()], ['run.bag'])
         checks.assert_identical(self, answer.path)
-        for name, recorded in bags.read_raw(answer.path).items():
+        for name, recorded in bags.read(answer.path, raw=True).items():
             self.assert_holds(recorded, published[name], begin[name], end[name])
         with rosbag.Bag(answer.path) as bag:
             first = [topic for topic, _, _ in itertools.islice(bag.read_messages(), 3)]

@@ -26,7 +26,7 @@ class Replay(NodeTest):
         end = time.monotonic() + 1.0  # to play at once would be noticed
         wait_until(lambda: time.monotonic() > end, 'a second passes')
         topics = bags.listen()
-        recorded = bags.read_raw(self.path)
+        recorded = bags.read(self.path, raw=True)
         for name, topic in topics.items():
             self.assertTrue(recorded[name], name)
             wait_until(lambda: len(topic.raw) >= len(recorded[name]), name + ': played to the end')

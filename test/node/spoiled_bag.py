@@ -12,6 +12,8 @@ import bags
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest
 from topics import NAMESPACE, TOPICS, Topic
 
+BATCH = ('deflection', 'impacts', 'friction')  # its topics
+
 
 class Entry:
     """A message of a bag as bytes, with all that it takes to write it again."""
@@ -79,6 +81,10 @@ class SpoiledBag(NodeTest):
 
     def of(self, topic):
         return [entry for entry in self.entries if entry.topic == topic]
+
+    def batches(self, which):
+        """All messages of a slice of them."""
+        return [entry for topic in BATCH for entry in self.of(topic)[which]]
 
     def remove(self, *entries):
         self.entries = [e for e in self.entries if e not in entries]

@@ -12,7 +12,7 @@ from std_msgs.msg import String
 import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
 from emulator_under_test import SPEED_UNIT, find
-from spoiled_bag import SpoiledBag
+from spoiled_bag import BATCH, SpoiledBag
 from terminal import run_on_a_terminal
 from topics import NAMESPACE
 
@@ -122,7 +122,7 @@ class SpoiledBags(SpoiledBag):
         self.assert_reported(UNCHECKED, 'another version of afm_emulator/Friction')
 
     def test_messages_are_lost(self):
-        for topic in ('deflection', 'impacts', 'friction'):
+        for topic in BATCH:
             words = '3 messages of /afm/%s, the first after' % topic, 'what was compared is identical'
             self.spoil_each((UNCHECKED, words, False, lambda: self.remove(*self.of(topic)[80:83])))
 
@@ -139,7 +139,7 @@ class SpoiledBags(SpoiledBag):
         """At which the motion was split: a difference right behind it may be that in the last digits."""
         def lose_batches_before_a_difference(batch):
             self.of('deflection')[batch].flip_last_bit(-8)
-            self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[80:83]))
+            self.remove(*self.batches(slice(80, 83)))
         self.spoil_each((UNCHECKED, ('3 messages of /afm/friction', 'what was compared is identical'), False,
                          lambda: lose_batches_before_a_difference(83)),
                         (DIFFERS, ('message 90 of /afm/deflection',), False,
@@ -149,8 +149,7 @@ class SpoiledBags(SpoiledBag):
         """At the latched snapshot and command: what is altered later is still found. Where rosbag record repeats the
         latched messages of the beginning, another snapshot may have come."""
         def begin_late(batch, repeated=False):
-            batches = [e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[:20]]
-            self.remove(*batches)
+            self.remove(*self.batches(slice(20)))
             snapshot = self.of('snapshot')[0]
             snapshot.stamp += genpy.Duration(0, 1000)
             for entry in self.entries[:3] if repeated else ():
@@ -161,23 +160,20 @@ class SpoiledBags(SpoiledBag):
                         (UNCHECKED, ('not compared:',), None, lambda: begin_late(0, True)))
 
     def test_messages_are_lost_at_the_ends(self):
-        for topic in ('deflection', 'impacts', 'friction'):
+        for topic in BATCH:
             words = 'missing: 3 messages of /afm/%s at the beginning' % topic, 'what was compared is identical'
             end = 'messages of /afm/%s at the end' % topic
             self.spoil_each((UNCHECKED, words, None, lambda: self.remove(*self.of(topic)[:3])),
                             (UNCHECKED, (end,), None, lambda: self.remove(*self.of(topic)[-5:])))
-        def lose_batches(batches):
-            self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[batches]))
         def end_before_the_last_command():
             time = self.of('applied')[-1].message().time
             before = sum((m.time.tau, m.time.phase) < (time.tau, time.phase)
                          for m in (e.message() for e in self.of('friction')))
-            lose_batches(slice(before, None))
-            self.remove(*self.of('status'))
+            self.remove(*self.batches(slice(before, None)), *self.of('status'))
         def tell_of_a_reset():
             self.of('status')[-1].edit(epoch=self.of('friction')[-1].message().epoch + 1)
         self.spoil_each((UNCHECKED, ('3 messages of /afm/friction at the beginning',), False,  # as the snapshot tells
-                         lambda: lose_batches(slice(3))),
+                         lambda: self.remove(*self.batches(slice(3)))),
                         (UNCHECKED, ('messages of /afm/friction at the end',), False, end_before_the_last_command),
                         (UNCHECKED, ('messages of /afm/friction at the end',), False, tell_of_a_reset))
         self.spoil_each((SOUND, ('IDENTICAL',), None, self.end_at_the_last_deflection))
@@ -185,12 +181,11 @@ class SpoiledBags(SpoiledBag):
             self.entries.append(copy.copy(self.of('status')[-1]))  # what stands behind a batch shows that it was whole
             self.entries[-1].stamp = self.entries[-2].stamp + genpy.Duration(0, 1)
             self.remove(self.of(topic)[-1])
-        for topic in ('deflection', 'impacts', 'friction'):
+        for topic in BATCH:
             self.spoil_each((UNCHECKED, ('1 messages of /afm/%s at the end' % topic,), False,
                              lambda: lose_the_last(topic)))
         self.spoil_each((UNCHECKED, ('5 messages of /afm/friction at the end',), False,  # as the status tells
-                         lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
-                                               for e in self.of(topic)[-5:]))),
+                         lambda: self.remove(*self.batches(slice(-5, None)))),
                         (UNCHECKED, ('missing: 1 commands',), False, lambda: self.remove(self.of('applied')[0])))
 
     def test_rosbag_record_subscribes_to_topic_after_topic(self):
@@ -210,7 +205,7 @@ class SpoiledBags(SpoiledBag):
         """Other messages show up to which model time there were batches. Both checks once called it whole."""
         def lose_by_rosbag(count):
             self.of('snapshot')[0].stamp += genpy.Duration(0, 1)
-            self.remove(*(e for topic in ('deflection', 'impacts', 'friction') for e in self.of(topic)[-count:]))
+            self.remove(*self.batches(slice(-count, None)))
         self.spoil_each((UNCHECKED, ('messages of /afm/friction at the end',), False, lambda: lose_by_rosbag(115)),
                         (SOUND, ('IDENTICAL',), True, lambda: lose_by_rosbag(20)))
 
@@ -251,7 +246,7 @@ class SpoiledBags(SpoiledBag):
         def take_over():
             """The first goes on for two batches, as roscpp gives its name to the second meanwhile."""
             later = [entry.shifted(100) for entry in self.entries]
-            old = [entry for topic in ('deflection', 'impacts', 'friction') for entry in self.of(topic)[-2:]]
+            old = self.batches(slice(-2, None))
             for entry in old:
                 entry.edit(header__stamp=later[0].message().header.stamp + genpy.Duration(0, 1000))
                 entry.stamp = later[0].stamp + genpy.Duration(0, 1000)
@@ -469,8 +464,7 @@ class SpoiledBags(SpoiledBag):
                                ('complete', lambda: self.remove(*self.of('impacts')[-5:])),
                                ('complete', lambda: self.remove(*self.of('friction')[-5:])),
                                ('complete', lambda: self.remove(*self.of('applied')[-1:])),
-                               ('complete', lambda: self.remove(*(e for topic in ('deflection', 'impacts', 'friction')
-                                                                  for e in self.of(topic)[100:110]))),
+                               ('complete', lambda: self.remove(*self.batches(slice(100, 110)))),
                                ('complete', lambda: self.of('friction')[-1].edit(drag_velocity=1e200)),
                                ('complete', lambda: self.of('friction')[-1].edit(epoch=7)),
                                ('energy', lambda: self.of('deflection')[5].edit(
