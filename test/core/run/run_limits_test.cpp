@@ -65,7 +65,7 @@ TEST(RunLimits, EveryFaultIsListedAtOnce) {
                                         "initial_u", "initial_w"}));
   EXPECT_THROW(afm::Run{settings}, ParameterError);
   settings = {};
-  settings.initial = {0.0, 0.0, -5.0, kNaN, 0.0};  // the first was hidden by the second
+  settings.initial = {0.0, 0.0, 0.0, kNaN, 0.0};  // below the crest, which was hidden by the velocity
   EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height", "initial_u"}));
   settings.initial = {0.0, 0.0, -1000.0, 0.0, 0.0};  // and is not named twice
   EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height"}));
@@ -85,15 +85,6 @@ TEST(RunLimits, ATimeOrAnErrorOfNextToNothingIsAFault) {
   settings.contact_tolerance *= 0.999;
   settings.sample_period *= 0.999;
   EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"contact_tolerance", "sample_period"}));
-}
-
-TEST(RunLimits, AStartBelowTheSurfaceIsAFault) {
-  RunSettings settings;
-  settings.initial = {0.0, 0.0, 0.0, 3.4, 0.0};  // under the crest
-  const std::vector<ParameterError> faults = find_faults(settings);
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].name, "initial_height");
-  EXPECT_THROW(afm::Run{settings}, ParameterError);
 }
 
 }  // namespace

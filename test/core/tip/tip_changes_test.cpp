@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/run/interruptible_advance.h"
 #include "support/models.h"
 #include "trials/energy_balance.h"
 #include "trials/random_launches.h"
@@ -20,17 +21,12 @@ Model random_model(RandomLaunches& random, double v_c) {
   return model;
 }
 
-void advance_to(Tip& tip, const ModelTime& time) {
-  while (tip.advance(time) != Outcome::time_limit) {
-  }
-}
-
 TEST(SetParameters, InFlightTheTipIsAsIfLaunchedThere) {
   RandomLaunches random(7);
   Tip tip(Model{}, 3.4, start_at(3.4));
   int flights = 0;
   for (int i = 0; i < 2000; ++i) {
-    advance_to(tip, tip.now() + random.within(0.0, 0.7));
+    detail::bring_to(tip, tip.now() + random.within(0.0, 0.7));
     const TipState state = tip.tip_state();
     if (!(state.g > 0.0)) continue;
     const Model model = random_model(random, 0.05);
@@ -55,14 +51,14 @@ TEST(Drag, AHammerThatIsStoppedInChatterHasLostWhatItsImpactsTook) {
   int stopped = 0;
   for (int i = 1; i <= 50; ++i) {
     Tip tip(model, 3.0, TipState{0.02 * i, 0.0, 3.0, 0.0, 1e-3});
-    advance_to(tip, {0, 0.005});
+    detail::bring_to(tip, {0, 0.005});
     if (!tip.in_chatter()) continue;
     tip.drag(0.0);
     ASSERT_EQ(tip.advance(tip.now()), Outcome::impact);
     ASSERT_EQ(tip.last_impact().kind, ImpactKind::burst);
     EXPECT_NEAR(tip.last_impact().energy_loss, 0.0, 1e-18) << i;
     Tip bounces(model, 3.0, TipState{0.02 * i, 0.0, 3.0, 0.0, 1e-3}, 0.0);
-    advance_to(bounces, {0, 0.005});
+    detail::bring_to(bounces, {0, 0.005});
     EXPECT_NEAR(tip.last_impact().surface_phase, bounces.last_impact().surface_phase, 1e-6) << i;
     ++stopped;
   }
@@ -119,7 +115,7 @@ void expect_the_tip_under_its_holder(const Change& change) {
     model.y0 = -1.0;
     constexpr double kPhase = 0.3;  // on a slope: one way it lifts off, the other way it has an impact
     Tip tip(model, 0.0, FreeState{kPhase, 0.0, model.H * std::cos(kTwoPi * kPhase), 0.0, 0.0});
-    advance_to(tip, {2, 0.0});
+    detail::bring_to(tip, {2, 0.0});
     ASSERT_TRUE(tip.in_contact());
     EnergyBalance balance(tip);
     balance.command(tip, [&] { tip.drag(eta); });
@@ -154,7 +150,7 @@ TEST(SetParameters, TakenBackAtOneTimeAreNoEvent) {
     Model high = low;
     high.y0 = 0.09;
     Tip tip(low, 0.0, FreeState{0.5, 0.0, -low.H, 0.0, 0.0});
-    advance_to(tip, {2, 0.0});
+    detail::bring_to(tip, {2, 0.0});
     tip.set_parameters(high);
     tip.set_parameters(low);
     EXPECT_TRUE(tip.is_settled());
@@ -171,8 +167,8 @@ TEST(SetParameters, AndSetBathToTheSameChangeNoBit) {
     Tip commanded = plain;
     for (int i = 1; i <= 20; ++i) {
       const ModelTime next = multiply(static_cast<std::uint64_t>(i), 1.5);
-      advance_to(plain, next);
-      advance_to(commanded, next);
+      detail::bring_to(plain, next);
+      detail::bring_to(commanded, next);
       commanded.set_parameters(commanded.model());
       commanded.set_bath(bath);
       ASSERT_EQ(commanded.tip_state().phase, plain.tip_state().phase) << i;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "afm/surface.h"
+#include "core/run/interruptible_advance.h"
 #include "support/models.h"
 
 namespace afm {
@@ -14,12 +15,6 @@ namespace {
 Model model_at(double eta) { return model_with_cutoff(0.1 * std::abs(eta)); }
 
 Tip tip_at(double eta) { return {model_at(eta), eta, start_at(eta)}; }
-
-void run_to(Tip& tip, const ModelTime& time) {
-  Outcome outcome;
-  do outcome = tip.advance(time);
-  while (outcome != Outcome::time_limit);
-}
 
 bool is_event(Outcome outcome) { return outcome != Outcome::time_limit && outcome != Outcome::flying; }
 
@@ -38,7 +33,7 @@ TEST(Tip, TheDeflectionIsThatOfTheState) {
     const Model model = model_at(eta);
     for (int i = 1; i < 1000; ++i) {
       const ModelTime t = multiply(static_cast<std::uint64_t>(i), 0.0171);
-      run_to(tip, t);
+      detail::bring_to(tip, t);
       const FreeState state = tip.state();
       const Deflection deflection = tip.deflection(t);
       // the samples of a step in contact are good to its tolerance
