@@ -161,20 +161,20 @@ std::string describe(const Faults& faults) {
 // A faulty value that others are checked against is replaced by its default, so that all faults are found at once.
 Faults find_faults(const Parameters& parameters) {
   Parameters p = parameters;
-  Faults faults, faults_of_rates;
-  Check check(faults), rates(faults_of_rates);
+  Faults faults;
+  Check check(faults);
   add(find_faults(p.si), faults);
   if (!faults.empty()) {
     p.si = SiModel{};
     p.initial.y = std::max(p.initial.y, Parameters{}.initial.y);  // it may be a valley of the other surface
   }
   check_model(p, check);
-  rates.within("time_scale", p.time_scale, 1e-6, 100.0);
-  rates.within("batch_rate_hz", p.batch_rate_hz, 1.0, kMaxBatchRate);
-  rates.within("sample_rate_hz", p.sample_rate_hz, 1.0, kMaxSampleRate);
-  if (faults_of_rates.empty()) check_rates(p, rates);
-  if (!faults_of_rates.empty()) {
-    faults.insert(faults.end(), faults_of_rates.begin(), faults_of_rates.end());
+  const std::size_t before = faults.size();
+  check.within("time_scale", p.time_scale, 1e-6, 100.0);
+  check.within("batch_rate_hz", p.batch_rate_hz, 1.0, kMaxBatchRate);
+  check.within("sample_rate_hz", p.sample_rate_hz, 1.0, kMaxSampleRate);
+  if (faults.size() == before) check_rates(p, check);
+  if (faults.size() > before) {
     const Parameters usual;
     p.time_scale = usual.time_scale;
     p.batch_rate_hz = usual.batch_rate_hz;
