@@ -334,16 +334,12 @@ class Python(Claims, NodeTest):
         tip = self.start_both('lockstep')
         self.assertEqual(tip.call('control_in_threads 1e-3 2e-3'), '1000 2000')
 
-    def test_a_text_is_no_number(self):
+    def test_a_text_or_a_truth_value_is_no_number(self):
         tip = self.start_both('lockstep')
+        self.assertRegex(tip.call('control True'), '^EmulatorError: duration = True: must be a finite number')
         self.assertRegex(tip.call("control '0.01'"), '^EmulatorError: duration = ')
         self.assertRegex(tip.call("control 0.01 '3e-6'"), '^EmulatorError: drag_velocity = ')
         self.assertAlmostEqual(self.numbers(tip.call('control 0.02'))[0], 4000, delta=1)  # no half request is before it
-
-
-    def test_a_truth_value_is_no_number(self):
-        tip = self.start_both('lockstep')
-        self.assertRegex(tip.call('control True'), '^EmulatorError: duration = True: must be a finite number')
 
     def test_a_name_that_no_node_can_have(self):
         """Is refused at once. A legal one, relative or private, is waited for."""

@@ -148,12 +148,12 @@ class Emulator(Process):
         assert self.child.poll() is None, 'the emulator has ended with code %s' % self.child.poll()
 
 
-def set_parameters(parameters):
+def set_parameters(parameters, node=NAMESPACE):
     """These and no others: the master remembers what was set for an earlier node of the same name."""
-    if rospy.has_param(NAMESPACE):
-        rospy.delete_param(NAMESPACE)
+    if rospy.has_param(node):
+        rospy.delete_param(node)
     if parameters:
-        rospy.set_param(NAMESPACE, parameters)
+        rospy.set_param(node, parameters)
 
 
 def call_service(service, kind, **request):

@@ -15,18 +15,11 @@ from afm_emulator.msg import Configuration, EmulatorStatus, ModelTime
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, find
+from emulator_under_test import PACKAGE, SPEED_UNIT, Emulator, NodeTest, Process, connected_to, find, set_parameters
 from topics import PATIENCE, Topic, wait_until
 
 NAME = '/expect_under_test'
 SPEED = 2.0 * SPEED_UNIT
-
-
-def set_parameters(node, parameters):
-    """Private ones, these and no others."""
-    if rospy.has_param(node):
-        rospy.delete_param(node)
-    rospy.set_param(node, parameters)
 
 
 def advance_after(set_up, tip):
@@ -42,7 +35,7 @@ def advance_after(set_up, tip):
 class Expect(NodeTest):
     def node(self, kind='expect', name=NAME, **parameters):
         """Under way, as rostest starts it."""
-        set_parameters(name, parameters)
+        set_parameters(parameters, name)
         self.results = Path(self.temporary_directory())
         return self.start(Process([find(kind), '__name:=' + name[1:], '--text',
                                    '--gtest_output=xml:%s/results.xml' % self.results]))
@@ -57,7 +50,7 @@ class Expect(NodeTest):
 
     def assert_refused(self, sentence, kind='expect', **parameters):
         """By the test case of the node, run here. There is no emulator: it must not get as far as to wait for one."""
-        set_parameters(rospy.get_name(), dict(parameters, timeout_s=0.1))
+        set_parameters(dict(parameters, timeout_s=0.1), rospy.get_name())
         with mock.patch('afm_emulator.ending', create=True), mock.patch('afm_emulator.expectations.run') as run:
             runpy.run_path(find(kind))
         (_, case), _ = run.call_args
@@ -234,7 +227,7 @@ class Expect(NodeTest):
         def lose_some(self, message):
             if message.header.seq % 4 or not hasattr(message, 'k_f'):
                 take(self, message)
-        set_parameters(rospy.get_name(), {'field': 'friction/drag_velocity', 'least': 0.0, 'for_s': 0.1})
+        set_parameters({'field': 'friction/drag_velocity', 'least': 0.0, 'for_s': 0.1}, rospy.get_name())
         with mock.patch('afm_emulator.ending', create=True), mock.patch('afm_emulator.expectations.run') as run:
             runpy.run_path(find('expect'))
         (_, case), _ = run.call_args

@@ -82,15 +82,11 @@ class Scenes(NodeTest):
     def events(self, begin_s=0.0):
         return [i for m in self.impacts.messages for i in m.impacts if i.time.tau * TAU_S >= begin_s]
 
-    def assert_friction(self, estimate, expected, most):
-        error = max(estimate.window_k_f_std_error, 1e-4 * estimate.window_k_f) / FRICTION_UNIT
+    def assert_friction(self, estimate, expected, most, of='window_k_f'):
+        k_f = getattr(estimate, of)
+        error = max(getattr(estimate, of + '_std_error'), 1e-4 * k_f) / FRICTION_UNIT
         self.assertLess(error, most)
-        self.assertLess(abs(estimate.window_k_f / FRICTION_UNIT - expected), 4 * error)
-
-    def assert_friction_by_work(self, estimate, expected, most):
-        error = estimate.k_f_work_std_error / FRICTION_UNIT
-        self.assertLess(error, most)
-        self.assertLess(abs(estimate.k_f_work / FRICTION_UNIT - expected), 4 * error)
+        self.assertLess(abs(k_f / FRICTION_UNIT - expected), 4 * error)
 
     def test_paper_is_chaos_with_the_friction_of_its_attractor(self):
         self.play('paper')
@@ -164,7 +160,7 @@ class Scenes(NodeTest):
 
     def test_room_has_the_friction_of_a_damped_and_heated_tip(self):
         self.play('room')
-        self.assert_friction_by_work(self.after(2.0), 4.17, 0.1)
+        self.assert_friction(self.after(2.0), 4.17, 0.1, of='k_f_work')
         # heat: no two impacts alike, where the scene resonance repeats itself
         speeds = {round(i.normal_speed, 12) for i in self.events(0.5) if i.kind == Impact.IMPACT}
         self.assertGreater(len(speeds), 1000)
