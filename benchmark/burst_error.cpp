@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "common/command_line.h"

@@ -2,6 +2,7 @@
 
 #include "afm/tip.h"
 #include "common/cpu_clock.h"
+#include "rivals/method.h"
 
 namespace afm {
 namespace {

@@ -1,10 +1,12 @@
 // A run of a method from impact to impact, with its totals: time, energy, impacts, and what it cost.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
-#include "rivals/method.h"
+#include "afm/model.h"
+#include "afm/state.h"
 
 namespace afm {
 

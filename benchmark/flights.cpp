@@ -1,7 +1,6 @@
 #include "flights.h"
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "afm/tip.h"

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "common/cpu_clock.h"
 #include "speed_accuracy.h"

@@ -1,7 +1,6 @@
 // What an impact and a sample cost. Every measurement goes over the same saved states again and again.
 #include <benchmark/benchmark.h>
 
-#include <cstdint>
 #include <vector>
 
 #include "afm/landing.h"

@@ -4,7 +4,6 @@
 #include <heyoka/heyoka.hpp>
 #include <iterator>
 #include <limits>
-#include <memory>
 #include <tuple>
 #include <vector>
 

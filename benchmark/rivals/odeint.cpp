@@ -1,7 +1,6 @@
 // Boost.Odeint with adaptive steps and dense output: each step's interpolant is sampled, and solved where it crosses
 // zero; with minima also where the gap turns from falling to rising.
 #include <boost/numeric/odeint.hpp>
-#include <type_traits>
 
 #include "impact_law.h"
 

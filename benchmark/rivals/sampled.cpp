@@ -1,6 +1,5 @@
 // The exact flow in closed form, sampled at a fixed spacing; TOMS 748 where the gap has changed sign. With minima: TOMS
 // 748 on the gap rate too, where that has changed from falling to rising, so that a touch between two samples is seen.
-#include <algorithm>
 
 #include "impact_law.h"
 

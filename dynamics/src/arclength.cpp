@@ -33,7 +33,7 @@ bool Arclength::residual(const Place& p, Eigen::VectorXd& error, std::vector<Map
   if (!valid(p.parameter)) return false;
   const PoincareMap at = map(p.parameter);
   const std::size_t n = p.points.size();
-  error.resize(size(p) + 1);
+  error.setZero(size(p) + 1);
   for (std::size_t i = 0; i < n; ++i) {
     const MapStep step = at(p.points[i]);
     if (step.outcome != MapOutcome::impact) return false;

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <limits>
 
-#include "afm/dynamics/sweep.h"
+#include "afm/sweep.h"
 #include "common/cpu_clock.h"
 
 namespace afm {

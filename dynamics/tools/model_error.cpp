@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "afm/dynamics/sweep.h"
 #include "afm/number_text.h"
+#include "afm/sweep.h"
 #include "afm/units.h"
 #include "common/csv.h"
 #include "common/lever_options.h"

@@ -6,7 +6,6 @@
 
 #include "afm/dynamics/cycle_expansion.h"
 #include "afm/dynamics/orbit_search.h"
-#include "afm/state.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
 #include "common/table_writer.h"

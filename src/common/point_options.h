@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "afm/sweep.h"
 #include "common/command_line.h"

@@ -1,7 +1,6 @@
 // Runs under random commands: whatever the tip is at, a run can be brought there.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <ostream>
 

@@ -1,8 +1,6 @@
 // The closed forms of a flight (Eq. 9-10 of the paper): its state, and the gap with its time derivatives.
 #pragma once
 
-#include <cmath>
-
 #include "afm/spring_constants.h"
 #include "afm/state.h"
 #include "afm/surface.h"

@@ -1,9 +1,8 @@
 // Where the reaction along a step in contact falls, and its impulse (docs/algorithm.md, "Contact").
-#include <cmath>
 
 #include "bernstein_fall.h"
-#include "gauss.h"
 #include "core/release_noise.h"
+#include "gauss.h"
 
 namespace afm::detail {
 

@@ -1,5 +1,4 @@
 // The transitions at the end of a phase of motion: impact, chatter, contact, release (docs/algorithm.md).
-#include <cmath>
 #include <new>
 #include <optional>
 

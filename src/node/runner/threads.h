@@ -4,7 +4,6 @@
 #include <semaphore.h>
 
 #include <chrono>
-#include <cstdint>
 #include <string>
 
 namespace afm::node {

@@ -2,9 +2,7 @@
 // doubles are.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "afm/landing.h"
 #include "trials/grazes.h"

@@ -2,8 +2,6 @@
 // segment_test.cpp.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/tip/tip_motion.h"
 #include "support/models.h"
 #include "trials/energy_balance.h"

@@ -1,8 +1,6 @@
 // Flight, search, reflection and the tip together, against orbits that are known otherwise.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "afm/tip.h"
 #include "support/models.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "afm/sweep.h"
 #include "attractor.h"
-#include "sweep.h"
 
 namespace afm {
 

@@ -3,7 +3,6 @@
 // orbits are nearly combinations of shorter ones. The deviation from flow conservation measures both.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "periodic_orbit.h"
