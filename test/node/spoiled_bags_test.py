@@ -2,6 +2,7 @@
 codes. What is intact is never called damaged, and what is altered never identical."""
 import copy
 import re
+import resource
 import subprocess
 from unittest import mock
 
@@ -354,6 +355,21 @@ class SpoiledBags(SpoiledBag):
         self.assertIn('foreign.bag: holds no message of an emulator', answer.text)
         subprocess.run(['rosbag', 'reindex', '--force', str(cut)], check=True, stdout=subprocess.DEVNULL)
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=cut)
+
+    def test_more_bags_than_files_may_be_open(self):
+        """Of a recording that was split every minute. The limit that can be raised is; of the other one it tells."""
+        bags = [self.write()] * 40
+
+        def check(hard):
+            done = subprocess.run([find('replay_check'), *map(str, bags)], stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, universal_newlines=True,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (32, hard)))
+            return checks.Answer(done.returncode, done.stdout)
+        answer = check(100)
+        self.assertEqual((answer.code, answer.text.count('IDENTICAL')), (SOUND, len(bags)), answer.text)
+        answer = check(32)
+        self.assertEqual(answer.code, UNCHECKED, answer.text)
+        self.assertRegex(answer.text, r'\.bag: too many bags are open: raise the limit of files \(ulimit -n\)')
 
     def test_wrong_arguments(self):
         self.assertEqual(checks.replay_check().code, USAGE)
