@@ -147,8 +147,8 @@ bool is_part(const std::string& path, const std::string& first) {
 template <class Message>
 bool may_go_on(const Recording& before, const Recording& after) {
   const std::string topic = after.topic<Message>();
-  const auto end = before.ends_of(topic), begin = after.ends_of(topic);
-  return !begin || !end || begin->first.seq <= end->second.seq + 1;
+  const auto end = before.ends_of(topic).last, begin = after.ends_of(topic).first;
+  return !begin || !end || header_of(*begin).seq <= header_of(*end).seq + 1;
 }
 
 // One that both hold with a message of each batch, whose numbers show what lies between; or none.
@@ -166,9 +166,10 @@ std::string topic_of_batches(const Recording& before, const Recording& after) {
 std::optional<std::uint32_t> batches_between(const Recording& before, const Recording& after) {
   const std::string topic = topic_of_batches(before, after);
   if (topic.empty()) return std::nullopt;
-  const auto begin = after.ends_of(topic), end = Recording(before.node(), {}, {before.files().back()}).ends_of(topic);
+  const auto begin = after.ends_of(topic).first;
+  const auto end = Recording(before.node(), {}, {before.files().back()}).ends_of(topic).last;
   if (!begin || !end) return std::nullopt;
-  const std::uint32_t first = begin->first.seq, last = end->second.seq;
+  const std::uint32_t first = header_of(*begin).seq, last = header_of(*end).seq;
   const bool is_named_so = is_part(after.files().front().path, before.files().front().path);
   const bool follows =
       first == last + 1 &&
@@ -248,22 +249,22 @@ std::shared_ptr<const Starts> Recording::starts() const {
     }
   }
   // in a part that the node began after the clock was set back, whose stamps in the bag go on
-  const auto configurations = ends_of(topic<afm_emulator::Configuration>());
-  const auto snapshots = ends_of(topic<afm_emulator::Snapshot>());
-  if (configurations && snapshots && configurations->first.stamp > snapshots->first.stamp + ros::Duration(1.0)) {
+  const auto configuration = ends_of(topic<afm_emulator::Configuration>()).first;
+  const auto snapshot = ends_of(topic<afm_emulator::Snapshot>()).first;
+  if (configuration && snapshot && header_of(*configuration).stamp > header_of(*snapshot).stamp + ros::Duration(1.0)) {
     starts.set_back();
   }
   starts.merge();
   return starts_ = std::make_shared<const Starts>(std::move(starts));
 }
 
-std::optional<Recording::Ends> Recording::ends_of(const std::string& topic) const {
+Recording::Ends Recording::ends_of(const std::string& topic) const {
   const auto all = view(topic);
   if (all->size() == 0) return {};
+  Ends ends{*all->begin(), {}};
   const auto end = view(topic, all->getEndTime());
-  auto last = end->begin();
-  for (auto next = last; next != end->end(); ++next) last = next;
-  return Ends{header_of(*all->begin()), header_of(*last)};
+  for (const rosbag::MessageInstance& message : *end) ends.last.emplace(message);
+  return ends;
 }
 
 // The node alone writes a configuration and a command two nanoseconds and one before the snapshot with which a
@@ -286,43 +287,35 @@ std::uint64_t Recording::commands_missing_at_beginning() const {
 }
 
 // With one start the ends of the topic; else every stamp has to be read.
-Recording::EndsOfStarts Recording::ends_by_start(const std::string& topic) const {
-  EndsOfStarts found;
+const Recording::EndsOfStarts& Recording::ends_by_start(const std::string& topic) const {
+  const auto [known, is_new] = ends_.try_emplace(topic);
+  EndsOfStarts& found = known->second;
+  if (!is_new) return found;
   if (!has_several_starts()) {
-    if (const auto ends = ends_of(topic)) found.emplace(0, *ends);
+    const Ends ends = ends_of(topic);
+    if (ends.first) found.emplace(0, ends);
     return found;
   }
   const auto messages = view(topic);
   for (const rosbag::MessageInstance& message : *messages) {
-    const std_msgs::Header header = header_of(message);
-    const auto [ends, is_first] = found.emplace(starts()->of(header.stamp), Ends{header, header});
-    if (!is_first) ends->second.second = header;
+    const auto [ends, is_first] = found.emplace(starts()->of(header_of(message).stamp), Ends{message, {}});
+    ends->second.last.emplace(message);
   }
   return found;
 }
 
 template <class Message>
 boost::shared_ptr<Message> Recording::first(std::uint64_t start) const {
-  const auto all = view(topic<Message>());
-  for (const rosbag::MessageInstance& message : *all) {
-    if (!has_several_starts() || starts()->of(header_of(message).stamp) == start) {
-      return message.instantiate<Message>();
-    }
-  }
-  return {};
+  const EndsOfStarts& ends = ends_by_start(topic<Message>());
+  const auto found = ends.find(start);
+  return found == ends.end() ? nullptr : found->second.first->instantiate<Message>();
 }
 
 template <class Message>
 boost::shared_ptr<Message> Recording::last(std::uint64_t start) const {
-  boost::shared_ptr<Message> found;
-  const auto all = view(topic<Message>());
-  if (all->size() == 0) return found;
-  const auto end = view(topic<Message>(), has_several_starts() ? ros::TIME_MIN : all->getEndTime());
-  for (const rosbag::MessageInstance& message : *end) {
-    if (!has_several_starts() || starts()->of(header_of(message).stamp) == start)
-      found = message.instantiate<Message>();
-  }
-  return found;
+  const EndsOfStarts& ends = ends_by_start(topic<Message>());
+  const auto found = ends.find(start);
+  return found == ends.end() ? nullptr : found->second.last->instantiate<Message>();
 }
 
 // A recording by the node begins with the snapshot before its first batch.
@@ -364,13 +357,14 @@ bool Recording::is_cut() const {
 // The three messages of a batch have one number. The node records whole batches, but for the last one where it is
 // killed; then nothing stands behind it. `rosbag record` subscribes to topic after topic, and leaves what waits in
 // their queues at its end.
-void Recording::add_missing(const std::string& type, const std::map<std::string, EndsOfStarts>& ends,
-                            std::uint64_t start, Missing& missing) const {
+void Recording::add_missing(const std::string& type, std::uint64_t start, Missing& missing) const {
   std::optional<std::pair<std::uint32_t, std::uint32_t>> own, friction, all;
-  for (const auto& [name, of_starts] : ends) {
-    const auto found = of_starts.find(start);
-    if (found == of_starts.end()) continue;
-    const auto numbers = std::make_pair(found->second.first.seq, found->second.second.seq);
+  for (const auto& [name, topic] : topics_) {
+    if (kBatchTypes.count(name) == 0) continue;
+    const EndsOfStarts& ends = ends_by_start(topic);
+    const auto found = ends.find(start);
+    if (found == ends.end()) continue;
+    const auto numbers = std::make_pair(header_of(*found->second.first).seq, header_of(*found->second.last).seq);
     if (name == type) own = numbers;
     if (name == ros::message_traits::datatype<afm_emulator::Friction>()) friction = numbers;
     if (!all) all = numbers;
@@ -396,13 +390,12 @@ void Recording::add_missing(const std::string& type, const std::map<std::string,
 Recording::Missing Recording::missing_at_ends(const std::string& type) const {
   Missing missing;
   if (kBatchTypes.count(type) == 0 || topics_.count(type) == 0) return missing;
-  std::map<std::string, EndsOfStarts> ends;  // by type
   std::set<std::uint64_t> starts;
   for (const auto& [name, topic] : topics_) {
     if (kBatchTypes.count(name) == 0) continue;
-    for (const auto& [start, unused] : ends[name] = ends_by_start(topic)) starts.insert(start);
+    for (const auto& [start, unused] : ends_by_start(topic)) starts.insert(start);
   }
-  for (const std::uint64_t start : starts) add_missing(type, ends, start, missing);
+  for (const std::uint64_t start : starts) add_missing(type, start, missing);
   return missing;
 }
 

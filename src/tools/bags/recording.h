@@ -185,8 +185,10 @@ class Recording {
   }
   std::unique_ptr<rosbag::View> view(const std::string& topic, const ros::Time& begin = ros::TIME_MIN,
                                      const ros::Time& end = ros::TIME_MAX) const;
-  using Ends = std::pair<std_msgs::Header, std_msgs::Header>;  // of the first and the last message
-  std::optional<Ends> ends_of(const std::string& topic) const;
+  struct Ends {
+    std::optional<rosbag::MessageInstance> first, last;  // none, where a topic has no message
+  };
+  Ends ends_of(const std::string& topic) const;
 
   struct Missing {
     std::uint64_t at_beginning = 0, at_end = 0;
@@ -205,9 +207,8 @@ class Recording {
  private:
   Missing missing_at_ends(const std::string& type) const;
   using EndsOfStarts = std::map<std::uint64_t, Ends>;  // by the start of the node
-  EndsOfStarts ends_by_start(const std::string& topic) const;
-  void add_missing(const std::string& type, const std::map<std::string, EndsOfStarts>& ends, std::uint64_t start,
-                   Missing& missing) const;
+  const EndsOfStarts& ends_by_start(const std::string& topic) const;
+  void add_missing(const std::string& type, std::uint64_t start, Missing& missing) const;
   // Of one start: batches before the first or after the last one that the bag holds. Other messages of the node prove
   // them.
   std::uint64_t batches_proved_at_beginning(std::uint64_t start) const;
@@ -222,8 +223,10 @@ class Recording {
   std::string node_;
   Topics topics_;
   std::vector<File> files_;
-  std::string holes_;                             // between the files, in words
-  mutable std::shared_ptr<const Starts> starts_;  // once they were asked for
+  std::string holes_;  // between the files, in words
+  // once they were asked for
+  mutable std::shared_ptr<const Starts> starts_;
+  mutable std::map<std::string, EndsOfStarts> ends_;  // by topic
 };
 
 // From the bags at these paths: a recording for every emulator, or for the one with this name. Bags that follow each
