@@ -10,7 +10,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -69,27 +68,24 @@ std::map<std::uint32_t, std::string> nodes_of(const rosbag::Bag& bag) {
   return nodes;
 }
 
-// Of a recording that was split every minute the usual 1024 are used up after a day.
-void allow_many_files() {
+// All bags stay open. A recording that was split every minute uses up the usual 1024 files in a day, and then rosbag
+// says that a plugin is missing.
+void require_files_for(std::size_t bags) {
+  constexpr rlim_t kOthers = 16;  // of the program itself
   rlimit files{};
   if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
   files.rlim_cur = files.rlim_max;
   setrlimit(RLIMIT_NOFILE, &files);
-}
-
-// Else rosbag may say that a plugin is missing.
-bool can_open_more_files() {
-  std::array<std::ifstream, 4> more;  // as many as it opens at once
-  for (std::ifstream& file : more) file.open("/dev/null");
-  return std::all_of(more.begin(), more.end(), [](const std::ifstream& file) { return file.is_open(); });
+  if (bags + kOthers <= files.rlim_max) return;
+  throw Problem(std::to_string(bags) + " bags: only " + std::to_string(files.rlim_max) +
+                " files may be open at once; raise the limit (ulimit -n)");
 }
 
 File open(const std::string& path) {
-  File file{path, nullptr, {}};
+  File file{path, std::make_shared<rosbag::Bag>(), {}};
   std::string fault = find_fault(path);
   if (fault.empty()) {
     try {
-      file.bag = std::make_shared<rosbag::Bag>();
       file.bag->open(path, rosbag::bagmode::Read);
       file.nodes = nodes_of(*file.bag);
     } catch (const std::exception& error) {
@@ -97,7 +93,6 @@ File open(const std::string& path) {
               "` recovers what is in it (take a copy while it is written)";
     }
   }
-  if (!fault.empty() && !can_open_more_files()) fault = "too many bags are open: raise the limit of files (ulimit -n)";
   if (!fault.empty()) throw Problem(path + ": " + fault);
   return file;
 }
@@ -402,7 +397,7 @@ Recording::Missing Recording::missing_at_ends(const std::string& type) const {
 std::vector<Recording> open_recordings(const std::vector<std::string>& paths, const std::string& node) {
   std::map<std::string, std::vector<Recording>> found;
   std::vector<File> files;
-  allow_many_files();
+  require_files_for(paths.size());
   for (const std::string& path : paths) files.push_back(open(path));
   // a shell may list the parts of a recording in another order
   const auto begin = [](const File& file) {
