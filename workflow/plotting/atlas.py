@@ -38,9 +38,8 @@ def fig7_atlas(tables):
     axes[0].imshow(image, extent=extent, origin="lower", aspect="auto", cmap=colours, interpolation="nearest",
                    norm=BoundaryNorm([i - 0.5 for i in range(len(KINDS) + 1)], len(KINDS)))
     axes[0].set_title("attractor that a random start finds", loc="left")
-    handles = [Patch(facecolor=colour, label=name) for name, colour in KINDS]
-    figure.legend(handles=handles, loc="upper center", ncol=8, columnspacing=1.0,
-                  handlelength=1.1)
+    style.legend_of_all(figure, {name: Patch(facecolor=colour) for name, colour in KINDS}, 8, columnspacing=1.0,
+                        handlelength=1.1)
     image, extent = image_of(rows, lambda row: row["k_f"] / style.closed_form(row["gamma"]))
     drawn = axes[1].imshow(image, extent=extent, origin="lower", aspect="auto", cmap="cividis", interpolation="nearest",
                            vmin=0, vmax=1)
@@ -51,5 +50,4 @@ def fig7_atlas(tables):
         ax.set_ylabel(r"restitution $\gamma$")
         ax.grid(False)
     axes[0].tick_params(labelbottom=True)
-    figure.suptitle(" ", fontsize=14)  # room for the legend
     return figure

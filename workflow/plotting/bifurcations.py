@@ -121,6 +121,5 @@ def fig8_bifurcations(tables):
     lines = {line.get_label(): line for ax in axes.flat for line in ax.lines if line.get_label() in EVENTS}
     for label, colour in (("both sweeps", "#777777"), ("rising only", style.BLUE), ("falling only", style.ORANGE)):
         lines[label] = axes[0].plot([], [], "o", color=colour, markersize=4)[0]
-    figure.suptitle(" ", fontsize=14)  # room for the legend
-    figure.legend(lines.values(), lines.keys(), loc="upper center", ncol=len(lines))
+    style.legend_of_all(figure, lines, len(lines))
     return figure

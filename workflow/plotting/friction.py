@@ -87,8 +87,7 @@ def fig1_coexistence(tables):
         ax.set_xlabel(style.ETA_LABEL)
     axes[0].set_ylabel(style.K_F_LABEL)
     entries = {label: handle for ax in axes for handle, label in zip(*ax.get_legend_handles_labels())}
-    figure.suptitle(" ", fontsize=14)  # room for the legend
-    figure.legend(entries.values(), entries.keys(), loc="upper center", ncol=7, columnspacing=1.2, handletextpad=0.4)
+    style.legend_of_all(figure, entries, 7, columnspacing=1.2, handletextpad=0.4)
     return figure
 
 

@@ -56,9 +56,7 @@ def lever_map(tables):
         ax.set_xlabel(r"drag speed [$\mu$m/s]")
     for ax in axes[:, 0]:
         ax.set_ylabel("load [nN]")
-    figure.suptitle(" ", fontsize=14)  # room for the legend
-    figure.legend(handles=[Patch(facecolor=colour, label=text) for _, colour, _, text in STEPS], ncol=4,
-                  loc="upper center")
+    style.legend_of_all(figure, {text: Patch(facecolor=colour) for _, colour, _, text in STEPS}, 4)
     return figure
 
 
@@ -95,6 +93,6 @@ def draw_lever_friction(tables):
         ax.set_title(SURFACES[crystal], loc="left")
         ax.set_xlabel("load [pN]")
     axes[0].set_ylabel("mean lateral force [pN]")
-    figure.suptitle(" ", fontsize=14)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncol=3)
+    handles, labels = axes[0].get_legend_handles_labels()
+    style.legend_of_all(figure, dict(zip(labels, handles)), 3)
     return figure

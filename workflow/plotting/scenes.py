@@ -76,8 +76,7 @@ def draw_deflection(axes, run):
                       transform=axes.get_xaxis_transform(), **look)
     axes.set_xlabel('model time [$\\tau$]' if begin == 0 else 'model time after %d $\\tau$ [$\\tau$]' % begin)
     axes.set_ylabel('deflection [nm]')
-    axes.legend(loc='lower right', bbox_to_anchor=(1, 1), ncol=5, borderaxespad=0.1, handletextpad=0.3,
-                columnspacing=0.8, handlelength=1.2)
+    style.legend_above(axes, columns=5, handletextpad=0.3, columnspacing=0.8, handlelength=1.2)
 
 
 def draw_path(axes, run):

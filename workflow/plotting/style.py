@@ -61,6 +61,12 @@ def legend_above(axes, columns=3, **options):
     return axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=columns, borderaxespad=0.1, **options)
 
 
+def legend_of_all(figure, handles, columns, **options):
+    """Above all axes. handles: by their labels."""
+    figure.suptitle(" ", fontsize=14)  # room for it
+    figure.legend(handles.values(), handles.keys(), loc="upper center", ncol=columns, **options)
+
+
 def bare(axes):
     """Of a drawing: no frame, no axes, one scale."""
     axes.axis("off")

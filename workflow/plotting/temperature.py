@@ -176,7 +176,7 @@ def draw_kicks(axes, rows):
     axes.set_ylim(1e-4, 0.9)
     axes.set_xlabel(r"kicks of the bath per $\tau$")
     axes.set_ylabel(r"relative error of $K_f$ against %.0f kicks per $\tau$" % REFERENCE_KICKS)
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2, borderaxespad=0.1)
+    style.legend_above(axes, columns=2)
 
 
 def draw_thermostats(axes, rows):
@@ -197,7 +197,7 @@ def draw_thermostats(axes, rows):
     axes.set_ylim(1e-4, 0.2)
     axes.set_xlabel(r"processor time per $\tau$ [$\mu$s]")
     axes.set_ylabel(r"relative bias of $\langle (y - y_0)^2 \rangle$ at equilibrium")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2, borderaxespad=0.1)
+    style.legend_above(axes, columns=2)
 
 
 @picture("thermal_kicks", "thermostats")

@@ -83,7 +83,7 @@ def draw_rates(axes, rows):
     axes.set_ylim(5e-7, 2e-2)
     axes.set_xlabel("temperature [K]")
     axes.set_ylabel(r"rate of leaving an attractor for the other [1/$\tau$]")
-    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=1, borderaxespad=0.1)
+    style.legend_above(axes, columns=1)
 
 
 @table(*TRACED)
