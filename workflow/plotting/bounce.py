@@ -7,9 +7,8 @@ import math
 from registry import picture
 
 from . import style
-from .paths import at, draw_surface, next_impact, surface
+from .paths import at, draw_surface, next_impact, slope, surface
 
-TWO_PI = style.TWO_PI
 SCENE, START = (3.4, 0.7, 0.05), (0.25, 0.0, 3.4, 1.0)  # eta, gamma, cutoff; the state after the impact before
 GAP_AGREES = 1e-12  # [a] the impacts lie on the surface that is drawn
 
@@ -19,10 +18,6 @@ AFTER = dict(color=style.ORANGE, linestyle="-", linewidth=2.2)
 SURFACE = dict(color="#444444", linewidth=1.5)
 NORMAL_COLOUR = style.GREEN
 DT = r"$\Delta t$"
-
-
-def slope(x):
-    return -TWO_PI * style.AMPLITUDE * math.sin(TWO_PI * x)
 
 
 class Flight:

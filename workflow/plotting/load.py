@@ -3,18 +3,17 @@ from commands import LOAD_ETAS
 from registry import picture, table
 
 from . import style
+from .model import LATTICE, OMEGA_V, TAU, TIP_MASS
 
-# one a of the spring is so much force: k_v a and k_h a, k = m omega^2 (mica)
-K_V = 4.08e-10 * 4e4 ** 2  # [N/m]
-NEWTON_V = K_V * 5.2e-10
-TAU = style.TWO_PI / 4e4
+K_V = TIP_MASS * OMEGA_V ** 2  # [N/m]
+NEWTON_V = K_V * LATTICE  # one a of the spring is so much force
 CASES = (("no bath", style.BLUE, "o", "cold"), ("300 K, Q = 100", style.ORANGE, "s", "warm"))
 READ = tuple("load_%g_%s" % (eta, end) for eta in LOAD_ETAS for end in ("cold", "warm"))
 
 
 def newtons(k_f, eta):
     """Mean lateral force of K_f [m_tip/tau] at eta."""
-    return k_f * eta * 4.08e-10 * 5.2e-10 / TAU ** 2
+    return k_f * eta * TIP_MASS * LATTICE / TAU ** 2
 
 
 def liftoff(eta):
@@ -46,7 +45,7 @@ def draw_load(tables):
         if eta > 1:
             ax.axvline(liftoff(eta), color="black", linestyle=":", linewidth=1.2, label=r"$k_v H (\eta^2 - 1)$")
         ax.set_ylabel("mean lateral force [pN]")
-        ax.set_title(r"$\eta$ = %g (%.3g $\mu$m/s)" % (eta, eta * 1e6 * 5.2e-10 / TAU), loc="left")
+        ax.set_title(r"$\eta$ = %g (%.3g $\mu$m/s)" % (eta, eta * 1e6 * LATTICE / TAU), loc="left")
     handles, labels = axes[1].get_legend_handles_labels()
     axes[0].legend(handles, labels, loc="upper right")
     height = axes[-1].secondary_xaxis(-0.32, functions=(lambda F: -F / K_V, lambda y: -K_V * y))

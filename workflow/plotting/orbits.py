@@ -81,11 +81,7 @@ def fig3_orbit(tables):
 def section(state):
     """Phase, extension, u and gap rate just after an impact [a, a/tau]: in these returns are measured."""
     phase, extension, u, w = state
-    return np.array([phase, extension, u, w - slope(phase) * u])
-
-
-def slope(phase):
-    return -style.S * np.sin(style.TWO_PI * phase)
+    return np.array([phase, extension, u, w - paths.slope(phase) * u])
 
 
 def attractor_box():
@@ -107,7 +103,7 @@ def nearest_returns(points, depth):
     grid = [low[k] + (high - low)[k] * (np.arange(n) + 0.5) / n for k, n in enumerate((points, depth, depth, points))]
     for phase in grid[0]:
         extension, u, rate = (axis.reshape(-1, points) for axis in np.meshgrid(*grid[1:], indexing="ij"))
-        start = [np.full_like(u, phase), extension, u, rate + slope(phase) * u]
+        start = [np.full_like(u, phase), extension, u, rate + paths.slope(phase) * u]
         first, middle = paths.next_impact(start, ETA, GAMMA, CUTOFF, on_error="nan")
         second, end = paths.next_impact(middle, ETA, GAMMA, CUTOFF, on_error="nan")
         difference = section(end) - section(start)

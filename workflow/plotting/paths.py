@@ -1,6 +1,8 @@
 """The tip's path between impacts, from the exact flight (Eq. 9-10)."""
 import math
 
+import numpy as np
+
 from . import style
 
 STATE = ("phase", "extension", "u", "w")
@@ -8,6 +10,11 @@ STATE = ("phase", "extension", "u", "w")
 
 def surface(x):
     return style.AMPLITUDE * math.cos(style.TWO_PI * x)
+
+
+def slope(x):
+    """Of the surface, at one place or several."""
+    return -style.S * np.sin(style.TWO_PI * x)
 
 
 def rotated(x, v, frequency, t):
