@@ -36,8 +36,9 @@ def finite(name, value, wanted='a finite number'):
     return number
 
 
-def finite_or_none(name, value):
-    return None if value is None else finite(name, value, 'a finite number, or None: as it is')
+def commanded(name, value):
+    """What a request commands: nan leaves it as it is."""
+    return math.nan if value is None else finite(name, value, 'a finite number, or None: as it is')
 
 
 def not_negative(name, value):
@@ -138,11 +139,9 @@ class Client:
         Raises an EmulatorError if the emulator refuses, or does not answer within the timeout. Whenever a call fails,
         the next one makes a new connection, to an emulator that was restarted too.
         """
-        duration = not_negative('duration', duration)
-        drag_velocity = finite_or_none('drag_velocity', drag_velocity)
-        rest_height = finite_or_none('rest_height', rest_height)
-        request = ControlRequest(math.nan if drag_velocity is None else drag_velocity,
-                                 math.nan if rest_height is None else rest_height, duration)
+        request = ControlRequest(duration=not_negative('duration', duration),
+                                 drag_velocity=commanded('drag_velocity', drag_velocity),
+                                 rest_height=commanded('rest_height', rest_height))
         with self._turn:
             answer = self._call_control(request)
             if not answer.success:
@@ -159,8 +158,6 @@ class Client:
         drag_velocity: [m/s]; None: as it is
         rest_height: height of the holder above mid-surface [m]; None: as it is
         """
-        drag_velocity = finite_or_none('drag_velocity', drag_velocity)
-        rest_height = finite_or_none('rest_height', rest_height)
         with self._turn:
             with self._news:
                 self._commanded.clear()

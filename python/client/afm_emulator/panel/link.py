@@ -29,11 +29,6 @@ LATEST = {'configuration': Configuration, 'applied': Applied, 'friction': Fricti
 NumpyDeflection = numpy_msg(Deflection)
 
 
-def is_of(message, kind):
-    """Else it is of another version."""
-    return message._connection_header['md5sum'] == kind._md5sum
-
-
 class Link:
     def __init__(self, name):
         self.name = name
@@ -46,11 +41,10 @@ class Link:
         self._lock = threading.Lock()
         self._commands, self._is_closed = {}, False
         self._advertise()
-        takers = [(topic, kind, self._keep) for topic, kind in LATEST.items()]
-        takers += [('deflection', Deflection, self._keep_batch), ('impacts', ImpactArray, self._keep_impacts)]
+        kinds = dict(LATEST, deflection=Deflection, impacts=ImpactArray)
         self._subscriptions = [Subscription('/diagnostics', DiagnosticArray, self._keep_diagnostics)]
-        self._subscriptions += [Subscription('%s/%s' % (name, topic), rospy.AnyMsg, take, (topic, kind),
-                                             buff_size=1 << 20) for topic, kind, take in takers]
+        self._subscriptions += [Subscription('%s/%s' % (name, topic), rospy.AnyMsg, self._keep, (topic, kind),
+                                             buff_size=1 << 20) for topic, kind in kinds.items()]
         threading.Thread(target=self._work, daemon=True).start()
 
     # what comes
@@ -116,22 +110,23 @@ class Link:
 
     def _keep(self, message, subject):
         topic, kind = subject
-        if is_of(message, kind):
+        if message._connection_header['md5sum'] != kind._md5sum:  # it is of another version
+            return
+        if topic == 'deflection':
+            self._batches.append((time.monotonic(), NumpyDeflection().deserialize(message._buff)))
+        elif topic == 'impacts':
+            self._keep_impacts(message._buff)
+        else:
             self._raw[topic] = message._buff
             self._heard = time.monotonic()
 
-    def _keep_batch(self, message, subject):
-        if is_of(message, subject[1]):
-            self._batches.append((time.monotonic(), NumpyDeflection().deserialize(message._buff)))
-
-    def _keep_impacts(self, message, subject):
-        if is_of(message, subject[1]):
-            epoch, _, table = read_impacts(message._buff)
-            impacts = int.from_bytes(message._buff[:4], 'little'), epoch, table
-            with contextlib.suppress(IndexError):  # the window may have taken them all
-                if impacts[0] < self._impacts[-1][0]:
-                    self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name
-            self._impacts.append(impacts)
+    def _keep_impacts(self, data):
+        epoch, _, table = read_impacts(data)
+        impacts = int.from_bytes(data[:4], 'little'), epoch, table
+        with contextlib.suppress(IndexError):  # the window may have taken them all
+            if impacts[0] < self._impacts[-1][0]:
+                self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name
+        self._impacts.append(impacts)
 
     def _keep_diagnostics(self, message):
         for status in message.status:

@@ -24,10 +24,6 @@ def friction_curve():
     return np.loadtxt(str(table), delimiter=',', skiprows=2)
 
 
-def pen(colour, width=1.0):
-    return pg.mkPen(colour, width=width)
-
-
 class Line(pg.PlotCurveItem):
     """Takes half the time of a PlotDataItem, and does not look for its bounds at every change: we choose those of the
     axes."""
@@ -63,8 +59,8 @@ class Plot(pg.PlotWidget):
             self._is_live = live
             self.setBackground('w' if live else '#d0d0d0')
 
-    def line(self, colour, width=1.0, **options):
-        curve = Line(pen=pen(colour, width), **options)
+    def line(self, colour, **options):
+        curve = Line(pen=colour, **options)
         self.addItem(curve)
         return curve
 
@@ -151,7 +147,7 @@ class Loop:
         self.plot = Plot('Friction loop: <span style="color:%s">trace</span>, <span style="color:%s">retrace</span>' %
                          (BLUE, ORANGE), 'lateral force [pN]', 'position of the holder [nm]', (10.0, 20.0), patience=5)
         self._lines = {1: self.plot.line(BLUE), -1: self.plot.line(ORANGE)}
-        self.plot.addItem(pg.InfiniteLine(0.0, 0, pen=pen('#bbbbbb')))
+        self.plot.addItem(pg.InfiniteLine(0.0, 0, pen='#bbbbbb'))
 
     def draw(self, loop):
         lines = loop.lines
@@ -179,8 +175,9 @@ class Curve:
         self.plot.line('#aaaaaa').setData(curve[:, 0], curve[:, 1])
         self._curve = curve
         self._trail = self.plot.plot([], [], pen=None, symbol='o', symbolSize=4, symbolPen=None, symbolBrush=GREEN)
-        self._error = pg.ErrorBarItem(x=np.zeros(1), y=np.zeros(1), height=np.zeros(1), beam=0.1, pen=pen(ORANGE, 2))
-        self._now = self.plot.plot([], [], pen=None, symbol='o', symbolSize=9, symbolPen=pen('w'), symbolBrush=ORANGE)
+        self._error = pg.ErrorBarItem(x=np.zeros(1), y=np.zeros(1), height=np.zeros(1), beam=0.1,
+                                       pen=pg.mkPen(ORANGE, width=2))
+        self._now = self.plot.plot([], [], pen=None, symbol='o', symbolSize=9, symbolPen='w', symbolBrush=ORANGE)
         self.plot.addItem(self._error)
 
     def draw(self, trail):
