@@ -12,7 +12,7 @@ Axis = Union[float, Sequence[float], np.ndarray]
 _NAME = 'U16'  # of an attractor
 
 
-def _structured(columns, rows, names, whole=()):
+def _structured(columns, rows, names=(), whole=()):
     """Rows (n, m) under the names of the columns; a column `attractor` takes the names of attractors."""
     table = np.empty(len(rows), [(c, _NAME if c == 'attractor' else 'i8' if c in whole else 'f8') for c in columns])
     values = iter(rows.T)
@@ -125,7 +125,7 @@ def attractors(eta: Axis = 3.4, *, gamma: Optional[Axis] = None, cutoff: Optiona
     found = _structured(columns, rows, names, whole=('impacts', 'cells'))
     if not labels:
         return found
-    return found, _structured(('point', 'attractor_row', 'phase', 'extension', 'y', 'u', 'w'), where, [],
+    return found, _structured(('point', 'attractor_row', 'phase', 'extension', 'y', 'u', 'w'), where,
                               whole=('point', 'attractor_row'))
 
 
@@ -152,14 +152,9 @@ def periodic_orbits(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator'
     columns, rows, _ = _laboratory('periodic_orbits')(
         _model(model), number('eta', eta), count('max_length', max_length), count('trajectory', trajectory),
         count('guesses', guesses), seed_of(seed))
-    width = len(columns) - 8  # behind them the multipliers' real and imaginary parts
-    whole = ('length', 'cells')
-    orbits = np.empty(len(rows), [(c, 'i8' if c in whole else 'f8') for c in columns[:width]] +
-                      [('multipliers', 'c16', 4)])
-    for column, values in zip(columns[:width], rows.T):
-        orbits[column] = values
-    orbits['multipliers'] = np.ascontiguousarray(rows[:, width:]).view('c16')
-    return orbits
+    orbits = _structured(columns, rows, whole=('length', 'cells'))
+    own = orbits.dtype.descr[:-8]  # behind them the multipliers' real and imaginary parts
+    return orbits.view(own + [('multipliers', 'c16', 4)])
 
 
 def lyapunov(eta: float = 3.4, *, model: Union[str, Model] = 'oscillator', phase: float = 0.25, extension: float = 0.0,
@@ -215,10 +210,5 @@ def next_impact(states: Optional[np.ndarray] = None, *, model: Union[str, Model]
     constants = [np.full(shape, x) for x in (chosen.rest_height, chosen.amplitude, chosen.frequency_ratio)]
     rows = np.stack([column.ravel() for column in list(inputs) + constants], axis=1)
     results = _afm.next_impact(rows, chosen.kind, on_error == 'raise', thread_count(threads))
-    results = results.reshape(-1, len(_RESULTS))
-    table = np.empty(len(rows), [(name, 'f8') for name in _INPUTS + _RESULTS])
-    for i, name in enumerate(_INPUTS):
-        table[name] = rows[:, i]
-    for i, name in enumerate(_RESULTS):
-        table[name] = results[:, i]
-    return table.reshape(shape)
+    table = np.hstack([rows[:, :len(_INPUTS)], results.reshape(-1, len(_RESULTS))])
+    return _structured(_INPUTS + _RESULTS, table).reshape(shape)
