@@ -26,19 +26,12 @@ namespace {
 using namespace py::literals;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-SweepDirection direction_of(const std::string& name) {
-  if (name == "fresh") return SweepDirection::fresh;
-  if (name == "up") return SweepDirection::up;
-  if (name == "down") return SweepDirection::down;
-  refuse_word("sweep", name, "must be fresh, up or down");
-}
-
 // The curve over the axes (eta, gamma, cutoff, rest_height, amplitude, frequency_ratio).
 py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std::string& kind,
                          const std::string& sweep, double duration, double transient, const Bath& bath,
                          std::uint64_t seed, int threads, const py::object& progress) {
-  CurveSettings s{axes.at(0), axes.at(1),          axes.at(2),    axes.at(3), axes.at(4),
-                  axes.at(5), direction_of(sweep), kind_of(kind), {}};
+  CurveSettings s{axes.at(0), axes.at(1), axes.at(2), axes.at(3), axes.at(4), axes.at(5), {}, kind_of(kind), {}};
+  if (!parse(sweep, s.direction)) refuse_word("sweep", sweep, "must be fresh, up or down");
 #ifdef AFM_DYNAMICS
   s.method = sweep_attractor;
 #endif

@@ -24,6 +24,13 @@ void add_faults(std::vector<ParameterError>& all, const SweepPoint& point) {
 
 }  // namespace
 
+bool parse(const std::string& name, SweepDirection& direction) {
+  for (const SweepDirection each : {SweepDirection::fresh, SweepDirection::up, SweepDirection::down}) {
+    if (name == name_of(each)) return direction = each, true;
+  }
+  return false;
+}
+
 std::vector<ParameterError> find_faults(const CurveSettings& s) {
   constexpr SweepPoint good{1.0, 0.5, 0.1};
   std::vector<ParameterError> faults;

@@ -14,6 +14,7 @@ namespace afm {
 // Fresh: each point from a random start of its own. Up, down: each from where the eta before it ended, so that a tip
 // stays on its attractor while there is one.
 enum class SweepDirection { fresh, up, down };
+bool parse(const std::string& name, SweepDirection& direction);  // false where the name is of none
 
 struct CurveSettings {
   std::vector<double> eta, gamma, cutoff;  // eta rises strictly where one point starts from another

@@ -1,6 +1,5 @@
 // K_f against drag velocity, restitution and cutoff.
 #include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -38,9 +37,6 @@ struct Options {
   afm::SiOptions si;
   afm::LeverOptions lever;
 };
-
-const std::map<std::string, afm::SweepDirection> kDirections{
-    {"fresh", afm::SweepDirection::fresh}, {"up", afm::SweepDirection::up}, {"down", afm::SweepDirection::down}};
 
 // Bad input: exit code 2.
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -104,9 +100,7 @@ void check(const afm::CommandLine& app, Options& o) {
   take_lever(app, o);
   afm::checked_units(app, o.si);
   take_si(app, o);
-  const auto direction = kDirections.find(o.sweep);
-  if (direction == kDirections.end()) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
-  s.direction = direction->second;
+  if (!afm::parse(o.sweep, s.direction)) refuse("sweep = " + o.sweep + ": must be fresh, up or down");
   s.model = afm::checked_kind(o.model);
 #ifdef AFM_DYNAMICS  // otherwise the columns attractor and largest_lyapunov say that they are not known
   s.method = afm::sweep_attractor;
