@@ -37,5 +37,6 @@ Runner make_runner(const std::string& method, double setting, const Model& model
 double even_K_f(const Model& model);
 
 constexpr std::uint64_t kAnyImpacts = ~std::uint64_t{0};
+constexpr double kForever = 1e9;  // [s]
 
 }  // namespace afm

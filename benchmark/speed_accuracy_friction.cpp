@@ -14,7 +14,6 @@ Model mica(double v_c) {
   return model;
 }
 
-constexpr double kForever = 1e9;  // [s]
 constexpr int kChaoticRuns = 100;
 
 // After a transient, in the middle of a flight: so neither end of a run of whole tau on a periodic orbit is near an

@@ -6,13 +6,12 @@
 #include "afm/units.h"
 #include "chain.h"
 #include "stability.h"
+#include "trials/energy_balance.h"
 
 namespace afm {
 namespace {
 
 using rivals::MethodSpec;
-
-constexpr double kForever = 1e9;  // [s]
 
 Model mica(double gamma, double v_c) {
   Model model;
@@ -111,11 +110,7 @@ StabilityScene friction_scene(const std::string& name, const std::string& about,
       nullptr, reference.chaotic ? kRightStatistics : kRightFriction};
 }
 
-double energy(const Model& m, double eta, const TipState& s) {
-  const FreeState f = to_free_state(m.H, s);
-  const double U = f.u - eta, Y = f.y - m.y0, wh = kTwoPi * m.frequency_ratio;
-  return 0.5 * (U * U + f.w * f.w + wh * wh * f.X * f.X + kTwoPi * kTwoPi * Y * Y);
-}
+double energy(const Model& m, const TipState& s) { return stored_energy(m, to_free_state(m.H, s)); }
 
 TipState launched(const Model& m, double phase) { return to_tip_state(m.H, {phase, 0.0, 0.5, 0.6, 0.0}); }
 
@@ -124,11 +119,11 @@ TipState launched(const Model& m, double phase) { return to_tip_state(m.H, {phas
 Cell measure_rest(const MethodSpec& spec, double setting, const Effort& effort) {
   const Model model;
   const TipState start = launched(model, 0.05);
-  const double tau = effort.quick ? 20.0 : 100.0, before = energy(model, 0.0, start);
+  const double tau = effort.quick ? 20.0 : 100.0, before = energy(model, start);
   const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)(tau, 0.0, kAnyImpacts, effort.seconds);
   Cell cell;
   if (broken(r, tau, cell) || !r.finished) return cell.verdict = std::max(cell.verdict, Verdict::stalls), cell;
-  return judged(r, std::abs(before - r.energy - energy(model, 0.0, r.end)) / before, "imbalance of energy");
+  return judged(r, std::abs(before - r.energy - energy(model, r.end)) / before, "imbalance of energy");
 }
 
 Cell measure_elastic(const MethodSpec& spec, double setting, const Effort& effort) {
@@ -138,7 +133,7 @@ Cell measure_elastic(const MethodSpec& spec, double setting, const Effort& effor
   const ChainResult r = make_runner(spec.name, setting, model, 0.0, start)(1e7, 0.0, impacts, 10.0 * effort.seconds);
   Cell cell;
   if (!r.sound()) return broken(r, 1e7, cell), cell;
-  return judged(r, std::abs(energy(model, 0.0, r.end) / energy(model, 0.0, start) - 1.0),
+  return judged(r, std::abs(energy(model, r.end) / energy(model, start) - 1.0),
                 "drift of energy in " + std::to_string(r.impacts) + " impacts");
 }
 

@@ -55,7 +55,7 @@ class Grazes {
       const Flight<double> still(double_, eta, start);
       const double h1 = surface_jet(mica_.H, start.phase).h1;
       if (std::abs(h1) < 0.05) continue;
-      const double g2 = -std::pow(10.0, random_.within(-2.0, 1.0));
+      const double g2 = -random_.power(-2.0, 1.0);
       start.X = (g2 - still.start().g2) / (h1 * double_.omega_h * double_.omega_h);
       const double g3 = Flight<double>(double_, eta, start).start().g3;
       const double s = -1.5 * g2 / g3;
@@ -69,7 +69,7 @@ class Grazes {
   // Dragged evenly at a whole number of lattice spacings a tau, it passes the same point at the same height every tau.
   Graze every_tau(double clearance) {
     for (;;) {
-      const double eta = std::floor(random_.within(1.0, 10.0)) * (random_.within(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
+      const double speed = std::floor(random_.within(1.0, 10.0)), eta = random_.sign() * speed;
       Graze graze{mica_, eta, {random_.within(0.0, 1.0), 0.0, eta, random_.within(0.0, 0.1), 0.0}, 0.0};
       graze.model.y0 = random_.within(0.2, 0.8) * mica_.H;
       graze.start.g1 = -eta * surface_jet(mica_.H, graze.start.phase).h1;  // at its highest
@@ -85,8 +85,8 @@ class Grazes {
 
  private:
   double drag() {
-    const double fast = random_.within(0.0, 1.0) < 0.1 ? 2.0 : 1.0, size = std::pow(10.0, random_.within(-1.3, fast));
-    return random_.within(-1.0, 1.0) < 0.0 ? -size : size;
+    const double fast = random_.within(0.0, 1.0) < 0.1 ? 2.0 : 1.0, size = random_.power(-1.3, fast);
+    return random_.sign() * size;
   }
 
   // Within 1/256 tau, of the first tau.
