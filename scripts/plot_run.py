@@ -195,8 +195,7 @@ def draw_zoom(axes, run):
     shown = times >= -ZOOM_TAU
     for name, values, colour in (('vertical', vertical, BLUE), ('lateral', lateral, ORANGE)):
         axes.plot(times[shown], values[shown], lw=0.8, marker='.', ms=3, c=colour, label=name)
-    axes.set_ylabel('deflection [nm]')
-    axes.set_xlabel('model time before the end [$\\tau$]')
+    axes.set(ylabel='deflection [nm]', xlabel='model time before the end [$\\tau$]')
     axes.grid(alpha=0.3)
     put_legend(axes)
 
@@ -213,8 +212,7 @@ def draw_impacts(axes, run):
         if len(chosen):
             axes.scatter(chosen, np.full(len(chosen), height), s=30, c=colour, marker='|', label=name,
                          transform=axes.get_xaxis_transform(), rasterized=True)
-    axes.set_yscale('log')
-    axes.set_ylabel('normal speed of\nimpacts [$\\mu$m/s]')
+    axes.set(yscale='log', ylabel='normal speed of\nimpacts [$\\mu$m/s]')
     put_legend(axes, markerscale=2)
 
 
@@ -236,8 +234,7 @@ def draw_friction(axes, run):
 def draw_drag(axes, run):
     drag = np.array(run.drag + [(run.last, run.drag[-1][1])]) if run.drag else np.zeros((0, 2))
     axes.step(drag[:, 0], drag[:, 1], where='post', color=BLUE)
-    axes.set_ylabel('drag speed [$\\mu$m/s]')
-    axes.set_xlabel('model time [s]')
+    axes.set(ylabel='drag speed [$\\mu$m/s]', xlabel='model time [s]')
     eta = axes.secondary_yaxis('right', functions=(lambda v: v * 1e-6 / run.speed, lambda e: e * run.speed * 1e6))
     eta.set_ylabel('$\\eta$ [a/$\\tau$]')
 

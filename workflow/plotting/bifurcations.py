@@ -36,9 +36,8 @@ def fig6_even_orbit(tables):
     style.legend_above(axes[0])
     axes[1].errorbar([r["gamma"] for r in own], [r["basin"] for r in own], [1.96 * r["basin_std_error"] for r in own],
                      color=style.BLUE, marker="o", markersize=4, linewidth=0.8)
-    axes[1].set_ylabel("share of 200 random starts\nthat end on the orbit")
-    axes[1].set_xlabel(r"restitution $\gamma$")
-    axes[1].set_ylim(-0.03, 1.05)
+    axes[1].set(ylabel="share of 200 random starts\nthat end on the orbit", xlabel=r"restitution $\gamma$",
+                ylim=(-0.03, 1.05))
     for ax in axes:
         ax.axvline(grazing, color="black", linestyle=":", linewidth=1.2)
     axes[0].text(grazing - 0.004, axes[0].get_ylim()[1] * 0.93, "the orbit\ngrazes a crest", ha="right", va="top")
@@ -105,9 +104,7 @@ def diagram(tables, axes, name):
         if bounds[0] <= event["value"] <= bounds[1]:
             colour, line = EVENTS[event["event"]]
             axes.axvline(event["value"], color=colour, linestyle=line, linewidth=1.2, label=event["event"])
-    axes.set_xlim(*bounds)
-    axes.set_ylim(0, None)
-    axes.set_ylabel(r"normal speed of impacts [$a/\tau$]")
+    axes.set(xlim=bounds, ylim=(0, None), ylabel=r"normal speed of impacts [$a/\tau$]")
     axes.grid(False)
 
 

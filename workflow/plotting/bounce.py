@@ -61,8 +61,7 @@ def draw_flights(axes, before, after):
     axes.set_aspect(stretch)
     axes.set_title(r"Two flights between three impacts, $\eta$ = %g (heights drawn %d times larger)" % (before.row["eta"], stretch),
                    loc="left")
-    axes.set_xlabel("position x [a]")
-    axes.set_ylabel("height y [a]")
+    axes.set(xlabel="position x [a]", ylabel="height y [a]")
     for flight, look in ((before, BEFORE), (after, AFTER)):
         x, y = max(zip(*flight.path()), key=lambda point: point[1])
         axes.annotate(DT + r" = %.4f $\tau$" % flight.row["dt"], (x, y), xytext=(0, 7), textcoords="offset points",
@@ -117,8 +116,7 @@ def draw_gap(axes, before, after):
     axes.plot([-before.row["dt"], 0.0, after.row["dt"]], [0.0] * 3, "o", color="black")
     axes.set_ylim(bottom=-0.03)
     axes.set_title("The gap between tip and surface", loc="left")
-    axes.set_xlabel(r"time since the impact [$\tau$]")
-    axes.set_ylabel("gap [a]")
+    axes.set(xlabel=r"time since the impact [$\tau$]", ylabel="gap [a]")
 
 
 @picture()

@@ -47,14 +47,12 @@ def chatter_sequence(_):
     shown = np.where(gap > LEAST_GAP, gap, np.nan)
     shown[(times > begin) & (times < release)] = np.nan
     top.semilogy(times, shown, color=style.BLUE, linewidth=1.0)
-    top.set_ylim(LEAST_GAP, 1)
-    top.set_ylabel("gap between tip and surface [a]")
+    top.set(ylim=(LEAST_GAP, 1), ylabel="gap between tip and surface [a]")
     at, speed = impacts(every, afm.Kind.IMPACT)
     bottom.semilogy(at + start, speed, color=style.ORANGE, linewidth=1.4, label="every bounce computed by itself")
     at, speed = impacts(path.events, afm.Kind.IMPACT)
     bottom.semilogy(at, speed, "o", color=style.BLUE, markersize=4.5, label="impacts of the emulator", **style.OPEN)
-    bottom.set_ylabel(r"normal speed of impacts [$a/\tau$]")
-    bottom.set_xlabel(r"model time [$\tau$]")
+    bottom.set(ylabel=r"normal speed of impacts [$a/\tau$]", xlabel=r"model time [$\tau$]")
     for axes in (top, bottom):
         axes.axvspan(begin, contact, color=style.ORANGE, alpha=0.15, linewidth=0)
         axes.axvspan(contact, release, color=style.GREEN, alpha=0.15, linewidth=0)

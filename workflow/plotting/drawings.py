@@ -76,8 +76,7 @@ def cantilever(_):
     draw_model(axes)
     for x, sign in ((1.4, "+"), (2.83, "=")):
         axes.text(x, 0.66, sign, ha="center", va="center", fontsize=18)
-    axes.set_xlim(-0.05, 4.15)
-    axes.set_ylim(0.05, 1.28)
+    axes.set(xlim=(-0.05, 4.15), ylim=(0.05, 1.28))
     style.bare(axes)
     return figure
 
@@ -125,8 +124,7 @@ def model_time(_):
               ha="left", va="center", fontsize=style.SMALL)
     axes.annotate("", (2.0, 3.22), xytext=(1.0, 3.22), arrowprops=dict(arrowstyle="<->", color="black"))
     axes.text(1.5, 3.32, r"63.7 $\tau$ of mica at time_scale 1", ha="center", va="bottom")
-    axes.set_xlim(-1.35, 4.85)
-    axes.set_ylim(-0.75, 3.6)
+    axes.set(xlim=(-1.35, 4.85), ylim=(-0.75, 3.6))
     axes.axis("off")
     return figure
 
@@ -183,7 +181,6 @@ def nodes(_):
     axes.annotate("", (8.68, 2.42), xytext=(8.68, 2.88), arrowprops=line)
     named(axes, ["/afm_view/markers"], 8.6, 2.64, "right")
     axes.text(6.3, 4.98, "topics", ha="center", va="center", color=style.GREY, fontsize=style.SMALL)
-    axes.set_xlim(-0.05, 9.1)
-    axes.set_ylim(0.0, 5.05)
+    axes.set(xlim=(-0.05, 9.1), ylim=(0.0, 5.05))
     axes.axis("off")
     return figure

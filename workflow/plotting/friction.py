@@ -32,11 +32,8 @@ def fig1_friction(tables):
         right = axes.secondary_yaxis("right", functions=(lambda k: k * style.PAPER * 1e4,
                                                          lambda k: k / style.PAPER / 1e4))
         right.set_ylabel(r"$K_f$ [$10^{-4}$ of the paper's unit]")
-    linear.set_xlim(0, 9)
-    linear.set_ylim(0, 1.08 * peak)
-    logarithmic.set_yscale("log")
-    logarithmic.set_ylim(1e-4, 10)
-    logarithmic.set_xlabel(style.ETA_LABEL)
+    linear.set(xlim=(0, 9), ylim=(0, 1.08 * peak))
+    logarithmic.set(yscale="log", ylim=(1e-4, 10), xlabel=style.ETA_LABEL)
     style.legend_above(linear)
     return figure
 
@@ -111,8 +108,6 @@ def fig9_scaling(tables):
                  label=r"computed orbit, $\eta$ = 4", **style.OPEN)
     natural = [0.5 * (1.0 - value ** 2) * style.AMPLITUDE ** 2 for value in gamma]
     axes[1].plot(gamma, [2571 * k for k in natural], color=style.ORANGE, linestyle="--", label="2571 times Eq. 21")
-    axes[1].set_xlabel(r"restitution $\gamma$")
-    axes[1].set_ylabel(style.K_F_LABEL)
-    axes[1].set_ylim(bottom=0)
+    axes[1].set(xlabel=r"restitution $\gamma$", ylabel=style.K_F_LABEL, ylim=(0, None))
     style.legend_above(axes[1])
     return figure

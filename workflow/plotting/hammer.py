@@ -29,9 +29,7 @@ def hammer_friction(tables):
         etas = [2 * cells - 0.7 + 0.01 * i for i in range(140)]
         axes.semilogy(etas, [orbit_of_one(eta, cells) for eta in etas], color="black", linewidth=1,
                       label="hammer, orbits of one impact: closed form" if cells == 1 else None)
-    axes.set_xlabel(style.ETA_LABEL)
-    axes.set_ylabel(style.K_F_LABEL + r"; zero is drawn at $10^{-4}$")
-    axes.set_ylim(7e-5, 20)
+    axes.set(xlabel=style.ETA_LABEL, ylabel=style.K_F_LABEL + r"; zero is drawn at $10^{-4}$", ylim=(7e-5, 20))
     style.legend_above(axes)
     return figure
 
@@ -65,8 +63,7 @@ def hammer_error(tables):
     axes[1].set_ylabel("difference of the vertical\ndeflection, over its rms")
     axes[2].semilogy(etas, [row["cost_ratio"] for row in rows], "o-", color=style.BLUE, **line)
     axes[2].axhline(1.0, color="black", linewidth=0.9, linestyle=":", label="the same time")
-    axes[2].set_ylabel("processor time:\noscillator / hammer")
-    axes[2].set_xlabel(style.ETA_LABEL)
+    axes[2].set(ylabel="processor time:\noscillator / hammer", xlabel=style.ETA_LABEL)
     for ax in axes:
         style.legend_above(ax)
     return figure
@@ -123,16 +120,14 @@ def hammer_cycles(tables):
     axes[0].plot([row["length"] for row in words], [row["entropy"] for row in words], "o-", color=style.BLUE,
                  label="entropy of a letter, given those before it")
     axes[0].axhline(words[0]["exponent"], color="black", linestyle=":", label="Lyapunov exponent of an impact")
-    axes[0].set_ylabel("entropy of a letter [nat]")
-    axes[0].set_xlabel("letters in a word")
+    axes[0].set(ylabel="entropy of a letter [nat]", xlabel="letters in a word")
     for method, colour, marker, fill, label in (("zeta", style.BLUE, "o", {}, "zeta function"),
                                                 ("determinant", style.GREEN, "s", style.OPEN, "determinant")):
         mine = [row for row in rows if row["method"] == method]
         axes[1].plot([row["order"] for row in mine], [row["k_f"] for row in mine], marker + "-", color=colour, label=label,
                      **fill)
     axes[1].axhline(direct["k_f"], color="black", linestyle=":", label="direct simulation")
-    axes[1].set_xlabel("impacts in the longest orbit used")
-    axes[1].set_ylabel(style.K_F_LABEL)
+    axes[1].set(xlabel="impacts in the longest orbit used", ylabel=style.K_F_LABEL)
     style.legend_above(axes[0], columns=1)
     style.legend_above(axes[1])
     return figure

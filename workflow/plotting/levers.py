@@ -29,16 +29,14 @@ def draw_lever(axes, rows, bath):
             axes.add_patch(Rectangle((j, i), 0.96, 0.95, facecolor=colour, linewidth=0))
             axes.text(j + 0.48, i + 0.47, "%.2g" % least if least < 100 else "%.0f" % least, ha="center", va="center",
                       color=ink, fontsize=style.SMALL)
-    axes.set_xlim(0, len(speeds))
-    axes.set_ylim(0, len(loads))
+    axes.set(xlim=(0, len(speeds)), ylim=(0, len(loads)))
     axes.set_xticks([j + 0.48 for j in range(len(speeds))])
     axes.set_xticklabels(["%g" % speed for speed in speeds])
     axes.set_yticks([i + 0.47 for i in range(len(loads))])
     axes.set_yticklabels(["%g" % load for load in loads])
     axes.tick_params(length=0)
     axes.grid(False)
-    for side in axes.spines.values():
-        side.set_visible(False)
+    axes.set_frame_on(False)
 
 
 @picture("levers")

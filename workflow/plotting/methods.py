@@ -51,9 +51,7 @@ def draw_pace(axes, rows, scene, title):
                   linestyle="--" if name.endswith(SUFFIX) else "-", label=label.replace("\n", " "))
     axes.axvline(1.0, color="#222222", linewidth=1.3)
     axes.text(0.85, 2e-13, "real time", rotation=90, va="bottom", ha="right")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_ylim(LEAST, MOST * 3)
+    axes.set(xscale="log", yscale="log", ylim=(LEAST, MOST * 3))
     axes.set_title(title)
     axes.set_xlabel("processor seconds for a second of model time")
 
@@ -116,14 +114,10 @@ def speed_accuracy(tables):
         data = points(rows, name, scene, error)
         if data:
             draw_method(axes, name, data)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(1e2, 1e7)
-    axes.set_ylim(3e-17, 20)
+    axes.set(xscale="log", yscale="log", xlim=(1e2, 1e7), ylim=(3e-17, 20))
     axes.set_xticks([1e2, 1e3, 1e4, 1e5, 1e6, 1e7])
     axes.set_xticklabels(["100 ns", "1 µs", "10 µs", "100 µs", "1 ms", "10 ms"])
-    axes.set_ylabel(r"error of one flight, median [a, $\tau$, a/$\tau$]")
-    axes.set_xlabel("processor time per impact")
+    axes.set(ylabel=r"error of one flight, median [a, $\tau$, a/$\tau$]", xlabel="processor time per impact")
     axes.annotate("better", (1.3e2, 1e-8), xytext=(4.5e2, 1e-6), ha="left", va="bottom", **BETTER)
     figure.suptitle("Error against 113-bit arithmetic, on the same flights for every method.  "
                     "Open: impacts missed, or found where there are none.\nDashed: the same method with the gap rate "

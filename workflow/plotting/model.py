@@ -85,8 +85,7 @@ def model_setup(_):
     for end, name, at in (((1.92, 0.56), "$x$, along the drag", (2.15, 0.56)),
                           ((1.7, 0.78), "$y$, away from the surface", (1.72, 0.83))):
         arrow(axes, (1.7, 0.56), end, name, at)
-    axes.set_xlim(-0.37, 2.5)
-    axes.set_ylim(-0.55, 0.88)
+    axes.set(xlim=(-0.37, 2.5), ylim=(-0.55, 0.88))
     style.bare(axes)
     return figure
 
@@ -98,10 +97,8 @@ def model_restitution(_):
         axes.plot([0, 1, 2.5], [1, gamma, gamma], line, color=colour, linewidth=2)
         axes.text(2.2, gamma + 0.03, r"$\gamma$ = %g" % gamma, color=colour)
     axes.axvline(1, color=style.GREY, linewidth=0.8, linestyle=":")
-    axes.set_xlabel(r"normal speed before the impact, $|\mathbf{n}\cdot\mathbf{v}|$ [$v_c$]")
-    axes.set_ylabel(r"effective restitution $\gamma_{eff}$")
-    axes.set_xlim(0, 2.5)
-    axes.set_ylim(0, 1.08)
+    axes.set(xlabel=r"normal speed before the impact, $|\mathbf{n}\cdot\mathbf{v}|$ [$v_c$]",
+             ylabel=r"effective restitution $\gamma_{eff}$", xlim=(0, 2.5), ylim=(0, 1.08))
     return figure
 
 
@@ -117,10 +114,8 @@ def model_force(tables):
     even = range(2, 9, 2)
     axes.plot([1e6 * speed * eta for eta in even], [1e9 * unit * style.closed_form(0.7) * eta for eta in even], "o",
               color="black", fillstyle="none", markersize=9, label=r"even $\eta$, closed form")
-    axes.set_xlabel(r"drag speed [$\mu$m/s]")
-    axes.set_ylabel("mean friction force [nN]")
-    axes.set_xlim(0, 1e6 * speed * 9)
-    axes.set_ylim(bottom=0)
+    axes.set(xlabel=r"drag speed [$\mu$m/s]", ylabel="mean friction force [nN]", xlim=(0, 1e6 * speed * 9),
+             ylim=(0, None))
     top = axes.secondary_xaxis("top", functions=(lambda v: v * 1e-6 / speed, lambda eta: eta * speed * 1e6))
     top.set_xlabel(style.ETA_LABEL)
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, 1.0), framealpha=1.0, frameon=True, edgecolor="white")

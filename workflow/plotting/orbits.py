@@ -133,8 +133,7 @@ def fig4_scan(tables):
     axes.annotate("the orbit of one impact,\ntaken twice", (point["phase"], point["w"]), xytext=(0.33, 4.6),
                   color=style.ORANGE, ha="left", va="bottom",
                   arrowprops=dict(arrowstyle="-", color=style.ORANGE, shrinkB=9))
-    axes.set_xlabel("surface phase of the impact [a]")
-    axes.set_ylabel(r"vertical velocity w after the impact [$a/\tau$]")
+    axes.set(xlabel="surface phase of the impact [a]", ylabel=r"vertical velocity w after the impact [$a/\tau$]")
     return figure
 
 
@@ -151,8 +150,7 @@ def fig5_averages(tables):
     axes[0].axhspan(direct["k_f"] - 1.96 * direct["k_f_std_error"], direct["k_f"] + 1.96 * direct["k_f_std_error"],
                     color=style.ORANGE, label="direct simulation, 95 %")
     axes[0].set_ylabel(style.K_F_LABEL)
-    axes[1].set_ylabel(r"lack of conservation, 0 if exact: $|1/\zeta(1)|$, $|\det|$")
-    axes[1].set_yscale("log")
+    axes[1].set(ylabel=r"lack of conservation, 0 if exact: $|1/\zeta(1)|$, $|\det|$", yscale="log")
     for ax in axes:
         ax.set_xlabel("impacts in the longest orbit used")
         ax.set_xticks(range(1, 11))

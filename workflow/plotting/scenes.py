@@ -95,10 +95,7 @@ def draw_path(axes, run):
     hits = times_of(run.events[run.events['kind'] == 0])
     hits = hits[hits < times[-1]]
     axes.plot(np.interp(hits, times, place), np.interp(hits, times, height), 'o', color='black', ms=3.5)
-    axes.set_xlim(xs[0], xs[-1])
-    axes.set_ylim(bottom=-2.2 * amplitude)
-    axes.set_xlabel('position x [a]')
-    axes.set_ylabel('height y [nm]')
+    axes.set(xlim=(xs[0], xs[-1]), ylim=(-2.2 * amplitude, None), xlabel='position x [a]', ylabel='height y [nm]')
     axes.set_title('path of the tip over the surface', loc='left')
 
 
@@ -108,9 +105,7 @@ def draw_sweep(axes, run):
     top = int(np.argmax(eta))
     axes.plot(eta[:top + 1], K[:top + 1], '-^', ms=5, lw=1.0, color=style.BLUE, label='$\\eta$ rising')
     axes.plot(eta[top:], K[top:], '--v', ms=5, lw=1.0, color=style.ORANGE, label='$\\eta$ falling', **style.OPEN)
-    axes.set_xlabel(style.ETA_LABEL)
-    axes.set_ylabel(style.K_F_LABEL)
-    axes.set_yscale('log')
+    axes.set(xlabel=style.ETA_LABEL, ylabel=style.K_F_LABEL, yscale='log')
     style.legend_above(axes)
 
 
@@ -136,16 +131,14 @@ def draw_loop(axes, run):
     axes.axhline(0, color='black', lw=0.6)
     axes.set_title('half the opening %.3g nN; $K_f v_0$ = %.3g nN' % (
         0.5 * (mean[0] - mean[1]), 1e9 * friction['k_f_work'] * abs(eta) * run.units.force), loc='left')
-    axes.set_xlabel('position of the holder [nm]')
-    axes.set_ylabel('lateral force, means over 10 nm [nN]')
+    axes.set(xlabel='position of the holder [nm]', ylabel='lateral force, means over 10 nm [nN]')
     axes.legend(loc='center')
 
 
 def draw_speeds(axes, run):
     bounces = run.events[run.events['kind'] == 0]  # a chatter sequence has the time of its end
     axes.semilogy(times_of(bounces), 1e6 * run.units.velocity * bounces['normal_speed'], 'o', ms=4, color='black')
-    axes.set_xlabel('model time [$\\tau$]')
-    axes.set_ylabel('normal speed of impacts [$\\mu$m/s]')
+    axes.set(xlabel='model time [$\\tau$]', ylabel='normal speed of impacts [$\\mu$m/s]')
 
 
 def add_picture(scene, bounds):

@@ -73,8 +73,7 @@ def draw(tables):
     figure.subplots_adjust(left=0.26, right=0.94, top=1 - 1.85 / height, bottom=0.6 / height)
     for row in rows:
         draw_cell(axes, methods.index(row["method"]), scenes.index(row["scene"]), row)
-    axes.set_xlim(-0.02, len(methods))
-    axes.set_ylim(len(scenes), -0.05)
+    axes.set(xlim=(-0.02, len(methods)), ylim=(len(scenes), -0.05))
     axes.set_yticks([i + 0.46 for i in range(len(scenes))])
     axes.set_yticklabels([row_label(scene, rows) for scene in scenes])
     axes.set_xticks([i + 0.4 for i in range(len(methods))])
@@ -85,8 +84,7 @@ def draw(tables):
     axes.xaxis.tick_top()
     axes.tick_params(length=0)
     axes.grid(False)
-    for side in axes.spines.values():
-        side.set_visible(False)
+    axes.set_frame_on(False)
     handles = [Rectangle((0, 0), 1, 1, color=colour) for colour, _, _, _ in VERDICTS.values()]
     figure.legend(handles, ["%s %s" % (sign, text) for _, sign, _, text in VERDICTS.values()], loc="lower center",
                   ncol=6, columnspacing=1.2, handlelength=1.2)

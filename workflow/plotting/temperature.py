@@ -51,8 +51,7 @@ def draw_thermal_friction(tables):
         ax.set_title("quality factor Q = %g" % quality, loc="left")
         ax.set_ylim(0, 6.6)
     style.legend_above(axes[0], columns=5)
-    axes[-1].set_xlabel(style.ETA_LABEL)
-    axes[-1].set_xlim(0, 9)
+    axes[-1].set(xlabel=style.ETA_LABEL, xlim=(0, 9))
     return figure
 
 
@@ -168,14 +167,12 @@ def draw_kicks(axes, rows):
                   **fill)
     axes.axvline(GOLDEN[5], color="black", linestyle=":", linewidth=1.2)
     axes.text(GOLDEN[5] * 1.05, 0.5, "default", va="top")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     axes.set_xticks([3, 10, 30, 100])
     axes.set_xticklabels(["3", "10", "30", "100"])
     axes.minorticks_off()
-    axes.set_ylim(1e-4, 0.9)
-    axes.set_xlabel(r"kicks of the bath per $\tau$")
-    axes.set_ylabel(r"relative error of $K_f$ against %.0f kicks per $\tau$" % REFERENCE_KICKS)
+    axes.set(ylim=(1e-4, 0.9), xlabel=r"kicks of the bath per $\tau$",
+             ylabel=r"relative error of $K_f$ against %.0f kicks per $\tau$" % REFERENCE_KICKS)
     style.legend_above(axes, columns=2)
 
 
@@ -192,11 +189,8 @@ def draw_thermostats(axes, rows):
                       linestyle=line, markersize=10 if mark == "*" else 5, **fill)
     axes.axvline(157.0, color="black", linestyle=":", linewidth=1.2)
     axes.text(150.0, 1.2e-4, "real time", rotation=90, ha="right", va="bottom")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_ylim(1e-4, 0.2)
-    axes.set_xlabel(r"processor time per $\tau$ [$\mu$s]")
-    axes.set_ylabel(r"relative bias of $\langle (y - y_0)^2 \rangle$ at equilibrium")
+    axes.set(xscale="log", yscale="log", ylim=(1e-4, 0.2), xlabel=r"processor time per $\tau$ [$\mu$s]",
+             ylabel=r"relative bias of $\langle (y - y_0)^2 \rangle$ at equilibrium")
     style.legend_above(axes, columns=2)
 
 

@@ -77,12 +77,8 @@ def draw_rates(axes, rows):
         low = [min(error, 0.9 * rate) for rate, error in zip(rates, errors)]  # a logarithm of a positive number
         axes.errorbar([row["temperature_k"] for row in some], rates, [low, errors], marker=mark, color=colour,
                       linewidth=0.9, label=r"$\eta$ = %g, from $K_f$ = %.3g" % (eta, some[0]["k_f_work"]), **fill)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(0.1, 60)
-    axes.set_ylim(5e-7, 2e-2)
-    axes.set_xlabel("temperature [K]")
-    axes.set_ylabel(r"rate of leaving an attractor for the other [1/$\tau$]")
+    axes.set(xscale="log", yscale="log", xlim=(0.1, 60), ylim=(5e-7, 2e-2), xlabel="temperature [K]",
+             ylabel=r"rate of leaving an attractor for the other [1/$\tau$]")
     style.legend_above(axes, columns=1)
 
 
@@ -101,9 +97,7 @@ def draw_traces(axes, rows):
         ax.set_title("%.3g K" % (theta / KELVIN), loc="left")
         for level in HOPS[6.5][0]:
             ax.axhline(level, color="black", linewidth=0.9, linestyle=":")
-        ax.set_ylim(0.37, 0.60)
-        ax.set_xlim(0, 20000)
-        ax.set_ylabel(style.K_F_LABEL)
+        ax.set(ylim=(0.37, 0.60), xlim=(0, 20000), ylabel=style.K_F_LABEL)
         ax.tick_params(labelbottom=ax is axes[-1])
     axes[-1].set_xlabel(r"time [$\tau$]")
 

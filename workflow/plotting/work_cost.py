@@ -16,8 +16,7 @@ def draw_time(axes, rows):
     axes.loglog(n, seconds, "o", color=style.BLUE, markersize=6, label="one tip")
     axes.loglog([100 * k for k in column(rows, "tips", "n")], column(rows, "tips", "seconds"), "s", color=style.ORANGE,
                 markersize=11, markerfacecolor="none", markeredgewidth=1.4, label="many tips, 100 impacts each")
-    axes.set_xlabel("impacts in all")
-    axes.set_ylabel("processor time [s]")
+    axes.set(xlabel="impacts in all", ylabel="processor time [s]")
 
 
 def draw_threads(axes, rows):
@@ -29,8 +28,7 @@ def draw_threads(axes, rows):
               **style.OPEN)
     axes.set_ylim(bottom=0)
     axes.set_xticks(n)
-    axes.set_xlabel("threads (2 processors)")
-    axes.set_ylabel("ratio to one thread")
+    axes.set(xlabel="threads (2 processors)", ylabel="ratio to one thread")
 
 
 def draw_memory(axes, rows):
@@ -40,8 +38,7 @@ def draw_memory(axes, rows):
     axes.loglog([k for k, _ in shown], [b0 / 1e6 * k / k0 for k, _ in shown], "--", color=style.GREY, linewidth=1.2,
                 label="in proportion")
     axes.loglog([k for k, _ in shown], [b / 1e6 for _, b in shown], "o", color=style.BLUE, markersize=6, label="measured")
-    axes.set_xlabel("tips")
-    axes.set_ylabel("memory [MB]")
+    axes.set(xlabel="tips", ylabel="memory [MB]")
 
 
 @picture("work_cost", name="work_cost")
