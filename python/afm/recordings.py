@@ -193,8 +193,7 @@ class Recording:
         if made_by != here:
             raise ValueError('the bag was made by %s; this is %s' % (made_by, here))
         self.units = self._units(start.configuration)
-        at_begin = self._settings(start.applied)
-        self.model: Model = self._model_of(at_begin)
+        self.model, at_begin = self._in_force(start.applied)
         self.eta: float = at_begin['eta']
         self.bath: Bath = at_begin['bath']
         self.contact_tolerance: float = at_begin['contact_tolerance']
@@ -259,28 +258,21 @@ class Recording:
     def _units(self, live: Any) -> Units:
         return Units(**{name: getattr(live if hasattr(live, name) else self.configuration, name) for name in _SI_MODEL})
 
-    def _settings(self, applied: Any) -> Dict[str, Any]:
-        """What is in force, as Run.apply() takes it."""
-        model = self._units(applied).model
+    def _in_force(self, applied: Any) -> Tuple[Model, Dict[str, Any]]:
+        """The model, and the other settings as Run.apply() takes them."""
+        si = self._units(applied).model
+        model = Model(si.gamma, si.cutoff, si.rest_height, si.amplitude, si.frequency_ratio, applied.model)
         with warnings.catch_warnings():
             warnings.simplefilter('ignore')  # of a temperature without damping: the node has said so
             bath: Bath = self.units.bath(seed=self.configuration.seed,
                                          **{name: getattr(applied, name) for name in _BATH})
-        return dict(eta=applied.drag_velocity / self.units.velocity, gamma=model.gamma, cutoff=model.cutoff,
-                    rest_height=model.rest_height, kind=applied.model, contact_tolerance=applied.contact_tolerance,
-                    bath=bath, friction_window=applied.friction_window_tau, sample_period=applied.sample_period_tau,
-                    samples_per_batch=applied.samples_per_batch)
-
-    def _model_of(self, live: Dict[str, Any]) -> Model:
-        fixed = self.units.model
-        return Model(live['gamma'], live['cutoff'], live['rest_height'], fixed.amplitude, fixed.frequency_ratio,
-                     live['kind'])
+        return model, dict(eta=applied.drag_velocity / self.units.velocity, bath=bath,
+                           contact_tolerance=applied.contact_tolerance, friction_window=applied.friction_window_tau,
+                           sample_period=applied.sample_period_tau, samples_per_batch=applied.samples_per_batch)
 
     def _run_from(self, snapshot: Any) -> Run:
-        c, live = self.configuration, self._settings(snapshot.applied)
-        model = self._model_of(live)
-        for name in ('gamma', 'cutoff', 'rest_height', 'kind'):
-            del live[name]
+        c = self.configuration
+        model, live = self._in_force(snapshot.applied)
         state = {name: getattr(snapshot, name) for name in snapshot.__slots__
                  if name not in ('header', 'epoch', 'configuration', 'applied')}
         state = {name: _model_time(v) if hasattr(v, 'tau') else v for name, v in state.items()}
@@ -317,7 +309,9 @@ class Recording:
                     yield run.advance(run.now)
                     run.snapshot()
             else:
-                run.apply(**self._settings(m))
+                model, live = self._in_force(m)
+                run.apply(gamma=model.gamma, cutoff=model.cutoff, rest_height=model.rest_height, kind=model.kind,
+                          **live)
         yield from run_to(_model_time(last.time), last.first_impact + last.impact_limit)
         if run.now == start:
             yield run.advance(start, impacts=0)
