@@ -76,7 +76,6 @@ class Errors(unittest.TestCase):
         self.refused('phase', 1e9, afm.next_impact, eta=2, phase=1e9, extension=0, u=2, w=1)
         for check in afm.kicks_lock, afm.suitable_kicks:
             self.assertRaisesRegex(ValueError, '^eta = nan', check, afm.Model(), afm.Bath(), math.nan)
-        self.assertRaisesRegex(ValueError, '^eta = inf', afm.Tip, eta=10 ** 400)
 
     def test_a_lever_and_a_load_in_the_terms_of_their_owner(self):
         lever = dict(spring_constant_n_per_m=0.2, resonance_hz=13000.0, lateral_spring_constant_n_per_m=88.2)
@@ -189,7 +188,6 @@ class Errors(unittest.TestCase):
         self.refused('eta', 2.5, afm.friction_curve, falling, sweep='down')
         self.assertRaises(TypeError, afm.next_impact, eta=2, speed=3)
         self.assertRaises(TypeError, afm.Run().apply, colour=1)
-        self.assertRaises(TypeError, afm.Run().apply, gamma='high')
 
     def test_a_snapshot_that_is_none(self):
         snapshot = afm.Run().snapshot()
