@@ -1,11 +1,11 @@
 // The error of bursts in the state at the next impact, against the bounces one by one: a table, a row for each
 // restitution, cutoff and drag speed. Times in tau, lengths in lattice spacings.
-#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "common/command_line.h"
+#include "quantile.h"
 #include "trials/burst_trials.h"
 
 namespace {
@@ -15,10 +15,6 @@ struct Options {
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
 };
-
-double quantile(std::vector<double>& sorted, double p) {
-  return sorted[std::min(sorted.size() - 1, static_cast<std::size_t>(p * static_cast<double>(sorted.size())))];
-}
 
 void print_row(double gamma, double cutoff, double eta, const Options& o) {
   afm::Model model;
@@ -37,9 +33,8 @@ void print_row(double gamma, double cutoff, double eta, const Options& o) {
     bounces += t->bounces;
   }
   if (worst.empty()) return;
-  std::sort(worst.begin(), worst.end());
   std::printf("%g,%g,%g,%zu,%.0f,%ld,%.2g,%.2g,%.2g\n", gamma, cutoff, eta, worst.size(), bounces, skipped,
-              quantile(worst, 0.5), quantile(worst, 0.99), worst.back());
+              afm::quantile(worst, 0.5), afm::quantile(worst, 0.99), afm::quantile(worst, 1.0));
   std::fflush(stdout);
 }
 

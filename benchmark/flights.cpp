@@ -60,12 +60,4 @@ void FlightScore::add(const Flight113& flight, const rivals::Hit& hit, const Fli
   }
 }
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  const std::size_t n =
-      std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n), values.end());
-  return values[n];
-}
-
 }  // namespace afm

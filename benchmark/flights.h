@@ -44,6 +44,4 @@ struct FlightScore {
   void add(const Flight113& flight, const rivals::Hit& hit, const FlightScene& scene);
 };
 
-double quantile(std::vector<double> values, double share);  // nan where there are none
-
 }  // namespace afm

@@ -1,5 +1,6 @@
 
 #include "common/cpu_clock.h"
+#include "quantile.h"
 #include "speed_accuracy.h"
 
 namespace afm {

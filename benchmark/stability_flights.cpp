@@ -6,6 +6,7 @@
 #include "common/cpu_clock.h"
 #include "core/search/impact_search.h"
 #include "flights.h"
+#include "quantile.h"
 #include "stability.h"
 
 namespace afm {
