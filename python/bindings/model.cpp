@@ -76,9 +76,11 @@ py::dict arguments(const SiUnits& u) {
                   "restitution_gamma"_a = u.si.restitution_gamma, "cutoff_speed"_a = u.si.cutoff_speed);
 }
 
-// Printed and pickled as the call that makes it again.
+// Printed, pickled and compared by the call that makes it again.
 template <class T>
 void add_call(py::class_<T>& value) {
+  value.def(
+      "__eq__", [](const T& a, const T& b) { return arguments(a).equal(arguments(b)); }, py::is_operator());
   value.def("__repr__", [](const py::object& self) {
     py::list words;
     for (const auto& item : arguments(self.cast<const T&>()))
@@ -104,9 +106,7 @@ seed, stream: of its random numbers; tips with different streams are independent
                     "of the horizontal spring; 0: as the vertical one")
       .def_readonly("kicks_per_tau", &Bath::kicks_per_tau, "rate of the kicks [1/tau]: speed against accuracy")
       .def_readonly("seed", &Bath::seed, "of the random numbers")
-      .def_readonly("stream", &Bath::stream, "which sequence of the seed; tips with different streams are independent")
-      .def(
-          "__eq__", [](const Bath& a, const Bath& b) { return a == b; }, py::is_operator());
+      .def_readonly("stream", &Bath::stream, "which sequence of the seed; tips with different streams are independent");
   add_call(bath);
 }
 
@@ -137,10 +137,7 @@ resonance_hz and lateral_spring_constant_n_per_m, all three; and load_n [N] in p
       .def_property_readonly("energy", unit(&Units::energy), "[J]")
       .def_property_readonly("force", unit(&Units::force), "[N]")
       .def_property_readonly("friction", unit(&Units::friction), "[kg/s], of K_f in m_tip/tau")
-      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT")
-      .def(
-          "__eq__", [](const SiUnits& a, const SiUnits& b) { return arguments(a).equal(arguments(b)); },
-          py::is_operator());
+      .def_property_readonly("temperature", unit(&Units::temperature), "[K], of kT");
   add_call(units);
 }
 
@@ -164,9 +161,7 @@ An object cannot be changed. Throws ParameterError.)");
       .def_readonly("amplitude", &Model::H, "of the surface [a]")
       .def_readonly("frequency_ratio", &Model::frequency_ratio, "omega_h / omega_v")
       .def_property_readonly(
-          "kind", [](const Model& self) { return name(self.kind); }, "'oscillator' or 'hammer'")
-      .def(
-          "__eq__", [](const Model& a, const Model& b) { return arguments(a).equal(arguments(b)); }, py::is_operator());
+          "kind", [](const Model& self) { return name(self.kind); }, "'oscillator' or 'hammer'");
   add_call(model);
   add_bath(m);
   add_units(m);
