@@ -28,11 +28,11 @@ void Tip::drag(double eta) {
 // The hammer on the surface gets the new velocity of its holder at once. So its gap rate jumps: it lifts off, or has an
 // impact.
 void Tip::jump_holder_velocity(double eta) {
+  split_record();
   end_slide_now();
   // A sum that is rounded up would end it later. The ulp of a phase may be far above that of the time.
   while (now_ < start_ + end_) end_ = std::fmax(0.0, std::fmin(std::nextafter(end_, 0.0), end_ - 0x1p-53));
   eta_ = eta;
-  split_record();
 }
 
 // Lets the next advance end the chatter sequence or contact at now(). The tip is then in the flight that the last
