@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -50,9 +49,29 @@ struct ChatterVariables {
   T x, n, sigma, p, drift, loss;
 };
 
-// The values at the nodes of a step.
+// The values at the nodes of a step. The compiler makes vector operations of the loops over the nodes, with the same
+// bits.
 template <class T>
-using AtNodes = std::array<T, kNodeCount>;
+using AtNodes = T[kNodeCount];
+
+template <class T>
+inline void set_node(ReferenceForces<AtNodes<T>>& at, std::size_t i, const ReferenceForces<T>& f) {
+  at.P[i] = f.P, at.P1[i] = f.P1, at.P2[i] = f.P2, at.K[i] = f.K, at.turn[i] = f.turn;
+  at.c_height[i] = f.c_height, at.c_sigma[i] = f.c_sigma, at.dx_dsigma[i] = f.dx_dsigma, at.dx_drho[i] = f.dx_drho;
+}
+template <class T>
+inline ReferenceForces<T> node(const ReferenceForces<AtNodes<T>>& at, std::size_t i) {
+  return {at.P[i],        at.P1[i],      at.P2[i],        at.K[i],      at.turn[i],
+          at.c_height[i], at.c_sigma[i], at.dx_dsigma[i], at.dx_drho[i]};
+}
+template <class T>
+inline void set_node(ChatterVariables<AtNodes<T>>& at, std::size_t i, const ChatterVariables<T>& y) {
+  at.x[i] = y.x, at.n[i] = y.n, at.sigma[i] = y.sigma, at.p[i] = y.p, at.drift[i] = y.drift, at.loss[i] = y.loss;
+}
+template <class T>
+inline ChatterVariables<T> node(const ChatterVariables<AtNodes<T>>& at, std::size_t i) {
+  return {at.x[i], at.n[i], at.sigma[i], at.p[i], at.drift[i], at.loss[i]};
+}
 
 // A time of the integration.
 template <class T>
@@ -242,37 +261,62 @@ class ChatterIntegration {
   }
 
   // The integral of the rates from the start of the step to node i.
-  static ChatterVariables<T> integral(const Point& from, double dt, const AtNodes<ChatterVariables<T>>& rates,
+  static ChatterVariables<T> integral(const Point& from, double dt, const ChatterVariables<AtNodes<T>>& rates,
                                       std::size_t i) {
-    using V = ChatterVariables<T>;
-    const auto sum = [&](T V::*variable) {
-      T mean = kLobatto[0][i] * (from.rates.*variable);
+    const auto sum = [&](const T& y, const T& first, const AtNodes<T>& at) {
+      T mean = kLobatto[0][i] * first;
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < kNodeCount; ++k) mean = mean + kLobatto[k + 1][i] * (rates[k].*variable);
-      return from.y.*variable + dt * mean;
+      for (std::size_t k = 0; k < kNodeCount; ++k) mean = mean + kLobatto[k + 1][i] * at[k];
+      return y + dt * mean;
     };
-    return {sum(&V::x), sum(&V::n), sum(&V::sigma), sum(&V::p), sum(&V::drift), sum(&V::loss)};
+    const ChatterVariables<T>&y = from.y, &r = from.rates;
+    return {sum(y.x, r.x, rates.x),
+            sum(y.n, r.n, rates.n),
+            sum(y.sigma, r.sigma, rates.sigma),
+            sum(y.p, r.p, rates.p),
+            sum(y.drift, r.drift, rates.drift),
+            sum(y.loss, r.loss, rates.loss)};
   }
 
   // One step of Lobatto's method. Its equations are solved by iteration; the start extrapolates the first rates.
   Point step(const Point& from, double dt) const {
     constexpr int kIterations = 2;
-    const SpringConstants<T> springs = reference_.springs();
-    const T eta = reference_.eta();
-    AtNodes<SlideState<T>> q;
-    AtNodes<ReferenceForces<T>> forces;
-    AtNodes<ChatterVariables<T>> y, rates;
-    for (std::size_t i = 0; i < kNodeCount; ++i) q[i] = reference_.at(from.s + kNodes[i] * dt);
-    for (std::size_t i = 0; i < kNodeCount; ++i) forces[i] = reference_forces(springs, eta, q[i]);
-    for (std::size_t i = 0; i < kNodeCount; ++i) y[i] = along(from, T(kNodes[i] * dt));
-    for (std::size_t i = 0; i < kNodeCount; ++i) rates[i] = chatter_rates(c_, forces[i], y[i]);
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-      for (std::size_t i = 0; i < kNodeCount; ++i) y[i] = integral(from, dt, rates, i);
-      for (std::size_t i = 0; i < kNodeCount; ++i) rates[i] = chatter_rates(c_, forces[i], y[i]);
+    constexpr std::size_t kLast = kNodeCount - 1;
+    const SlideSegment<T>& reference = reference_;
+    const SpringConstants<T> springs = reference.springs();
+    const T eta = reference.eta();
+    SlideState<AtNodes<T>> q;
+    ReferenceForces<AtNodes<T>> forces;
+    ChatterVariables<AtNodes<T>> y, rates;
+    for (std::size_t i = 0; i < kNodeCount; ++i) {
+      const SlideState<T> at = reference.at(from.s + kNodes[i] * dt);
+      q.phase[i] = at.phase, q.X[i] = at.X, q.u[i] = at.u;
     }
-    const ReferenceForces<T>& f = forces.back();
-    const ChatterVariables<T> end = integral(from, dt, rates, kNodeCount - 1);
-    return {from.s + dt, f, change_rates(springs, q.back().u, f), end, rates.back(), to_chatter(c_, f, end)};
+    for (std::size_t i = 0; i < kNodeCount; ++i) {
+      set_node(forces, i, reference_forces(springs, eta, SlideState<T>{q.phase[i], q.X[i], q.u[i]}));
+    }
+    for (std::size_t i = 0; i < kNodeCount; ++i) set_node(y, i, along(from, T(kNodes[i] * dt)));
+    set_rates(forces, y, rates);
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      for (std::size_t i = 0; i < kNodeCount; ++i) set_node(y, i, integral(from, dt, rates, i));
+      set_rates(forces, y, rates);
+    }
+    const ReferenceForces<T> f = node(forces, kLast);
+    const ChatterVariables<T> end = integral(from, dt, rates, kLast);
+    return {from.s + dt, f, change_rates(springs, q.u[kLast], f), end, node(rates, kLast), to_chatter(c_, f, end)};
+  }
+
+  void set_rates(const ReferenceForces<AtNodes<T>>& forces, const ChatterVariables<AtNodes<T>>& y,
+                 ChatterVariables<AtNodes<T>>& rates) const {
+    c_.constant_loss ? set_rates_of<true>(forces, y, rates) : set_rates_of<false>(forces, y, rates);
+  }
+  // Without a branch in the loop, which could not be a vector operation.
+  template <bool kConstantLoss>
+  void set_rates_of(const ReferenceForces<AtNodes<T>>& forces, const ChatterVariables<AtNodes<T>>& y,
+                    ChatterVariables<AtNodes<T>>& rates) const {
+    ChatterConstants c = c_;
+    c.constant_loss = kConstantLoss;
+    for (std::size_t i = 0; i < kNodeCount; ++i) set_node(rates, i, chatter_rates(c, node(forces, i), node(y, i)));
   }
 
   const ChatterConstants& c_;
