@@ -1,4 +1,3 @@
-
 #include "common/cpu_clock.h"
 #include "quantile.h"
 #include "speed_accuracy.h"

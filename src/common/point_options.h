@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "afm/sweep.h"
 #include "common/command_line.h"

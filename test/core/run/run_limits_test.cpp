@@ -69,6 +69,7 @@ TEST(RunLimits, EveryFaultIsListedAtOnce) {
   EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height", "initial_u"}));
   settings.initial = {0.0, 0.0, -1000.0, 0.0, 0.0};  // and is not named twice
   EXPECT_EQ(names(find_faults(settings)), (std::multiset<std::string>{"initial_height"}));
+  EXPECT_THROW(afm::Run{settings}, ParameterError);
 }
 
 TEST(RunLimits, ABatchThatNoMemoryHoldsIsAFault) {
