@@ -86,8 +86,8 @@ class Run {
   // model, level or bath restarts the friction estimate, a new window restarts its window. A new sample period takes
   // its first sample at now(). Returns the energy that a change to the hammer drops [m_tip a^2/tau^2], as
   // set_model() of a Tip does.
-  // Precondition: settings without faults, which differ from settings() in eta, gamma, v_c, y0, kind and tolerance of
-  // the model, samples, friction window and bath at most.
+  // Lever and surface (H, frequency_ratio), the start and the budget stay as they are. Precondition: settings without
+  // faults.
   double apply(const RunSettings& settings);
 
   // To the next batch boundary of the sample grid (time_limit), or until impact_budget impacts are spent

@@ -117,7 +117,12 @@ Snapshot Run::split() {
 
 double Run::apply(const RunSettings& settings) {
   const RunSettings old = settings_;
-  const RunSettings& s = settings_ = settings;
+  settings_ = settings;
+  settings_.model.H = old.model.H;
+  settings_.model.frequency_ratio = old.model.frequency_ratio;
+  settings_.initial = old.initial;
+  settings_.impact_budget = old.impact_budget;
+  const RunSettings& s = settings_;
   double dropped = 0.0;
   const bool new_model = s.model.gamma != old.model.gamma || s.model.v_c != old.model.v_c || s.model.y0 != old.model.y0;
   const bool new_level = s.model.kind != old.model.kind || s.contact_tolerance != old.contact_tolerance;

@@ -101,7 +101,7 @@ Run trial_run(const Parameters& p) {
   const Level level = choose_level(p, settings).level;
   settings.model.kind = level.kind;
   settings.contact_tolerance = level.contact_tolerance;
-  const double extension = longest_extension(settings.model);
+  const double extension = longest_extension(run.settings().model);
   const bool slips = kTwoPi * extension > 1.0 && settings.eta != 0.0;
   if (slips && !settings.bath.is_on()) {
     RunSettings fast = settings;

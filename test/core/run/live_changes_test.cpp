@@ -54,6 +54,20 @@ TEST(RunChange, OfABathThatIsOffIsNoChange) {
 }
 
 // The tip does not know when it is looked at: with periods that are powers of 2 a finer grid holds the coarser one.
+TEST(RunChange, OfLeverSurfaceStartAndBudgetIsNoChange) {
+  expect_no_change([](RunSettings& live, int) {
+    live.model.frequency_ratio = 3.0;
+    live.model.H = 0.2;
+    live.initial.X = 0.3;
+    live.impact_budget = 7;
+  });
+  afm::Run run(settings_at(3.4, 200));
+  RunSettings other = run.settings();
+  other.model.frequency_ratio = 3.0;
+  run.apply(other);
+  EXPECT_EQ(run.settings().model.frequency_ratio, Model{}.frequency_ratio);
+}
+
 TEST(RunChange, OfTheSampleRateChangesTheSamplesAlone) {
   afm::Run fine(settings_at(3.4, 6400, 1.0 / 64)), changed(settings_at(3.4, 160, 1.0 / 16));
   Batch truth, batch;
