@@ -33,7 +33,10 @@ class Recorder:
         self.next_sample = batch.first_sample + len(batch.lateral)
         if len(batch.lateral):
             self.times.append((batch.time.tau + batch.time.phase) * 2 * math.pi / c.omega_v_rad_per_s)
-            self.forces.append(batch.lateral_impulse / (len(batch.lateral) * batch.sample_period))
+            force = -c.tip_mass_kg * c.omega_h_rad_per_s ** 2 * float(numpy.mean(batch.lateral))
+            if not any(batch.lateral):  # of the hammer, whose spring along x is rigid
+                force = batch.lateral_impulse / (len(batch.lateral) * batch.sample_period)
+            self.forces.append(force)
 
 
 def main():
