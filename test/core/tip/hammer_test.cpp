@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "afm/tip.h"
+#include "core/run/interruptible_advance.h"
 #include "support/models.h"
 #include "trials/random_launches.h"
 #include "trials/tip_watch.h"
@@ -43,7 +44,7 @@ TEST(Hammer, ThrownOffByACommandItIsThrownThenAndNoUlpSooner) {
   for (int i = 0; i < 2000; ++i) {
     Tip tip(hammer(), 0.2, FreeState{random.within(0.2, 0.8), 0.0, 0.2, 0.2, 0.0});
     const ModelTime command{40, random.within(0.0, 0.01)};  // a small phase has digits that the difference has not
-    while (tip.advance(command) != Outcome::time_limit) continue;
+    detail::bring_to(tip, command);
     if (!tip.in_contact()) continue;
     tip.drag(3.4);
     ASSERT_NE(tip.advance(kEndOfTime), Outcome::time_limit);
@@ -62,7 +63,7 @@ TEST(Hammer, ThrownOffByACommandItLeavesAtOnce) {
   Tip tip(model, 0.0, FreeState{0.5, 0.0, -model.H, 0.0, 0.0});
   for (int i = 0; i < 20000; ++i) {
     const ModelTime command = tip.now() + random.within(0.0, 0.01);
-    while (tip.advance(command) != Outcome::time_limit) continue;
+    detail::bring_to(tip, command);
     ASSERT_TRUE(tip.in_contact());
     Tip thrown = tip;
     thrown.drag(3.4);
@@ -79,10 +80,10 @@ TEST(Hammer, ThrownOffRightAfterAWholeTauItLeavesAtOnce) {
     const double before = std::pow(10.0, random.within(-9.0, -3.0));
     const Tip resting(model, 0.0, FreeState{0.5, 0.0, -model.H, 0.0, 0.0});
     Tip tip = resting;
-    while (tip.advance({0, 1.0 - before}) != Outcome::time_limit) continue;
+    detail::bring_to(tip, {0, 1.0 - before});
     tip.set_model(ModelKind::hammer, 0.5 * kDefaultContactTolerance);  // a new slide begins there
     const ModelTime command{1, random.within(0.0, 1e-12)};
-    while (tip.advance(command) != Outcome::time_limit) continue;
+    detail::bring_to(tip, command);
     tip.drag(3.4);
     ASSERT_FALSE(tip.is_settled()) << before;
   }
@@ -119,7 +120,7 @@ TEST(Hammer, AfterACommandInChatterComesItsBurstOrAnImpactThatLosesAllThatIsLost
   for (int i = 0; i < 20000; ++i) {
     Tip tip(hammer(0.7, 1.4), 7.0, TipState{0.3, 0.0, 7.0, 0.0, random.within(0.001, 0.02)});
     const ModelTime command{0, random.within(0.0, 0.1)};
-    while (tip.advance(command) != Outcome::time_limit) continue;
+    detail::bring_to(tip, command);
     if (!tip.in_chatter()) continue;
     ++commands;
     tip.drag(random.within(-9.0, 9.0));
