@@ -41,15 +41,13 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   s.sweep.seed = s.sweep.bath.seed = seed;
   refuse(find_faults(s));
   warn(find_warnings(s));
-  const SweepGrid grid(s);
-  std::vector<std::vector<SweepResult>> chains(grid.size() / grid.chain_length());
+  std::vector<std::vector<SweepResult>> chains(s.size() / s.chain_length());
   std::atomic<std::size_t> next{0}, done{0};
   const auto work = [&] {
-    for (std::size_t i; (i = next++) < chains.size();)
-      chains[i] = compute_chain(grid, s, i * grid.chain_length(), done);
+    for (std::size_t i; (i = next++) < chains.size();) chains[i] = compute_chain(s, i * s.chain_length(), done);
   };
   const auto watch = [&] {
-    if (!progress.is_none()) progress(done.load(), grid.size());
+    if (!progress.is_none()) progress(done.load(), s.size());
   };
   run_on_threads(threads, work, watch);
   TableRows rows;
@@ -57,7 +55,7 @@ py::tuple friction_curve(const std::vector<std::vector<double>>& axes, const std
   std::uint64_t failures = 0;
   for (const std::vector<SweepResult>& chain : chains) {
     for (const SweepResult& result : chain) {
-      write_row(grid.at(row++), result, rows);
+      write_row(s.at(row++), result, rows);
       failures += result.friction.search_failures;
     }
   }

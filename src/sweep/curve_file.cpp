@@ -57,9 +57,8 @@ bool are_of_one_point(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, const SweepGrid& grid,
-                     const TableUnits& units)
-    : path_(path), grid_(grid), out_(path == "-" ? std::cout : file_), writer_(out_, kCurveColumns, units) {
+CurveFile::CurveFile(const std::string& path, const CurveSettings& settings, const TableUnits& units)
+    : path_(path), settings_(settings), out_(path == "-" ? std::cout : file_), writer_(out_, kCurveColumns, units) {
   if (path.empty()) throw std::runtime_error("must not be empty");
   errno = 0;
   if (!is_stream(path)) {
@@ -109,23 +108,23 @@ void CurveFile::keep_whole_chains(const TableUnits& units) {
   off_t size = 0, kept = 0;
   while (std::getline(file, line) && !file.eof()) {
     if (lines == 0 && line != header) throw taken("it has other columns");
-    if (lines > grid_.size()) throw taken("it has more rows than points");
+    if (lines > settings_.size()) throw taken("it has more rows than points");
     if (lines > 0) {
       expected.str("");
-      write_row(grid_.at(lines - 1), {}, writer);
+      write_row(settings_.at(lines - 1), {}, writer);
       if (!are_of_one_point(expected.str(), line)) {
         throw taken("line " + std::to_string(lines + 1) + " is not the row of its point");
       }
     }
     size += static_cast<off_t>(line.size() + 1);
-    if (lines++ % grid_.chain_length() != 0) continue;
+    if (lines++ % settings_.chain_length() != 0) continue;
     kept = size;
     rows_ = lines - 1;
   }
   if (has_content(path_) && ::truncate(path_.c_str(), kept) != 0) throw cannot("write", path_);
 }
 
-void CurveFile::add(const SweepResult& result) { write_row(grid_.at(rows_++), result, writer_); }
+void CurveFile::add(const SweepResult& result) { write_row(settings_.at(rows_++), result, writer_); }
 
 void CurveFile::flush() {
   if (!out_.flush()) throw cannot("write", path_ == "-" ? "the standard output" : path_);

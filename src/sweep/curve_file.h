@@ -15,7 +15,7 @@ namespace afm {
 class CurveFile {
  public:
   // `path` "-" is standard output. Throws std::runtime_error where it cannot be written or belongs to other settings.
-  CurveFile(const std::string& path, const CurveSettings& settings, const SweepGrid& grid, const TableUnits& units);
+  CurveFile(const std::string& path, const CurveSettings& settings, const TableUnits& units);
   ~CurveFile();
   CurveFile(const CurveFile&) = delete;
   CurveFile& operator=(const CurveFile&) = delete;
@@ -30,7 +30,7 @@ class CurveFile {
   void keep_whole_chains(const TableUnits& units);
 
   const std::string path_;
-  const SweepGrid& grid_;
+  const CurveSettings& settings_;
   int lock_ = -1;  // FILE.settings, which one run at a time may hold
   std::size_t rows_ = 0;
   std::ofstream file_;

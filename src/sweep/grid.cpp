@@ -106,38 +106,35 @@ std::string identity(const CurveSettings& s) {
   return text.str();
 }
 
-SweepGrid::SweepGrid(const CurveSettings& s)
-    : eta_(s.eta),
-      axes_(s),
-      size_(s.eta.size() * s.gamma.size() * s.cutoff.size() * s.rest_height.size() * s.amplitude.size() *
-            s.frequency_ratio.size()),
-      chained_(s.direction != SweepDirection::fresh) {
-  if (s.direction == SweepDirection::down) std::reverse(eta_.begin(), eta_.end());
+std::size_t CurveSettings::size() const {
+  return eta.size() * gamma.size() * cutoff.size() * rest_height.size() * amplitude.size() * frequency_ratio.size();
 }
 
-SweepPoint SweepGrid::at(std::size_t position) const {
+SweepPoint CurveSettings::at(std::size_t position) const {
+  const std::size_t n = eta.size(), column = position % n;
+  position /= n;
   const auto next = [&position](const std::vector<double>& axis) {
     const double value = axis[position % axis.size()];
     position /= axis.size();
     return value;
   };
-  SweepPoint point{next(eta_), 0.0, 0.0, axes_.model};
-  point.gamma = next(axes_.gamma);
-  point.v_c = next(axes_.cutoff);
-  point.y0 = next(axes_.rest_height);
-  point.H = next(axes_.amplitude);
-  point.frequency_ratio = next(axes_.frequency_ratio);
+  SweepPoint point{eta[direction == SweepDirection::down ? n - 1 - column : column], 0.0, 0.0, model};
+  point.gamma = next(gamma);
+  point.v_c = next(cutoff);
+  point.y0 = next(rest_height);
+  point.H = next(amplitude);
+  point.frequency_ratio = next(frequency_ratio);
   return point;
 }
 
-std::vector<SweepResult> compute_chain(const SweepGrid& grid, const CurveSettings& settings, std::size_t begin,
+std::vector<SweepResult> compute_chain(const CurveSettings& settings, std::size_t begin,
                                        std::atomic<std::size_t>& done) {
   std::vector<SweepResult> results;
-  TipState start = random_start(grid.at(begin), settings.sweep.seed, begin);
-  for (std::size_t row = begin; row < begin + grid.chain_length(); ++row, ++done) {
+  TipState start = random_start(settings.at(begin), settings.sweep.seed, begin);
+  for (std::size_t row = begin; row < begin + settings.chain_length(); ++row, ++done) {
     SweepSettings own = settings.sweep;
     own.bath.stream = row;
-    results.push_back(settings.method(grid.at(row), own, start));
+    results.push_back(settings.method(settings.at(row), own, start));
     start = results.back().end;
   }
   return results;

@@ -23,6 +23,11 @@ struct CurveSettings {
   ModelKind model = ModelKind::oscillator;
   SweepSettings sweep;
   SweepMethod method = sweep_point;
+
+  std::size_t size() const;
+  // Points that must be done one after the other: a whole row of etas, or one.
+  std::size_t chain_length() const { return direction == SweepDirection::fresh ? 1 : eta.size(); }
+  SweepPoint at(std::size_t position) const;
 };
 
 // Every fault of the settings, and the first ten of the points; under the names of the command line.
@@ -34,25 +39,9 @@ std::vector<ParameterError> find_warnings(const CurveSettings& settings);
 // In one line all that the table depends on, and nothing else.
 std::string identity(const CurveSettings& settings);
 
-class SweepGrid {
- public:
-  explicit SweepGrid(const CurveSettings& settings);
-
-  std::size_t size() const { return size_; }
-  // Points that must be done one after the other: a whole row of etas, or one.
-  std::size_t chain_length() const { return chained_ ? eta_.size() : 1; }
-  SweepPoint at(std::size_t position) const;
-
- private:
-  std::vector<double> eta_;
-  CurveSettings axes_;
-  std::size_t size_;
-  bool chained_;
-};
-
 // The results of the chain that begins at this position: each point starts where the point before it ended. A result
 // depends on the point and its start alone. Counts each point in `done`, for whoever shows the progress.
-std::vector<SweepResult> compute_chain(const SweepGrid& grid, const CurveSettings& settings, std::size_t begin,
+std::vector<SweepResult> compute_chain(const CurveSettings& settings, std::size_t begin,
                                        std::atomic<std::size_t>& done);
 
 }  // namespace afm

@@ -19,15 +19,14 @@ TEST_P(Curve, ARowIsThePointFromItsStartWithKicksOfItsOwn) {
   settings.direction = GetParam();
   settings.sweep.duration = 20.0, settings.sweep.transient = 5.0, settings.sweep.seed = 7;
   settings.sweep.bath.temperature = 0.9, settings.sweep.bath.quality_factor = 100.0;
-  const SweepGrid grid(settings);
   std::atomic<std::size_t> done{0};
-  for (std::size_t begin = 0; begin < grid.size(); begin += grid.chain_length()) {
-    TipState start = random_start(grid.at(begin), 7, begin);
+  for (std::size_t begin = 0; begin < settings.size(); begin += settings.chain_length()) {
+    TipState start = random_start(settings.at(begin), 7, begin);
     std::size_t row = begin;
-    for (const SweepResult& result : compute_chain(grid, settings, begin, done)) {
+    for (const SweepResult& result : compute_chain(settings, begin, done)) {
       SweepSettings own = settings.sweep;
       own.bath.stream = row;
-      EXPECT_EQ(result.friction.K_f, sweep_point(grid.at(row), own, start).friction.K_f) << row;
+      EXPECT_EQ(result.friction.K_f, sweep_point(settings.at(row), own, start).friction.K_f) << row;
       start = result.end;
       ++row;
     }
