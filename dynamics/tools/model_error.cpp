@@ -15,10 +15,10 @@
 #include "afm/number_text.h"
 #include "afm/sweep.h"
 #include "afm/units.h"
-#include "common/csv.h"
 #include "common/lever_options.h"
 #include "common/point_options.h"
 #include "common/progress_bar.h"
+#include "common/table_writer.h"
 #include "level_errors.h"
 
 namespace {
@@ -101,7 +101,7 @@ std::vector<Point> grid(const Options& o) {
   return points;
 }
 
-void compare(const Options& o, const Point& point, int start) {
+void compare(const Options& o, const Point& point, int start, afm::TableWriter& to) {
   const afm::Model model = at_level(point.model, o.level);
   const afm::SweepPoint drawn{point.eta, model.gamma, model.v_c};
   const afm::TipState begin = random_start(drawn, o.seed, static_cast<std::uint64_t>(start));
@@ -112,16 +112,13 @@ void compare(const Options& o, const Point& point, int start) {
   const double tracking = tracking_error(point.model, o.level, full, o.settings);
   const double K = level.friction.K_f, R = reference.friction.K_f, ratio = K / R;
   const double share = std::hypot(level.friction.K_f_std_error / R, ratio * reference.friction.K_f_std_error / R);
-  std::cout << afm::join_numbers({point.eta, model.gamma, model.v_c, point.model.frequency_ratio}) << "," << o.model
-            << ","
-            << afm::join_numbers({o.level.contact_tolerance, o.reference_tolerance, static_cast<double>(start), K,
-                                  level.friction.K_f_std_error})
-            << "," << level.attractor.name() << "," << afm::join_numbers({R, reference.friction.K_f_std_error}) << ","
-            << reference.attractor.name() << ","
-            << afm::join_numbers({ratio - 1.0, share, afm::quantile_distance(level.vertical, reference.vertical),
-                                  reference.vertical_noise, reference.vertical_rms, tracking, reference.stretch_rms,
-                                  reference.stretch_largest, times[0], times[1], times[1] / times[0]})
-            << std::endl;
+  to << point.eta << model.gamma << model.v_c << point.model.frequency_ratio << o.model << o.level.contact_tolerance
+     << o.reference_tolerance << start << K << level.friction.K_f_std_error << level.attractor.name() << R
+     << reference.friction.K_f_std_error << reference.attractor.name() << ratio - 1.0 << share
+     << afm::quantile_distance(level.vertical, reference.vertical) << reference.vertical_noise << reference.vertical_rms
+     << tracking << reference.stretch_rms << reference.stretch_largest << times[0] << times[1] << times[1] / times[0];
+  to.end_row();
+  to.flush();
 }
 
 // Parameters of the emulator by their names: those of a scene, and where it is silent those of config/emulator.yaml.
@@ -239,9 +236,10 @@ int run(Options o) {
   const std::vector<Point> points = grid(o);
   const auto starts = static_cast<std::size_t>(o.starts);
   afm::ProgressBar bar(points.size() * starts, 0);
-  std::cout << kHeader << "\n";
+  afm::TableWriter table(std::cout, kHeader);
+  table.write_header();
   for (std::size_t i = 0; i < points.size() * starts; ++i) {
-    compare(o, points[i / starts], static_cast<int>(i % starts));
+    compare(o, points[i / starts], static_cast<int>(i % starts), table);
     bar.show(i + 1);
   }
   return 0;

@@ -10,7 +10,6 @@
 
 #include "afm/dynamics/orbit_search.h"
 #include "afm/number_text.h"
-#include "common/csv.h"
 #include "common/point_options.h"
 #include "common/table_writer.h"
 
@@ -56,10 +55,12 @@ void close(std::ofstream& out, const std::string& path) {
 void write_section(const Options& o, const afm::Partition& partition, const std::vector<afm::TipState>& points) {
   std::ofstream out(o.section);
   constexpr std::size_t kMostPoints = 20000;  // enough for a picture
-  out << "phase,gap_rate,phase_next,gap_rate_next,letter\n";
+  afm::TableWriter table(out, "phase,gap_rate,phase_next,gap_rate_next,letter");
+  table.write_header();
   for (std::size_t i = 0; i + 1 < points.size() && i < kMostPoints; ++i) {
     const afm::TipState &p = points[i], &q = points[i + 1];
-    out << afm::join_numbers({p.phase, p.g1, q.phase, q.g1}) << "," << partition.letter(p) << "\n";
+    table << p.phase << p.g1 << q.phase << q.g1 << std::string(1, partition.letter(p));
+    table.end_row();
   }
   close(out, o.section);
 }
@@ -71,14 +72,13 @@ void write_orbits(const Options& o, const afm::PoincareMap& map, const afm::Part
   std::ofstream out(o.orbits);
   std::map<std::string, int> times;
   for (const afm::FoundOrbit& f : found.orbits) ++times[cyclic_word(partition, f.orbit.points)];
-  out << "length,word,orbits_with_it,cells,k_f,phase,gap_rate,multiplier_1,multiplier_2,approach\n";
+  afm::TableWriter table(out, "length,word,orbits_with_it,cells,k_f,phase,gap_rate,multiplier_1,multiplier_2,approach");
+  table.write_header();
   for (const afm::FoundOrbit& f : found.orbits) {
     const std::string word = cyclic_word(partition, f.orbit.points);
-    out << f.orbit.length() << "," << word << "," << times[word] << ","
-        << afm::join_numbers({static_cast<double>(f.orbit.cells), f.orbit.K_f, f.orbit.points[0].phase,
-                              f.orbit.points[0].g1, f.orbit.multipliers[0].real(), f.orbit.multipliers[1].real(),
-                              f.approach})
-        << "\n";
+    table << f.orbit.length() << word << times[word] << f.orbit.cells << f.orbit.K_f << f.orbit.points[0].phase
+          << f.orbit.points[0].g1 << f.orbit.multipliers[0].real() << f.orbit.multipliers[1].real() << f.approach;
+    table.end_row();
   }
   close(out, o.orbits);
 }
@@ -121,13 +121,13 @@ int run(const Options& o) {
   const std::string letters = word_of(partition, run.points);
   const auto counts = afm::count_words(letters, partition.letters(), o.longest);
   report(partition, run);
-  std::cout << "length,words,forbidden,entropy,exponent,exponent_std_error,spread,largest_spread\n";
+  afm::TableWriter table(std::cout, "length,words,forbidden,entropy,exponent,exponent_std_error,spread,largest_spread");
+  table.write_header();
   for (const afm::WordCount& row : counts) {
     const afm::WordSpread spread = afm::word_spread(letters, run.points, row.length);
-    std::cout << afm::join_numbers({static_cast<double>(row.length), static_cast<double>(row.words),
-                                    static_cast<double>(row.forbidden.size()), row.entropy, run.exponent,
-                                    run.exponent_std_error, spread.mean, spread.largest})
-              << "\n";
+    table << row.length << row.words << row.forbidden.size() << row.entropy << run.exponent << run.exponent_std_error
+          << spread.mean << spread.largest;
+    table.end_row();
   }
   if (!o.section.empty()) write_section(o, partition, run.points);
   if (!o.forbidden.empty()) write_forbidden(o, counts);

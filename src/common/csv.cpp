@@ -1,9 +1,7 @@
 #include "csv.h"
 
 #include <boost/algorithm/string.hpp>
-#include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 namespace afm {
 namespace {
@@ -36,15 +34,6 @@ bool parse_number(const std::string& text, double& value) {
   char* end = nullptr;
   value = std::strtod(text.c_str(), &end);
   return end == text.c_str() + text.size();
-}
-
-double without_sign_if_nan(double value) { return std::isnan(value) ? std::fabs(value) : value; }
-
-std::string join_numbers(const std::vector<double>& values) {
-  std::ostringstream out;
-  out.precision(17);
-  for (std::size_t i = 0; i < values.size(); ++i) out << (i == 0 ? "" : ",") << without_sign_if_nan(values[i]);
-  return out.str();
 }
 
 }  // namespace afm

@@ -28,10 +28,4 @@ std::vector<std::string> split_fields(const std::string& line);
 // The whole text as one number; false where it is not one. nan and inf are numbers here.
 bool parse_number(const std::string& text, double& value);
 
-// The same number; a nan without the sign that arithmetic gave it.
-double without_sign_if_nan(double value);
-
-// Comma-separated, 17 digits: each double comes back as the same bits.
-std::string join_numbers(const std::vector<double>& values);
-
 }  // namespace afm

@@ -1,5 +1,6 @@
 #include "table_writer.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -9,11 +10,16 @@
 
 namespace afm {
 
+TableWriter::TableWriter(std::ostream& out, const std::string& header) : out_(out), units_(TableUnits::plain()) {
+  for (const std::string& name : split_fields(header)) columns_.push_back({name});
+}
+
 TableWriter& TableWriter::operator<<(double value) {
   if (cells_ >= columns_.size()) throw std::logic_error("a row has more cells than the table has columns");
   constexpr int kDigits = 17;
   char text[32];
-  const double shown = without_sign_if_nan(units_.convert(columns_[cells_].quantity, value));
+  const double number = units_.convert(columns_[cells_].quantity, value);
+  const double shown = std::isnan(number) ? std::fabs(number) : number;  // without the sign that arithmetic gave a nan
   const int length = std::snprintf(text, sizeof text, "%.*g", kDigits, shown);
   if (cells_++ > 0) row_ += ',';
   row_.append(text, static_cast<std::size_t>(length));

@@ -15,6 +15,7 @@ class TableWriter {
  public:
   TableWriter(std::ostream& out, std::vector<Column> columns, TableUnits units)
       : out_(out), columns_(std::move(columns)), units_(std::move(units)) {}
+  TableWriter(std::ostream& out, const std::string& header);  // of columns without units
 
   void write_header() { out_ << units_.header(columns_) << '\n'; }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/csv.h"
+#include "common/table_writer.h"
 
 namespace afm {
 namespace {
@@ -104,6 +105,7 @@ bool filter_impacts(const FlightInput& tip, std::istream& in, const std::string&
   if (split_fields(line) != split_fields(header)) {
     return complain("expected '" + header + "' as the header, found '" + line + "'");
   }
+  TableWriter table(out, kImpactColumns, TableUnits::plain());  // a row is in the units of the table already
   bool good = true;
   while (lines.next(line)) {
     std::vector<double> row(kInputs + kOutputs, kNaN);
@@ -112,7 +114,8 @@ bool filter_impacts(const FlightInput& tip, std::istream& in, const std::string&
     } catch (const std::exception& fault) {
       good = complain(fault.what());
     }
-    out << join_numbers(row) << "\n";
+    for (const double value : row) table << value;
+    table.end_row();
   }
   if (in.bad()) return complain("cannot read on");
   return good;
