@@ -10,9 +10,16 @@
 namespace afm {
 namespace {
 
-Attractor from_above(double eta, double v_c) {
+Attractor from_above(double eta, double v_c, const AttractorSettings& settings = {}) {
   const Model model = model_with_cutoff(v_c);
-  return find_attractor(model, eta, to_tip_state(model.H, start_at(eta)));
+  return find_attractor(model, eta, to_tip_state(model.H, start_at(eta)), settings);
+}
+
+std::vector<Basin> basins_of(const SweepPoint& point, int starts, double friction_duration) {
+  BasinSettings settings;
+  settings.starts = starts;
+  settings.friction_duration = friction_duration;
+  return find_basins(point, settings);
 }
 
 TEST(Attractor, PeriodOneLocksToTheSurface) {
@@ -80,11 +87,8 @@ TEST(Attractor, ATipThatStillConvergesHasThePeriodOfItsOrbit) {
 TEST(Attractor, ARotationNumberIsThatOnTheClosedCurve) {
   const double tori[][3] = {{2.5, 0.7, 0.266072}, {1.766, 0.459, 0.416469}, {3.738, 0.799, 0.467548}};
   for (const auto& [eta, gamma, turns] : tori) {
-    BasinSettings settings;
-    settings.starts = 20;
-    settings.friction_duration = 10.0;
     int seen = 0;
-    for (const Basin& basin : find_basins({eta, gamma, 0.05}, settings)) {
+    for (const Basin& basin : basins_of({eta, gamma, 0.05}, 20, 10.0)) {
       const Attractor& a = basin.first.attractor;
       if (a.kind != AttractorKind::quasi_periodic) continue;
       EXPECT_NEAR(a.rotation_number, turns, 2e-6) << eta;
@@ -103,11 +107,8 @@ TEST(Attractor, CurvesThatAreVisitedInTurnHaveNoRotationNumber) {
 
 // The product of 74 Jacobians has lost the least: it gave -1.265.
 TEST(Attractor, OfALongPeriodTheExponentsSumUpToTheVolumeToo) {
-  BasinSettings settings;
-  settings.starts = 6;
-  settings.friction_duration = 10.0;
   int seen = 0;
-  for (const Basin& basin : find_basins({2.1139, 0.548, 0.05}, settings)) {
+  for (const Basin& basin : basins_of({2.1139, 0.548, 0.05}, 6, 10.0)) {
     const Attractor& a = basin.first.attractor;
     if (a.name() != "period-74") continue;
     const auto& x = a.lyapunov.exponents;
@@ -119,14 +120,12 @@ TEST(Attractor, OfALongPeriodTheExponentsSumUpToTheVolumeToo) {
 
 // It counted from the end of the transient on, so one orbit was "contact" or not by chance.
 TEST(Attractor, TheContactShareOfAPeriodIsThatOfTheOrbit) {
-  const Model model = model_with_cutoff(0.05);
-  AttractorSettings settings;
-  settings.transient = 500.0;
-  const Attractor first = find_attractor(model, 0.3, to_tip_state(model.H, start_at(0.3)), settings);
+  const Attractor first = from_above(0.3, 0.05);
   ASSERT_EQ(first.kind, AttractorKind::periodic);
   for (const double later : {3.0, 7.0, 11.0}) {
-    settings.transient = 500.0 + later;
-    const Attractor a = find_attractor(model, 0.3, to_tip_state(model.H, start_at(0.3)), settings);
+    AttractorSettings settings;
+    settings.transient += later;
+    const Attractor a = from_above(0.3, 0.05, settings);
     EXPECT_NEAR(a.contact_share, first.contact_share, 1e-6);
     EXPECT_NEAR(a.lyapunov.exponents[1], first.lyapunov.exponents[1], 1e-3);
   }
@@ -136,10 +135,7 @@ TEST(Attractor, TheContactShareOfAPeriodIsThatOfTheOrbit) {
 TEST(Attractor, OfAPeriodThatIsFoundLateTheContactShareIsThatOfTheOrbitToo) {
   SweepPoint point{1.002, 0.7, 0.05};
   point.H = 0.0677;
-  BasinSettings settings;
-  settings.starts = 2;
-  settings.friction_duration = 50.0;
-  const std::vector<Basin> basins = find_basins(point, settings);
+  const std::vector<Basin> basins = basins_of(point, 2, 50.0);
   ASSERT_EQ(basins.size(), 1u);
   EXPECT_EQ(basins[0].first.attractor.name(), "period-2");
   EXPECT_NEAR(basins[0].first.attractor.contact_share, 0.4623, 1e-3);  // as after a transient of 20000 tau
@@ -162,10 +158,7 @@ TEST(Attractor, DraggedBackwardsTheTipBouncesAsOften) {
 
 // At eta = 2.5 a torus and an orbit of eight impacts draw different starts.
 TEST(Attractor, ATorusBesideAPeriodicOrbit) {
-  BasinSettings settings;
-  settings.starts = 100;
-  settings.friction_duration = 200.0;
-  const std::vector<Basin> basins = find_basins({2.5, 0.7, 0.25}, settings);
+  const std::vector<Basin> basins = basins_of({2.5, 0.7, 0.25}, 100, 200.0);
   const Basin *torus = nullptr, *eight = nullptr;
   double total = 0.0;
   for (const Basin& basin : basins) {
@@ -202,28 +195,19 @@ TEST(Attractor, WithoutDragAndLossesThereIsNoRest) {
 
 // Its exponent of 500 tau may be within four standard errors of zero: it was a torus then.
 TEST(Attractor, ChaosIsNoTorus) {
-  BasinSettings settings;
-  settings.starts = 100;
-  settings.friction_duration = 200.0;
-  for (const Basin& basin : find_basins({3.75, 0.7, 0.375}, settings)) {
+  for (const Basin& basin : basins_of({3.75, 0.7, 0.375}, 100, 200.0)) {
     const Attractor& a = basin.first.attractor;
     EXPECT_TRUE(a.kind != AttractorKind::quasi_periodic || std::abs(a.lyapunov.exponents[0]) <= 0.01);
   }
   AttractorSettings brief;
   brief.duration = 5.0;
-  const Model model = model_with_cutoff(0.34);
-  const Attractor unclear = find_attractor(model, 3.4, to_tip_state(model.H, start_at(3.4)), brief);
-  EXPECT_EQ(unclear.kind, AttractorKind::chaotic) << "measured again over longer times";
+  EXPECT_EQ(from_above(3.4, 0.34, brief).kind, AttractorKind::chaotic) << "measured again over longer times";
 }
 
 // A bounce without speed comes back within no cell: it was a period, and one attractor stood in the list twice.
 TEST(Attractor, TheHammersContactIsOne) {
-  BasinSettings settings;
-  settings.starts = 100;
-  settings.friction_duration = 200.0;
-  const SweepPoint point{3.0, 0.7, 0.05, ModelKind::hammer};
   int contacts = 0;
-  for (const Basin& basin : find_basins(point, settings)) {
+  for (const Basin& basin : basins_of({3.0, 0.7, 0.05, ModelKind::hammer}, 100, 200.0)) {
     const Attractor& a = basin.first.attractor;
     contacts += a.kind == AttractorKind::contact ? 1 : 0;
     EXPECT_TRUE(a.impacts == 0 || a.cells > 0) << a.name();
