@@ -46,7 +46,8 @@ Tip::SequenceState Tip::sequence_state(const Chattering& chattering, double s, c
   sequence.loss += chatter.loss;
   if (springs_.is_free_along_x == 0.0) {
     const bool holder_rests = slide.eta() == 0.0;
-    const double v = holder_rests && chatter.n == 0.0 ? v0 : chatter.v;  // no bounce has ended
+    const bool has_died = chatter.v == 0.0;  // with its first bounce, where that is below the threshold
+    const double v = holder_rests && chatter.n == 0.0 && !has_died ? v0 : chatter.v;  // no bounce has ended
     const double along = slide_energy(springs_, reference), gain = 0.5 * (v - v0) * (v + v0) + chatter.loss;
     if (holder_rests) sequence.loss -= gain;  // it gives nothing
     const double pressure = slide.pressure(0.0);

@@ -137,6 +137,18 @@ TEST(Hammer, AfterACommandInChatterComesItsBurstOrAnImpactThatLosesAllThatIsLost
   EXPECT_GT(commands, 1000);
 }
 
+// Under a holder at rest a sequence that begins below the threshold dies at once. Its event said that it loses nothing.
+TEST(Hammer, ABounceBelowTheThresholdLosesAllItsEnergy) {
+  Model model = hammer();
+  model.y0 = -0.2;        // it is held down in a valley
+  const double w = 3e-5;  // of the last bounce; contact is below 1e-4 with this tolerance
+  Tip tip(model, 0.0, FreeState{0.5, 0.0, -model.H, 0.0, w}, 1e-2);
+  double lost = 0.0;
+  while (tip.advance({1, 0.0}) == Outcome::impact) lost += tip.last_impact().energy_loss;
+  EXPECT_TRUE(tip.in_contact());
+  EXPECT_NEAR(lost, 0.5 * w * w, 1e-9 * lost);
+}
+
 // Loss of the chatter in one valley, from its first bounce to the end of the pressure, in how many bursts, and the
 // normal speed of the first bounce.
 struct Loss {
