@@ -162,7 +162,8 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const ros::S
     begun_ = true;
     push(lock, {message, {}, configuration_, applied_}, unhurried);
   } else if (begun_) {
-    push(lock, {message, {}, {}, {}, role == Role::batch_end, role == Role::applied}, unhurried);
+    push(lock, {message, {}, {}, {}, role == Role::batch_end, role == Role::applied, role == Role::configuration},
+         unhurried);
   }
 }
 
@@ -212,15 +213,17 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
   ++messages_;
 }
 
-// The next bag begins with the snapshot once a batch that follows it is whole: no bag has nothing that can be checked.
-// Where none comes, as in a pause, what is held goes into this bag, and a later snapshot begins the next.
+// The next bag begins with the snapshot, or with a new epoch, once a batch that follows its snapshot is whole: no bag has
+// nothing that can be checked. Where none comes, as in a pause, what is held goes into this bag, and a later snapshot
+// begins the next.
 std::string Recorder::take(const Item& item) {
   try {
-    if (!full_ || (held_.empty() && !item.is_snapshot())) {
+    if (!full_ || (held_.empty() && !item.is_snapshot() && !item.begins_epoch)) {
       write(item);
     } else {
       held_.push_back(item);
-      if (item.ends_batch) {
+      const auto is_snapshot = [](const Item& i) { return i.is_snapshot(); };
+      if (item.ends_batch && std::any_of(held_.begin(), held_.end(), is_snapshot)) {
         begin_next_bag();
         write_held();
       } else if (!item.is_command && ++held_others_ >= kMostHeld) {
@@ -239,10 +242,12 @@ std::string Recorder::take(const Item& item) {
 void Recorder::write(const Item& item) {
   const std::string trouble = bag_->check_space(item.message.bytes.num_bytes);
   if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
-  if (item.is_snapshot() && bag_->messages() == 0) {
+  if (bag_->messages() == 0) {
     begin_ = std::chrono::steady_clock::now();
-    write(item.configuration, item.stamp - ros::Duration(0, 2));
-    write(item.applied, item.stamp - ros::Duration(0, 1));
+    if (item.is_snapshot()) {
+      write(item.configuration, item.stamp - ros::Duration(0, 2));
+      write(item.applied, item.stamp - ros::Duration(0, 1));
+    }
   }
   write(item.message, item.stamp);
 }

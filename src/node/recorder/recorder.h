@@ -63,7 +63,7 @@ class Recorder {
     Message message;
     ros::Time stamp;
     Message configuration, applied;  // of a snapshot: what a bag that begins with it holds before it
-    bool ends_batch = false, is_command = false;
+    bool ends_batch = false, is_command = false, begins_epoch = false;
     bool is_snapshot() const { return configuration.topic != nullptr; }
   };
 
@@ -103,7 +103,7 @@ class Recorder {
   std::uint32_t part_ = 0;
   std::chrono::steady_clock::time_point begin_;  // of the bag
   bool full_ = false;                            // a snapshot was asked for
-  std::vector<Item> held_;                       // from this snapshot on, until the end of a batch
+  std::vector<Item> held_;                       // from this snapshot or epoch on, until the end of a batch
   std::size_t held_others_ = 0;                  // of these, those that are no commands
   std::thread thread_;
 };
