@@ -142,6 +142,12 @@ TEST(Parameters, OnlyWhatIsFaultyIsBlamed) {
   const std::string faults = refusal({{"resonance_hz", 13e3}, {"spring_constant_n_per_m", -0.2}});
   EXPECT_TRUE(is_blamed("spring_constant_n_per_m", faults) && is_blamed("lateral_spring_constant_n_per_m", faults));
   EXPECT_FALSE(is_blamed("resonance_hz", faults)) << faults;
+  const std::string of_fast_lever = refusal({{"resonance_hz", 75e3},
+                                             {"spring_constant_n_per_m", 2.8},
+                                             {"lateral_spring_constant_n_per_m", 548.8},
+                                             {"max_drag_velocity", 0.01},
+                                             {"restitution_gamma", 1.5}});
+  EXPECT_FALSE(is_blamed("max_drag_velocity", of_fast_lever)) << of_fast_lever;  // the limit was that of mica's lever
   EXPECT_EQ(refusal({}), "");
   // as a live parameter: the tip began in a valley of its own surface
   Faults none;

@@ -164,7 +164,11 @@ Faults find_faults(const Parameters& parameters) {
   Faults faults;
   Check check(faults);
   add(find_faults(p.si), faults);
-  if (!faults.empty()) {
+  if (!faults.empty()) {  // the lever and the surface stay, if they are possible
+    p.si.restitution_gamma = 1.0;
+    p.si.cutoff_speed = p.si.rest_height_m = 0.0;
+  }
+  if (!find_faults(p.si).empty()) {
     p.si = SiModel{};
     p.initial.y = std::max(p.initial.y, Parameters{}.initial.y);  // it may be a valley of the other surface
   }
