@@ -218,8 +218,11 @@ std::uint64_t count_lost_commands_at_ends(const Recording& recording) {
     start = m->number().start;
     first_batch.emplace(start, m->get());
     const auto command = last.find(start);
-    const bool is_behind = before && (command == last.end() ||
-                                      place(*before, before->begin) >= place(*command->second, command->second->time));
+    // at one time there may be several impacts, and a batch of no length before the command
+    const bool is_behind =
+        before && (command == last.end() ||
+                   std::make_pair(place(*before, before->begin), before->first_impact) >=
+                       std::make_pair(place(*command->second, command->second->time), command->second->first_impact));
     if (is_behind && afm::bags::tells_of_command(*before, *m->get())) lacking.insert(start);
     before = m->get();
   }

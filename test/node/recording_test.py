@@ -1,6 +1,7 @@
 """What is recorded is what was published, message for message, also where the emulator is killed. recorder_test.cpp
 tests what the recorder refuses, and how a recording ends by itself."""
 import itertools
+import math
 import os
 import resource
 import shutil
@@ -55,6 +56,29 @@ class Recording(NodeTest):
         self.assertEqual([bags.short(topic) for topic in first], list(bags.BEGINNING))
         status = published['status'].wait_for_next(lambda m: not m.recording, 'no longer recording')
         self.assertEqual(status.recorder_error, '')
+        self.end(emulator)
+
+    def test_events_at_the_time_of_a_command(self):
+        """They are in a batch of no length. bag_to_csv missed a command where the last one came behind such a batch, and
+        bag_check an impact where the recording began there."""
+        emulator = self.record(model='hammer', pace='lockstep', drag_velocity=0.0)
+        emulator.control(0.02)
+        emulator.control(0.0, 6e-6)
+        emulator.call('step', Step, impacts=1)
+        emulator.control(0.0, -3e-6)
+        emulator.call('step', Step, tau=1.0)  # to where the surface presses
+        for name, velocity in (('late', 6e-6), ('early1', 6e-6), ('early2', -6e-6)):
+            emulator.control(0.02, 0.0, 0.0 if name == 'late' else -6e-11)
+            early = name != 'late' and emulator.call('start_recording', StartRecording, name=name)
+            emulator.control(0.0, velocity)
+            for _ in range(1 if early else 2):
+                emulator.call('step', Step, impacts=1)
+            begun = early or emulator.call('start_recording', StartRecording, name=name)
+            emulator.control(3e-3, -0.5 * velocity if early else math.nan)
+            self.assertTrue(emulator.call('stop_recording', Trigger).success)
+            checks.assert_identical(self, begun.path)
+            answer = checks.call('bag_to_csv', begun.path, '--topic', 'commands')
+            self.assertEqual(answer.code, checks.SOUND, answer.text)
         self.end(emulator)
 
     def test_recordings_that_begin_late(self):

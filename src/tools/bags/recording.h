@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -83,18 +84,19 @@ class Cursor {
  public:
   Cursor(std::unique_ptr<rosbag::View> view, std::shared_ptr<const Starts> starts)
       : view_(std::move(view)), at_(view_->begin()), size_(view_->size()), starts_(std::move(starts)) {
+    if (at_ != view_->end()) topic_ = at_->getTopic();
     read();
   }
 
   // Whether it is a latched message that rosbag record repeats, without the name of its node.
-  bool is_repeated() const { return at_->getCallerId().empty(); }
+  bool is_repeated() const { return ahead_.front().is_repeated; }
   // The next message; null at the end.
   const boost::shared_ptr<Message>& get() const { return message_; }
   const Number& number() const { return number_; }
   // Messages lost between the one before and this one; one for each start of the node of which all are lost.
   std::uint32_t lost() const { return lost_; }
   void next() {
-    ++at_;
+    ahead_.pop_front();
     ++done_;
     read();
   }
@@ -103,10 +105,34 @@ class Cursor {
   std::size_t size() const { return size_; }
 
  private:
+  struct Held {
+    boost::shared_ptr<Message> message;
+    bool is_repeated;
+  };
+
+  // Some messages at once: rosbag unpacks a whole chunk for each that is not in the same one as the last, and others
+  // read other topics of the bag. What cannot be read is a fault when its turn comes.
+  bool read_ahead() {
+    constexpr std::size_t kBytes = 1000000;  // a choice: more than a chunk of 0.8 MB
+    for (std::size_t bytes = 0; ahead_.empty() || bytes < kBytes;) {
+      try {
+        if (at_ == view_->end()) break;
+        auto message = at_->template instantiate<Message>();
+        if (!message) throw Problem(topic_ + ": a message cannot be read");
+        bytes += ros::serialization::serializationLength(*message);
+        ahead_.push_back({message, at_->getCallerId().empty()});
+        ++at_;
+      } catch (...) {
+        if (ahead_.empty()) throw;
+        break;
+      }
+    }
+    return !ahead_.empty();
+  }
+
   void read() {
-    for (message_.reset(); at_ != view_->end(); ++at_, ++done_) {
-      auto message = at_->template instantiate<Message>();
-      if (!message) throw Problem(at_->getTopic() + ": a message cannot be read");
+    for (message_.reset(); !ahead_.empty() || read_ahead(); ahead_.pop_front(), ++done_) {
+      const boost::shared_ptr<Message> message = ahead_.front().message;
       const std_msgs::Header& header = message->header;
       if (is_same(*message, last_.get()) || is_same(*message, first_.get())) continue;
       find_number(header);
@@ -123,12 +149,12 @@ class Cursor {
       const bool again = header.seq <= number_.seq && header.stamp > last_->header.stamp && !is_simulated(header.stamp);
       next.start = std::max(next.start, again && next.start <= number_.start ? header.stamp.toNSec() : number_.start);
       if (!(number_ < next)) {
-        throw Problem(at_->getTopic() + ": number " + std::to_string(header.seq) + " comes behind number " +
+        throw Problem(topic_ + ": number " + std::to_string(header.seq) + " comes behind number " +
                       std::to_string(number_.seq) + ": it is there twice, or the messages are out of order, or of " +
                       "another start of the node on simulated time");
       }
       if (next.start != number_.start && header.seq == number_.seq + 1) {
-        throw Problem(at_->getTopic() + ": number " + std::to_string(header.seq) +
+        throw Problem(topic_ + ": number " + std::to_string(header.seq) +
                       " is of a start that was still running when another node took its name");
       }
     }
@@ -144,7 +170,9 @@ class Cursor {
   }
 
   std::unique_ptr<rosbag::View> view_;
-  rosbag::View::iterator at_;
+  std::string topic_;
+  rosbag::View::iterator at_;  // behind those that were read ahead
+  std::deque<Held> ahead_;     // the present message and those behind it
   const std::size_t size_;
   boost::shared_ptr<Message> message_, last_, first_;
   Number number_;
