@@ -1,5 +1,6 @@
 """The Python module simulates a recorded run again to the last bit."""
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -41,7 +42,9 @@ class PythonModule(NodeTest):
     def assert_repeats(self, paths, epoch):
         """Samples and impacts that the bags hold are those of the module, in SI, bit for bit. Returns how many."""
         recording = afm.from_bag(paths, epoch=epoch)
-        run, units = recording.simulate(), recording.units
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')
+            run, units = recording.simulate(), recording.units
         messages = {name: [m for path in paths for m in bags.read(path)[name] if m.epoch == epoch]
                     for name in ('deflection', 'impacts', 'friction')}
         samples = 0
@@ -77,7 +80,7 @@ class PythonModule(NodeTest):
         self.emulator.set(restitution_gamma=0.5, cutoff_speed=3e-7)
         self.command(3.0)
         self.emulator.set(temperature_k=77.0)  # without damping it has no effect
-        self.emulator.set(temperature_k=300.0, quality_factor=50.0)
+        self.emulator.set(temperature_k=300.0, quality_factor=50.0, kicks_per_tau=3.0)  # with too few, as the node says
         self.emulator.set(rest_height_m=-1e-11, sample_rate_hz=20000.0)
         self.command(2.5)
         self.deflection.wait_for_more(30)

@@ -10,6 +10,7 @@ import genpy
 import rosbag
 from std_msgs.msg import String
 
+import afm
 import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
 from emulator_under_test import SPEED_UNIT, find
@@ -451,6 +452,13 @@ class SpoiledBags(SpoiledBag):
             self.entries[at:at] = again
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=self.write('merged.bag'))
 
+    def test_messages_stand_in_any_order_in_the_file(self):
+        """rosbag gives those of a topic in this order, not in that of their times."""
+        self.entries.reverse()
+        path = self.write()
+        self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=path)
+        afm.from_bag(path).simulate()
+
     def test_physics_alone_tells(self):
         """bag_check knows what a mean and an energy balance are, and does not call it physics where messages lack."""
         def scale(topic, begin, **factors):
@@ -480,6 +488,7 @@ class SpoiledBags(SpoiledBag):
                                (None, record_by_rosbag),
                                (None, start_again),
                                (None, lambda: miss_work(samples_s=2e-4)),  # between them the springs may hold more
+                               (None, lambda: (self.of('snapshot')[0].edit(u=1e3), miss_work())),  # it was so fast
                                (None, self.end_at_the_last_deflection),
                                ('complete', lambda: self.remove(*self.of('deflection')[:5])),
                                ('complete', lambda: self.remove(*self.of('impacts')[-5:])),

@@ -213,18 +213,22 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
   ++messages_;
 }
 
-// The next bag begins with the snapshot, or with a new epoch, once a batch that follows its snapshot is whole: no bag has
-// nothing that can be checked. Where none comes, as in a pause, what is held goes into this bag, and a later snapshot
-// begins the next.
+// The next bag begins with the snapshot once a batch that follows it is whole: no bag has nothing that can be checked.
+// Where none comes, as in a pause, what is held goes into this bag, and a later snapshot begins the next. A new epoch is
+// held from its first message on, as its snapshot comes behind them.
 std::string Recorder::take(const Item& item) {
   try {
     if (!full_ || (held_.empty() && !item.is_snapshot() && !item.begins_epoch)) {
       write(item);
     } else {
       held_.push_back(item);
-      const auto is_snapshot = [](const Item& i) { return i.is_snapshot(); };
-      if (item.ends_batch && std::any_of(held_.begin(), held_.end(), is_snapshot)) {
+      const auto snapshot = std::find_if(held_.begin(), held_.end(), [](const Item& i) { return i.is_snapshot(); });
+      if (item.ends_batch && snapshot != held_.end()) {
         begin_next_bag();
+        write(*snapshot);
+        // of what began its epoch only a status is left: the bag has the rest before the snapshot
+        const auto is_written = [](const Item& i) { return i.begins_epoch || i.is_command; };
+        held_.erase(std::remove_if(held_.begin(), snapshot, is_written), snapshot + 1);
         write_held();
       } else if (!item.is_command && ++held_others_ >= kMostHeld) {
         write_held();
@@ -242,12 +246,10 @@ std::string Recorder::take(const Item& item) {
 void Recorder::write(const Item& item) {
   const std::string trouble = bag_->check_space(item.message.bytes.num_bytes);
   if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
-  if (bag_->messages() == 0) {
+  if (item.is_snapshot() && bag_->messages() == 0) {
     begin_ = std::chrono::steady_clock::now();
-    if (item.is_snapshot()) {
-      write(item.configuration, item.stamp - ros::Duration(0, 2));
-      write(item.applied, item.stamp - ros::Duration(0, 1));
-    }
+    write(item.configuration, item.stamp - ros::Duration(0, 2));
+    write(item.applied, item.stamp - ros::Duration(0, 1));
   }
   write(item.message, item.stamp);
 }
