@@ -74,8 +74,8 @@ class Recording(NodeTest):
         afm.from_bag(part).simulate()
 
     def test_events_at_the_time_of_a_command(self):
-        """They are in a batch of no length. bag_to_csv missed a command where the last one came behind such a batch, and
-        bag_check an impact where the recording began there."""
+        """They are in a batch of no length. bag_to_csv missed a command where the last one came behind such a batch,
+        and bag_check an impact where the recording began there."""
         emulator = self.record(model='hammer', pace='lockstep', drag_velocity=0.0)
         emulator.control(0.02)
         emulator.control(0.0, 6e-6)
