@@ -212,8 +212,11 @@ class Recording:
         if not follow or numbers[-1] < self._snapshots[-1].applied.number:
             raise ValueError('messages of Applied are missing: a command is not known')
         self._check_batches(frictions)
+        # an epoch may begin with an event: its batch of no length comes before the first snapshot
+        place = self.begin, start.next_impact
+        compared = [f.header.seq for f in frictions if (_model_time(f.begin), f.first_impact) >= place]
         self._digests = {kind: {seq: m for seq, m in read[kind].items()
-                                if m and m.epoch == self.epoch and frictions[0].header.seq <= seq <= last}
+                                if m and m.epoch == self.epoch and compared and compared[0] <= seq <= last}
                          for kind in _DIGESTED}
         if any(seq > self._last.header.seq for digests in self._digests.values() for seq in digests):
             raise ValueError('messages of Friction are missing at the end of epoch %d' % self.epoch)

@@ -17,7 +17,7 @@ from std_srvs.srv import SetBool, Trigger
 import afm
 import bags
 import checks
-from emulator_under_test import Emulator, NodeTest, Process, find, set_parameters
+from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, Process, find, set_parameters
 from topics import Topic, wait_until
 
 CHUNK_BYTES = 768 * 1024  # what rosbag writes at once
@@ -97,6 +97,38 @@ class Recording(NodeTest):
             answer = checks.call('bag_to_csv', begun.path, '--topic', 'commands')
             self.assertEqual(answer.code, checks.SOUND, answer.text)
         self.end(emulator)
+
+    def test_a_command_between_events_of_one_time(self):
+        """Behind a later snapshot, the batch of no length before the command was taken for one after it."""
+        emulator = self.record(pace='lockstep', drag_velocity=0.3 * SPEED_UNIT, split_duration_s=0.1)
+        emulator.control(0.01)
+        self.assertTrue(emulator.call('start_recording', StartRecording, name='split').success)
+        times = [None]
+        while len(times) < 400 and times[-1] not in times[:-1]:
+            time = emulator.call('step', Step, impacts=1).time
+            times.append((time.tau, time.phase))
+        self.assertIn(times[-1], times[:-1])
+        emulator.control(0.0, 0.6 * SPEED_UNIT)
+        wait_until(lambda: emulator.control(3e-3) and list(self.directory.glob('split_001*')), 'a part')
+        emulator.control(3e-3)
+        self.assertTrue(emulator.call('stop_recording', Trigger).success)
+        checks.assert_identical(self, *sorted(self.directory.glob('split*.bag')))
+        self.end(emulator)
+
+    def test_an_epoch_that_begins_with_an_event(self):
+        """It is in a batch of no length before the snapshot, and in the sums of this."""
+        emulator = self.record(record=True, pace='lockstep', drag_velocity=3.4 * SPEED_UNIT, contact_tolerance=0.01,
+                               rest_height_m=-7.8e-11, initial_phase=0.5, initial_height=-0.09615384615384616,
+                               initial_w=5e-5)
+        for _ in range(2):
+            for _ in range(3):
+                emulator.control(0.01)
+            self.assertTrue(emulator.call('reset', Trigger).success)
+        emulator.control(0.01)
+        path, = self.end(emulator)
+        checks.assert_identical(self, path)
+        for epoch in afm.from_bag(path).epochs:
+            self.assertGreater(len(afm.from_bag(path, epoch=epoch).simulate().vertical), 0)
 
     def test_recordings_that_begin_late(self):
         """After most of what their estimate of friction counts, or with hardly a sample."""

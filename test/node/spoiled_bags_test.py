@@ -357,6 +357,21 @@ class SpoiledBags(SpoiledBag):
         subprocess.run(['rosbag', 'reindex', '--force', str(cut)], check=True, stdout=subprocess.DEVNULL)
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=cut)
 
+    def test_a_damaged_chunk(self):
+        """rosbag has then unpacked half of it into the memory of another one, and what stands there is spoiled."""
+        path = self.directory / 'damaged.bag'
+        with rosbag.Bag(str(path), 'w', compression='lz4', chunk_threshold=100000) as bag:
+            for e in self.entries:
+                bag.write(e.path, e.raw, e.stamp, raw=True, connection_header=e.header)
+        with rosbag.Bag(str(path)) as bag:
+            begins = sorted(chunk.pos for chunk in bag._chunks)
+        data = path.read_bytes()
+        for begin, end in zip(begins[1:], begins[2:]):
+            damaged, middle = bytearray(data), (begin + end) // 2
+            damaged[middle:middle + 16] = (byte ^ 0xa5 for byte in damaged[middle:middle + 16])
+            path.write_bytes(damaged)
+            self.assert_reported(UNCHECKED, 'CANNOT BE CHECKED: ROSLZ4', path=path)
+
     def test_more_bags_than_files_may_be_open(self):
         """Of a recording that was split every minute. The limit that can be raised is; of the other one it tells."""
         bags = [self.write()] * 40

@@ -214,8 +214,8 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
 }
 
 // The next bag begins with the snapshot once a batch that follows it is whole: no bag has nothing that can be checked.
-// Where none comes, as in a pause, what is held goes into this bag, and a later snapshot begins the next. A new epoch is
-// held from its first message on, as its snapshot comes behind them.
+// Where none comes, as in a pause, what is held goes into this bag, and a later snapshot begins the next. An epoch is
+// held from its first message on, as its snapshot comes behind some others.
 std::string Recorder::take(const Item& item) {
   try {
     if (!full_ || (held_.empty() && !item.is_snapshot() && !item.begins_epoch)) {
@@ -226,7 +226,7 @@ std::string Recorder::take(const Item& item) {
       if (item.ends_batch && snapshot != held_.end()) {
         begin_next_bag();
         write(*snapshot);
-        // of what began its epoch only a status is left: the bag has the rest before the snapshot
+        // of what began its epoch a status is left, and a batch of what was due at once: the rest is written already
         const auto is_written = [](const Item& i) { return i.begins_epoch || i.is_command; };
         held_.erase(std::remove_if(held_.begin(), snapshot, is_written), snapshot + 1);
         write_held();

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -82,8 +83,14 @@ inline bool is_simulated(const ros::Time& stamp) { return stamp < ros::Time(1000
 template <class Message>
 class Cursor {
  public:
-  Cursor(std::unique_ptr<rosbag::View> view, std::shared_ptr<const Starts> starts)
-      : view_(std::move(view)), at_(view_->begin()), size_(view_->size()), starts_(std::move(starts)) {
+  // fault: of all cursors of these bags.
+  Cursor(std::unique_ptr<rosbag::View> view, std::shared_ptr<const Starts> starts,
+         std::shared_ptr<std::exception_ptr> fault)
+      : view_(std::move(view)),
+        at_(view_->begin()),
+        size_(view_->size()),
+        starts_(std::move(starts)),
+        fault_(std::move(fault)) {
     if (at_ != view_->end()) topic_ = at_->getTopic();
     read();
   }
@@ -111,10 +118,11 @@ class Cursor {
   };
 
   // Some messages at once: rosbag unpacks a whole chunk for each that is not in the same one as the last, and others
-  // read other topics of the bag. What cannot be read is a fault when its turn comes.
+  // read other topics of the bag. What cannot be read is a fault when its turn comes, and nobody reads on: rosbag has
+  // then unpacked half a chunk into the memory of another one.
   bool read_ahead() {
     constexpr std::size_t kBytes = 1000000;  // a choice: more than a chunk of 0.8 MB
-    for (std::size_t bytes = 0; ahead_.empty() || bytes < kBytes;) {
+    for (std::size_t bytes = 0; !*fault_ && (ahead_.empty() || bytes < kBytes);) {
       try {
         if (at_ == view_->end()) break;
         auto message = at_->template instantiate<Message>();
@@ -123,10 +131,10 @@ class Cursor {
         ahead_.push_back({message, at_->getCallerId().empty()});
         ++at_;
       } catch (...) {
-        if (ahead_.empty()) throw;
-        break;
+        *fault_ = std::current_exception();
       }
     }
+    if (ahead_.empty() && *fault_ && at_ != view_->end()) std::rethrow_exception(*fault_);
     return !ahead_.empty();
   }
 
@@ -177,6 +185,7 @@ class Cursor {
   boost::shared_ptr<Message> message_, last_, first_;
   Number number_;
   std::shared_ptr<const Starts> starts_;
+  std::shared_ptr<std::exception_ptr> fault_;
   std::uint32_t lost_ = 0;
   std::size_t done_ = 0;
 };
@@ -209,7 +218,7 @@ class Recording {
   }
   template <class Message>
   std::unique_ptr<Cursor<Message>> read() const {
-    return std::make_unique<Cursor<Message>>(view(topic<Message>()), starts());
+    return std::make_unique<Cursor<Message>>(view(topic<Message>()), starts(), fault_);
   }
   std::unique_ptr<rosbag::View> view(const std::string& topic, const ros::Time& begin = ros::TIME_MIN,
                                      const ros::Time& end = ros::TIME_MAX) const;
@@ -251,7 +260,8 @@ class Recording {
   std::string node_;
   Topics topics_;
   std::vector<File> files_;
-  std::string holes_;  // between the files, in words
+  std::string holes_;                                                                   // between the files, in words
+  std::shared_ptr<std::exception_ptr> fault_ = std::make_shared<std::exception_ptr>();  // met by a cursor
   // once they were asked for
   mutable std::shared_ptr<const Starts> starts_;
   mutable std::map<std::string, EndsOfStarts> ends_;  // by topic
