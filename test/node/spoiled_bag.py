@@ -89,9 +89,9 @@ class SpoiledBag(NodeTest):
     def remove(self, *entries):
         self.entries = [e for e in self.entries if e not in entries]
 
-    def write(self, name='spoiled.bag'):
+    def write(self, name='spoiled.bag', **options):
         path = self.directory / name
-        with rosbag.Bag(str(path), 'w') as bag:
+        with rosbag.Bag(str(path), 'w', **options) as bag:
             for e in self.entries:
                 bag.write(e.path, e.raw, e.stamp, raw=True, connection_header=e.header)
         return path

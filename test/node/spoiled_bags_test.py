@@ -359,10 +359,7 @@ class SpoiledBags(SpoiledBag):
 
     def test_a_damaged_chunk(self):
         """rosbag has then unpacked half of it into the memory of another one, and what stands there is spoiled."""
-        path = self.directory / 'damaged.bag'
-        with rosbag.Bag(str(path), 'w', compression='lz4', chunk_threshold=100000) as bag:
-            for e in self.entries:
-                bag.write(e.path, e.raw, e.stamp, raw=True, connection_header=e.header)
+        path = self.write(compression='lz4', chunk_threshold=100000)
         with rosbag.Bag(str(path)) as bag:
             begins = sorted(chunk.pos for chunk in bag._chunks)
         data = path.read_bytes()

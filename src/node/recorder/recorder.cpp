@@ -160,10 +160,9 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const ros::S
   if (!bag_ || stopping_) return;
   if (role == Role::snapshot) {
     begun_ = true;
-    push(lock, {message, {}, configuration_, applied_}, unhurried);
+    push(lock, {message, {}, configuration_, applied_, role}, unhurried);
   } else if (begun_) {
-    push(lock, {message, {}, {}, {}, role == Role::batch_end, role == Role::applied, role == Role::configuration},
-         unhurried);
+    push(lock, {message, {}, {}, {}, role}, unhurried);
   }
 }
 
@@ -171,7 +170,8 @@ void Recorder::record(const std::shared_ptr<const BagTopic>& topic, const ros::S
 // Stamps in the order of arrival even if the wall clock is set back, and no two alike, as readers of bags sort by them.
 void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried) {
   const std::size_t bytes = item.message.bytes.num_bytes;
-  const std::size_t room = item.is_snapshot() ? 2 * kMaxQueueBytes : kMaxQueueBytes;
+  const bool is_snapshot = item.role == Role::snapshot;
+  const std::size_t room = is_snapshot ? 2 * kMaxQueueBytes : kMaxQueueBytes;
   const auto has_room = [&] { return queue_.empty() || queue_bytes_ + bytes <= room; };
   if (unhurried) room_.wait(lock, [&] { return has_room() || stopping_; });
   if (!bag_ || stopping_ || !begun_) return;  // it may have ended while we waited
@@ -180,7 +180,7 @@ void Recorder::push(std::unique_lock<std::mutex>& lock, Item item, bool unhurrie
     return;
   }
   const ros::WallTime now = ros::WallTime::now();
-  last_stamp_ = std::max(last_stamp_ + ros::Duration(0, item.is_snapshot() ? 3 : 1), ros::Time(now.sec, now.nsec));
+  last_stamp_ = std::max(last_stamp_ + ros::Duration(0, is_snapshot ? 3 : 1), ros::Time(now.sec, now.nsec));
   item.stamp = last_stamp_;
   queue_bytes_ += bytes;
   queue_.push_back(std::move(item));
@@ -218,19 +218,20 @@ void Recorder::write(const Message& message, const ros::Time& stamp) {
 // held from its first message on, as its snapshot comes behind some others.
 std::string Recorder::take(const Item& item) {
   try {
-    if (!full_ || (held_.empty() && !item.is_snapshot() && !item.begins_epoch)) {
+    if (!full_ || (held_.empty() && item.role != Role::snapshot && item.role != Role::configuration)) {
       write(item);
     } else {
       held_.push_back(item);
-      const auto snapshot = std::find_if(held_.begin(), held_.end(), [](const Item& i) { return i.is_snapshot(); });
-      if (item.ends_batch && snapshot != held_.end()) {
+      const auto snapshot =
+          std::find_if(held_.begin(), held_.end(), [](const Item& i) { return i.role == Role::snapshot; });
+      if (item.role == Role::batch_end && snapshot != held_.end()) {
         begin_next_bag();
         write(*snapshot);
         // of what began its epoch a status is left, and a batch of what was due at once: the rest is written already
-        const auto is_written = [](const Item& i) { return i.begins_epoch || i.is_command; };
+        const auto is_written = [](const Item& i) { return i.role == Role::configuration || i.role == Role::applied; };
         held_.erase(std::remove_if(held_.begin(), snapshot, is_written), snapshot + 1);
         write_held();
-      } else if (!item.is_command && ++held_others_ >= kMostHeld) {
+      } else if (item.role != Role::applied && ++held_others_ >= kMostHeld) {
         write_held();
         full_ = ask_for_snapshot_();
       }
@@ -238,7 +239,7 @@ std::string Recorder::take(const Item& item) {
   } catch (const std::exception& error) {
     return error.what();
   }
-  if (!full_ && item.ends_batch && is_full()) full_ = ask_for_snapshot_();  // this bag has a batch, too
+  if (!full_ && item.role == Role::batch_end && is_full()) full_ = ask_for_snapshot_();  // this bag has a batch, too
   return {};
 }
 
@@ -246,7 +247,7 @@ std::string Recorder::take(const Item& item) {
 void Recorder::write(const Item& item) {
   const std::string trouble = bag_->check_space(item.message.bytes.num_bytes);
   if (!trouble.empty()) throw std::runtime_error("stopped: " + trouble);
-  if (item.is_snapshot() && bag_->messages() == 0) {
+  if (item.role == Role::snapshot && bag_->messages() == 0) {
     begin_ = std::chrono::steady_clock::now();
     write(item.configuration, item.stamp - ros::Duration(0, 2));
     write(item.applied, item.stamp - ros::Duration(0, 1));

@@ -63,8 +63,7 @@ class Recorder {
     Message message;
     ros::Time stamp;
     Message configuration, applied;  // of a snapshot: what a bag that begins with it holds before it
-    bool ends_batch = false, is_command = false, begins_epoch = false;
-    bool is_snapshot() const { return configuration.topic != nullptr; }
+    Role role = Role::ordinary;
   };
 
   void push(std::unique_lock<std::mutex>& lock, Item item, bool unhurried);

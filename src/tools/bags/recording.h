@@ -260,8 +260,9 @@ class Recording {
   std::string node_;
   Topics topics_;
   std::vector<File> files_;
-  std::string holes_;                                                                   // between the files, in words
-  std::shared_ptr<std::exception_ptr> fault_ = std::make_shared<std::exception_ptr>();  // met by a cursor
+  std::string holes_;  // between the files, in words
+  // met by a cursor
+  std::shared_ptr<std::exception_ptr> fault_ = std::make_shared<std::exception_ptr>();
   // once they were asked for
   mutable std::shared_ptr<const Starts> starts_;
   mutable std::map<std::string, EndsOfStarts> ends_;  // by topic

@@ -53,7 +53,6 @@ TEST(RunChange, OfABathThatIsOffIsNoChange) {
   });
 }
 
-// The tip does not know when it is looked at: with periods that are powers of 2 a finer grid holds the coarser one.
 TEST(RunChange, OfLeverSurfaceStartAndBudgetIsNoChange) {
   expect_no_change([](RunSettings& live, int) {
     live.model.frequency_ratio = 3.0;
@@ -68,6 +67,7 @@ TEST(RunChange, OfLeverSurfaceStartAndBudgetIsNoChange) {
   EXPECT_EQ(run.settings().model.frequency_ratio, Model{}.frequency_ratio);
 }
 
+// The tip does not know when it is looked at: with periods that are powers of 2 a finer grid holds the coarser one.
 TEST(RunChange, OfTheSampleRateChangesTheSamplesAlone) {
   afm::Run fine(settings_at(3.4, 6400, 1.0 / 64)), changed(settings_at(3.4, 160, 1.0 / 16));
   Batch truth, batch;
