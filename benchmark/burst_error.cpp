@@ -12,6 +12,7 @@ namespace {
 
 struct Options {
   std::vector<double> eta, cutoff, gamma;
+  double rest_height = 0.0;
   std::size_t bursts = 1000;
   std::int64_t most_bounces = 100000;
 };
@@ -20,6 +21,7 @@ void print_row(double gamma, double cutoff, double eta, const Options& o) {
   afm::Model model;
   model.gamma = gamma;
   model.v_c = cutoff;
+  model.y0 = o.rest_height;
   afm::BurstTrials trials(model, eta, afm::kDefaultContactTolerance, 1, o.most_bounces);
   std::vector<double> worst;
   double bounces = 0.0;
@@ -46,6 +48,7 @@ int main(int argc, char** argv) {
   app.ranges("eta", o.eta, "0.05,0.2,0.5,3,5,7,9", "drag speeds [a/tau]");
   app.ranges("cutoff", o.cutoff, "0,0.01,0.05,0.1", "v_c [a/tau]");
   app.ranges("gamma", o.gamma, "0.7", "restitution");
+  app.option("rest-height", o.rest_height, "of the holder above mid-surface [a]");
   app.option("bursts", o.bursts, "how many of each");
   app.option("most-bounces", o.most_bounces, "a burst of more is skipped, and counted as skipped");
   return app.run(argc, argv, [&] {

@@ -204,6 +204,8 @@ def commands(quick):
         add("verbs_%d" % i, "verbs --benchmark_min_time=%s --benchmark_format=csv" % choose("0.05", "0.5"))
         add("real_time_%d" % i, "real_time", choose("--tau 200 --transient 100", "--tau 1000 --transient 200"))
     add("burst_error", "burst_error --gamma 0.3 0.7 0.95 1 --bursts", choose(100, 1000), "--most-bounces 20000")
+    add("burst_error_loaded", "burst_error --rest-height=-0.3 --eta 0.1 0.2 0.5 3 --bursts", choose(100, 1000),
+        "--most-bounces 20000")
     add("burst_friction", "benchmark/tolerance_friction.py bursts",
         choose("--tau 1000 --eta 0.5 1.5 3 3.4 5 --most-events 2e6", "--tau 10000"))
     add("cutoff_friction", "real_time --eta 0.5 1.5 3 3.4 5 7 --cutoff 0.1 0.03 0.01 0.003 0.001 0.0003",

@@ -11,7 +11,8 @@
 
 namespace afm {
 
-// Energy of a free spring decays like exp(-omega t / Q), the better the more kicks there are in the time Q / omega.
+// Energy of a free spring decays like exp(-omega t / Q) at Q well above 1/2, the better the more kicks there are in the
+// time Q / omega.
 struct Bath {
   double temperature = 0.0;             // kT [m_tip a^2/tau^2]; 0: damping alone
   double quality_factor = 0.0;          // of the vertical spring; 0: neither damped nor heated

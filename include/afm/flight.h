@@ -63,11 +63,13 @@ T Flight<T>::gap_error(const T& s) const {
   using std::abs;
   using std::max;
   constexpr double kOfChange = 8.0, kOfHeight = 4.0, kOfSurface = 16.0, kOfExtension = 32.0;  // [ulp] Lemma 7
+  constexpr double kOfLaunch = 1.5;  // [ulp tau/a] the vertical velocity at the launch, where g1 and h' u cancel
   const T ulp = detail::epsilon<T>();
   if (detail::is_small(bounds_, s)) {
     return ulp * (start_.g + T(kOfChange) * s * (abs(start_.g1) + bounds_.second * s));
   }
-  return ulp * (T(kOfHeight) * bounds_.Y + max(T(kOfSurface), T(T(kOfExtension) * bounds_.X)) * m_.H);
+  const T launch = T(kOfLaunch) * abs(eta_ + start_.state.U);
+  return ulp * (T(kOfHeight) * bounds_.Y + max(max(T(kOfSurface), launch), T(T(kOfExtension) * bounds_.X)) * m_.H);
 }
 
 }  // namespace afm

@@ -9,7 +9,7 @@
 
 namespace afm::detail {
 
-// Natural logarithm, x > 0, error below 1e-15: by the series of artanh(z), z = (m-1)/(m+1), up to z^23.
+// Natural logarithm, x > 0, relative error below 1e-15: by the series of artanh(z), z = (m-1)/(m+1), up to z^23.
 inline double portable_log(double x) {
   constexpr double kLog2 = 0.6931471805599453;
   int exponent = 0;

@@ -63,7 +63,8 @@ ChatterLaw::ChatterLaw(const Model& model, double contact_tolerance)
   c.max_entry_speed = chatter_entry_speed(contact_tolerance);
   c.threshold = std::max(threshold, kLeastThreshold);
   c.constant_loss = !(model.v_c > threshold);
-  // the error of the law is of the third order in what the limits are for
+  // the error of v at a given bounce is of the third order in what the limits are for; that of the time is of the
+  // second, and the entry speed falls faster
   const double part = c.threshold / ChatterLimits::kDefaultThreshold;
   c.fineness = part < 1.0 ? portable_exp(portable_log(part) * (1.0 / 3)) : 1.0;
   const double end_speed = ChatterLimits::kEndSpeed * c.threshold;

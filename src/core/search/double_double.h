@@ -75,9 +75,12 @@ inline DoubleDouble two_pi<DoubleDouble>() {
   return {6.283185307179586, 2.4492935982947064e-16};
 }
 
+// a * b minus the nearest integer. The error is that of the rest, not that of a * b. Precondition: |a b| < 2^51.
 inline DoubleDouble turn_product(const DoubleDouble& a, const DoubleDouble& b) {
-  const DoubleDouble p = a * b;
-  return p - DoubleDouble(nearest(p.high()));
+  const double p = a.high() * b.high(), q = a.high() * b.low(), r = a.low() * b.high();
+  const DoubleDouble turn(p - nearest(p)), rest(std::fma(a.high(), b.high(), -p));
+  return turn + rest + DoubleDouble(q, std::fma(a.high(), b.low(), -q)) +
+         DoubleDouble(r, std::fma(a.low(), b.high(), -r));
 }
 
 SinCos<DoubleDouble> sin_cos_turns(const DoubleDouble& x);

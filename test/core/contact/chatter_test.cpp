@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/contact/chatter_law.h"
@@ -138,6 +139,38 @@ TEST_P(Chatters, AtHalfTheSpeedTheErrorIsAnEighth) {
   std::sort(v_ratios.begin(), v_ratios.end());
   EXPECT_GT(n_ratios[n_ratios.size() / 2], 7.0);
   EXPECT_GT(v_ratios[v_ratios.size() / 2], 7.0);
+}
+
+// The relative error of the normal speed at the first bounce after `time`; none if the law ends before.
+std::optional<double> error_after(double time, const RandomChatter& chatter, const ChatterLaw& law) {
+  const Chatter start{chatter.v, 0.0};
+  const double end = law.run(chatter.reference, chatter.reference.length(), start).s;
+  Tip tip = chatter.every_bounce();
+  while (tip.now() - ModelTime{} < time) tip.advance(kEndOfTime);
+  const double now = tip.now() - ModelTime{};
+  if (now >= end) return std::nullopt;
+  const double v = project_onto_surface(chatter.model, tip.tip_state()).normal_speed;
+  return std::abs(law.at(chatter.reference, now, start).v / v - 1.0);
+}
+
+// Half as fast, twice as many: their errors of the third order add up to one of the second.
+TEST(ChatterLaw, AfterAGivenTimeTheErrorAtHalfTheSpeedIsAQuarter) {
+  constexpr double kTime = 0.02;
+  const Model model = model_with(0.7, 0.05);
+  const ChatterLaw law(model, kDefaultContactTolerance);
+  RandomLaunches random(2);
+  std::vector<double> ratios;
+  for (int i = 0; i < 30000 && ratios.size() < 100; ++i) {
+    RandomChatter chatter = random_chatter(model, law, random, -2.9, -2.5);
+    if (chatter.reference.length() < 1.1 * kTime) continue;
+    const std::optional<double> whole = error_after(kTime, chatter, law);
+    chatter.v *= 0.5;
+    const std::optional<double> half = error_after(kTime, chatter, law);
+    if (whole && half) ratios.push_back(*whole / *half);
+  }
+  ASSERT_EQ(ratios.size(), 100u);
+  std::sort(ratios.begin(), ratios.end());
+  EXPECT_NEAR(ratios[50], 4.0, 0.5);
 }
 
 // The series end with w^3. The next terms (docs/derive_chatter_law.py) are 1.5 w^5 of the loss and 1.1 w^4 of the

@@ -59,6 +59,7 @@ TEST(HeatedSweep, WhereKicksLockToTheDragTheStartDecides) {
   const auto spread_over_error = [](double kicks_per_tau) {
     const SweepPoint point{eta, 0.7, 0.05};
     SweepSettings settings;
+    settings.transient = 6000.0;  // it was 200: some dance for 2200 tau before they lock
     settings.duration = 2000.0;
     settings.bath.quality_factor = 20.0;
     settings.bath.kicks_per_tau = kicks_per_tau;
