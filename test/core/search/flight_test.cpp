@@ -105,8 +105,8 @@ TEST(Flight, TheBoundHoldsForALaunchThatHardlyRises) {
       const Flight<double> flight(springs, eta, start);
       const Flight<DoubleDouble> finer(fine, eta, start);
       largest = std::max(largest, static_cast<double>(abs(flight.gap(s).g - truth)) / flight.gap_error(s));
-      largest = std::max(largest, static_cast<double>(abs(to_quad(finer.gap(s).g) - truth)) /
-                                      static_cast<double>(finer.gap_error(s)));
+      largest = std::max(
+          largest, static_cast<double>(abs(to_quad(finer.gap(s).g) - truth)) / static_cast<double>(finer.gap_error(s)));
     }
     return largest;
   };
