@@ -11,6 +11,7 @@ try:
     matplotlib.use('Agg')
     import numpy as np
     import rosbag
+    from afm_emulator import msg
     from afm_emulator.bags import in_order, read_raw, why_unreadable
     from afm_emulator.impacts import read_impacts
     from matplotlib import pyplot
@@ -119,12 +120,18 @@ def count_samples(paths, node):
     return count
 
 
+def check_version(m):
+    if m.md5sum != getattr(msg, m.kind)._md5sum:
+        raise ValueError('%s is of another version of afm_emulator/%s' % (m.topic, m.kind))
+
+
 def find_configuration(paths, node):
     """The first one, for the units of all: also of what was before it, as in a bag that is cut."""
     for path in paths:
         with open_bag(path) as bag:
             for m in read_raw(bag, ['Configuration', 'Snapshot']):
                 if node in (None, m.node):
+                    check_version(m)
                     message = m.of_type().deserialize(m.data)
                     return message if m.kind == 'Configuration' else message.configuration
     return None
@@ -156,6 +163,7 @@ def read(paths, node):
                 if is_new:
                     run.count_lost(*number)
                 known[number] = said
+                check_version(m)
                 if is_new and run.configuration is not None:
                     add[m.kind](m.data if m.kind == 'ImpactArray' else m.of_type().deserialize(m.data))
     if run.configuration is None or not run.samples:

@@ -161,6 +161,7 @@ class Recording:
         if not are_paths or not paths:
             raise ArgumentTypeError('path', path, 'must be the path of a bag, or a list of paths')
         read, by_node = _read(paths, namespace)
+        self._check_version(next(iter(read['Configuration'].values()), None))
         for kind, why in (('Snapshot', 'the state at its beginning'), ('Applied', 'what took effect'),
                           ('Friction', 'the end of the run')):
             if not read[kind]:
@@ -188,10 +189,7 @@ class Recording:
         self._snapshots, frictions = (_of_epoch(kind, read[kind], self.epoch) for kind in ('Snapshot', 'Friction'))
         start = self._snapshots[0]
         self.configuration: Any = start.configuration
-        made_by, here = ('version %s with the arithmetic %s' % pair for pair in (
-            (self.configuration.version, self.configuration.arithmetic_digest), (VERSION, arithmetic_fingerprint())))
-        if made_by != here:
-            raise ValueError('the bag was made by %s; this is %s' % (made_by, here))
+        self._check_version(start.configuration)
         self.units = self._units(start.configuration)
         self.model, at_begin = self._in_force(start.applied)
         self.eta: float = at_begin['eta']
@@ -223,6 +221,16 @@ class Recording:
         self.commands = np.array([(m.time.tau, m.time.phase, m.drag_velocity / self.units.velocity, m.drag_velocity)
                                   for m in [start.applied] + self._applied],
                                  [('tau', 'i8'), ('phase', 'f8'), ('eta', 'f8'), ('drag_velocity', 'f8')])
+
+    @staticmethod
+    def _check_version(configuration: Any) -> None:
+        """Of 0.1.0 too, whose bags have no snapshot."""
+        if configuration is None:
+            return
+        made_by, here = ('version %s with the arithmetic %s' % pair for pair in (
+            (configuration.version, configuration.arithmetic_digest), (VERSION, arithmetic_fingerprint())))
+        if made_by != here:
+            raise ValueError('the bag was made by %s; this is %s' % (made_by, here))
 
     @staticmethod
     def _check_ends(read: Dict[str, Dict[int, Any]], by_node: bool) -> None:

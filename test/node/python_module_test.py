@@ -193,6 +193,8 @@ class PythonModule(NodeTest):
                              (lambda topic, m: topic != 'snapshot' or m.time.tau > 10, 'Snapshot'),
                              (lambda topic, m: topic != 'applied' or (m.epoch, m.number) != (0, 11), 'Applied'),
                              (altered('snapshot', configuration__version='0.0.1'), 'made by version 0.0.1'),
+                             (lambda topic, m: topic != 'snapshot' and
+                              altered('configuration', version='0.1.0')(topic, m), 'made by version 0.1.0'),
                              (altered('snapshot', configuration__arithmetic_digest='0' * 16), '0' * 16),
                              (altered('friction', last, time__tau=10 ** 9), 'batch %d does not' % last),
                              (altered('applied', 2, number=2 ** 64 - 1), 'Applied'),

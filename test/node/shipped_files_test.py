@@ -77,6 +77,15 @@ class ShippedFiles(NodeTest):
                 config = self.loaded(SHARE / 'launch/emulator.launch', 'scene_file:=' + path)
                 self.assertEqual(config.params['/afm/drag_velocity'].value, 4.0e-6)
 
+    def test_a_scene_names_its_own_table_of_levels(self):
+        """A <param> of the launch file stood before that of the scene."""
+        scene = Path(self.temporary_directory()) / 'mine.yaml'
+        for text, table in (('level_table: /tmp/mine.csv\n', '/tmp/mine.csv'),
+                            ('drag_velocity: 4.0e-6\n', str(SHARE / 'config/levels.csv'))):
+            scene.write_text(text)
+            config = self.loaded(SHARE / 'launch/emulator.launch', 'scene_file:=' + str(scene))
+            self.assertEqual(config.params['/afm/level_table'].value, table)
+
     def test_arguments_of_the_fixture_reach_the_emulator(self):
         scene = Path(self.temporary_directory()) / 'mine.yaml'
         scene.write_text('drag_velocity: 4.0e-6\n')

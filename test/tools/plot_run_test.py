@@ -107,6 +107,14 @@ class PlotRun(unittest.TestCase):
         drawn = [path.with_suffix('.svg').read_text() for path in (whole, cut)]
         self.assertEqual(*(len(re.findall(r'[\s"][ML] ', text)) for text in drawn))
 
+    def test_a_bag_of_another_version_is_refused_by_name(self):
+        for kind in (Configuration, Friction):
+            path = self.bag(2)
+            path.write_bytes(path.read_bytes().replace(kind._md5sum.encode(), b'0' * 32))
+            done = plot(path)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn('another version of ' + kind._type, done.stdout)
+
     def test_says_what_is_wrong(self):
         text = self.directory / 'text.bag'
         text.write_text('no bag')

@@ -16,12 +16,24 @@ void add(const Batch& batch, Digest& digest) {
     digest.add(impact.tangential_velocity);
     digest.add(impact.energy_loss);
   }
+  const FrictionEstimate& f = batch.friction;
+  for (const double x : {f.K_f_std_error, f.K_f_work, f.K_f_work_std_error, f.heat_to_bath}) digest.add(x);
+  digest.add(static_cast<double>(f.impact_count));
 }
 
-void add_run(double eta, Digest& digest) {
+struct Scene {
+  double eta, rest_height = 0.0, temperature = 0.0, quality_factor = 0.0;
+  ModelKind kind = ModelKind::oscillator;
+};
+
+void add_run(const Scene& scene, Digest& digest) {
   constexpr int kBatches = 4;
   RunSettings settings;
-  settings.eta = eta;
+  settings.eta = scene.eta;
+  settings.model.y0 = scene.rest_height;
+  settings.model.kind = scene.kind;
+  settings.bath.temperature = scene.temperature;
+  settings.bath.quality_factor = scene.quality_factor;
   settings.samples_per_batch = 500;
   settings.impact_budget = 1000;
   Run run(settings);
@@ -37,8 +49,16 @@ void add_run(double eta, Digest& digest) {
 std::string arithmetic_fingerprint() {
   Digest digest;
   // chaos makes the last bit of any operation show: it grows tenfold or so in every tau of the first; the second
-  // slides, the third chatters
-  for (const double eta : {3.4, 1.0, 5.0}) add_run(eta, digest);
+  // slides, the third chatters, the fourth is fast; then a bath, a bath under a load, and a hammer
+  constexpr double kRoom = 0.926;  // [m_tip a^2/tau^2] kT on mica
+  const Scene scenes[] = {Scene{3.4},
+                          Scene{1.0},
+                          Scene{5.0},
+                          Scene{30.0},
+                          Scene{2.0, 0.0, kRoom, 100.0},
+                          Scene{2.0, -0.3, kRoom, 100.0},
+                          Scene{5.0, 0.0, kRoom, 20.0, ModelKind::hammer}};
+  for (const Scene& scene : scenes) add_run(scene, digest);
   return to_text(digest);
 }
 
