@@ -39,13 +39,13 @@ class Process:
     """A child whose output is kept, line by line as it is written."""
 
     def __init__(self, command, env=None, **options):
-        self.log = tempfile.TemporaryFile('a+')  # appended to, wherever output() has read to
+        self.log = tempfile.TemporaryFile()
         self.child = subprocess.Popen(command, stdout=self.log, stderr=subprocess.STDOUT,
                                       env=dict(env or os.environ, PYTHONUNBUFFERED='1'), **options)
 
     def output(self):
-        self.log.seek(0)
-        return self.log.read()
+        """Read without a seek: the child writes at the same offset."""
+        return os.pread(self.log.fileno(), os.fstat(self.log.fileno()).st_size, 0).decode(errors='replace')
 
     def wait(self, deadline_s=15.0):
         return self.child.wait(timeout=deadline_s * PATIENCE)

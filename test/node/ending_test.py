@@ -80,6 +80,13 @@ class Ending(NodeTest):
             self.assertEqual(node.wait(LIMIT_S), 0)
             self.assertEqual(node.output().count('\n'), 1)
 
+    def test_what_a_child_prints_is_whole_though_it_is_read_meanwhile(self):
+        """It wrote at the beginning, where output() had gone to read."""
+        child = self.start(Process(['/usr/bin/python3', '-c', 'for i in range(20000): print(i)']))
+        while child.child.poll() is None:
+            child.output()
+        self.assertEqual(child.output(), ''.join('%d\n' % i for i in range(20000)))
+
     def test_children_end_when_they_are_asked_to(self):
         """The end of the pool hung for ever."""
         node = self.start(Process(['/usr/bin/python3', '-c', PARENT]))
