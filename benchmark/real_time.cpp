@@ -20,6 +20,7 @@
 #include "common/command_line.h"
 #include "common/cpu_clock.h"
 #include "common/lever_options.h"
+#include "common/point_options.h"
 
 namespace {
 
@@ -30,6 +31,7 @@ constexpr double kLongest = 1e12;  // [tau] a choice, as of friction_curve
 struct Options {
   std::vector<double> eta, cutoff, rest_height, temperature, quality_factor;
   std::vector<double> frequency_ratio{afm::Model{}.frequency_ratio}, amplitude{afm::Model{}.H};
+  std::string model = "oscillator";
   afm::Bath bath;  // its kicks, and the lateral quality factor of the lever
   double tolerance = afm::kDefaultContactTolerance;
   std::int64_t tau = 1000, transient = 200;
@@ -111,7 +113,7 @@ Figures measure(const Point& point, const Options& o) {
 // Every combination of the options; drag speeds vary fastest. Throws std::invalid_argument with the faults of the first
 // that cannot be run.
 std::vector<Point> points_of(const Options& o) {
-  std::vector<Point> points{{{0.0, afm::Model{}.gamma, 0.0}, o.bath}};
+  std::vector<Point> points{{{0.0, afm::Model{}.gamma, 0.0, afm::checked_kind(o.model)}, o.bath}};
   const auto cross = [&](const std::vector<double>& values, const auto& set) {
     std::vector<Point> all;
     for (const Point& point : points) {
@@ -197,6 +199,7 @@ int main(int argc, char** argv) {
   app.ranges("eta", o.eta, "0:9:0.05", "drag speeds [a/tau]");
   app.ranges("cutoff", o.cutoff, "0.1,0.05,0.01,0.001", "v_c [a/tau]");
   app.option("tolerance", o.tolerance, "contact tolerance");
+  afm::add_model_option(app, o.model);
   app.ranges("frequency-ratio", o.frequency_ratio, "", "omega_h/omega_v");
   app.ranges("amplitude", o.amplitude, "", "of the surface [a]");
   app.ranges("rest-height", o.rest_height, "0", "of the holder above mid-surface [a]");

@@ -22,7 +22,7 @@ class RealTime(unittest.TestCase):
                 ('tolerance', '5'), ('tolerance', 'nan'), ('tolerance', '-1'),
                 ('temperature', '1', 'needs a quality factor'), ('quality-factor', '0.01'), ('kicks-per-tau', '0'),
                 ('rest-height', 'nan'), ('rest-height', '3', 'hovers'), ('amplitude', '5'), ('cutoff', '-1'),
-                ('frequency-ratio', '0')):
+                ('frequency-ratio', '0'), ('model', 'spring', 'must be oscillator or hammer')):
             with self.subTest(option=option, value=value):
                 code, rows, complaint = run_tool(PROGRAM, '--%s=%s' % (option, value))
                 self.assertEqual((code, rows), (2, []), complaint)
@@ -34,6 +34,12 @@ class RealTime(unittest.TestCase):
         rows = run_tool(PROGRAM, *SHORT[2:], '--eta', '0:2:1', '4', '5,6')[1]
         self.assertEqual([row['eta'] for row in rows], ['0', '1', '2', '4', '5', '6'])
         self.assertEqual(rows[0]['k_f'], 'nan')  # as of friction_curve
+
+    def test_the_hammer_has_its_own_friction(self):
+        _, hammer, complaint = run_tool(PROGRAM, *SHORT, '--model', 'hammer')
+        self.assertNotEqual(hammer[0]['k_f'], run_tool(PROGRAM, *SHORT)[1][0]['k_f'], complaint)
+        self.assertEqual(hammer[0]['k_f'],  # without a lateral spring, its stiffness means nothing
+                         run_tool(PROGRAM, *SHORT, '--model', 'hammer', '--frequency-ratio', '21')[1][0]['k_f'])
 
 
 if __name__ == '__main__':
