@@ -37,6 +37,7 @@ class Run:
     def __init__(self):
         self.close = []  # single samples of the last tau
         self.samples, self.impacts, self.friction, self.drag = [], [], [], []
+        self.settings = []  # in force, one after another: those of the title
         self.epochs = {}  # where they begin
         self.configuration, self.unit, self.last = None, None, 0.0
         self.numbers, self.lost = {}, {}  # of each kind of message
@@ -93,9 +94,20 @@ class Run:
         self.friction.append((self.seconds(message), message.k_f_work_natural,
                               message.k_f_work_std_error * per_unit, by_impacts))
 
-    def add_drag(self, message):
+    def add_applied(self, message):
         moment = self.moment(message.epoch, message.time.tau, message.time.phase)
         self.drag.append((moment, message.drag_velocity * 1e6))
+        self.settings.append(message)
+
+    def title(self):
+        """A value that changes by its least and its greatest."""
+        ranges = []
+        for name, unit, digits in (('restitution_gamma', 1.0, '%g'), ('cutoff_speed', 1e-6, '%.3g'),
+                                   ('sample_rate_hz', 1e3, '%g')):
+            values = [getattr(settings, name) / unit for settings in self.settings or [self.configuration]]
+            ends = [digits % end for end in (min(values), max(values))]
+            ranges.append(ends[0] if ends[0] == ends[1] else ' to '.join(ends))
+        return '$\\gamma$ = %s, $v_c$ = %s $\\mu$m/s, %s kHz' % tuple(ranges)
 
 
 @contextlib.contextmanager
@@ -146,7 +158,7 @@ def read(paths, node):
     known, sources, others = {}, {}, set()
     add = {'Configuration': lambda m: run.epochs.setdefault(m.epoch, run.last),
            'Deflection': lambda m: run.add_deflection(m, every), 'ImpactArray': run.add_impacts,
-           'Friction': run.add_friction, 'Applied': run.add_drag}
+           'Friction': run.add_friction, 'Applied': run.add_applied}
     for path in paths:
         with open_bag(path) as bag:
             for m in read_raw(bag, add):
@@ -265,9 +277,7 @@ def draw(run, paths):
         axes.vlines(sorted(run.epochs.values())[1:], 0, 1, colors='k', lw=0.8, linestyles=':',
                     transform=axes.get_xaxis_transform())
     rows[3].set_xlim(times[0], times[-1])
-    c = run.configuration
-    figure.suptitle('%s   ($\\gamma$ = %g, $v_c$ = %.3g $\\mu$m/s, %g kHz)' % (
-        os.path.basename(paths[0]), c.restitution_gamma, c.cutoff_speed * 1e6, c.sample_rate_hz / 1e3))
+    figure.suptitle('%s   (%s)' % (os.path.basename(paths[0]), run.title()))
     return figure
 
 

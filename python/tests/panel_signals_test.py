@@ -48,10 +48,11 @@ class Swing(unittest.TestCase):
             np.testing.assert_allclose(line, [0.0, 1.0, 2.0, 3.0, 4.0])
 
 
-def periodic(eta, duration, period, offset=0.0, rate=200e3):
-    """A tip that swings with that period, with the drag speed eta."""
+def periodic(eta, duration, period, offset=0.0, rate=200e3, height=0.0):
+    """A tip that swings with that period, with the drag speed eta; its holder is so high."""
     t = offset + np.arange(0.0, duration, 1.0 / (rate * TAU_S))
-    return np.stack([t, 0.1 * np.cos(2 * np.pi * t / period), 0.01 * np.sin(2 * np.pi * t / period), eta * t + 0.3])
+    return np.stack([t, 0.1 * np.cos(2 * np.pi * t / period), 0.01 * np.sin(2 * np.pi * t / period), eta * t + 0.3,
+                     np.full(len(t), height)])
 
 
 NONE = np.empty((4, 0))
@@ -59,7 +60,7 @@ NONE = np.empty((4, 0))
 
 class Trigger(unittest.TestCase):
     def picture(self, eta, period, offset):
-        motion = Motion(periodic(eta, 25.0, period, offset), NONE, AMPLITUDE, 0.0, OMEGA_H)
+        motion = Motion(periodic(eta, 25.0, period, offset), NONE, AMPLITUDE, OMEGA_H)
         begin = motion.trigger(5.0, math.copysign(1.0, eta))
         x = motion.xc + motion.X
         self.assertAlmostEqual(math.copysign(1.0, eta) * np.interp(begin, motion.t, x) % 1.0, 0.75, delta=1e-3)
@@ -73,28 +74,39 @@ class Trigger(unittest.TestCase):
                 np.testing.assert_allclose(other, pictures[0], atol=0.004)  # of 0.1
 
     def test_a_tip_at_rest_triggers_nothing(self):
-        self.assertIsNone(Motion(periodic(0.0, 25.0, 1.0), NONE, AMPLITUDE, 0.0, OMEGA_H).trigger(5.0, 1.0))
+        self.assertIsNone(Motion(periodic(0.0, 25.0, 1.0), NONE, AMPLITUDE, OMEGA_H).trigger(5.0, 1.0))
 
     def test_is_in_the_picture_as_a_whole(self):
-        self.assertIsNone(Motion(periodic(2.0, 4.0, 1.0), NONE, AMPLITUDE, 0.0, OMEGA_H).trigger(5.0, 1.0))
+        self.assertIsNone(Motion(periodic(2.0, 4.0, 1.0), NONE, AMPLITUDE, OMEGA_H).trigger(5.0, 1.0))
 
 
 class Impacts(unittest.TestCase):
     def test_lie_on_the_path_and_on_the_surface(self):
-        samples = periodic(1.0, 2.0, 1.0)
+        samples = periodic(1.0, 2.0, 1.0, height=0.01)
         impacts = np.array([[0.5011], [(0.3 + 0.5011 + 0.02) % 1.0], [1e-21], [0]])
-        motion = Motion(samples, impacts, AMPLITUDE, 0.01, OMEGA_H)
+        motion = Motion(samples, impacts, AMPLITUDE, OMEGA_H)
         i = np.argmin(np.abs(motion.t - 0.5011))
         self.assertAlmostEqual(motion.t[i], 0.5011, delta=1e-12)
         self.assertAlmostEqual(motion.X[i], 0.02, delta=1e-12)
         self.assertAlmostEqual(motion.Y[i] + 0.01, AMPLITUDE * math.cos(2 * math.pi * impacts[1, 0]), delta=1e-12)
 
+    def test_from_before_a_change_of_load_lie_where_the_holder_was_then(self):
+        """With the height of now they lay far above the surface, or in it."""
+        samples = periodic(1.0, 2.0, 1.0, height=0.01)
+        samples[4, samples[0] > 1.0] = -1.0
+        impacts = np.array([[0.5011, 1.5011], [0.8211, 0.8211], [1e-21, 1e-21], [0, 0]])
+        motion = Motion(samples, impacts, AMPLITUDE, OMEGA_H)
+        for t, height in ((0.5011, 0.01), (1.5011, -1.0)):
+            i = np.argmin(np.abs(motion.t - t))
+            self.assertEqual(motion.height[i], height)
+            self.assertAlmostEqual(motion.Y[i] + height, AMPLITUDE * math.cos(2 * math.pi * 0.8211), delta=1e-12)
+
     def test_of_a_soft_lever_lie_whole_cells_behind_the_holder(self):
-        samples = periodic(1.0, 2.0, 1.0)
+        samples = periodic(1.0, 2.0, 1.0, height=0.01)
         impacts = np.array([[0.5011], [(0.3 + 0.5011 + 0.02) % 1.0], [1e-21], [0]])
-        near = Motion(samples, impacts, AMPLITUDE, 0.01, OMEGA_H)
+        near = Motion(samples, impacts, AMPLITUDE, OMEGA_H)
         samples[2] -= 2.0
-        far = Motion(samples, impacts, AMPLITUDE, 0.01, OMEGA_H, steps=1)
+        far = Motion(samples, impacts, AMPLITUDE, OMEGA_H, steps=1)
         self.assertAlmostEqual(far.X[np.argmin(np.abs(far.t - 0.5011))], 0.02 - 2.0, delta=1e-12)
         self.assertLess(np.ptp(far.X), 2.0 * np.ptp(near.X))
 
@@ -103,8 +115,8 @@ class Contact(unittest.TestCase):
     def test_a_tip_in_contact_does_not_fly_from_sample_to_sample(self):
         t = np.arange(0.0, 2.0, 0.05)
         height = -4.0  # a load that would lift a free tip by a tenth of a cell between two samples
-        samples = np.stack([t, AMPLITUDE * np.cos(2 * np.pi * t) - height, 0.0 * t, t])
-        motion = Motion(samples, NONE, AMPLITUDE, height, OMEGA_H)
+        samples = np.stack([t, AMPLITUDE * np.cos(2 * np.pi * t) - height, 0.0 * t, t, 0.0 * t + height])
+        motion = Motion(samples, NONE, AMPLITUDE, OMEGA_H)
         gap = motion.Y + height - AMPLITUDE * np.cos(2 * np.pi * (motion.xc + motion.X))
         self.assertLess(np.abs(gap).max(), 2e-3)
 
@@ -123,7 +135,7 @@ class RecentBatches(unittest.TestCase):
         recent = Recent(5000)
         for first in range(0, 20000, 1000):
             recent.add(batch(first, 1000, velocity=1e-5), [])
-        t, Y, X, xc = recent.last(1000.0, SPACING_M, TAU_S)[0]
+        t, Y, X, xc, _ = recent.last(1000.0, SPACING_M, TAU_S)[0]
         np.testing.assert_allclose(np.diff(t), 5e-6 / TAU_S, rtol=1e-9)
         np.testing.assert_allclose(Y, np.arange(20000 - len(Y), 20000), rtol=1e-12)
         np.testing.assert_allclose(np.diff(xc), 1e-5 * 5e-6 / SPACING_M, rtol=1e-6)
@@ -137,6 +149,18 @@ class RecentBatches(unittest.TestCase):
         for first, epoch in ((0, 0), (300, 0), (400, 1)):
             recent.add(batch(first, 100, epoch=epoch), [])
             self.assertEqual(recent.last(1000.0, SPACING_M, TAU_S)[0].shape[1], 100)
+
+
+    def test_every_batch_has_the_height_of_its_time(self):
+        recent = Recent(5000)
+        for since, height in (((0, 0), 0.0), ((0, 200), -1e-9), ((1, 0), 2e-9), ((0, 0), 3e-9)):  # another emulator
+            recent.change(SimpleNamespace(epoch=since[0], first_sample=since[1], rest_height_m=height))
+            for first in (0, 100, 200, 300):
+                recent.add(batch(first, 100), [])
+            heights = recent.last(1000.0, SPACING_M, TAU_S)[0][4, ::100] * SPACING_M
+            expected = {0.0: [0, 0, 0, 0], -1e-9: [0, 0, -1e-9, -1e-9], 2e-9: [0, 0, -1e-9, -1e-9],
+                        3e-9: [3e-9] * 4}[height]
+            np.testing.assert_allclose(heights, expected, atol=1e-20)
 
 
 class Loops(unittest.TestCase):
@@ -168,6 +192,9 @@ class Trails(unittest.TestCase):
             trail.add(eta, k_f, 0.1)
         np.testing.assert_array_equal(trail.past, [[2.0, 2.5], [6.0, 1.0]])
         self.assertEqual(trail.now, (4.0, 6.0, 0.1))
+        trail.end_run()
+        np.testing.assert_array_equal(trail.past, [[2.0, 2.5, 4.0], [6.0, 1.0, 6.0]])
+        self.assertIsNone(trail.now)
 
 
 class Scales(unittest.TestCase):

@@ -36,7 +36,7 @@ tearDownModule = DISPLAY.close
 from PyQt5 import QtCore, QtGui, QtTest, QtWidgets  # noqa: E402
 from afm_emulator.panel.link import Link  # noqa: E402
 from afm_emulator.panel.pictures import BLUE, ORANGE, friction_curve  # noqa: E402
-from afm_emulator.panel.window import Window  # noqa: E402
+from afm_emulator.panel.window import NOT_YET, Window  # noqa: E402
 from afm_emulator.expectations import results_path  # noqa: E402
 
 APPLICATION = QtWidgets.QApplication(['panel'])
@@ -175,6 +175,11 @@ class Knobs(EmulatorTest):
         self.panel.type_in('height_pm', '70')  # above the crest: it would hover
         lamps = self.panel.window.lamps
         until(lambda: 'commands' in lamps and 'refused' in lamps['commands'].label.text(), 'a lamp')
+        self.panel.window.resize(300, 300)  # smaller than it can be; the reason was cut off
+        self.addCleanup(self.panel.window.resize, 1000, 700)
+        label = lamps['commands'].label
+        until(lambda: self.panel.window.height() < 700 and label.height() >= label.heightForWidth(label.width()),
+              'all of it is seen in a small window')
         until(lambda: self.panel.part('height_pm').value() == 0.0, 'the box shows what holds')
 
     def test_pause_step_and_reset(self):
@@ -191,10 +196,30 @@ class Knobs(EmulatorTest):
         epoch = self.topics['status'].messages[-1].epoch
         self.panel.press('reset')
         self.status(lambda m: m.epoch == epoch + 1, 'a new epoch')
+        window = self.panel.window
+        until(lambda: NOT_YET in window.readouts['friction'].text() and window.trail.now is None
+              and self.panel.pixels(window.scope.vertical, BLUE) == 0, 'nothing is shown of the epoch before')
         type(self).epoch = epoch + 1
         until(lambda: self.panel.part('pause').text() == 'Go on', 'the panel knows that it is paused')
         self.panel.press('pause')
         self.status(lambda m: not m.paused and m.time.tau > 10, 'it goes on')
+
+    def test_a_change_of_load_leaves_the_picture_of_the_motion_before_it(self):
+        """It was drawn as if the holder had always been where it is now."""
+        self.panel.press('pause')
+        self.addCleanup(self.panel.press, 'pause')
+        self.paused_at()
+        window = self.panel.window
+
+        def shown():
+            return [line.getData()[1].tolist() for line in (window.scope._Y, window.path._line)]
+        end = time.monotonic() + 0.5
+        until(lambda: time.monotonic() > end, 'the last batch is shown')
+        before = shown()
+        self.panel.type_in('height_pm', '-200')
+        self.applied(lambda m: abs(m.rest_height_m + 200e-12) < 1e-18, '-200 pm')
+        window.refresh()
+        self.assertEqual(shown(), before)
 
     def test_a_run_is_recorded(self):
         self.panel.press('record')
@@ -298,6 +323,11 @@ class Ending(NodeTest):
             self.assertEqual(panel.wait(), 1)
             self.assertEqual(panel.output().count('\n'), 1, panel.output())
             self.assertIn(why, panel.output())
+
+    def test_of_an_emulator_that_cannot_be(self):
+        panel = self.start(Process([find('panel'), '_emulator:=/bad name']))
+        self.assertEqual(panel.wait(), 1, panel.output())
+        self.assertIn('emulator = "/bad name": is no name of a node', panel.output())
 
     def test_when_its_window_is_closed(self):
         close_it = '''

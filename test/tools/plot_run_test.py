@@ -27,7 +27,8 @@ class PlotRun(unittest.TestCase):
         self.addCleanup(holder.cleanup)
         self.directory = Path(holder.name)
 
-    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0, lost=(), sample_period=1e-5):
+    def bag(self, batches, name='run.bag', nodes=('/tip',), eta=1.0, lost=(), sample_period=1e-5,
+            gammas=(0.7, 0.7)):
         path = self.directory / name
         with rosbag.Bag(str(path), 'w') as bag:
             def write(node, topic, message, seq):
@@ -39,7 +40,8 @@ class PlotRun(unittest.TestCase):
                 configuration = Configuration(epoch=epoch, omega_v_rad_per_s=40e3, lattice_spacing_m=0.52e-9,
                                               restitution_gamma=0.7, cutoff_speed=1.66e-7, sample_rate_hz=1e5)
                 write(node, '/configuration', configuration, epoch)
-                write(node, '/applied', Applied(epoch=epoch, drag_velocity=6.6e-6 * eta), epoch)
+                write(node, '/applied', Applied(epoch=epoch, drag_velocity=6.6e-6 * eta, cutoff_speed=1.66e-7,
+                                                restitution_gamma=gammas[epoch], sample_rate_hz=1e5), epoch)
                 for i in range(batches):
                     deflection = Deflection(epoch=epoch, first_sample=100 * i, sample_period=sample_period,
                                             vertical=[1e-10, 2e-10] * 50, lateral=[-1e-11, -3e-11] * 50)
@@ -79,6 +81,13 @@ class PlotRun(unittest.TestCase):
                          [('impact', 1.0), ('chatter sequence', 2.0), ('contact begins', 0.03), ('contact ends', 0.07)])
         eta, = figure.axes[3].child_axes
         assert_allclose(figure.axes[3].get_ylim(), [3.31042281631 * v for v in eta.get_ylim()], rtol=1e-9)
+
+    def test_the_title_says_what_was_in_force(self):
+        """It said what the run began with."""
+        script = runpy.run_path(SCRIPT)
+        for gammas, said in (((0.4, 0.4), '0.4'), ((0.75, 0.4), '0.4 to 0.75')):
+            run = script['read']([str(self.bag(2, gammas=gammas))], None)
+            self.assertEqual(run.title(), '$\\gamma$ = %s, $v_c$ = 0.166 $\\mu$m/s, 100 kHz' % said)
 
     def test_a_gap_is_drawn_and_said(self):
         """The line went across it, in the last tau too."""

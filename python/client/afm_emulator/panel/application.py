@@ -16,7 +16,11 @@ WATCH_MS = 100  # for the end
 def run():
     application = QtWidgets.QApplication(sys.argv)
     ending.init_node('panel', anonymous=True)
-    name = rosgraph.names.ns_join('/', rospy.resolve_name(rospy.get_param('~emulator', 'afm')))
+    emulator = rospy.get_param('~emulator', 'afm')
+    if not rosgraph.names.is_legal_name(emulator):
+        print('panel: emulator = "%s": is no name of a node' % emulator, file=sys.stderr)
+        return 1
+    name = rosgraph.names.ns_join('/', rospy.resolve_name(emulator))
     window = Window(Link(name), friction_curve(), rospy.get_param('~lever', ''))
     window.resize(window.size().boundedTo(application.primaryScreen().availableSize()))
     window.show()

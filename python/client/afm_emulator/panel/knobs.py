@@ -7,6 +7,7 @@ from PyQt5 import QtCore, QtGui, QtWidgets
 OWN_S = 1.0     # for so long after a turn a knob shows what was asked for, and not yet what holds
 SLIDER_STEPS = 1000
 MANY = 1e4       # from here on without decimals, for which there is no room
+TEXT_WIDTH = 220  # of a lamp
 LAMP = 'border-radius: 5px; border: 1px solid #777; background: %s;'
 
 
@@ -118,3 +119,4 @@ class Lamp(QtWidgets.QWidget):
             self.bulb.setStyleSheet(LAMP % colour)
             self.label.setText(text)
             self.label.setToolTip(text)
+            self.label.setMinimumHeight(self.label.heightForWidth(TEXT_WIDTH))  # a small window would cut it

@@ -35,7 +35,7 @@ class Link:
         self._raw, self._decoded = {}, {}  # by topic of LATEST
         self.diagnostics = {}           # status by its name
         self.notes = collections.deque(maxlen=1)  # what a service answered, for the operator
-        self._batches, self._impacts = (collections.deque(maxlen=WAITING_BATCHES) for _ in range(2))
+        self._batches, self._impacts, self._applied = (collections.deque(maxlen=WAITING_BATCHES) for _ in range(3))
         self._heard = -math.inf
         self._jobs, self._wanted = queue.Queue(), {}
         self._lock = threading.Lock()
@@ -96,6 +96,11 @@ class Link:
                 impacts.append(waiting.popleft()[1:])
             yield batch, impacts
 
+    def changes(self):
+        """Every Applied since the last call."""
+        while self._applied:
+            yield self._applied.popleft()
+
     def _advertise(self):
         """Anew while nobody is connected: a master that comes back knows no publisher."""
         with self._lock:
@@ -117,7 +122,12 @@ class Link:
         elif topic == 'impacts':
             self._keep_impacts(message._buff)
         else:
-            self._raw[topic] = message._buff
+            if topic == 'applied':
+                self._applied.append(Applied().deserialize(message._buff))
+            if message._buff != self._raw.get(topic):
+                if topic == 'configuration':
+                    self._raw.pop('friction', None)  # it was of another epoch
+                self._raw[topic] = message._buff
             self._heard = time.monotonic()
 
     def _keep_impacts(self, data):

@@ -101,6 +101,10 @@ class Scope:
             self._triggered = triggered
             self.vertical.setTitle('Oscilloscope, ' + ('triggered' if triggered else 'free running'), size='10pt')
 
+    def clear(self):
+        for curve in (self._Y, self._X):
+            curve.setData([], [])
+
 
 class Path:
     """The tip over the surface, from the trigger on."""
@@ -141,6 +145,11 @@ class Path:
         top, bottom = max(y.max(), amplitude), min(y.min(), -amplitude)
         self.plot.fit_y(pm * np.array([bottom, top + 0.1 * (top - bottom)]))  # and the note above it
 
+    def clear(self):
+        for part in (self._surface, self._line, self._spots):
+            part.setData([], [])
+        self._tip.setVisible(False)
+
 
 class Loop:
     def __init__(self):
@@ -153,6 +162,8 @@ class Loop:
         lines = loop.lines
         now = lines.get(loop.direction)
         if now is None or not now.shape[1]:
+            for line in self._lines.values():
+                line.setData([], [])
             return
         before = lines[-loop.direction]
         if before.shape[1] and (np.ptp(now[0]) > 2.0 * np.ptp(before[0]) or now[0].min() > before[0].max() or

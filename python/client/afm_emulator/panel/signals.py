@@ -46,25 +46,27 @@ def swing(t, y, omega, steps, is_free):
 
 class Motion:
     """The tip's motion over a time, of all that is known: samples, and impacts, which lie on the surface. Between them
-    it flies, unless it rests on the surface."""
+    it flies, unless it rests on the surface. Y is the deflection; the holder's height is added to it."""
 
-    def __init__(self, samples, impacts, amplitude, rest_height, omega_h, steps=FINE_STEPS):
-        t, Y, X, xc = samples
+    def __init__(self, samples, impacts, amplitude, omega_h, steps=FINE_STEPS):
+        t, Y, X, xc, height = samples
         self.is_fine = len(t) <= FINE_SAMPLES
         if self.is_fine and len(t) > 1:
             at, phase, _, kind = impacts[:, (impacts[0] > t[0]) & (impacts[0] < t[-1])]
-            rests = np.concatenate([Y + rest_height - amplitude * np.cos(2 * np.pi * (xc + X)) < RESTS, kind != BOUNCE])
-            holder = np.interp(at, t, xc)
+            rests = np.concatenate([Y + height - amplitude * np.cos(2 * np.pi * (xc + X)) < RESTS, kind != BOUNCE])
+            holder, height_at = np.interp(at, t, xc), height[np.searchsorted(t, at) - 1]
             X_at = phase - holder
             X_at -= np.round(X_at - np.interp(at, t, X))  # in the cell in which the samples beside it are
-            Y_at = amplitude * np.cos(2 * np.pi * phase) - rest_height
+            Y_at = amplitude * np.cos(2 * np.pi * phase) - height_at
             order = np.argsort(np.concatenate([t, at]), kind='stable')
-            t, Y, X, xc = (np.concatenate(pair)[order] for pair in ((t, at), (Y, Y_at), (X, X_at), (xc, holder)))
+            t, Y, X, xc, height = (np.concatenate(pair)[order] for pair in (
+                (t, at), (Y, Y_at), (X, X_at), (xc, holder), (height, height_at)))
             is_free = ~(rests[order][:-1] | rests[order][1:])
             part = np.arange(steps) / steps
             Y, X = swing(t, Y, 2 * np.pi, steps, is_free), swing(t, X, omega_h, steps, is_free)
             t, xc = (np.append((v[:-1, None] + part * np.diff(v)[:, None]).ravel(), v[-1]) for v in (t, xc))
-        self.t, self.Y, self.X, self.xc = t, Y, X, xc
+            height = np.append(np.repeat(height[:-1], steps), height[-1])
+        self.t, self.Y, self.X, self.xc, self.height = t, Y, X, xc, height
 
     def trigger(self, span, direction):
         """Begin of a picture of that span: where the tip passes the middle of a rising flank; of the last passages the
@@ -92,6 +94,7 @@ class Recent:
 
     def __init__(self, capacity=1 << 19):
         self.capacity, self.batches, self.impacts = capacity, collections.deque(), collections.deque(maxlen=2000)
+        self._heights = collections.deque(maxlen=2000)  # of the holder: ((epoch, first sample), height [m])
         self._count, self._next = 0, None
 
     def clear(self):
@@ -115,15 +118,26 @@ class Recent:
         self.impacts.extend(table for epoch, table in impacts if epoch == batch.epoch and len(table))
         return goes_on
 
+    def change(self, applied):
+        """What is in force from a sample on."""
+        since, height = (applied.epoch, applied.first_sample), applied.rest_height_m
+        if not self._heights or self._heights[-1][1] != height or since < self._heights[-1][0]:  # another emulator
+            self._heights.append((since, height))
+
+    def _height(self, batch):
+        earlier = (height for since, height in reversed(self._heights) if since <= (batch.epoch, batch.first_sample))
+        return next(earlier, self._heights[0][1] if self._heights else 0.0)
+
     def last(self, duration, spacing_m, tau_s):
-        """Samples (t, Y, X, xc) and impacts (t, phase, energy lost, kind) of the last so many tau; t counts from a
+        """Samples (t, Y, X, xc, height of the holder) and impacts (t, phase, energy lost, kind) of the last so many tau; t counts from a
         whole tau near them."""
         origin, tables = self.batches[-1].time.tau, []
         for batch in reversed(self.batches):
             seconds = batch.sample_period * np.arange(len(batch.vertical))
             t = (batch.time.tau - origin) + batch.time.phase + seconds / tau_s
             tables.append(np.stack([t, batch.vertical / spacing_m, batch.lateral / spacing_m,
-                                    (batch.holder_position + batch.drag_velocity * seconds) / spacing_m]))
+                                    (batch.holder_position + batch.drag_velocity * seconds) / spacing_m,
+                                    np.full(len(t), self._height(batch) / spacing_m)]))
             if t[0] < tables[0][0, -1] - duration:
                 break
         samples = np.concatenate(tables[::-1], axis=1) if len(tables) > 1 else tables[0]
@@ -177,9 +191,14 @@ class Trail:
     def clear(self):
         self.past, self.now = NOTHING, None  # (eta, K_f), and these and its error
 
+    def end_run(self):
+        if self.now is not None:
+            self.past = newest(self.past, np.array(self.now[:2])[:, None], self.capacity)
+        self.now = None
+
     def add(self, eta, k_f, error):
         if self.now is not None and self.now[0] != abs(eta):
-            self.past = newest(self.past, np.array(self.now[:2])[:, None], self.capacity)
+            self.end_run()
         self.now = (abs(eta), k_f, error) if np.isfinite(k_f) else None
 
 

@@ -15,13 +15,14 @@ GONE_S, DOUBT_S = 1.5, 0.3  # of silence: a status comes 10 times a second
 LAG_S = 0.1         # a lamp goes yellow
 SILENT, REPLAY = 'no emulator: waiting for %s', 'a recording is played: knobs have no effect'
 READOUT = '<span style="color: #666">%s</span><br><span style="font-size: 14pt; font-weight: bold">%s</span> %s'
+UNDEFINED, NOT_YET = 'undefined', '–'  # the second: no estimate of this run has come
 RECORD, END_RECORDING = '● Record', '■ End recording'
 
 
 def with_error(value, error):
     """Two digits of the error."""
     if not math.isfinite(value):
-        return 'undefined'
+        return UNDEFINED
     digits = min(max(1 - math.floor(math.log10(error)), 0), 5) if math.isfinite(error) and error > 0.0 else 3
     return '%.*f ± %.*f' % (digits, value, digits, error) if math.isfinite(error) else '%.3f' % value
 
@@ -33,7 +34,7 @@ class Window(QtWidgets.QWidget):
         self.link, self._lever_name = link, lever
         self.recent, self.loop, self.trail = Recent(), FrictionLoop(), Trail()
         self.scope, self.path, self.loop_plot, self.curve = Scope(), Path(), Loop(), Curve(curve)
-        self._frame = -1
+        self._frame, self._settings = -1, None
         self.setWindowTitle('AFM emulator ' + link.name)
         self._lay_out()
         self.resize(1000, 700)
@@ -163,36 +164,51 @@ class Window(QtWidgets.QWidget):
             part.setEnabled(controls)
         self.desk.setEnabled(ready)
         if ready:
+            if settings is not self._settings:
+                self._begin(settings)
             self._take(settings)
             if not self.hold.isChecked():
                 self._draw(settings, applied)
         if begins or self._frame % SLOW_FRAMES == 0:  # a knob needs the units of the lever from the first
             self._show_state(ready, controls)
 
+    def _begin(self, settings):
+        """A new epoch, or another emulator: while it is paused nothing comes that shows it."""
+        self._settings = settings
+        self.recent.clear()
+        self.loop.clear()
+        self.trail.end_run()
+
     def _take(self, settings):
         tau_s = 2 * math.pi / settings.omega_v_rad_per_s
         stiffness = settings.tip_mass_kg * settings.omega_h_rad_per_s ** 2
+        for applied in self.link.changes():
+            self.recent.change(applied)
         for batch, impacts in self.link.batches():
+            if batch.epoch != settings.epoch:  # it was waiting for its impacts
+                continue
             if not self.recent.add(batch, impacts):
                 self.loop.clear()
             self.loop.add(batch, stiffness, tau_s)
 
     def _draw(self, settings, applied):
         if not self.recent.batches:
+            self.scope.clear()
+            self.path.clear()
             return
         span, spacing = float(self.span.currentData()), settings.lattice_spacing_m
         direction = -1.0 if applied.drag_velocity < 0.0 else 1.0
         tau_s = 2 * math.pi / settings.omega_v_rad_per_s
-        amplitude, height = settings.surface_amplitude_m / spacing, applied.rest_height_m / spacing
+        amplitude = settings.surface_amplitude_m / spacing
         samples, impacts = self.recent.last(span + TRIGGER_SEARCH, spacing, tau_s)
-        motion = Motion(samples, impacts, amplitude, height, settings.omega_h_rad_per_s * tau_s)
+        motion = Motion(samples, impacts, amplitude, settings.omega_h_rad_per_s * tau_s)
         rolls = self._status('paused') or settings.time_scale * FRAME_MS * 1e-3 / tau_s < SLOW_TAU
         begin = None if rolls else motion.trigger(span, direction)
         triggered = begin is not None
         if not triggered:
             begin = max(motion.t[-1] - span, motion.t[0])
         seen = motion.within(begin, begin + span)
-        t, Y, X = motion.t[seen], motion.Y[seen], motion.X[seen]
+        t, Y, X, height = motion.t[seen], motion.Y[seen], motion.X[seen], motion.height[seen]
         self.scope.draw(t - begin, Y, X, span, 1e12 * spacing, triggered)
         x = motion.xc[seen] + X
         if triggered:
@@ -202,23 +218,26 @@ class Window(QtWidgets.QWidget):
         shown = np.flatnonzero((x >= low - 1) & (x <= low + PATH_CELLS + 1))[-4 * FINE_SAMPLES:]
         at = impacts[:, (impacts[0] >= begin) & (impacts[0] <= begin + span)]
         places = at[1] + np.round(np.interp(at[0], t, x) - at[1])
-        self.path.draw(x[shown], Y[shown] + height, (places, at[2]), low, settings, not triggered)
+        self.path.draw(x[shown], (Y + height)[shown], (places, at[2]), low, settings, not triggered)
 
     def _show_state(self, ready, controls):
         self.banner.setVisible(not controls)
         self.banner.setText(REPLAY if ready and self.link.silence() < DOUBT_S else SILENT % self.link.name)
         if not ready:
             return
-        self._follow(self.link.latest('configuration'), self.link.latest('applied'))
-        friction, status = self.link.latest('friction'), self.link.latest('status')
+        applied, friction, status = (self.link.latest(topic) for topic in ('applied', 'friction', 'status'))
+        self._follow(self._settings, applied)
+        k_f, force = NOT_YET, NOT_YET
         if friction is not None:
             unit = friction.k_f_work_natural / friction.k_f_work if friction.k_f_work else math.nan
             error = friction.k_f_work_std_error * unit
-            if not self.hold.isChecked():
-                self.loop_plot.draw(self.loop)
+            k_f, force = with_error(friction.k_f_work_natural, error), '%.1f' % (friction.mean_lateral_force / PICO)
+        if not self.hold.isChecked():
+            self.loop_plot.draw(self.loop)
+            if friction is not None:
                 self.trail.add(friction.eta, friction.k_f_work_natural, error)
-                self.curve.draw(self.trail)
-            self._read_out(friction, error, status)
+            self.curve.draw(self.trail)
+        self._read_out(applied.drag_velocity, k_f, force, status)
         self.pause.setText('Go on' if status.paused else 'Pause')
         self.record.setText(END_RECORDING if status.recording else RECORD)
         self.record.setStyleSheet('padding: 3px;' + 'color: #D00000;' * bool(status.recording))
@@ -226,15 +245,14 @@ class Window(QtWidgets.QWidget):
             button.setEnabled(status.paused)
         self._light(status)
 
-    def _read_out(self, friction, error, status):
+    def _read_out(self, drag_velocity, k_f, force, status):
         for name, title, value, unit in (
-                ('drag', 'drag speed', '%.3f' % (1e6 * friction.drag_velocity), 'µm/s'),
-                ('eta', 'in cells per τ', 'η = %.3f' % friction.eta, ''),
-                ('friction', 'friction K<sub>f</sub>', with_error(friction.k_f_work_natural, error),
-                 'm<sub>tip</sub>/τ'),
-                ('force', 'mean lateral force', '%.1f' % (friction.mean_lateral_force / PICO), 'pN'),
+                ('drag', 'drag speed', '%.3f' % (1e6 * drag_velocity), 'µm/s'),
+                ('eta', 'in cells per τ', 'η = %.3f' % (drag_velocity / self.drag.units[1]), ''),
+                ('friction', 'friction K<sub>f</sub>', k_f, 'm<sub>tip</sub>/τ'),
+                ('force', 'mean lateral force', force, 'pN'),
                 ('impacts', 'impacts', '%.2f' % status.impacts_per_tau, '/τ')):
-            self.readouts[name].setText(READOUT % (title, value, unit if value != 'undefined' else ''))
+            self.readouts[name].setText(READOUT % (title, value, unit if value not in (UNDEFINED, NOT_YET) else ''))
 
     def _follow(self, settings, applied):
         tau_s = 2 * math.pi / settings.omega_v_rad_per_s
