@@ -75,7 +75,8 @@ inline DoubleDouble two_pi<DoubleDouble>() {
   return {6.283185307179586, 2.4492935982947064e-16};
 }
 
-// a * b minus the nearest integer. The error is that of the rest, not that of a * b. Precondition: |a b| < 2^51.
+// a * b minus the nearest integer. The error is that of the rest, not that of a * b, if one of them is a double, as drag
+// speeds and ratios of frequencies are. Precondition: |a b| < 2^51.
 inline DoubleDouble turn_product(const DoubleDouble& a, const DoubleDouble& b) {
   const double p = a.high() * b.high(), q = a.high() * b.low(), r = a.low() * b.high();
   const DoubleDouble turn(p - nearest(p)), rest(std::fma(a.high(), b.high(), -p));
