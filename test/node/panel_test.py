@@ -38,6 +38,7 @@ from afm_emulator.panel.link import Link  # noqa: E402
 from afm_emulator.panel.pictures import BLUE, ORANGE, friction_curve  # noqa: E402
 from afm_emulator.panel.window import NOT_YET, Window  # noqa: E402
 from afm_emulator.expectations import results_path  # noqa: E402
+from afm_emulator.srv import Step  # noqa: E402
 
 APPLICATION = QtWidgets.QApplication(['panel'])
 
@@ -295,6 +296,20 @@ class Coming(NodeTest):
             until(lambda: 'no emulator' in panel.part('banner').text(), 'it says why')
         panel.keep('without_emulator')
 
+    def test_shows_nothing_of_the_emulator_before(self):
+        """On a model clock the configurations of two are equal to the byte."""
+        panel = Panel()
+        self.addCleanup(panel.close)
+        friction, scope = panel.window.readouts['friction'], panel.window.scope.vertical
+        for _ in range(2):
+            emulator = self.start(Emulator({'pace': 'lockstep', 'publish_clock': True}))
+            until(panel.is_ready, 'it has found the emulator')
+            until(lambda: NOT_YET in friction.text() and panel.pixels(scope, BLUE) == 0, 'nothing has run')
+            emulator.call('step', Step, tau=200.0)
+            until(lambda: '±' in friction.text() and panel.pixels(scope, BLUE) > 300, 'a motion and its friction')
+            emulator.assert_alive()
+            self.assertEqual(emulator.stop(), 0)
+
     def test_shows_a_recording(self):
         emulator = self.record(record=True)
         status = Topic('status')
@@ -325,9 +340,10 @@ class Ending(NodeTest):
             self.assertIn(why, panel.output())
 
     def test_of_an_emulator_that_cannot_be(self):
-        panel = self.start(Process([find('panel'), '_emulator:=/bad name']))
-        self.assertEqual(panel.wait(), 1, panel.output())
-        self.assertIn('emulator = "/bad name": is no name of a node', panel.output())
+        for name in ('/bad name', '5'):
+            panel = self.start(Process([find('panel'), '_emulator:=' + name]))
+            self.assertEqual(panel.wait(), 1, panel.output())
+            self.assertIn('emulator = "%s": is no name of a node' % name, panel.output())
 
     def test_when_its_window_is_closed(self):
         close_it = '''

@@ -16,8 +16,8 @@ WATCH_MS = 100  # for the end
 def run():
     application = QtWidgets.QApplication(sys.argv)
     ending.init_node('panel', anonymous=True)
-    emulator = rospy.get_param('~emulator', 'afm')
-    if not rosgraph.names.is_legal_name(emulator):
+    emulator = str(rospy.get_param('~emulator', 'afm'))
+    if not emulator or not rosgraph.names.is_legal_name(emulator):
         print('panel: emulator = "%s": is no name of a node' % emulator, file=sys.stderr)
         return 1
     name = rosgraph.names.ns_join('/', rospy.resolve_name(emulator))

@@ -29,10 +29,16 @@ LATEST = {'configuration': Configuration, 'applied': Applied, 'friction': Fricti
 NumpyDeflection = numpy_msg(Deflection)
 
 
+def read_seq(data):
+    """Of the header that a message begins with."""
+    return int.from_bytes(data[:4], 'little')
+
+
 class Link:
     def __init__(self, name):
         self.name = name
         self._raw, self._decoded = {}, {}  # by topic of LATEST
+        self.run = 0  # another number for each epoch and each emulator
         self.diagnostics = {}           # status by its name
         self.notes = collections.deque(maxlen=1)  # what a service answered, for the operator
         self._batches, self._impacts, self._applied = (collections.deque(maxlen=WAITING_BATCHES) for _ in range(3))
@@ -124,15 +130,16 @@ class Link:
         else:
             if topic == 'applied':
                 self._applied.append(Applied().deserialize(message._buff))
-            if message._buff != self._raw.get(topic):
-                if topic == 'configuration':
-                    self._raw.pop('friction', None)  # it was of another epoch
-                self._raw[topic] = message._buff
+            former, self._raw[topic] = self._raw.get(topic), message._buff
+            if topic == 'configuration' and message._buff != former or topic == 'status' and former is not None \
+                    and read_seq(message._buff) < read_seq(former):  # two may begin with equal bytes, on a model clock
+                self._raw.pop('friction', None)
+                self.run += 1
             self._heard = time.monotonic()
 
     def _keep_impacts(self, data):
         epoch, _, table = read_impacts(data)
-        impacts = int.from_bytes(data[:4], 'little'), epoch, table
+        impacts = read_seq(data), epoch, table
         with contextlib.suppress(IndexError):  # the window may have taken them all
             if impacts[0] < self._impacts[-1][0]:
                 self._impacts = collections.deque(maxlen=WAITING_BATCHES)  # another emulator of that name

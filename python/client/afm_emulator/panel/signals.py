@@ -129,8 +129,8 @@ class Recent:
         return next(earlier, self._heights[0][1] if self._heights else 0.0)
 
     def last(self, duration, spacing_m, tau_s):
-        """Samples (t, Y, X, xc, height of the holder) and impacts (t, phase, energy lost, kind) of the last so many tau; t counts from a
-        whole tau near them."""
+        """Samples (t, Y, X, xc, height of the holder) and impacts (t, phase, energy lost, kind) of the last so many tau;
+        t counts from a whole tau near them."""
         origin, tables = self.batches[-1].time.tau, []
         for batch in reversed(self.batches):
             seconds = batch.sample_period * np.arange(len(batch.vertical))

@@ -5,6 +5,7 @@ import numpy as np
 from PyQt5 import QtCore, QtWidgets
 
 from .knobs import Knob, Lamp, Spin
+from .link import LATEST
 from .pictures import PATH_CELLS, PICO, SPANS, Curve, Loop, Path, Scope
 from .signals import FINE_SAMPLES, TRIGGER_SEARCH, FrictionLoop, Motion, Recent, Trail
 
@@ -34,7 +35,7 @@ class Window(QtWidgets.QWidget):
         self.link, self._lever_name = link, lever
         self.recent, self.loop, self.trail = Recent(), FrictionLoop(), Trail()
         self.scope, self.path, self.loop_plot, self.curve = Scope(), Path(), Loop(), Curve(curve)
-        self._frame, self._settings = -1, None
+        self._frame, self._run = -1, 0
         self.setWindowTitle('AFM emulator ' + link.name)
         self._lay_out()
         self.resize(1000, 700)
@@ -164,17 +165,17 @@ class Window(QtWidgets.QWidget):
             part.setEnabled(controls)
         self.desk.setEnabled(ready)
         if ready:
-            if settings is not self._settings:
-                self._begin(settings)
+            if self._run != self.link.run:
+                self._begin()
             self._take(settings)
             if not self.hold.isChecked():
                 self._draw(settings, applied)
         if begins or self._frame % SLOW_FRAMES == 0:  # a knob needs the units of the lever from the first
             self._show_state(ready, controls)
 
-    def _begin(self, settings):
+    def _begin(self):
         """A new epoch, or another emulator: while it is paused nothing comes that shows it."""
-        self._settings = settings
+        self._run = self.link.run
         self.recent.clear()
         self.loop.clear()
         self.trail.end_run()
@@ -225,8 +226,8 @@ class Window(QtWidgets.QWidget):
         self.banner.setText(REPLAY if ready and self.link.silence() < DOUBT_S else SILENT % self.link.name)
         if not ready:
             return
-        applied, friction, status = (self.link.latest(topic) for topic in ('applied', 'friction', 'status'))
-        self._follow(self._settings, applied)
+        settings, applied, friction, status = (self.link.latest(topic) for topic in LATEST)
+        self._follow(settings, applied)
         k_f, force = NOT_YET, NOT_YET
         if friction is not None:
             unit = friction.k_f_work_natural / friction.k_f_work if friction.k_f_work else math.nan
