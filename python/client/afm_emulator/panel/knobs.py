@@ -7,7 +7,7 @@ from PyQt5 import QtCore, QtGui, QtWidgets
 OWN_S = 1.0     # for so long after a turn a knob shows what was asked for, and not yet what holds
 SLIDER_STEPS = 1000
 MANY = 1e4       # from here on without decimals, for which there is no room
-TEXT_WIDTH = 220  # of a lamp
+TEXT_WIDTH = 228  # of a lamp
 LAMP = 'border-radius: 5px; border: 1px solid #777; background: %s;'
 
 
@@ -108,6 +108,7 @@ class Lamp(QtWidgets.QWidget):
         self.bulb, self.label = QtWidgets.QLabel(), QtWidgets.QLabel(text)
         self.bulb.setFixedSize(11, 11)
         self.label.setWordWrap(True)
+        self.label.setAlignment(QtCore.Qt.AlignTop)
         row.addWidget(self.bulb, 0, QtCore.Qt.AlignTop)
         row.addWidget(self.label, 1)
         self._shown = None
