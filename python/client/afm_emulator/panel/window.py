@@ -228,6 +228,8 @@ class Window(QtWidgets.QWidget):
             return
         settings, applied, friction, status = (self.link.latest(topic) for topic in LATEST)
         self._follow(settings, applied)
+        if friction is not None and friction.epoch != settings.epoch:  # it comes late
+            friction = None
         k_f, force = NOT_YET, NOT_YET
         if friction is not None:
             unit = friction.k_f_work_natural / friction.k_f_work if friction.k_f_work else math.nan
