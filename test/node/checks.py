@@ -1,5 +1,6 @@
 """Shared by the tests of recordings: the tools that check them."""
 import contextlib
+import importlib.util
 import io
 import runpy
 import subprocess
@@ -43,3 +44,11 @@ def assert_identical(test, *paths):
     for answer, word in ((replay_check(*paths), 'IDENTICAL'), (bag_check(*paths), 'SOUND')):
         test.assertEqual(answer.code, SOUND, answer.text)
         test.assertIn(word, answer.text)
+
+
+def simulated_by_python(path):
+    """Every epoch; none where the Python module is not built, as under a sanitizer."""
+    if importlib.util.find_spec('afm') is None:
+        return []
+    import afm
+    return [afm.from_bag(path, epoch=epoch).simulate() for epoch in afm.from_bag(path).epochs]

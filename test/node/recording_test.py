@@ -14,7 +14,6 @@ from afm_emulator.msg import Friction
 from afm_emulator.srv import StartRecording, Step
 from std_srvs.srv import SetBool, Trigger
 
-import afm
 import bags
 import checks
 from emulator_under_test import SPEED_UNIT, Emulator, NodeTest, Process, find, set_parameters
@@ -71,7 +70,7 @@ class Recording(NodeTest):
                 if is_last:
                     break
         checks.assert_identical(self, part)
-        afm.from_bag(part).simulate()
+        checks.simulated_by_python(part)
 
     def test_events_at_the_time_of_a_command(self):
         """They are in a batch of no length. bag_to_csv missed a command where the last one came behind such a batch,
@@ -127,8 +126,8 @@ class Recording(NodeTest):
         emulator.control(0.01)
         path, = self.end(emulator)
         checks.assert_identical(self, path)
-        for epoch in afm.from_bag(path).epochs:
-            self.assertGreater(len(afm.from_bag(path, epoch=epoch).simulate().vertical), 0)
+        for run in checks.simulated_by_python(path):
+            self.assertGreater(len(run.vertical), 0)
 
     def test_recordings_that_begin_late(self):
         """After most of what their estimate of friction counts, or with hardly a sample."""

@@ -10,7 +10,6 @@ import genpy
 import rosbag
 from std_msgs.msg import String
 
-import afm
 import checks
 from checks import DIFFERS, SOUND, UNCHECKED, USAGE
 from emulator_under_test import SPEED_UNIT, find
@@ -469,7 +468,7 @@ class SpoiledBags(SpoiledBag):
         self.entries.reverse()
         path = self.write()
         self.assert_reported(SOUND, 'IDENTICAL', sound=True, path=path)
-        afm.from_bag(path).simulate()
+        checks.simulated_by_python(path)
 
     def test_physics_alone_tells(self):
         """bag_check knows what a mean and an energy balance are, and does not call it physics where messages lack."""
