@@ -58,8 +58,12 @@ class RecorderTest : public testing::Test {
     Recorder recorder(settings(), can_be_asked);
     begin(recorder, "run", unhurried);
     for (int i = 0; i < kMessages; ++i) recorder.record(topic_, bytes_, Role::ordinary, unhurried);
-    EXPECT_TRUE(recorder.stop().success);
-    return recorder.status();
+    const Recorder::Reply stopped = recorder.stop();
+    EXPECT_TRUE(stopped.success);
+    const Recorder::Status status = recorder.status();
+    const std::string lost = std::to_string(status.dropped_from_recording) + " more are missing";
+    EXPECT_EQ(stopped.message.find(lost) != std::string::npos, status.dropped_from_recording > 0) << stopped.message;
+    return status;
   }
 
   // Goes on recording until the recording ends by itself; returns why.

@@ -138,7 +138,9 @@ Recorder::Reply Recorder::stop() {
 
 std::string Recorder::summary() const {
   if (messages_ == 0) return "nothing came to be recorded: there is no bag";
-  const std::string all = std::to_string(messages_) + " messages";
+  std::string all = std::to_string(messages_) + " messages";
+  const std::uint64_t dropped = dropped_messages_ - dropped_before_;
+  if (dropped > 0) all += "; " + std::to_string(dropped) + " more are missing, as the disk was slow";
   return path_ + ": " + (part_ == 0 ? all : "the last of " + std::to_string(part_ + 1) + " bags with " + all);
 }
 
@@ -296,10 +298,12 @@ void Recorder::finish(std::unique_lock<std::mutex>& lock, std::string error) {
     if (!close_error.empty()) error += (error.empty() ? "" : "; ") + close_error;
     if (!error.empty()) error = bag_->path() + ": " + error;
     bag_.reset();
-    if (error.empty()) {
-      ROS_INFO_STREAM(summary());
-    } else {
+    if (!error.empty()) {
       ROS_ERROR_STREAM("recording ended early: " << error);
+    } else if (dropped_messages_ > dropped_before_) {
+      ROS_WARN_STREAM(summary());
+    } else {
+      ROS_INFO_STREAM(summary());
     }
   }
   error_ = std::move(error);
